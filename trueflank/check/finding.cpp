@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/finding.h"
+
+namespace trueflank {
+
+const char* to_text(CheckStatus status) {
+  switch (status) {
+    case CheckStatus::kPass: return "pass";
+    case CheckStatus::kWarn: return "warn";
+    case CheckStatus::kFail: return "fail";
+    case CheckStatus::kNotApplicable: return "not_applicable";
+  }
+  return "";
+}
+
+CheckStatus verdict(const Findings& findings) {
+  CheckStatus worst = CheckStatus::kPass;
+  for (const Finding& finding : findings) {
+    if (finding.status == CheckStatus::kFail) return CheckStatus::kFail;
+    if (finding.status == CheckStatus::kWarn) worst = CheckStatus::kWarn;
+  }
+  return worst;
+}
+
+}  // namespace trueflank

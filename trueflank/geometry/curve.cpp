@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/geometry/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank {
+namespace {
+
+/// A contact of tool and gear: the point and the tool's outward normal, in the gear's frame.
+struct Contact {
+  Point2 point;
+  Point2 normal;
+};
+
+Contact contact_of(const RackTrochoid& c, double t) {
+  // Rack frame: pitch point at (r, 0), rack tooth entering towards -x, its -y corner cuts tooth 1.
+  const double sin_t = std::sin(t), cos_t = std::cos(t);
+  const double depth = c.corner_depth_mm + c.corner_radius_mm * sin_t;
+  // The normal (stretch sin t, cos t) leads from the pitch point to the contact.
+  const double lateral = depth * cos_t / (c.stretch * sin_t);
+  const double rack_travel =
+      c.corner_offset_mm + c.stretch * c.corner_radius_mm * cos_t - lateral;
+  const double turn = c.gap_angle_rad - rack_travel / c.pitch_radius_mm;
+  const Point2 contact(c.pitch_radius_mm - depth, -lateral);
+  const Point2 normal = Point2(-c.stretch * sin_t, -cos_t).normalized();
+  return {rotated(contact, turn), rotated(normal, turn)};
+}
+
+Contact contact_of(const CutterTrochoid& c, double eta) {
+  const double off = eta - c.corner_centre_angle_rad;
+  const double sine = c.corner_centre_radius_mm / c.cutter_pitch_radius_mm * std::sin(off);
+  const double swing = std::asin(std::clamp(sine, -1.0, 1.0));
+  const double cutter_angle =
+      c.contact == CutterContact::kFillet ? eta - swing : eta - kPi + swing;
+  const Point2 axis(c.centre_distance_mm, 0.0);
+  const Point2 centre = axis + c.corner_centre_radius_mm *
+                                   unit_vector(cutter_angle - c.corner_centre_angle_rad);
+  const Point2 normal = unit_vector(cutter_angle - eta);
+  const Point2 contact = centre + c.corner_radius_mm * normal;
+  const double turn = c.gap_angle_rad - cutter_angle * c.ratio;
+  return {rotated(contact, turn), rotated(normal, turn)};
+}
+
+Point2 point_of(const CircularArc& c, double t) { return c.centre + c.radius_mm * unit_vector(t); }
+Point2 point_of(const StraightLine& c, double t) { return c.start + t * c.direction; }
+Point2 point_of(const Involute& c, double xi) {
+  const Point2 e = unit_vector(c.base_half_angle_rad + c.sense * xi);
+  return c.base_radius_mm * (e - c.sense * xi * perpendicular(e));
+}
+Point2 point_of(const RackTrochoid& c, double t) { return contact_of(c, t).point; }
+Point2 point_of(const CutterTrochoid& c, double t) { return contact_of(c, t).point; }
+
+// Tangents up to sign; tangent_at orients them by the travel of the point.
+Point2 tangent_of(const CircularArc&, double t) { return perpendicular(unit_vector(t)); }
+Point2 tangent_of(const StraightLine& c, double) { return c.direction.normalized(); }
+Point2 tangent_of(const Involute& c, double xi) {
+  return unit_vector(c.base_half_angle_rad + c.sense * xi);
+}
+Point2 tangent_of(const RackTrochoid& c, double t) {
+  return perpendicular(contact_of(c, t).normal);
+}
+Point2 tangent_of(const CutterTrochoid& c, double t) {
+  return perpendicular(contact_of(c, t).normal);
+}
+
+}  // namespace
+
+Point2 point_at(const Curve& curve, double parameter) {
+  return std::visit([&](const auto& c) { return point_of(c, parameter); }, curve.shape);
+}
+
+Point2 Curve::start_point() const { return point_at(*this, begin); }
+Point2 Curve::end_point() const { return point_at(*this, end); }
+
+Point2 tangent_at(const Curve& curve, double parameter) {
+  const Point2 t = std::visit([&](const auto& c) { return tangent_of(c, parameter); }, curve.shape);
+  const double step = 1e-4 * (curve.end - curve.begin);
+  const Point2 travel = point_at(curve, parameter + step) - point_at(curve, parameter - step);
+  return travel.dot(t) < 0.0 ? Point2(-t) : t;
+}
+
+double chord_error_mm(const Curve& curve, double from, double to) {
+  const Point2 a = point_at(curve, from);
+  const Point2 chord = point_at(curve, to) - a;
+  const double length = chord.norm();
+  if (length == 0.0) return (point_at(curve, 0.5 * (from + to)) - a).norm();
+  const Point2 across = perpendicular(chord) / length;
+  const auto height = [&](double u) {
+    return std::abs((point_at(curve, from + u * (to - from)) - a).dot(across));
+  };
+  // The height is smooth with one maximum near the middle: parabola through three points, twice.
+  double centre = 0.5, best = height(0.5);
+  for (double width = 0.25; width > 0.05; width *= 0.25) {
+    const double low = height(centre - width), high = height(centre + width);
+    const double curvature = low - 2.0 * best + high;
+    if (curvature >= 0.0) return std::max({low, best, high});
+    const double shift = std::clamp(0.5 * (low - high) / curvature, -1.0, 1.0) * width;
+    centre = std::clamp(centre + shift, 0.05, 0.95);
+    best = std::max(best, height(centre));
+  }
+  return best;
+}
+
+}  // namespace trueflank

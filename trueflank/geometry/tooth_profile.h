@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/geometry/curve.h"
+#include "trueflank/geometry/gear.h"
+
+namespace trueflank {
+
+/// What a piece of the profile is.
+enum class PieceKind {
+  kTip,      ///< arc of the tip circle, from the tooth's middle
+  kTrim,     ///< ring only: tip corner as trimmed by the shaper cutter
+  kRadial,   ///< ring only: straight continuation of the flank inside the base circle
+  kInvolute,
+  kFillet,   ///< trochoid of the tool, or the fillet arc of a ring
+  kRoot,     ///< arc of the root circle, to the gap's middle
+};
+
+struct ProfilePiece {
+  PieceKind kind = PieceKind::kInvolute;
+  Curve curve;
+};
+
+/// What the profile could not be as asked; each is told in the report.
+struct ProfileNotes {
+  bool undercut = false;          ///< the tool cut into the involute (external)
+  bool pointed = false;           ///< flanks met before the tip circle; the tooth ends there
+  bool full_round = false;        ///< tip rounding of the tool did not fit and was reduced
+  bool space_closed = false;      ///< ring: flanks met before the root circle; the space ends there
+  bool tip_inside_base = false;   ///< ring: straight radial flank from the base circle to the tip
+  bool tip_trimmed = false;       ///< ring: the cutter trimmed the tip corner
+};
+
+/// The exact transverse section of tooth 1, counter-clockwise half: from the tooth's middle (angle 0
+/// on the tip circle) along tip, flank and fillet to the gap's middle (angle pi/z on the root
+/// circle). The clockwise half is its mirror image in the x axis, the other teeth are turned copies.
+/// Pieces join end to start within 1e-12 mm.
+class ToothProfile {
+ public:
+  /// Errors: kInfeasible where no gear of these values exists (fillet swallows the involute, tool
+  /// severs the tooth, rack or cutter pointed before its depth, ...), kOutOfRange for values that
+  /// cannot be.
+  /// Accuracy: 1e-9 mm against numerical generation with the tool, tested in
+  /// tests/geometry/tooth_profile_test.cpp.
+  [[nodiscard]] static Result<ToothProfile> make(const Gear& gear);
+
+  [[nodiscard]] const Gear& gear() const { return gear_; }
+  [[nodiscard]] const std::vector<ProfilePiece>& pieces() const { return pieces_; }
+  [[nodiscard]] const ProfileNotes& notes() const { return notes_; }
+
+  /// Radius where the tooth really ends: the tip circle, or where a pointed tooth ends.
+  [[nodiscard]] double tip_radius_mm() const { return tip_radius_mm_; }
+  /// Radius where the gap really ends: the root circle, or where a closed ring space ends.
+  [[nodiscard]] double root_radius_mm() const { return root_radius_mm_; }
+  /// Radius at which involute and fillet meet (root form circle, undercut included).
+  [[nodiscard]] double root_form_radius_mm() const { return root_form_radius_mm_; }
+  /// Radius at which the involute ends towards the tip (tip form circle).
+  [[nodiscard]] double tip_form_radius_mm() const { return tip_form_radius_mm_; }
+  /// Tip rounding of the tool as used, coefficient of the normal module.
+  [[nodiscard]] double root_radius_coefficient() const { return root_radius_coefficient_; }
+  /// Roll lengths of the involute's ends [mm]; first the end at the root form circle.
+  [[nodiscard]] double root_form_roll_length_mm() const;
+  [[nodiscard]] double tip_form_roll_length_mm() const;
+  /// Tooth thickness at the tip: the arc at the tip circle (0 for a pointed tooth).
+  [[nodiscard]] double tip_thickness_mm() const;
+
+ private:
+  friend class ProfileBuilder;
+  Gear gear_;
+  std::vector<ProfilePiece> pieces_;
+  ProfileNotes notes_;
+  double tip_radius_mm_ = 0.0, root_radius_mm_ = 0.0;
+  double root_form_radius_mm_ = 0.0, tip_form_radius_mm_ = 0.0;
+  double root_radius_coefficient_ = 0.0;
+};
+
+}  // namespace trueflank

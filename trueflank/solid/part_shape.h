@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "trueflank/train/gear_train.h"
+
+// What a part is, before any backend: a stack of prismatic slabs bounded by exact outlines. Mesh,
+// B-rep, drawings and OpenSCAD are all made from this one description.
+namespace trueflank {
+
+/// All teeth of a gear: outer outline of an external gear, hole of a ring.
+struct ToothedOutline {
+  const ToothProfile* profile = nullptr;  ///< not owned; lives in the GearTrain
+  double rotation_rad = 0.0;              ///< of tooth 1 from +x
+};
+struct CircleOutline {
+  Point2 centre = Point2::Zero();
+  double radius_mm = 1.0;
+};
+/// A bore of any kind, about the origin; keyway, flat and the first hex flat face +x.
+struct BoreOutline {
+  BoreDesign bore;
+};
+using Outline = std::variant<ToothedOutline, CircleOutline, BoreOutline>;
+
+/// One prismatic layer. Holes do not touch each other or the outer outline.
+struct Slab {
+  double z_lower_mm = 0.0, z_upper_mm = 0.0;
+  Outline outer;
+  std::vector<Outline> holes;
+};
+
+/// A part in its own frame: axis z, lowest face at z = 0, tooth 1 (of planet1 for a planet) on +x.
+/// Slabs are stacked bottom to top and touch; a hole that is equal in neighbours runs through.
+struct PartShape {
+  std::string name;  ///< file name: sun, planet, planet_2, ring1, ring2, ring, pinion, wheel, gear
+  std::vector<Slab> slabs;
+};
+
+/// A part's place in the assembly: turned about z, then moved.
+struct Placement {
+  int part = 0;            ///< index into PartShapes::parts
+  std::string name;        ///< "sun", "planet 1", ...
+  double rotation_rad = 0.0;
+  std::array<double, 3> translation_mm{};
+};
+
+struct PartShapes {
+  std::vector<PartShape> parts;
+  std::vector<Placement> assembly;  ///< one placement a body
+};
+
+/// The parts of a train and the assembly in mesh at train.phases. Planets are one part `planet` where
+/// all bodies are alike, else `planet_1` ... `planet_N` with an index mark on the upper face.
+/// Requires: the train outlives the shapes. Errors: kInfeasible where a bore, neck or rim does not fit.
+[[nodiscard]] ResultAll<PartShapes> part_shapes(const GearTrain& train);
+
+}  // namespace trueflank

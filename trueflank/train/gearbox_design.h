@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/geometry/gear.h"
+
+// The design as its author writes it (docs/design-file.md), in mm and radians; nothing is solved yet.
+namespace trueflank {
+
+enum class TrainKind { k3k, kSimple, kPair, kGear };
+/// The member that drives out. 3k: ring2 (type I, ring1 fixed) or ring1 (type II, ring2 fixed);
+/// simple: carrier (ring fixed) or ring (carrier fixed); pair: wheel; gear: none.
+enum class OutputMember { kRing2, kRing1, kCarrier, kRing, kWheel, kNone };
+
+enum class BoreKind { kRound, kKeyway, kDFlat, kHex };
+/// Bore through a gear (planet1's through the whole planet).
+struct BoreDesign {
+  double diameter_mm = 0.0;  ///< 0: none; hex: across flats
+  BoreKind kind = BoreKind::kRound;
+  double keyway_width_mm = 0.0;  ///< kKeyway
+  double keyway_depth_mm = 0.0;  ///< kKeyway: from the bore circle to the keyway's floor
+  double d_flat_mm = 0.0;        ///< kDFlat: distance of the flat from the opposite side of the bore
+
+  bool operator==(const BoreDesign&) const = default;
+};
+
+/// Bolt circle in the rim of a ring.
+struct BoltCircleDesign {
+  int count = 0;  ///< 0: none
+  double circle_diameter_mm = 0.0;
+  double hole_diameter_mm = 0.0;
+
+  bool operator==(const BoltCircleDesign&) const = default;
+};
+
+/// Flank modifications of one gear (built as a FlankDeviation).
+struct ModificationsDesign {
+  double tip_relief_um = 0.0;
+  double tip_relief_start_diameter_mm = 0.0;
+  double crowning_um = 0.0;
+  double edge_chamfer_mm = 0.0;
+
+  bool operator==(const ModificationsDesign&) const = default;
+};
+
+/// One gear of the design file.
+struct GearDesign {
+  std::string name;  ///< sun, planet1, ring1, planet2, ring2, planet, ring, gear, pinion, wheel
+  GearKind kind = GearKind::kExternal;
+  int teeth = 0;
+  std::optional<double> shift;      ///< omitted: solved for zero backlash
+  std::optional<double> module_mm;  ///< omitted: the gearbox's
+  double face_width_mm = 10.0;
+  std::optional<double> tip_diameter_mm;
+  std::optional<double> thinning_mm;  ///< on the reference circle, instead of the shared backlash
+  BoreDesign bore;
+  std::optional<double> outer_diameter_mm;  ///< rings
+  BoltCircleDesign bolt_circle;             ///< rings
+  RingRoot root = RingRoot::kFillet;
+  std::optional<ShaperCutter> cutter;
+  ModificationsDesign modifications;
+};
+
+/// A gearbox as designed.
+struct GearboxDesign {
+  std::string name;
+  TrainKind kind = TrainKind::kGear;
+  OutputMember output = OutputMember::kNone;
+  int planets = 1;
+  double module_mm = 1.0;
+  std::optional<double> centre_distance_mm;
+  double friction = 0.1;
+  double backlash_mm = 0.0;
+  double layer_gap_mm = 1.0;
+  double helix_angle_rad = 0.0;  ///< of the sun, pinion or gear, right hand positive
+  bool herringbone = false;
+  BasicRack rack;
+  std::vector<GearDesign> gears;  ///< in the order of gear_names(kind)
+};
+
+/// Names of a kind's gears in their order: sun, planet1, ring1, planet2, ring2 | sun, planet, ring |
+/// pinion, wheel | gear.
+[[nodiscard]] const std::vector<std::string>& gear_names(TrainKind kind);
+[[nodiscard]] const char* to_text(TrainKind kind);
+[[nodiscard]] const char* to_text(OutputMember output);
+/// The gear of a name; nullptr where there is none.
+[[nodiscard]] const GearDesign* find_gear(const GearboxDesign& design, const std::string& name);
+[[nodiscard]] double module_of(const GearboxDesign& design, const GearDesign& gear);
+
+}  // namespace trueflank
