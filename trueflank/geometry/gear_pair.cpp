@@ -61,14 +61,15 @@ Result<double> zero_backlash_centre_distance_mm(const MeshTeeth& mesh, double sh
   return reference_centre_distance_mm(mesh) * std::cos(alpha) / std::cos(inverse_involute_rad(inv));
 }
 
-MeshTeeth mesh_teeth(const GearPair& pair) {
-  return {.teeth1 = pair.gear1().teeth,
-          .teeth2 = pair.gear2().teeth,
-          .internal = pair.internal(),
-          .normal_module_mm = pair.gear1().normal_module_mm,
-          .helix_angle_rad = std::abs(pair.gear1().helix_angle_rad),
-          .pressure_angle_rad = pair.gear1().rack.pressure_angle_rad};
+MeshTeeth mesh_teeth(const Gear& gear1, const Gear& gear2) {
+  return {.teeth1 = gear1.teeth,
+          .teeth2 = gear2.teeth,
+          .internal = gear2.kind == GearKind::kInternal,
+          .normal_module_mm = gear1.normal_module_mm,
+          .helix_angle_rad = std::abs(gear1.helix_angle_rad),
+          .pressure_angle_rad = gear1.rack.pressure_angle_rad};
 }
+MeshTeeth mesh_teeth(const GearPair& pair) { return mesh_teeth(pair.gear1(), pair.gear2()); }
 
 double working_pressure_angle_rad(const GearPair& pair) {
   return working_pressure_angle_rad(mesh_teeth(pair), pair.centre_distance_mm).value_or(kNaN);

@@ -42,6 +42,7 @@ struct MeshTeeth {
                                                               double shift_sum);
 /// @}
 
+[[nodiscard]] MeshTeeth mesh_teeth(const Gear& gear1, const Gear& gear2);
 [[nodiscard]] MeshTeeth mesh_teeth(const GearPair& pair);
 [[nodiscard]] double working_pressure_angle_rad(const GearPair& pair);
 /// Working pitch radius of gear 1 and of gear 2.

@@ -40,7 +40,8 @@ struct AssemblyPhases {
   std::vector<double> planet_rotation_rad;  ///< tooth 1 of planet1 (planet) of each body
   std::vector<double> planet_offset_rad;    ///< tooth 1 of planet2 ahead of planet1's, per body (3k)
   double sun_rotation_rad = 0.0;            ///< sun, pinion, gear
-  double ring1_rotation_rad = 0.0;          ///< ring1, ring; for a pair the wheel
+  /// ring1, ring; for a pair the wheel, whose axis stands at wheel_centre_mm, the pinion's at 0
+  double ring1_rotation_rad = 0.0;
   double ring2_rotation_rad = 0.0;
 };
 
@@ -73,6 +74,9 @@ struct GearTrain {
 /// Solves and places a design. Errors: all at once; every key is the design file's.
 /// A design that does not fit or turn is not an error: the checks tell.
 [[nodiscard]] ResultAll<GearTrain> lay_out(const GearboxDesign& design);
+
+/// Axis of the wheel of a pair: (a, 0), for a ring (-a, 0), so that the contact lies on +x.
+[[nodiscard]] Point2 wheel_centre_mm(const GearTrain& train);
 
 /// Planet body i (0-based): where planet1 (planet) and planet2 stand at another sun angle: the train
 /// turned by the true kinematics so that the sun has advanced by `sun_turn_rad` from `phases`.
