@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What every target of this project is compiled with, and no consumer of it.
+add_library(trueflank_options INTERFACE)
+target_compile_features(trueflank_options INTERFACE cxx_std_20)
+target_compile_options(trueflank_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # The same numbers on every processor: no fused multiply-add behind our back.
+  -ffp-contract=off)

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every function of a header that returns Result<...> or Status says [[nodiscard]]: tl::expected does not.
+
+Usage: check_nodiscard.py [ROOT]
+"""
+import os
+import pathlib
+import re
+import sys
+
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+# A declaration begins after one of ; { } : or a preprocessor line. What stands before the return
+# type (attributes, static, inline, a template head) is group 1.
+DECLARATION = re.compile(
+    r"(?:^|[;{}]|\b(?:public|private|protected):)\s*"
+    r"((?:template\s*<[^;{}]*?>\s*|\[\[[^\]]*\]\]\s*|\b(?:static|inline|constexpr|virtual|friend)\s+)*)"
+    r"(?:trueflank::)?(?:Result\s*<[^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)?>|Status)\s+"
+    r"(?:\w+::)*(\w+|operator\s*\S+?)\s*\(")
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match.group(0))
+
+
+def check(root):
+    complaints = []
+    for path in sorted((root / "trueflank").rglob("*.h")):
+        text = COMMENT.sub(blank, path.read_text(encoding="utf-8"))
+        # a preprocessor line ends what went before
+        text = re.sub(r"^[ \t]*#[^\n]*", lambda m: ";" + " " * (len(m.group(0)) - 1), text,
+                      flags=re.MULTILINE)
+        position = 0
+        while match := DECLARATION.search(text, position):
+            position = match.end()
+            if "nodiscard" not in match.group(1):
+                line = text.count("\n", 0, match.start(2)) + 1
+                complaints.append(f"{path.relative_to(root)}:{line}: {match.group(2)} returns a "
+                                  "Result: declare it [[nodiscard]]")
+    return complaints
+
+
+def main():
+    default = os.environ.get("TRUEFLANK_SOURCE_DIR", pathlib.Path(__file__).parents[2])
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else default)
+    complaints = check(root)
+    print("\n".join(complaints), end="\n" if complaints else "")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

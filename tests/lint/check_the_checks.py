@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lint tests themselves: each rule broken once in a small tree must be found, and nothing else."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import check_layers
+import check_nodiscard
+
+LICENCE = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
+HEADER = LICENCE + "#pragma once\n"
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.holder.name)
+
+    def tearDown(self):
+        self.holder.cleanup()
+
+    def write(self, path, text, listed=True):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        if listed:
+            with open(file.parent / "CMakeLists.txt", "a", encoding="utf-8") as build:
+                build.write(file.name + "\n")
+
+
+class Layers(Tree):
+    def assert_one(self, part):
+        complaints, _ = check_layers.check(self.root)
+        self.assertEqual(len(complaints), 1, complaints)
+        self.assertIn(part, complaints[0])
+
+    def test_a_good_tree_has_no_complaint(self):
+        self.write("trueflank/geometry/gear.h", HEADER + '#include <Eigen/Core>\n#include <vector>\n')
+        self.write("trueflank/solid/cut.cpp", LICENCE + '#include "trueflank/solid/cut.h"\n'
+                   '#include <CGAL/Surface_mesh.h>\n#include "trueflank/geometry/gear.h"\n')
+        self.assertEqual(check_layers.check(self.root), ([], []))
+
+    def test_a_wrong_folder(self):
+        self.write("trueflank/geometry/gear.h", HEADER + '#include "trueflank/train/train.h"\n')
+        self.assert_one("gear.h:3: geometry/ may not include train/")
+
+    def test_an_unknown_folder(self):
+        self.write("trueflank/utils/text.h", HEADER)
+        self.assert_one("no row")
+
+    def test_an_include_of_an_unknown_folder(self):
+        self.write("trueflank/base/text.h", HEADER + '#include "trueflank/utils/text.h"\n')
+        self.assert_one("no folder trueflank/utils")
+
+    def test_a_kernel_in_a_header(self):
+        self.write("trueflank/solid/cut.h", HEADER + "#include <CGAL/Surface_mesh.h>\n")
+        self.assert_one("CGAL never appears in a header")
+
+    def test_a_kernel_in_a_folder_without_it(self):
+        self.write("trueflank/train/cut.cpp", LICENCE + "#include <CGAL/Surface_mesh.h>\n")
+        self.assert_one("train/ may not use CGAL")
+
+    def test_opencascade_anywhere(self):
+        self.write("trueflank/export/step.cpp", LICENCE + "#include <STEPControl_Writer.hxx>\n")
+        self.assert_one("may not use OpenCASCADE")
+
+    def test_an_include_of_tests(self):
+        self.write("trueflank/base/text.cpp", LICENCE + '#include "tests/support/text.h"\n')
+        self.assert_one("nobody includes tests/")
+
+    def test_a_short_path(self):
+        self.write("trueflank/base/text.cpp", LICENCE + '#include "text.h"\n')
+        self.assert_one("whole path")
+
+    def test_no_licence(self):
+        self.write("tests/base/text_test.cpp", "#include <vector>\n")
+        self.assert_one("first line must be")
+
+    def test_no_pragma_once(self):
+        self.write("trueflank/base/text.h", LICENCE)
+        self.assert_one("#pragma once")
+
+    def test_a_file_nobody_builds(self):
+        self.write("trueflank/base/text.cpp", LICENCE, listed=False)
+        self.assert_one("not listed")
+
+    def test_a_long_file_is_only_a_warning(self):
+        self.write("trueflank/base/text.h", HEADER + "\n" * 400)
+        complaints, warnings = check_layers.check(self.root)
+        self.assertEqual((complaints, len(warnings)), ([], 1))
+
+
+class Nodiscard(Tree):
+    def names(self, declarations):
+        self.write("trueflank/base/x.h", HEADER + declarations)
+        return [c.split(": ")[1].split()[0] for c in check_nodiscard.check(self.root)]
+
+    def test_declarations_without_it_are_found(self):
+        self.assertEqual(self.names(
+            "Result<int> plain();\n"
+            "/// Says [[nodiscard]] in words only.\n"
+            "Result<std::vector<double>> commented(int a);\n"
+            "class A {\n public:\n  static Result<A> make(const S& s);\n  Result<void> write() const;\n};\n"
+            "inline Result<int> defined() { return 1; }\n"
+            "template <typename T>\nResult<T> read(const std::string& s);\n"
+            "Status done(\n    int a);\n"
+            "Result<std::pair<int, std::function<double(double)>>> nested();\n"),
+            ["plain", "commented", "make", "write", "defined", "read", "done", "nested"])
+
+    def test_declarations_with_it_pass(self):
+        self.assertEqual(self.names(
+            "[[nodiscard]] Result<int> plain();\n"
+            "[[nodiscard]]\nResult<std::vector<double>> broken_line(int a);\n"
+            "class A {\n public:\n  [[nodiscard]] static Result<A> make(const S& s);\n};\n"
+            "template <typename T>\n[[nodiscard]] inline Result<T> read(const std::string& s);\n"), [])
+
+    def test_uses_are_no_declarations(self):
+        self.assertEqual(self.names(
+            "template <class T>\nusing Result = tl::expected<T, Error>;\n"
+            "void take(const Result<int>& r, Result<double> other);\n"
+            "struct S {\n  Result<int> member;\n  std::function<Result<int>(int)> call;\n};\n"
+            "inline int f() {\n  const Result<int> r = g();\n  return *r;\n}\n"), [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

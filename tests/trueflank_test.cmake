@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# The tests of one folder:
+#   trueflank_test(<name> [SLOW] [WHOLE] SOURCES <file>... [LIBRARIES <target>...])
+# builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
+# It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
+# SLOW: labelled slow, not run by the dev preset. WHOLE: one ctest entry for all, for tests that
+# share something dear.
+function(trueflank_test name)
+  cmake_parse_arguments(arg "SLOW;WHOLE" "" "SOURCES;LIBRARIES" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "trueflank_test(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+  if(NOT arg_SOURCES)
+    return()
+  endif()
+  set(target test_${name})
+  add_executable(${target} ${arg_SOURCES})
+  if(TARGET trueflank::${name})
+    target_link_libraries(${target} PRIVATE trueflank::${name})
+  endif()
+  target_link_libraries(${target} PRIVATE
+    ${arg_LIBRARIES} trueflank_test_support trueflank_options GTest::gtest_main)
+  target_compile_options(${target} PRIVATE -Wno-conversion)
+  set(properties LABELS "${name}")
+  if(arg_SLOW)
+    set(properties LABELS "${name}\\;slow")
+  endif()
+  if(arg_WHOLE)
+    add_test(NAME ${name} COMMAND ${target})
+    string(REPLACE "\\" "" labels "${properties}")
+    list(REMOVE_AT labels 0)
+    set_tests_properties(${name} PROPERTIES LABELS "${labels}")
+  else()
+    # At test time, not after each link: listing tests is no part of building.
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+      DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  endif()
+endfunction()
+
+# A test written as a script, run by the distribution's Python:
+#   trueflank_script_test(<name> [SLOW] SCRIPT <file.py> [ARGUMENTS <argument>...])
+# The script finds the repository in TRUEFLANK_SOURCE_DIR, the program in TRUEFLANK_PROGRAM, and a
+# folder for its output, its own, in TRUEFLANK_TEST_OUTPUT.
+function(trueflank_script_test name)
+  cmake_parse_arguments(arg "SLOW" "SCRIPT" "ARGUMENTS" ${ARGN})
+  add_test(NAME ${name}
+    COMMAND ${TRUEFLANK_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${arg_SCRIPT} ${arg_ARGUMENTS})
+  set(output ${PROJECT_BINARY_DIR}/test_output/${name})
+  file(MAKE_DIRECTORY ${output})
+  set(environment
+    TRUEFLANK_SOURCE_DIR=${PROJECT_SOURCE_DIR}
+    TRUEFLANK_BINARY_DIR=${PROJECT_BINARY_DIR}
+    TRUEFLANK_TEST_OUTPUT=${output})
+  if(TARGET trueflank_program)
+    list(APPEND environment TRUEFLANK_PROGRAM=$<TARGET_FILE:trueflank_program>)
+  endif()
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME label)
+  if(arg_SLOW)
+    list(APPEND label slow)
+  endif()
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${label}")
+endfunction()
