@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Short ways into the CMake build; see CONTRIBUTING.md for the presets behind them.
+JOBS ?= $(shell nproc)
+# On a machine that has everything by other means: make DEPENDENCIES=true
+DEPENDENCIES ?= scripts/install-dependencies
+DEMO := build/demo/bilateral_drive
+
+.PHONY: all demo test bench asan clean
+
+# Dependencies and the program, build/trueflank.
+all:
+	@$(DEPENDENCIES) build
+	@cmake --preset release
+	@cmake --build build -j $(JOBS)
+
+# The paper's gearbox, from its design file to parts.
+demo: all
+	build/trueflank make examples/bilateral_drive/design.toml -o $(DEMO)
+	@echo
+	@echo "The parts are in $(DEMO); start with $(DEMO)/report.html"
+
+test:
+	@$(DEPENDENCIES) build test
+	@cmake --preset release -DTRUEFLANK_BUILD_TESTS=ON
+	@cmake --build build -j $(JOBS)
+	@cd build && ctest --output-on-failure -j $(JOBS)
+
+bench:
+	@$(DEPENDENCIES) build bench
+	@cmake --preset release -DTRUEFLANK_BUILD_BENCH=ON
+	@cmake --build build -j $(JOBS)
+	@cmake --build build --target run_benches
+
+asan:
+	@$(DEPENDENCIES) build test
+	@cmake --preset asan
+	@cmake --build --preset asan -j $(JOBS)
+	@ctest --preset asan
+
+clean:
+	rm -rf build

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Installs the library to an empty folder and builds a second project against it, and runs that."""
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+arguments = argparse.ArgumentParser()
+arguments.add_argument("--cmake", required=True)
+arguments.add_argument("--compiler", required=True)
+arguments.add_argument("--flags", default="")
+arguments = arguments.parse_args()
+
+here = pathlib.Path(__file__).parent
+output = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+prefix, build = output / "prefix", output / "build"
+for folder in (prefix, build):
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def run(*command):
+    print("+", *command, flush=True)
+    subprocess.run([str(c) for c in command], check=True)
+
+
+run(arguments.cmake, "--install", os.environ["TRUEFLANK_BINARY_DIR"], "--prefix", prefix)
+run(arguments.cmake, "-G", "Ninja", "-S", here / "consumer", "-B", build, "-DCMAKE_BUILD_TYPE=Release",
+    f"-DCMAKE_CXX_COMPILER={arguments.compiler}", f"-DCMAKE_CXX_FLAGS={arguments.flags}",
+    f"-DCMAKE_PREFIX_PATH={prefix}")
+run(arguments.cmake, "--build", build)
+run(build / "consumer")
+
+installed = {p.relative_to(prefix).parts[0] for p in prefix.rglob("*")}
+if not installed <= {"bin", "include", "lib", "share"}:
+    sys.exit(f"unexpected folders installed: {installed}")
+if (prefix / "include").exists() and {p.name for p in (prefix / "include").iterdir()} != {"trueflank"}:
+    sys.exit("only include/trueflank belongs into include/")
