@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/units.h"
+#include "trueflank/train/efficiency_balance.h"
+#include "trueflank/train/gear_train.h"
+
+namespace trueflank {
+
+/// What a mesh's basic efficiency is taken from.
+enum class LossModel {
+  kContactRatios,  ///< the paper's formula from approach and recess contact ratio
+  kPathIntegral,   ///< sliding loss integrated along the path of contact (efficiency_sliding.h)
+};
+
+struct EfficiencyOptions {
+  LossModel model = LossModel::kContactRatios;
+  std::optional<double> friction;  ///< instead of the design's
+};
+
+/// Basic efficiency of one mesh, 1 - mu pi (1/z1 +- 1/z2) (e1^2 + e2^2 - e1 - e2 + 1) / cos beta_b,
+/// + external, - internal. Exact to first order in mu where contact_ratio_formula_applies and tooth
+/// pairs share the load in equal parts; outside that it is the same polynomial and no more.
+/// Source: H. Matsuki, K. Nagano, Y. Fujimoto, 10.1109/TMECH.2019.2946403, section III.
+struct BasicMesh {
+  int teeth1 = 1, teeth2 = 1;
+  bool internal = false;
+  double approach = kNaN, recess = kNaN;  ///< contact ratios e1, e2
+  double base_helix_angle_rad = 0.0;
+};
+[[nodiscard]] double basic_efficiency(const BasicMesh& mesh, double friction);
+/// 0 <= e1, e2 <= 1 and e1 + e2 >= 1: the pitch point lies in the stretch of single contact.
+[[nodiscard]] bool contact_ratio_formula_applies(double approach, double recess);
+
+/// What one mesh does and costs, gear 1 being the inner gear.
+struct MeshEfficiency {
+  std::string name;                ///< "sun-planet1", ...
+  double basic_efficiency = kNaN;  ///< by the chosen model, gear 1 driving
+  double by_contact_ratios = kNaN; ///< the paper's formula
+  double by_path_integral = kNaN;  ///< exact sliding loss, gear 1 driving
+  bool formula_applies = true;     ///< contact_ratio_formula_applies
+};
+
+/// A direction of drive, everything per unit of driving torque and of sun speed.
+struct DirectionEfficiency {
+  double efficiency = kNaN;
+  bool self_locking = false;
+  struct MemberFlow {
+    std::string name;  ///< sun, planet, carrier, ring1, ring2 | ring | pinion, wheel
+    double speed = kNaN, torque = kNaN, power = kNaN;
+  };
+  struct MeshFlow {
+    std::string name;
+    std::string driving_gear;     ///< as seen from the carrier
+    double rolling_power = kNaN;  ///< through the mesh, of the driving power
+    double loss = kNaN;           ///< of the driving power
+    double torque1 = kNaN, torque2 = kNaN;  ///< on gear 1 and 2, all planets together
+  };
+  std::vector<MemberFlow> members;
+  std::vector<MeshFlow> meshes;
+};
+
+struct EfficiencyResult {
+  double friction = kNaN;
+  double forward = kNaN;      ///< sun (pinion) drives; NaN for a single gear
+  double backward = kNaN;     ///< output drives; 0 where self-locking
+  bool self_locking = false;  ///< backward: the output cannot drive the train, whatever its torque
+  bool forward_locking = false;  ///< the sun cannot drive it either (a speed-increasing train)
+  std::vector<MeshEfficiency> meshes;  ///< in the order of the train
+  DirectionEfficiency forward_drive, backward_drive;
+
+  /// NaN where there is no such mesh.
+  [[nodiscard]] double basic_efficiency_of(const std::string& mesh_name) const;
+};
+
+/// Efficiency of a laid-out train from its shifted geometry: both directions, every member and mesh.
+/// Friction in the meshes only: bearings, seals and churning are measured things (docs/loop.md).
+[[nodiscard]] EfficiencyResult efficiency(const GearTrain& train,
+                                          const EfficiencyOptions& options = {});
+
+}  // namespace trueflank
