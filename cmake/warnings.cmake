@@ -4,5 +4,7 @@ add_library(trueflank_options INTERFACE)
 target_compile_features(trueflank_options INTERFACE cxx_std_20)
 target_compile_options(trueflank_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # Designated initialisers leave members out on purpose: their defaults are in the class.
+  -Wno-missing-field-initializers
   # The same numbers on every processor: no fused multiply-add behind our back.
   -ffp-contract=off)

@@ -4,8 +4,8 @@
 #   trueflank_test(<name> [SLOW] [WHOLE] SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
-# SLOW: labelled slow, not run by the dev preset. WHOLE: one ctest entry for all, for tests that
-# share something dear.
+# SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
+# tests that share something dear.
 function(trueflank_test name)
   cmake_parse_arguments(arg "SLOW;WHOLE" "" "SOURCES;LIBRARIES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
@@ -22,19 +22,18 @@ function(trueflank_test name)
   target_link_libraries(${target} PRIVATE
     ${arg_LIBRARIES} trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
-  set(properties LABELS "${name}")
+  # One label a test: gtest_discover_tests passes on no lists.
+  set(label ${name})
   if(arg_SLOW)
-    set(properties LABELS "${name}\\;slow")
+    set(label slow)
   endif()
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target})
-    string(REPLACE "\\" "" labels "${properties}")
-    list(REMOVE_AT labels 0)
-    set_tests_properties(${name} PROPERTIES LABELS "${labels}")
+    set_tests_properties(${name} PROPERTIES LABELS ${label})
   else()
     # At test time, not after each link: listing tests is no part of building.
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-      DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+      DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label})
   endif()
 endfunction()
 
@@ -57,7 +56,7 @@ function(trueflank_script_test name)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME label)
   if(arg_SLOW)
-    list(APPEND label slow)
+    set(label slow)
   endif()
-  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${label}")
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS ${label})
 endfunction()
