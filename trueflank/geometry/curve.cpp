@@ -91,9 +91,9 @@ double chord_error_mm(const Curve& curve, double from, double to) {
   const auto height = [&](double u) {
     return std::abs((point_at(curve, from + u * (to - from)) - a).dot(across));
   };
-  // The height is smooth with one maximum near the middle: parabola through three points, twice.
+  // The height is smooth with one maximum near the middle: parabola through three points, thrice.
   double centre = 0.5, best = height(0.5);
-  for (double width = 0.25; width > 0.05; width *= 0.25) {
+  for (double width = 0.25; width > 0.01; width *= 0.25) {
     const double low = height(centre - width), high = height(centre + width);
     const double curvature = low - 2.0 * best + high;
     if (curvature >= 0.0) return std::max({low, best, high});

@@ -137,11 +137,10 @@ HalfToothPolyline tessellate(const ToothProfile& profile, double tolerance_mm) {
         line.chord_error_mm = std::max(
             line.chord_error_mm, chord_error_mm(curve, parameters[i - 1], parameters[i]));
     }
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      if (i == 0 && !line.points.empty()) continue;  // the joint is there already
+    if (line.points.empty()) line.points.push_back(point_at(curve, parameters.front()));
+    for (std::size_t i = 1; i < parameters.size(); ++i) {
       line.points.push_back(point_at(curve, parameters[i]));
-      if (i > 0) line.piece.push_back(static_cast<int>(k));
-      line.parameter.push_back(parameters[i]);
+      line.edges.push_back({static_cast<int>(k), parameters[i - 1], parameters[i]});
     }
   }
   // exact symmetry lines

@@ -9,10 +9,14 @@ namespace trueflank {
 
 /// Vertices on a half tooth (see ToothProfile), all exactly on the curve.
 struct HalfToothPolyline {
-  std::vector<Point2> points;      ///< from the tooth's middle (angle 0) to the gap's middle (pi/z)
-  std::vector<int> piece;          ///< piece[i]: index of the profile piece of edge i (points i, i+1)
-  std::vector<double> parameter;   ///< parameter of points[i] on the piece of edge i (last: of edge n-2's)
-  double chord_error_mm = 0.0;     ///< largest distance between polyline and curve
+  /// Edge i joins points i and i + 1 along one piece of the profile.
+  struct Edge {
+    int piece = 0;                ///< index of the profile piece
+    double from = 0.0, to = 0.0;  ///< parameters of its ends on that piece
+  };
+  std::vector<Point2> points;  ///< from the tooth's middle (angle 0) to the gap's middle (pi/z)
+  std::vector<Edge> edges;
+  double chord_error_mm = 0.0;  ///< largest distance between polyline and curve
   /// Middle of the tip land / of the root arc is a vertex (true where the arc needs an even count
   /// of edges); otherwise one edge straddles it and the mirror image supplies its other end.
   bool vertex_at_tooth_middle = true;
