@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every function of a header that returns Result<...> or Status says [[nodiscard]]: tl::expected does not.
+"""Every function of a header that returns Result, ResultAll or Status says [[nodiscard]].
+
+tl::expected itself does not say it.
 
 Usage: check_nodiscard.py [ROOT]
 """
@@ -15,7 +17,7 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 DECLARATION = re.compile(
     r"(?:^|[;{}]|\b(?:public|private|protected):)\s*"
     r"((?:template\s*<[^;{}]*?>\s*|\[\[[^\]]*\]\]\s*|\b(?:static|inline|constexpr|virtual|friend)\s+)*)"
-    r"(?:trueflank::)?(?:Result\s*<[^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)?>|Status)\s+"
+    r"(?:trueflank::)?(?:Result(?:All)?\s*<[^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)?>|Status)\s+"
     r"(?:\w+::)*(\w+|operator\s*\S+?)\s*\(")
 
 

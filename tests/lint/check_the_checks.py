@@ -107,8 +107,10 @@ class Nodiscard(Tree):
             "inline Result<int> defined() { return 1; }\n"
             "template <typename T>\nResult<T> read(const std::string& s);\n"
             "Status done(\n    int a);\n"
+            "ResultAll<Gear> everything(int a);\n"
             "Result<std::pair<int, std::function<double(double)>>> nested();\n"),
-            ["plain", "commented", "make", "write", "defined", "read", "done", "nested"])
+            ["plain", "commented", "make", "write", "defined", "read", "done", "everything",
+             "nested"])
 
     def test_declarations_with_it_pass(self):
         self.assertEqual(self.names(
