@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/strength_form_factor.h"
+
+#include <cmath>
+#include <optional>
+
+#include "trueflank/geometry/scalar_root.h"
+
+namespace trueflank {
+namespace {
+
+/// Samples of a fillet in the search for its tangent; a fillet turns by less than half a circle.
+constexpr int kSamples = 64;
+
+/// Where the load at the tip crosses the tooth's middle (the x axis), and its angle.
+struct TipLoad {
+  double crossing_mm = kNaN;
+  double angle_rad = kNaN;
+};
+
+TipLoad tip_load(const ToothProfile& profile) {
+  for (const ProfilePiece& piece : profile.pieces()) {
+    if (piece.kind != PieceKind::kInvolute) continue;
+    // pieces run from the tip: the involute begins where contact ends
+    const Point2 place = point_at(piece.curve, piece.curve.begin);
+    const Point2 along = tangent_at(piece.curve, piece.curve.begin);
+    const Point2 normal(-along.y(), along.x());
+    return {.crossing_mm = place.x() - place.y() * normal.x() / normal.y(),
+            .angle_rad = std::acos(std::min(1.0, std::abs(normal.y())))};
+  }
+  return {};
+}
+
+/// Angle of a curve's tangent against the tooth's middle, 0 to pi/2.
+double tangent_angle(const Curve& curve, double parameter) {
+  const Point2 along = tangent_at(curve, parameter);
+  return std::atan2(std::abs(along.y()), std::abs(along.x()));
+}
+
+/// First parameter from the flank downwards where the tangent stands at the angle.
+std::optional<double> parameter_at_tangent(const Curve& curve, double angle_rad) {
+  const auto excess = [&](double t) { return tangent_angle(curve, t) - angle_rad; };
+  const double step = (curve.end - curve.begin) / kSamples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double from = curve.begin + i * step, to = curve.begin + (i + 1) * step;
+    if (excess(from) * excess(to) <= 0.0) return find_root(excess, from, to);
+  }
+  return std::nullopt;
+}
+
+CriticalSection section_at(const Gear& gear, const TipLoad& load, const Point2& point) {
+  CriticalSection section;
+  const double m = gear.normal_module_mm;
+  section.thickness_mm = 2.0 * std::abs(point.y()) * std::cos(gear.helix_angle_rad);
+  section.lever_mm = std::abs(load.crossing_mm - point.x());
+  section.load_angle_rad = load.angle_rad;
+  section.form_factor = 6.0 * section.lever_mm / m * std::cos(load.angle_rad) /
+                        (std::pow(section.thickness_mm / m, 2) *
+                         std::cos(gear.rack.pressure_angle_rad));
+  return section;
+}
+
+}  // namespace
+
+CriticalSection critical_section(const ToothProfile& profile) {
+  const Gear& gear = profile.gear();
+  const TipLoad load = tip_load(profile);
+  const double angle =
+      gear.kind == GearKind::kInternal ? rad_from_deg(60.0) : rad_from_deg(30.0);
+  CriticalSection worst;
+  worst.tangent_found = false;
+  for (const ProfilePiece& piece : profile.pieces()) {
+    if (piece.kind != PieceKind::kFillet) continue;
+    if (const auto t = parameter_at_tangent(piece.curve, angle))
+      return section_at(gear, load, point_at(piece.curve, *t));
+    for (const double t : {piece.curve.begin, piece.curve.end}) {
+      CriticalSection section = section_at(gear, load, point_at(piece.curve, t));
+      section.tangent_found = false;
+      if (!(section.form_factor <= worst.form_factor)) worst = section;
+    }
+  }
+  if (std::isnan(worst.form_factor)) {
+    // no fillet at all: the tooth breaks where its flank meets the root circle
+    for (const ProfilePiece& piece : profile.pieces()) {
+      if (piece.kind == PieceKind::kRoot) break;
+      worst = section_at(gear, load, piece.curve.end_point());
+      worst.tangent_found = false;
+    }
+  }
+  return worst;
+}
+
+}  // namespace trueflank
