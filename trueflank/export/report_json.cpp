@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trueflank/export/gear_dimensions.h"
+#include "trueflank/export/report.h"
+#include "trueflank/geometry/tooth_span.h"
+
+namespace trueflank::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json degrees(const std::vector<double>& angles_rad) {
+  Json list = Json::array();
+  for (double angle : angles_rad) list.push_back(deg_from_rad(angle));
+  return list;
+}
+
+bool has_planets(const GearTrain& train) {
+  return train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
+}
+
+Json train_json(const GearTrain& train) {
+  const double output = member_speeds(train).output;
+  Json json;
+  json["kind"] = to_text(train.design.kind);
+  json["output"] = to_text(train.design.output);
+  json["planets"] = has_planets(train) ? Json(train.design.planets) : Json(nullptr);
+  json["ratio"] = std::isnan(output) ? Json(nullptr) : Json(std::abs(1.0 / output));
+  json["direction"] = std::isnan(output) ? Json(nullptr) : Json(output > 0.0 ? "same" : "opposite");
+  json["centre_distance_mm"] = train.centre_distance_mm;
+  if (has_planets(train)) {
+    json["assembles"] = train.assembly.equal_spacing;
+    json["identical_planets"] = train.assembly.identical_planets;
+    json["planet_offsets_deg"] = degrees(train.assembly.planet_offsets_rad);
+    json["nearest_angles_deg"] = degrees(train.assembly.nearest_angles_rad);
+    json["angle_step_deg"] = deg_from_rad(train.assembly.angle_step_rad);
+  } else {
+    for (const char* key : {"assembles", "identical_planets", "planet_offsets_deg",
+                            "nearest_angles_deg", "angle_step_deg"})
+      json[key] = nullptr;
+  }
+  return json;
+}
+
+Json gear_json(const GearTrain& train, const TrainGear& gear) {
+  const ToothProfile& profile = gear.profile;
+  const Gear& g = profile.gear();
+  const bool external = g.kind == GearKind::kExternal;
+  const int span_teeth = recommended_span_teeth(g);
+  const double pin = recommended_pin_diameter_mm(g);
+  const ProfileNotes& notes = profile.notes();
+  Json json;
+  json["teeth"] = g.teeth;
+  json["internal"] = !external;
+  json["shift"] = gear.shift;
+  json["module_mm"] = g.normal_module_mm;
+  json["reference_diameter_mm"] = 2.0 * reference_radius_mm(g);
+  json["base_diameter_mm"] = 2.0 * base_radius_mm(g);
+  json["tip_diameter_mm"] = 2.0 * profile.tip_radius_mm();
+  json["root_diameter_mm"] = 2.0 * profile.root_radius_mm();
+  json["root_form_diameter_mm"] = 2.0 * profile.root_form_radius_mm();
+  json["tip_form_diameter_mm"] = 2.0 * profile.tip_form_radius_mm();
+  json["start_active_profile_diameter_mm"] = 2.0 * start_of_active_profile_mm(train, gear);
+  json["tip_thickness_mm"] = profile.tip_thickness_mm();
+  json["reference_thickness_mm"] = tooth_thickness_mm(g, reference_radius_mm(g));
+  json["thinning_um"] = um_from_mm(g.thinning_mm);
+  json["face_width_mm"] = gear.face_width_mm;
+  json["root_radius_coefficient"] = profile.root_radius_coefficient();
+  json["undercut"] = notes.undercut;
+  json["pointed"] = notes.pointed;
+  json["full_round_root"] = notes.full_round;
+  json["closed_space"] = notes.space_closed;
+  json["tip_inside_base_circle"] = notes.tip_inside_base;
+  json["tip_trimmed_by_cutter"] = notes.tip_trimmed;
+  json["span_teeth"] = external ? Json(span_teeth) : Json(nullptr);
+  json["span_mm"] = base_tangent_length_mm(g, span_teeth);
+  json["pin_diameter_mm"] = pin;
+  json["over_pins_mm"] = over_pins_mm(g, pin);
+  return json;
+}
+
+Json mesh_json(const Report& report, std::size_t index) {
+  const GearTrain& train = *report.train;
+  const TrainMesh& mesh = train.meshes[index];
+  const GearPair pair = train.pair(mesh);
+  const ContactRatios ratios = contact_ratios(pair);
+  Json json;
+  json["working_pressure_angle_deg"] = deg_from_rad(working_pressure_angle_rad(pair));
+  json["contact_ratio"] = ratios.total;
+  json["effective_contact_ratio"] = ratios.effective;
+  json["approach_contact_ratio"] = ratios.approach;
+  json["recess_contact_ratio"] = ratios.recess;
+  json["backlash_mm"] = mesh.backlash_mm;
+  json["implied_backlash_mm"] = mesh.implied_backlash_mm;
+  json["basic_efficiency"] = report.efficiency.basic_efficiency_of(mesh.name);
+  const bool swept = index < report.sweeps.size();
+  json["minimum_clearance_um"] = swept ? report.sweeps[index].minimum_clearance_um : kNaN;
+  json["penetration_um"] = swept ? report.sweeps[index].penetration_um : kNaN;
+  return json;
+}
+
+Json finding_json(const Finding& finding) {
+  Json json;
+  json["id"] = finding.id;
+  json["where"] = finding.where;
+  json["status"] = to_text(finding.status);
+  json["value"] = finding.value;
+  json["limit"] = finding.limit;
+  json["margin"] = finding.margin;
+  json["unit"] = finding.unit;
+  json["message"] = finding.message;
+  json["cure"] = finding.cure;
+  return json;
+}
+
+Json file_json(const ReportedFile& file) {
+  Json json;
+  json["path"] = file.path;
+  json["part"] = file.part;
+  json["format"] = file.format;
+  json["bytes"] = file.bytes;
+  json["triangles"] = file.triangles > 0 ? Json(file.triangles) : Json(nullptr);
+  json["accuracy_um"] = file.accuracy_um;
+  json["volume_mm3"] = file.volume_mm3;
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  const GearTrain& train = *report.train;
+  Json json;
+  json["format"] = "trueflank-report";
+  json["version"] = 1;
+  json["design"] = train.design.name;
+  json["train"] = train_json(train);
+  json["gears"] = Json::object();
+  for (const TrainGear& gear : train.gears) json["gears"][gear.name] = gear_json(train, gear);
+  json["meshes"] = Json::object();
+  for (std::size_t i = 0; i < train.meshes.size(); ++i)
+    json["meshes"][train.meshes[i].name] = mesh_json(report, i);
+  const EfficiencyResult& efficiency = report.efficiency;
+  json["efficiency"] = {{"friction", efficiency.friction},
+                        {"forward", efficiency.forward},
+                        {"backward", efficiency.backward},
+                        {"self_locking", efficiency.self_locking}};
+  if (!report.files.empty()) {
+    json["tolerance_um"] = report.tolerance_um;
+    json["files"] = Json::array();
+    for (const ReportedFile& file : report.files) json["files"].push_back(file_json(file));
+  }
+  json["checks"] = Json::array();
+  for (const Finding& finding : report.findings) json["checks"].push_back(finding_json(finding));
+  json["verdict"] = to_text(verdict(report.findings));
+  // names come from users: what is no UTF-8 is shown as the replacement character
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstdio>
+
+#include "trueflank/export/report.h"
+
+namespace trueflank::io {
+namespace {
+
+std::string formatted(const char* format, double value) {
+  if (std::isnan(value)) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// Columns of text; a left-aligned one is given as a negative width.
+std::string row(std::initializer_list<std::pair<int, std::string>> cells) {
+  std::string line;
+  for (const auto& [width, cell] : cells) {
+    const auto room = static_cast<std::size_t>(std::abs(width));
+    const std::string pad(cell.size() < room ? room - cell.size() : 0, ' ');
+    line += width < 0 ? cell + pad : pad + cell;
+    line += ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line + "\n";
+}
+
+std::string heading_text(const Report& report) {
+  const GearTrain& train = *report.train;
+  const double output = member_speeds(train).output;
+  std::string text = train.design.name + ": " + to_text(train.design.kind);
+  if (!std::isnan(output))
+    text += ", ratio " + formatted("%.4f", std::abs(1.0 / output)) +
+            (output > 0.0 ? " (same direction)" : " (opposite direction)");
+  if (!std::isnan(train.centre_distance_mm))
+    text += ", centre distance " + formatted("%.4f", train.centre_distance_mm) + " mm";
+  text += "\n";
+  const EfficiencyResult& e = report.efficiency;
+  if (!std::isnan(e.forward)) {
+    text += "efficiency at friction " + formatted("%g", e.friction) + ": forward " +
+            formatted("%.2f", 100.0 * e.forward) + " %, backward ";
+    text += e.self_locking ? "none (self-locking)\n" : formatted("%.2f", 100.0 * e.backward) + " %\n";
+  }
+  return text + "\n";
+}
+
+std::string gear_table(const GearTrain& train) {
+  std::string text = row({{-8, "gear"}, {5, "teeth"}, {9, "shift"}, {10, "tip mm"}, {10, "root mm"},
+                          {10, "form mm"}, {9, "width mm"}});
+  for (const TrainGear& gear : train.gears)
+    text += row({{-8, gear.name},
+                 {5, std::to_string(gear.profile.gear().teeth)},
+                 {9, formatted("%.4f", gear.shift)},
+                 {10, formatted("%.4f", 2.0 * gear.profile.tip_radius_mm())},
+                 {10, formatted("%.4f", 2.0 * gear.profile.root_radius_mm())},
+                 {10, formatted("%.4f", 2.0 * gear.profile.root_form_radius_mm())},
+                 {9, formatted("%.2f", gear.face_width_mm)}});
+  return text + "\n";
+}
+
+std::string mesh_table(const Report& report) {
+  const GearTrain& train = *report.train;
+  if (train.meshes.empty()) return {};
+  std::string text = row({{-14, "mesh"}, {8, "angle"}, {8, "contact"}, {9, "effective"},
+                          {11, "backlash um"}, {10, "efficiency"}, {12, "clearance um"}});
+  for (std::size_t i = 0; i < train.meshes.size(); ++i) {
+    const TrainMesh& mesh = train.meshes[i];
+    const GearPair pair = train.pair(mesh);
+    const ContactRatios ratios = contact_ratios(pair);
+    const bool swept = i < report.sweeps.size();
+    text += row({{-14, mesh.name},
+                 {8, formatted("%.3f", deg_from_rad(working_pressure_angle_rad(pair)))},
+                 {8, formatted("%.3f", ratios.total)},
+                 {9, formatted("%.3f", ratios.effective)},
+                 {11, formatted("%.1f", um_from_mm(mesh.backlash_mm))},
+                 {10, formatted("%.5f", report.efficiency.basic_efficiency_of(mesh.name))},
+                 {12, formatted("%.1f", swept ? report.sweeps[i].minimum_clearance_um : kNaN)}});
+  }
+  return text + "\n";
+}
+
+std::string coloured(CheckStatus status, TextColour colour) {
+  const std::string word = to_text(status);
+  const std::string padded = word + std::string(word.size() < 5 ? 5 - word.size() : 0, ' ');
+  if (colour == TextColour::kNone) return padded;
+  switch (status) {
+    case CheckStatus::kPass: return "\033[32m" + padded + "\033[0m";
+    case CheckStatus::kWarn: return "\033[33m" + padded + "\033[0m";
+    case CheckStatus::kFail: return "\033[31m" + padded + "\033[0m";
+    case CheckStatus::kNotApplicable: return padded;
+  }
+  return padded;
+}
+
+/// Words wrapped to 80 columns behind an indent.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string result(indent, ' '), word;
+  std::size_t column = indent;
+  const auto put = [&] {
+    if (word.empty()) return;
+    if (column > indent && column + 1 + word.size() > 79) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    word.clear();
+  };
+  for (char c : text) {
+    if (c == ' ' || c == '\n') put();
+    else word += c;
+  }
+  put();
+  return result + "\n";
+}
+
+std::string check_table(const Report& report, TextColour colour) {
+  std::string text;
+  for (const Finding& finding : report.findings) {
+    if (finding.status == CheckStatus::kNotApplicable) continue;
+    const std::string unit = finding.unit.empty() ? "" : " " + finding.unit;
+    text += coloured(finding.status, colour) + " " +
+            row({{-23, finding.id},
+                 {-15, finding.where},
+                 {14, std::isnan(finding.value) ? "" : formatted("%.4g", finding.value) + unit},
+                 {-18, std::isnan(finding.limit) ? "" : "limit " + formatted("%.4g", finding.limit)}});
+    if (finding.status == CheckStatus::kPass) continue;
+    text += wrapped(finding.message, 6);
+    if (!finding.cure.empty()) text += wrapped("Cure: " + finding.cure, 6);
+  }
+  return text + "\n";
+}
+
+std::string file_table(const Report& report) {
+  if (report.files.empty()) return {};
+  std::string text = row({{-26, "file"}, {12, "bytes"}, {11, "triangles"}, {14, "accuracy um"}});
+  for (const ReportedFile& file : report.files)
+    text += row({{-26, file.path},
+                 {12, std::to_string(file.bytes)},
+                 {11, file.triangles > 0 ? std::to_string(file.triangles) : "-"},
+                 {14, formatted("%.3f", file.accuracy_um)}});
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string report_text(const Report& report, TextColour colour) {
+  int warnings = 0, failures = 0;
+  for (const Finding& finding : report.findings) {
+    warnings += finding.status == CheckStatus::kWarn;
+    failures += finding.status == CheckStatus::kFail;
+  }
+  std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
+                     check_table(report, colour) + file_table(report);
+  text += "verdict: " + coloured(verdict(report.findings), colour);
+  if (failures + warnings > 0)
+    text += " (" + std::to_string(failures) + " failed, " + std::to_string(warnings) + " warned)";
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text + "\n";
+}
+
+}  // namespace trueflank::io
