@@ -52,17 +52,19 @@ struct GearDesign {
   std::string name;  ///< sun, planet1, ring1, planet2, ring2, planet, ring, gear, pinion, wheel
   GearKind kind = GearKind::kExternal;
   int teeth = 0;
-  std::optional<double> shift;      ///< omitted: solved for zero backlash
-  std::optional<double> module_mm;  ///< omitted: the gearbox's
+  std::optional<double> shift = {};      ///< omitted: solved for zero backlash
+  std::optional<double> module_mm = {};  ///< omitted: the gearbox's
   double face_width_mm = 10.0;
-  std::optional<double> tip_diameter_mm;
-  std::optional<double> thinning_mm;  ///< on the reference circle, instead of the shared backlash
-  BoreDesign bore;
-  std::optional<double> outer_diameter_mm;  ///< rings
-  BoltCircleDesign bolt_circle;             ///< rings
+  std::optional<double> tip_diameter_mm = {};
+  std::optional<double> thinning_mm = {};  ///< on the reference circle, instead of the shared backlash
+  BoreDesign bore = {};
+  std::optional<double> outer_diameter_mm = {};  ///< rings
+  BoltCircleDesign bolt_circle = {};             ///< rings
   RingRoot root = RingRoot::kFillet;
-  std::optional<ShaperCutter> cutter;
-  ModificationsDesign modifications;
+  std::optional<ShaperCutter> cutter = {};
+  ModificationsDesign modifications = {};
+
+  bool operator==(const GearDesign&) const = default;
 };
 
 /// A gearbox as designed.
@@ -72,14 +74,16 @@ struct GearboxDesign {
   OutputMember output = OutputMember::kNone;
   int planets = 1;
   double module_mm = 1.0;
-  std::optional<double> centre_distance_mm;
+  std::optional<double> centre_distance_mm = {};
   double friction = 0.1;
   double backlash_mm = 0.0;
   double layer_gap_mm = 1.0;
   double helix_angle_rad = 0.0;  ///< of the sun, pinion or gear, right hand positive
   bool herringbone = false;
-  BasicRack rack;
-  std::vector<GearDesign> gears;  ///< in the order of gear_names(kind)
+  BasicRack rack = {};
+  std::vector<GearDesign> gears = {};  ///< in the order of gear_names(kind)
+
+  bool operator==(const GearboxDesign&) const = default;
 };
 
 /// Names of a kind's gears in their order: sun, planet1, ring1, planet2, ring2 | sun, planet, ring |
