@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_file.h"
+
+#include <gtest/gtest.h>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank {
+namespace {
+
+constexpr const char* kSimple = R"(format = 1
+name = "small"
+[gearbox]
+kind = "simple"
+planets = 3
+module_mm = 0.5
+backlash_mm = 0.04
+[rack]
+pressure_angle_deg = 25
+[sun]
+teeth = 18
+shift = 0.1
+face_width_mm = 8
+bore_mm = 4
+bore_d_flat_mm = 3.5
+[planet]
+teeth = 27
+face_width_mm = 8.5
+thinning_um = 30
+[planet.modifications]
+tip_relief_um = 8
+tip_relief_start_diameter_mm = 14.1
+[ring]
+teeth = 72
+face_width_mm = 8
+root = "shaper"
+cutter = { teeth = 25, tip_radius = 0.2 }
+)";
+
+TEST(DesignFile, IsReadIntoMillimetresAndRadians) {
+  const auto design = read_design_text(kSimple, "small.toml");
+  ASSERT_TRUE(design) << design.error().front().message;
+  EXPECT_EQ(design->name, "small");
+  EXPECT_EQ(design->kind, TrainKind::kSimple);
+  EXPECT_EQ(design->output, OutputMember::kCarrier);
+  EXPECT_EQ(design->planets, 3);
+  EXPECT_EQ(design->module_mm, 0.5);
+  EXPECT_EQ(design->backlash_mm, 0.04);
+  EXPECT_EQ(design->rack.pressure_angle_rad, rad_from_deg(25.0));
+  EXPECT_EQ(design->rack.dedendum, 1.25);
+  ASSERT_EQ(design->gears.size(), 3u);
+  const GearDesign& sun = design->gears[0];
+  EXPECT_EQ(sun.name, "sun");
+  EXPECT_EQ(sun.teeth, 18);
+  EXPECT_EQ(sun.shift, 0.1);
+  EXPECT_EQ(sun.face_width_mm, 8.0);
+  EXPECT_EQ(sun.bore, (BoreDesign{.diameter_mm = 4.0, .kind = BoreKind::kDFlat, .d_flat_mm = 3.5}));
+  const GearDesign& planet = design->gears[1];
+  EXPECT_FALSE(planet.shift);
+  EXPECT_DOUBLE_EQ(*planet.thinning_mm, 0.03);
+  EXPECT_EQ(planet.modifications.tip_relief_um, 8.0);
+  const GearDesign& ring = design->gears[2];
+  EXPECT_EQ(ring.kind, GearKind::kInternal);
+  EXPECT_EQ(ring.root, RingRoot::kShaper);
+  EXPECT_EQ(ring.cutter, (ShaperCutter{.teeth = 25, .shift = 0.0, .tip_radius = 0.2}));
+}
+
+TEST(DesignFile, IsNamedAfterItsFileWhereItHasNoName) {
+  const auto design = read_design_text(
+      "format = 1\n[gearbox]\nkind = \"gear\"\nmodule_mm = 1\n[gear]\nteeth = 20\nface_width_mm = 5\n",
+      "folder/my-gear.toml");
+  ASSERT_TRUE(design) << design.error().front().message;
+  EXPECT_EQ(design->name, "my-gear");
+}
+
+TEST(DesignFile, TellsAllItsErrorsInTheOrderOfTheLines) {
+  const auto design = read_design_text(
+      "format = 1\n[gearbox]\nkind = \"gear\"\nmodul_mm = 1\nmodule_mm = nan\n[gear]\nteeth = 2\n",
+      "bad.toml");
+  ASSERT_FALSE(design);
+  ASSERT_EQ(design.error().size(), 4u);
+  const Errors& errors = design.error();
+  EXPECT_EQ(errors[0].key, "gearbox.modul_mm");
+  EXPECT_EQ(errors[0].line, 4);
+  EXPECT_EQ(errors[0].remedy, "did you mean module_mm?");
+  EXPECT_EQ(errors[1].key, "gearbox.module_mm");
+  EXPECT_EQ(errors[1].value, "nan");
+  EXPECT_EQ(errors[2].key, "gear.face_width_mm");
+  EXPECT_EQ(errors[2].code, ErrorCode::kMissingKey);
+  EXPECT_EQ(errors[3].key, "gear.teeth");
+  EXPECT_EQ(errors[3].file, "bad.toml");
+  EXPECT_EQ(errors[3].line, 7);
+}
+
+}  // namespace
+}  // namespace trueflank

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/contradictions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "trueflank/base/units.h"
+#include "trueflank/design/design_keys.h"
+
+namespace trueflank {
+namespace {
+
+std::string mm(double length_mm) {
+  return plain_number(std::round(length_mm * 1e4) / 1e4) + " mm";
+}
+
+class Contradictions {
+ public:
+  Contradictions(const GearboxDesign& design, bool kind_known, Reading& reading)
+      : design_(design), kind_known_(kind_known), reading_(reading) {}
+
+  void report() {
+    if (reading_.good("name")) check_name();
+    if (kind_known_) {
+      check_kind();
+      check_meshes();
+    }
+    check_gearbox();
+    for (const GearDesign& gear : design_.gears) {
+      gear_ = &gear;
+      check_tip_and_thinning();
+      check_modifications();
+      if (gear.kind == GearKind::kInternal) {
+        check_bolts();
+        check_outer_diameter();
+        check_cutter();
+      } else {
+        check_bore_kind();
+        check_bore_size();
+      }
+    }
+    check_planet2_bore();
+  }
+
+ private:
+  [[nodiscard]] std::string key(const std::string& name) const { return gear_->name + "." + name; }
+  [[nodiscard]] bool good(const std::string& name) const { return reading_.good(key(name)); }
+  [[nodiscard]] bool has(const std::string& name) const { return reading_.has(key(name)); }
+  void wrong(const std::string& name, std::string message, std::string remedy) {
+    reading_.contradiction(key(name), key(name) + " " + std::move(message), std::move(remedy));
+  }
+
+  void check_name() {
+    const bool printable = std::none_of(design_.name.begin(), design_.name.end(), [](char c) {
+      return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    });
+    if (design_.name.empty() || design_.name.size() > 100 || !printable)
+      reading_.report({.code = ErrorCode::kOutOfRange,
+                       .message = "name is empty, too long or not printable",
+                       .key = "name",
+                       .remedy = "one line of 1 to 100 characters"});
+  }
+
+  void check_kind() {
+    const std::string kind = "kind \"" + std::string(to_text(design_.kind)) + "\"";
+    if (reading_.good("gearbox.output")) {
+      const auto& fitting = outputs(design_.kind);
+      std::string list;
+      for (OutputMember output : fitting)
+        list += (list.empty() ? "\"" : " or \"") + std::string(to_text(output)) + '"';
+      if (std::find(fitting.begin(), fitting.end(), design_.output) == fitting.end())
+        reading_.contradiction("gearbox.output", "gearbox.output does not fit " + kind,
+                               list.empty() ? "left out: a single gear has no output" : list);
+    }
+    if (!has_planets(design_.kind) && reading_.good("gearbox.planets") && design_.planets != 1)
+      reading_.contradiction("gearbox.planets", kind + " has no planets", "left out");
+    if (design_.kind == TrainKind::kGear && reading_.good("gearbox.centre_distance_mm"))
+      reading_.contradiction("gearbox.centre_distance_mm", "a single gear has no centre distance",
+                             "left out, or kind \"pair\"");
+  }
+
+  void check_gearbox() {
+    if (design_.herringbone && design_.helix_angle_rad == 0.0 &&
+        reading_.good("gearbox.herringbone") &&
+        (!reading_.has("gearbox.helix_angle_deg") || reading_.good("gearbox.helix_angle_deg")))
+      reading_.contradiction("gearbox.herringbone", "herringbone teeth need a helix angle",
+                             "helix_angle_deg other than 0, or herringbone = false");
+    if (reading_.good("gearbox.backlash_mm") && reading_.good("gearbox.module_mm") &&
+        design_.backlash_mm > design_.module_mm)
+      reading_.contradiction("gearbox.backlash_mm", "gearbox.backlash_mm is more than one module",
+                             "at most " + mm(design_.module_mm));
+  }
+
+  [[nodiscard]] std::optional<double> module_mm(const GearDesign& gear) const {
+    const std::string own = gear.name + ".module_mm";
+    if (reading_.has(own)) return reading_.good(own) ? gear.module_mm : std::nullopt;
+    if (!reading_.good("gearbox.module_mm")) return std::nullopt;
+    return design_.module_mm;
+  }
+
+  void check_mesh(const char* name1, const char* name2) {
+    const GearDesign *gear1 = find_gear(design_, name1), *gear2 = find_gear(design_, name2);
+    if (!gear1 || !gear2) return;
+    gear_ = gear2;
+    const auto module1 = module_mm(*gear1), module2 = module_mm(*gear2);
+    if (module1 && module2 && *module1 != *module2) {
+      const std::string differ = std::string(name1) + " and " + name2 + " mesh, but their modules are " +
+                                 mm(*module1) + " and " + mm(*module2);
+      const GearDesign& own = gear2->module_mm ? *gear2 : *gear1;
+      reading_.contradiction(own.name + ".module_mm", differ, "one module for gears that mesh");
+    }
+    if (gear2->kind == GearKind::kInternal && reading_.good(gear1->name + ".teeth") &&
+        good("teeth") && gear2->teeth <= gear1->teeth)
+      wrong("teeth", "must be more than the " + std::to_string(gear1->teeth) + " of " + name1,
+            "more than " + std::to_string(gear1->teeth));
+  }
+
+  void check_meshes() {
+    switch (design_.kind) {
+      case TrainKind::k3k:
+        check_mesh("sun", "planet1");
+        check_mesh("planet1", "ring1");
+        check_mesh("planet2", "ring2");
+        break;
+      case TrainKind::kSimple:
+        check_mesh("sun", "planet");
+        check_mesh("planet", "ring");
+        break;
+      case TrainKind::kPair: check_mesh("pinion", "wheel"); break;
+      case TrainKind::kGear: break;
+    }
+  }
+
+  /// Root circle as designed, external or ring; nothing where a value is missing or wrong.
+  [[nodiscard]] std::optional<double> root_diameter_mm() const {
+    const auto module = module_mm(*gear_);
+    if (!module || !good("teeth") || !good("shift")) return std::nullopt;
+    for (const char* of_others : {"gearbox.helix_angle_deg", "rack.dedendum"})
+      if (reading_.has(of_others) && !reading_.good(of_others)) return std::nullopt;
+    const double d = gear_->teeth * *module / std::cos(design_.helix_angle_rad);
+    const double sign = gear_->kind == GearKind::kInternal ? 1.0 : -1.0;
+    return d + 2.0 * *module * (sign * design_.rack.dedendum + *gear_->shift);
+  }
+
+  void check_tip_and_thinning() {
+    const auto module = module_mm(*gear_);
+    if (good("thinning_um") && module && *gear_->thinning_mm > *module)
+      wrong("thinning_um", "is more than one module", "at most " + plain_number(*module * 1e3) + " um");
+    const auto root = root_diameter_mm();
+    if (!good("tip_diameter_mm") || !root) return;
+    const double tip = *gear_->tip_diameter_mm;
+    if (gear_->kind == GearKind::kExternal ? tip <= *root : tip >= *root)
+      wrong("tip_diameter_mm", "lies on the wrong side of the root circle",
+            (gear_->kind == GearKind::kExternal ? "more than " : "less than ") + mm(*root));
+  }
+
+  void check_modifications() {
+    const std::string table = "modifications.";
+    const ModificationsDesign& m = gear_->modifications;
+    if (good(table + "tip_relief_um") && m.tip_relief_um > 0.0 &&
+        !has(table + "tip_relief_start_diameter_mm"))
+      reading_.missing(key(table + "tip_relief_start_diameter_mm"),
+                       key(table) + "tip_relief_um needs tip_relief_start_diameter_mm",
+                       "the diameter at which the tip relief starts");
+    if (good(table + "tip_relief_start_diameter_mm") && !has(table + "tip_relief_um"))
+      wrong(table + "tip_relief_start_diameter_mm", "stands without tip_relief_um",
+            "tip_relief_um, or neither");
+    if (good(table + "tip_relief_start_diameter_mm") && good("tip_diameter_mm")) {
+      const double start = m.tip_relief_start_diameter_mm, tip = *gear_->tip_diameter_mm;
+      if (gear_->kind == GearKind::kExternal ? start >= tip : start <= tip)
+        wrong(table + "tip_relief_start_diameter_mm", "lies beyond the tip circle",
+              (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + mm(tip));
+    }
+    if (good(table + "edge_chamfer_mm") && good("face_width_mm") &&
+        2.0 * m.edge_chamfer_mm >= gear_->face_width_mm)
+      wrong(table + "edge_chamfer_mm", "leaves nothing of the face width",
+            "less than " + mm(0.5 * gear_->face_width_mm));
+  }
+
+  void check_bore_kind() {
+    const bool round = has("bore_mm"), hex = has("bore_hex_mm"), flat = has("bore_d_flat_mm");
+    const bool width = has("bore_keyway_width_mm"), depth = has("bore_keyway_depth_mm");
+    if (hex && round) wrong("bore_hex_mm", "stands beside bore_mm", "one of the two");
+    for (const char* name : {"bore_keyway_width_mm", "bore_keyway_depth_mm", "bore_d_flat_mm"}) {
+      if (!has(name)) continue;
+      if (hex)
+        wrong(name, "stands beside bore_hex_mm", "one of the two");
+      else if (!round)
+        wrong(name, "needs a bore", "bore_mm beside it");
+    }
+    if (flat && (width || depth))
+      wrong("bore_d_flat_mm", "stands beside a keyway", "a flat or a keyway");
+    if (width != depth) {
+      const char* there = width ? "bore_keyway_width_mm" : "bore_keyway_depth_mm";
+      const char* absent = width ? "bore_keyway_depth_mm" : "bore_keyway_width_mm";
+      reading_.missing(key(absent), key(there) + " needs " + absent, "both, or neither");
+    }
+  }
+
+  void check_bore_size() {
+    const BoreDesign& bore = gear_->bore;
+    const double d = bore.diameter_mm;
+    if (good("bore_mm")) {
+      if (good("bore_d_flat_mm") && (bore.d_flat_mm >= d || bore.d_flat_mm <= 0.5 * d))
+        wrong("bore_d_flat_mm", "is no flat of this bore",
+              "more than " + mm(0.5 * d) + " and less than " + mm(d));
+      if (good("bore_keyway_width_mm") && bore.keyway_width_mm >= d)
+        wrong("bore_keyway_width_mm", "is not narrower than the bore", "less than " + mm(d));
+    }
+    const auto root = root_diameter_mm();
+    const char* name = bore.kind == BoreKind::kHex ? "bore_hex_mm" : "bore_mm";
+    if (!root || !good(name)) return;
+    // the farthest point of the bore from the axis
+    double reach = 0.5 * d;
+    if (bore.kind == BoreKind::kHex) reach = d / std::sqrt(3.0);
+    if (bore.kind == BoreKind::kKeyway && good("bore_keyway_width_mm") &&
+        good("bore_keyway_depth_mm"))
+      reach = std::hypot(reach + bore.keyway_depth_mm, 0.5 * bore.keyway_width_mm);
+    if (2.0 * reach >= *root)
+      wrong(name, "cuts through the root circle, which has " + mm(*root),
+            "a bore that stays inside the root circle");
+  }
+
+  void check_planet2_bore() {
+    const GearDesign *planet1 = find_gear(design_, "planet1"), *planet2 = find_gear(design_, "planet2");
+    if (!kind_known_ || !planet1 || !planet2 || planet2->bore == BoreDesign{}) return;
+    if (planet2->bore == planet1->bore) return;
+    gear_ = planet2;
+    for (const auto& bore_key : gear_keys())
+      if (std::string_view(bore_key.rule.name).starts_with("bore_") && good(bore_key.rule.name))
+        return wrong(bore_key.rule.name, "differs from planet1's bore, which goes through the planet",
+                     "the bore given in [planet1] alone");
+  }
+
+  void check_bolts() {
+    const std::vector<std::string> names{"bolt_circle_diameter_mm", "bolt_count",
+                                         "bolt_hole_diameter_mm"};
+    const auto given = std::count_if(names.begin(), names.end(), [&](const auto& n) { return has(n); });
+    if (given == 0) return;
+    for (const std::string& name : names)
+      if (!has(name))
+        reading_.missing(key(name), "the bolt circle of " + gear_->name + " lacks " + name,
+                         "all of " + names[0] + ", " + names[1] + ", " + names[2]);
+    if (given != 3 || !std::all_of(names.begin(), names.end(), [&](const auto& n) { return good(n); }))
+      return;
+    const BoltCircleDesign& bolts = gear_->bolt_circle;
+    const double spacing = bolts.circle_diameter_mm * std::sin(kPi / bolts.count);
+    if (bolts.count > 1 && spacing <= bolts.hole_diameter_mm)
+      wrong("bolt_hole_diameter_mm", "makes the holes run into each other", "less than " + mm(spacing));
+    if (good("outer_diameter_mm") &&
+        bolts.circle_diameter_mm + bolts.hole_diameter_mm >= *gear_->outer_diameter_mm)
+      wrong("bolt_circle_diameter_mm", "puts the holes through the outer diameter",
+            "less than " + mm(*gear_->outer_diameter_mm - bolts.hole_diameter_mm));
+    const auto root = root_diameter_mm();
+    if (root && bolts.circle_diameter_mm - bolts.hole_diameter_mm <= *root)
+      wrong("bolt_circle_diameter_mm", "puts the holes into the teeth",
+            "more than " + mm(*root + bolts.hole_diameter_mm));
+  }
+
+  void check_outer_diameter() {
+    const auto root = root_diameter_mm();
+    if (root && good("outer_diameter_mm") && *gear_->outer_diameter_mm <= *root)
+      wrong("outer_diameter_mm", "leaves no rim around the root circle", "more than " + mm(*root));
+  }
+
+  void check_cutter() {
+    if (has("root") && !good("root")) return;
+    const bool shaper = gear_->root == RingRoot::kShaper;
+    if (shaper && !has("cutter"))
+      reading_.missing(key("cutter"), key("root") + " = \"shaper\" needs a cutter",
+                       "a table [" + key("cutter") + "] with teeth, shift, tip_radius");
+    if (!shaper && gear_->cutter)
+      wrong("cutter", "stands without root = \"shaper\"",
+            "root = \"shaper\" in [" + gear_->name + "], or no cutter");
+    if (gear_->cutter && good("cutter.teeth") && good("teeth") &&
+        gear_->cutter->teeth >= gear_->teeth)
+      wrong("cutter.teeth", "must be fewer than the ring's " + std::to_string(gear_->teeth),
+            "fewer than " + std::to_string(gear_->teeth));
+  }
+
+  const GearboxDesign& design_;
+  bool kind_known_;
+  Reading& reading_;
+  const GearDesign* gear_ = nullptr;
+};
+
+}  // namespace
+
+void report_contradictions(const GearboxDesign& design, bool kind_known, Reading& reading) {
+  Contradictions(design, kind_known, reading).report();
+}
+
+}  // namespace trueflank

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "trueflank/design/contradictions.h"
+#include "trueflank/design/design_keys.h"
+#include "trueflank/design/reading.h"
+#include "trueflank/design/toml_document.h"
+
+namespace trueflank {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> all_gear_names() {
+  std::vector<std::string> names;
+  for (TrainKind kind : {TrainKind::k3k, TrainKind::kSimple, TrainKind::kPair, TrainKind::kGear})
+    for (const std::string& name : gear_names(kind))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+template <class Target>
+std::vector<std::string> key_names(const std::vector<DesignKey<Target>>& keys) {
+  std::vector<std::string> names;
+  for (const auto& key : keys) names.emplace_back(key.rule.name);
+  return names;
+}
+
+/// Where else a key is known: "[gearbox]", "a gear's table", ...; empty where nowhere.
+std::string place_of(std::string_view name) {
+  const auto in = [&](const auto& keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const auto& k) { return name == k.rule.name; });
+  };
+  if (in(file_keys())) return "the top of the file";
+  if (in(gearbox_keys())) return "[gearbox]";
+  if (in(rack_keys())) return "[rack]";
+  if (in(gear_keys()) || name == "modifications") return "a gear's table";
+  if (in(modification_keys())) return "a gear's [modifications]";
+  if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
+  return "";
+}
+
+bool fits(KeyPlace place, const std::string& gear_name, GearKind kind) {
+  switch (place) {
+    case KeyPlace::kExternalGear: return kind == GearKind::kExternal;
+    case KeyPlace::kRing: return kind == GearKind::kInternal;
+    case KeyPlace::kMaybeRing: return may_be_ring(gear_name);
+    default: return true;
+  }
+}
+
+class DesignReader {
+ public:
+  explicit DesignReader(const TomlTable& root) : root_(root) {}
+
+  ResultAll<DesignFile> read(const std::string& file) {
+    note_lines("", root_);
+    read_top();
+    if (const TomlTable* table = section("gearbox")) read_gearbox(*table);
+    if (const TomlTable* table = section("rack"))
+      read_keys("rack", *table, rack_keys(), file_.design.rack);
+    read_gears();
+    settle_module();
+    report_contradictions(file_.design, kind_known_, reading_);
+    if (!reading_.clean()) return fail_all(reading_.errors(file));
+    file_.file = file;
+    for (const auto& [key, found] : reading_.found()) file_.lines[key] = found.line;
+    if (file_.design.name.empty()) file_.design.name = std::filesystem::path(file).stem().string();
+    return std::move(file_);
+  }
+
+ private:
+  void note_lines(const std::string& prefix, const TomlTable& table) {
+    for (const TomlEntry& entry : table.entries) {
+      const std::string key = prefix + entry.key;
+      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value)});
+      if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
+    }
+  }
+
+  void read_top() {
+    std::vector<std::string> known = all_gear_names();
+    known.insert(known.end(), {"gearbox", "rack"});
+    for (const TomlEntry& entry : root_.entries) {
+      const auto is = [&](const std::string& name) { return name == entry.key; };
+      if (std::any_of(known.begin(), known.end(), is)) {
+        if (!std::holds_alternative<TomlTable>(entry.value)) report_no_table(entry.key);
+      } else {
+        read_entry("", entry, file_keys(), file_.design, known);
+      }
+    }
+    report_missing("", file_keys(), [](KeyPlace) { return true; });
+    if (!root_.find("gearbox"))
+      reading_.missing("gearbox", "the table [gearbox] is missing",
+                       "[gearbox] with kind, module_mm, ...");
+  }
+
+  void report_no_table(const std::string& key) {
+    reading_.report({.code = ErrorCode::kWrongType,
+                     .message = key + " is not a table",
+                     .key = key,
+                     .remedy = "a table: the line [" + key + "] and its keys below"});
+  }
+
+  const TomlTable* section(const std::string& name) const {
+    const TomlEntry* entry = root_.find(name);
+    return entry ? std::get_if<TomlTable>(&entry->value) : nullptr;
+  }
+
+  void read_gearbox(const TomlTable& table) {
+    GearboxDesign& design = file_.design;
+    read_keys("gearbox", table, gearbox_keys(), design);
+    kind_known_ = reading_.good("gearbox.kind");
+    if (kind_known_ && !reading_.has("gearbox.output") && !outputs(design.kind).empty())
+      design.output = outputs(design.kind).front();
+    report_missing("gearbox", gearbox_keys(), [&](KeyPlace place) {
+      if (place == KeyPlace::kPlanetary) return kind_known_ && has_planets(design.kind);
+      if (place == KeyPlace::kOf3k) return kind_known_ && design.kind == TrainKind::k3k;
+      return place != KeyPlace::kUnlessEveryGear;
+    });
+  }
+
+  /// The gearbox's module may be missing where every gear has its own.
+  void settle_module() {
+    const std::vector<GearDesign>& gears = file_.design.gears;
+    if (!section("gearbox") || reading_.has("gearbox.module_mm")) return;
+    const auto has_own = [&](const GearDesign& g) { return reading_.has(g.name + ".module_mm"); };
+    if (gears.empty() || !std::all_of(gears.begin(), gears.end(), has_own))
+      reading_.missing("gearbox.module_mm", "gearbox.module_mm is missing",
+                       "the module of the gears that do not set their own");
+    else
+      file_.design.module_mm = gears.front().module_mm.value_or(1.0);
+  }
+
+  /// Gears of the kind; of any kind where the kind is not known.
+  void read_gears() {
+    const std::vector<std::string> all = all_gear_names();
+    const std::vector<std::string>& own = kind_known_ ? gear_names(file_.design.kind) : all;
+    for (const std::string& name : own) {
+      if (const TomlTable* table = section(name)) {
+        file_.design.gears.push_back(read_gear(name, *table));
+      } else if (kind_known_ && !root_.find(name)) {
+        const std::string kind = to_text(file_.design.kind);
+        reading_.report({.code = ErrorCode::kMissingKey,
+                         .message = "the table [" + name + "] is missing",
+                         .key = name,
+                         .remedy = "kind \"" + kind + "\" has the gears " + joined(own),
+                         .line = reading_.line("gearbox.kind")});
+      }
+    }
+    for (const std::string& name : all)
+      if (root_.find(name) && std::find(own.begin(), own.end(), name) == own.end())
+        reading_.contradiction(
+            name, "kind \"" + std::string(to_text(file_.design.kind)) + "\" has no gear " + name,
+            "its gears are " + joined(own));
+  }
+
+  GearDesign read_gear(const std::string& name, const TomlTable& table) {
+    GearDesign gear{.name = name, .kind = usual_kind(name)};
+    if (const TomlEntry* internal = table.find("internal"); internal && may_be_ring(name))
+      if (const bool* ring = std::get_if<bool>(&internal->value); ring && *ring)
+        gear.kind = GearKind::kInternal;
+    const GearKind kind = gear.kind;
+    for (const TomlEntry& entry : table.entries) {
+      if (entry.key == "cutter")
+        read_cutter(gear, entry);
+      else if (entry.key == "modifications")
+        read_modifications(gear, entry);
+      else
+        read_entry(name, entry, gear_keys(), gear, {"cutter", "modifications"}, kind);
+    }
+    report_missing(name, gear_keys(), [&](KeyPlace place) { return fits(place, name, kind); });
+    return gear;
+  }
+
+  void read_cutter(GearDesign& gear, const TomlEntry& entry) {
+    const std::string key = gear.name + ".cutter";
+    if (gear.kind == GearKind::kExternal) {
+      reading_.contradiction(key, gear.name + " is an external gear: no pinion cutter shapes it",
+                             "[" + key + "] left out");
+    } else if (const auto* table = std::get_if<TomlTable>(&entry.value)) {
+      gear.cutter = ShaperCutter{};
+      read_keys(key, *table, cutter_keys(), *gear.cutter);
+      report_missing(key, cutter_keys(), [](KeyPlace) { return true; });
+    } else {
+      report_no_table(key);
+    }
+  }
+
+  void read_modifications(GearDesign& gear, const TomlEntry& entry) {
+    const std::string key = gear.name + ".modifications";
+    if (const auto* table = std::get_if<TomlTable>(&entry.value))
+      read_keys(key, *table, modification_keys(), gear.modifications);
+    else
+      report_no_table(key);
+  }
+
+  template <class Target>
+  void read_keys(const std::string& section, const TomlTable& table,
+                 const std::vector<DesignKey<Target>>& keys, Target& target) {
+    for (const TomlEntry& entry : table.entries) read_entry(section, entry, keys, target, {});
+  }
+
+  template <class Target>
+  void read_entry(const std::string& section, const TomlEntry& entry,
+                  const std::vector<DesignKey<Target>>& keys, Target& target,
+                  const std::vector<std::string>& also_known,
+                  GearKind kind = GearKind::kExternal) {
+    const std::string dotted = section.empty() ? entry.key : section + "." + entry.key;
+    const DesignKey<Target>* misplaced = nullptr;
+    for (const DesignKey<Target>& key : keys) {
+      if (entry.key != key.rule.name) continue;
+      if (!fits_gear(key, section, kind)) {
+        misplaced = &key;
+        continue;
+      }
+      if (const auto value = take_value(key.rule, dotted, entry.value))
+        key.set(target, *value);
+      else
+        reading_.report(value.error());
+      return;
+    }
+    if (misplaced)
+      report_misplaced(dotted, section, misplaced->place);
+    else
+      report_unknown(dotted, section, entry.key, key_names(keys), also_known);
+  }
+
+  template <class Target>
+  static bool fits_gear(const DesignKey<Target>& key, const std::string& section, GearKind kind) {
+    if constexpr (std::is_same_v<Target, GearDesign>) return fits(key.place, section, kind);
+    return true;
+  }
+
+  void report_misplaced(const std::string& dotted, const std::string& gear, KeyPlace place) {
+    if (place == KeyPlace::kMaybeRing)
+      reading_.contradiction(dotted, dotted + " is not " + gear + "'s to say",
+                             "left out: only the wheel of a pair or a single gear may be internal");
+    else if (place == KeyPlace::kRing)
+      reading_.contradiction(dotted, dotted + " is for rings, and " + gear + " is an external gear",
+                             may_be_ring(gear) ? "left out, or internal = true" : "left out");
+    else
+      reading_.contradiction(dotted, dotted + " is for external gears, and " + gear + " is a ring",
+                             "left out");
+  }
+
+  void report_unknown(const std::string& dotted, const std::string& section, const std::string& name,
+                      std::vector<std::string> known, const std::vector<std::string>& also_known) {
+    known.insert(known.end(), also_known.begin(), also_known.end());
+    std::string remedy;
+    const std::string place = place_of(name), near = nearest_name(name, known);
+    if (!place.empty())
+      remedy = name + " belongs to " + place;
+    else if (!near.empty())
+      remedy = "did you mean " + near + "?";
+    else
+      remedy = (section.empty() ? "the file" : "[" + section + "]") + " has " + joined(known);
+    reading_.unknown(dotted, dotted + " is not known", std::move(remedy));
+  }
+
+  template <class Target, class Applies>
+  void report_missing(const std::string& section, const std::vector<DesignKey<Target>>& keys,
+                      Applies applies) {
+    const std::string prefix = section.empty() ? "" : section + ".";
+    for (const DesignKey<Target>& key : keys)
+      if (key.rule.required && applies(key.place) && !reading_.has(prefix + key.rule.name))
+        reading_.missing(prefix + key.rule.name, prefix + key.rule.name + " is missing",
+                         wanted(key.rule));
+  }
+
+  const TomlTable& root_;
+  Reading reading_;
+  DesignFile file_;
+  bool kind_known_ = false;
+};
+
+}  // namespace
+
+ResultAll<DesignFile> read_design_file_text(std::string_view text, const std::string& file) {
+  auto root = parse_toml(text);
+  if (root) return DesignReader(*root).read(file);
+  Error error = root.error();
+  error.file = file;
+  return fail_all({std::move(error)});
+}
+
+ResultAll<DesignFile> read_design_file(const std::string& path) {
+  const auto text = read_text_file(path, kLargestDesignFile_bytes);
+  if (!text) return fail_all({text.error()});
+  return read_design_file_text(*text, path);
+}
+
+ResultAll<GearboxDesign> read_design_text(std::string_view text, const std::string& file) {
+  return read_design_file_text(text, file).map([](DesignFile f) { return std::move(f.design); });
+}
+
+ResultAll<GearboxDesign> read_design(const std::string& path) {
+  return read_design_file(path).map([](DesignFile f) { return std::move(f.design); });
+}
+
+Errors located(Errors errors, const DesignFile& file) {
+  for (Error& error : errors) {
+    if (error.file.empty()) error.file = file.file;
+    for (std::string key = error.key; error.line == 0 && !key.empty();) {
+      if (const auto it = file.lines.find(key); it != file.lines.end()) error.line = it->second;
+      const auto dot = key.rfind('.');
+      key.resize(dot == std::string::npos ? 0 : dot);
+    }
+  }
+  return errors;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_keys.h"
+
+#include "trueflank/base/units.h"
+#include "trueflank/design/file_units.h"
+
+namespace trueflank {
+namespace {
+
+using Value = std::optional<KeyValue>;
+
+double number(const KeyValue& value) { return std::get<double>(value); }
+int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
+const std::string& text(const KeyValue& value) { return std::get<std::string>(value); }
+Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
+Value unless(double value, double by_default) {
+  return value == by_default ? Value() : Value(value);
+}
+Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+
+TrainKind train_kind(const std::string& name) {
+  for (TrainKind kind : {TrainKind::k3k, TrainKind::kSimple, TrainKind::kPair})
+    if (name == to_text(kind)) return kind;
+  return TrainKind::kGear;
+}
+
+OutputMember output_member(const std::string& name) {
+  for (OutputMember output : {OutputMember::kRing2, OutputMember::kRing1, OutputMember::kCarrier,
+                              OutputMember::kRing})
+    if (name == to_text(output)) return output;
+  return OutputMember::kWheel;
+}
+
+}  // namespace
+
+GearKind usual_kind(const std::string& gear_name) {
+  return gear_name.starts_with("ring") ? GearKind::kInternal : GearKind::kExternal;
+}
+
+bool may_be_ring(const std::string& gear_name) {
+  return gear_name == "wheel" || gear_name == "gear";
+}
+
+bool has_planets(TrainKind kind) { return kind == TrainKind::k3k || kind == TrainKind::kSimple; }
+
+const std::vector<OutputMember>& outputs(TrainKind kind) {
+  static const std::vector<OutputMember> k3k{OutputMember::kRing2, OutputMember::kRing1};
+  static const std::vector<OutputMember> kSimple{OutputMember::kCarrier, OutputMember::kRing};
+  static const std::vector<OutputMember> kPair{OutputMember::kWheel};
+  static const std::vector<OutputMember> kNone{};
+  switch (kind) {
+    case TrainKind::k3k: return k3k;
+    case TrainKind::kSimple: return kSimple;
+    case TrainKind::kPair: return kPair;
+    case TrainKind::kGear: break;
+  }
+  return kNone;
+}
+
+const std::vector<DesignKey<GearboxDesign>>& file_keys() {
+  static const std::vector<DesignKey<GearboxDesign>> keys{
+      {{.name = "format", .type = KeyType::kWhole, .lower = 1, .upper = 1, .required = true,
+        .meaning = "version of this format"},
+       KeyPlace::kAnywhere,
+       [](GearboxDesign&, const KeyValue&) {},
+       [](const GearboxDesign&) { return whole_value(kDesignFormat); }},
+      {{.name = "name", .type = KeyType::kText, .by_default = "the file's name",
+        .meaning = "name of the design in reports, at most 100 characters"},
+       KeyPlace::kAnywhere,
+       [](GearboxDesign& d, const KeyValue& v) { d.name = text(v); },
+       [](const GearboxDesign& d) { return d.name.empty() ? Value() : Value(d.name); }},
+  };
+  return keys;
+}
+
+const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
+  using D = GearboxDesign;
+  static const std::vector<DesignKey<D>> keys{
+      {{.name = "kind", .type = KeyType::kChoice, .choices = {"3k", "simple", "pair", "gear"},
+        .required = true,
+        .meaning = "3k: sun, two rings and compound planets; simple: sun, planets and a ring; pair: "
+                   "two gears; gear: one gear alone"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.kind = train_kind(text(v)); },
+       [](const D& d) { return Value(std::string(to_text(d.kind))); }},
+      {{.name = "output", .type = KeyType::kChoice,
+        .choices = {"ring2", "ring1", "carrier", "ring", "wheel"}, .required = true,
+        .by_default = "simple: \"carrier\"; pair: \"wheel\"",
+        .meaning = "member that drives out. 3k: ring2 (type I, ring1 is fixed) or ring1 (type II, "
+                   "ring2 is fixed); simple: carrier (the ring is fixed) or ring (the carrier is "
+                   "fixed); pair: wheel; gear: none"},
+       KeyPlace::kOf3k,
+       [](D& d, const KeyValue& v) { d.output = output_member(text(v)); },
+       [](const D& d) {
+         return has_planets(d.kind) ? Value(std::string(to_text(d.output))) : Value();
+       }},
+      {{.name = "planets", .type = KeyType::kWhole, .lower = 1, .upper = 50, .required = true,
+        .meaning = "number of planets, of kinds 3k and simple"},
+       KeyPlace::kPlanetary,
+       [](D& d, const KeyValue& v) { d.planets = whole(v); },
+       [](const D& d) { return has_planets(d.kind) ? whole_value(d.planets) : Value(); }},
+      {{.name = "module_mm", .unit = "mm", .lower = 0.01, .upper = 100, .required = true,
+        .meaning = "module of every gear that does not set its own; with a helix the normal module"},
+       KeyPlace::kUnlessEveryGear,
+       [](D& d, const KeyValue& v) { d.module_mm = number(v); },
+       [](const D& d) { return Value(d.module_mm); }},
+      {{.name = "centre_distance_mm", .unit = "mm", .lower = 0.01, .upper = 100000,
+        .by_default = "from the shifts",
+        .meaning = "distance of the axes; shifts that are omitted are solved from it for zero "
+                   "backlash"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.centre_distance_mm = number(v); },
+       [](const D& d) { return if_given(d.centre_distance_mm); }},
+      {{.name = "friction", .lower = 0, .upper = 1, .by_default = "0.1",
+        .meaning = "coefficient of friction of the tooth flanks, for the efficiency"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.friction = number(v); },
+       [](const D& d) { return Value(d.friction); }},
+      {{.name = "backlash_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0",
+        .meaning = "circumferential backlash of every mesh at its working pitch circle, made by "
+                   "thinning the teeth of both gears alike; at most one module"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.backlash_mm = number(v); },
+       [](const D& d) { return Value(d.backlash_mm); }},
+      {{.name = "layer_gap_mm", .unit = "mm", .lower = 0, .upper = 1000, .by_default = "1",
+        .meaning = "3k: axial gap between planet1 (z = 0 to its face width) and planet2 above it"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.layer_gap_mm = number(v); },
+       [](const D& d) { return unless(d.layer_gap_mm, D{}.layer_gap_mm); }},
+      {{.name = "helix_angle_deg", .unit = "deg", .lower = -60, .upper = 60, .by_default = "0",
+        .meaning = "helix angle of the sun, the pinion or the gear, right hand positive; the mates "
+                   "follow"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.helix_angle_rad = rad_from_deg(number(v)); },
+       [](const D& d) { return unless(file_deg(d.helix_angle_rad), 0.0); }},
+      {{.name = "herringbone", .type = KeyType::kFlag, .by_default = "false",
+        .meaning = "two halves of opposite hands; needs a helix angle"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.herringbone = std::get<bool>(v); },
+       [](const D& d) { return d.herringbone ? Value(true) : Value(); }},
+  };
+  return keys;
+}
+
+const std::vector<DesignKey<BasicRack>>& rack_keys() {
+  using R = BasicRack;
+  static const std::vector<DesignKey<R>> keys{
+      {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 50, .by_default = "20",
+        .meaning = "pressure angle, in the normal section"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.pressure_angle_rad = rad_from_deg(number(v)); },
+       [](const R& r) { return Value(file_deg(r.pressure_angle_rad)); }},
+      {{.name = "addendum", .unit = "module", .lower = 0.05, .upper = 3, .by_default = "1",
+        .meaning = "height of the tooth above the reference circle"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.addendum = number(v); },
+       [](const R& r) { return Value(r.addendum); }},
+      {{.name = "dedendum", .unit = "module", .lower = 0.05, .upper = 3, .by_default = "1.25",
+        .meaning = "depth of the gap below the reference circle"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.dedendum = number(v); },
+       [](const R& r) { return Value(r.dedendum); }},
+      {{.name = "root_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0.38",
+        .meaning = "rounding of the cutting rack's tips (a ring's root fillet); 0 is the sharp rack; "
+                   "one that does not fit is reduced to the full round and reported"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.root_radius = number(v); },
+       [](const R& r) { return Value(r.root_radius); }},
+  };
+  return keys;
+}
+
+}  // namespace trueflank

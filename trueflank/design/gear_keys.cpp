@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/units.h"
+#include "trueflank/design/design_keys.h"
+#include "trueflank/design/file_units.h"
+
+namespace trueflank {
+namespace {
+
+using G = GearDesign;
+using Value = std::optional<KeyValue>;
+
+double number(const KeyValue& value) { return std::get<double>(value); }
+int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
+Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
+Value unless_zero(double value) { return value == 0.0 ? Value() : Value(value); }
+Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+
+void set_teeth(G& gear, const KeyValue& value) { gear.teeth = whole(value); }
+Value get_teeth(const G& gear) { return whole_value(gear.teeth); }
+
+std::vector<DesignKey<G>> toothing_keys() {
+  return {
+      {{.name = "internal", .type = KeyType::kFlag, .by_default = "false",
+        .meaning = "makes the wheel of a pair or a single gear a ring"},
+       KeyPlace::kMaybeRing,
+       [](G& g, const KeyValue& v) {
+         g.kind = std::get<bool>(v) ? GearKind::kInternal : GearKind::kExternal;
+       },
+       [](const G& g) { return g.kind == GearKind::kInternal ? Value(true) : Value(); }},
+      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 500, .required = true,
+        .meaning = "number of teeth"},
+       KeyPlace::kExternalGear, set_teeth, get_teeth},
+      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 1500, .required = true,
+        .meaning = "number of teeth, positive for a ring too; more than its mate's"},
+       KeyPlace::kRing, set_teeth, get_teeth},
+      {{.name = "shift", .unit = "module", .lower = -10, .upper = 10,
+        .by_default = "solved from the centre distance; 0 where nothing determines it",
+        .meaning = "profile shift; a ring's positive shift moves its teeth outwards"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.shift = number(v); },
+       [](const G& g) { return if_given(g.shift); }},
+      {{.name = "module_mm", .unit = "mm", .lower = 0.01, .upper = 100,
+        .by_default = "the gearbox's",
+        .meaning = "module of this gear; the same for all gears that mesh"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.module_mm = number(v); },
+       [](const G& g) { return if_given(g.module_mm); }},
+      {{.name = "face_width_mm", .unit = "mm", .lower = 0.05, .upper = 2000, .required = true,
+        .meaning = "width of the teeth along the axis"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.face_width_mm = number(v); },
+       [](const G& g) { return Value(g.face_width_mm); }},
+      {{.name = "tip_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
+        .by_default = "from shifts and centre distance",
+        .meaning = "diameter of the tip circle"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.tip_diameter_mm = number(v); },
+       [](const G& g) { return if_given(g.tip_diameter_mm); }},
+      {{.name = "thinning_um", .unit = "um", .lower = 0, .upper = 100000,
+        .by_default = "this gear's share of backlash_mm",
+        .meaning = "thins the teeth by this arc on the reference circle; at most one module"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.thinning_mm = mm_from_um(number(v)); },
+       [](const G& g) { return g.thinning_mm ? Value(file_um(*g.thinning_mm)) : Value(); }},
+  };
+}
+
+std::vector<DesignKey<G>> bore_keys() {
+  return {
+      {{.name = "bore_mm", .unit = "mm", .lower = 0.01, .upper = 50000, .by_default = "no bore",
+        .meaning = "diameter of the bore; planet1's goes through the whole compound planet"},
+       KeyPlace::kExternalGear,
+       [](G& g, const KeyValue& v) { g.bore.diameter_mm = number(v); },
+       [](const G& g) {
+         return g.bore.kind == BoreKind::kHex ? Value() : unless_zero(g.bore.diameter_mm);
+       }},
+      {{.name = "bore_keyway_width_mm", .unit = "mm", .lower = 0.01, .upper = 50000,
+        .by_default = "no keyway", .meaning = "width of a keyway in the bore"},
+       KeyPlace::kExternalGear,
+       [](G& g, const KeyValue& v) {
+         g.bore.kind = BoreKind::kKeyway;
+         g.bore.keyway_width_mm = number(v);
+       },
+       [](const G& g) { return unless_zero(g.bore.keyway_width_mm); }},
+      {{.name = "bore_keyway_depth_mm", .unit = "mm", .lower = 0.01, .upper = 50000,
+        .by_default = "no keyway",
+        .meaning = "depth of the keyway in its middle, from the bore's circle (t2 of ISO 773)"},
+       KeyPlace::kExternalGear,
+       [](G& g, const KeyValue& v) {
+         g.bore.kind = BoreKind::kKeyway;
+         g.bore.keyway_depth_mm = number(v);
+       },
+       [](const G& g) { return unless_zero(g.bore.keyway_depth_mm); }},
+      {{.name = "bore_d_flat_mm", .unit = "mm", .lower = 0.01, .upper = 50000,
+        .by_default = "no flat",
+        .meaning = "D bore: distance of the flat from the opposite side of the bore, as a caliper "
+                   "measures the shaft"},
+       KeyPlace::kExternalGear,
+       [](G& g, const KeyValue& v) {
+         g.bore.kind = BoreKind::kDFlat;
+         g.bore.d_flat_mm = number(v);
+       },
+       [](const G& g) { return unless_zero(g.bore.d_flat_mm); }},
+      {{.name = "bore_hex_mm", .unit = "mm", .lower = 0.01, .upper = 50000,
+        .by_default = "no hexagon",
+        .meaning = "hexagonal bore, width across flats; instead of bore_mm"},
+       KeyPlace::kExternalGear,
+       [](G& g, const KeyValue& v) {
+         g.bore.kind = BoreKind::kHex;
+         g.bore.diameter_mm = number(v);
+       },
+       [](const G& g) {
+         return g.bore.kind == BoreKind::kHex ? unless_zero(g.bore.diameter_mm) : Value();
+       }},
+  };
+}
+
+std::vector<DesignKey<G>> ring_keys() {
+  return {
+      {{.name = "outer_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
+        .by_default = "a sensible rim", .meaning = "outer diameter of the ring"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) { g.outer_diameter_mm = number(v); },
+       [](const G& g) { return if_given(g.outer_diameter_mm); }},
+      {{.name = "bolt_circle_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
+        .by_default = "no bolts",
+        .meaning = "diameter of the circle of through holes in the rim, the first of them on +x"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) { g.bolt_circle.circle_diameter_mm = number(v); },
+       [](const G& g) { return unless_zero(g.bolt_circle.circle_diameter_mm); }},
+      {{.name = "bolt_count", .type = KeyType::kWhole, .lower = 1, .upper = 360,
+        .by_default = "no bolts", .meaning = "number of those holes"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) { g.bolt_circle.count = whole(v); },
+       [](const G& g) {
+         return g.bolt_circle.count == 0 ? Value() : whole_value(g.bolt_circle.count);
+       }},
+      {{.name = "bolt_hole_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 10000,
+        .by_default = "no bolts", .meaning = "diameter of those holes"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) { g.bolt_circle.hole_diameter_mm = number(v); },
+       [](const G& g) { return unless_zero(g.bolt_circle.hole_diameter_mm); }},
+      {{.name = "root", .type = KeyType::kChoice, .choices = {"fillet", "shaper"},
+        .by_default = "\"fillet\"",
+        .meaning = "fillet: the involute to the root circle, filleted with root_radius, full round "
+                   "where that does not fit; shaper: what the cutter below cuts"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) {
+         g.root = std::get<std::string>(v) == "shaper" ? RingRoot::kShaper : RingRoot::kFillet;
+       },
+       [](const G& g) {
+         return g.root == RingRoot::kShaper ? Value(std::string("shaper")) : Value();
+       }},
+  };
+}
+
+}  // namespace
+
+const std::vector<DesignKey<GearDesign>>& gear_keys() {
+  static const std::vector<DesignKey<G>> keys = [] {
+    std::vector<DesignKey<G>> all = toothing_keys();
+    for (const auto& group : {bore_keys(), ring_keys()})
+      all.insert(all.end(), group.begin(), group.end());
+    return all;
+  }();
+  return keys;
+}
+
+const std::vector<DesignKey<ShaperCutter>>& cutter_keys() {
+  using C = ShaperCutter;
+  static const std::vector<DesignKey<C>> keys{
+      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 500, .required = true,
+        .meaning = "number of teeth of the cutter; fewer than the ring's"},
+       KeyPlace::kAnywhere,
+       [](C& c, const KeyValue& v) { c.teeth = whole(v); },
+       [](const C& c) { return whole_value(c.teeth); }},
+      {{.name = "shift", .unit = "module", .lower = -10, .upper = 10, .by_default = "0",
+        .meaning = "profile shift of the cutter"},
+       KeyPlace::kAnywhere,
+       [](C& c, const KeyValue& v) { c.shift = number(v); },
+       [](const C& c) { return Value(c.shift); }},
+      {{.name = "tip_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0",
+        .meaning = "rounding of the corners of the cutter's teeth"},
+       KeyPlace::kAnywhere,
+       [](C& c, const KeyValue& v) { c.tip_radius = number(v); },
+       [](const C& c) { return Value(c.tip_radius); }},
+  };
+  return keys;
+}
+
+const std::vector<DesignKey<ModificationsDesign>>& modification_keys() {
+  using M = ModificationsDesign;
+  static const std::vector<DesignKey<M>> keys{
+      {{.name = "tip_relief_um", .unit = "um", .lower = 0, .upper = 10000, .by_default = "0",
+        .meaning = "tip relief at the tip, normal to the flank"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.tip_relief_um = number(v); },
+       [](const M& m) { return unless_zero(m.tip_relief_um); }},
+      {{.name = "tip_relief_start_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
+        .by_default = "needed with tip_relief_um",
+        .meaning = "diameter at which the tip relief starts"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.tip_relief_start_diameter_mm = number(v); },
+       [](const M& m) { return unless_zero(m.tip_relief_start_diameter_mm); }},
+      {{.name = "crowning_um", .unit = "um", .lower = 0, .upper = 10000, .by_default = "0",
+        .meaning = "lead crowning: what is removed at both ends of the face"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.crowning_um = number(v); },
+       [](const M& m) { return unless_zero(m.crowning_um); }},
+      {{.name = "edge_chamfer_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0",
+        .meaning = "chamfer of the edges at both faces; less than half the face width"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.edge_chamfer_mm = number(v); },
+       [](const M& m) { return unless_zero(m.edge_chamfer_mm); }},
+  };
+  return keys;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/reading.h"
+
+#include <algorithm>
+
+namespace trueflank {
+
+bool Reading::good(const std::string& key) const {
+  const auto it = found_.find(key);
+  return it != found_.end() && it->second.good;
+}
+
+int Reading::line(std::string key) const {
+  for (;;) {
+    const auto it = found_.find(key);
+    if (it != found_.end()) return it->second.line;
+    const auto dot = key.rfind('.');
+    if (dot == std::string::npos) return 1;
+    key.resize(dot);
+  }
+}
+
+void Reading::report(Error error) {
+  if (error.line == 0) error.line = line(error.key);
+  if (const auto it = found_.find(error.key); it != found_.end()) {
+    it->second.good = false;
+    if (error.value.empty()) error.value = it->second.value;
+  }
+  errors_.push_back(std::move(error));
+}
+
+void Reading::contradiction(const std::string& key, std::string message, std::string remedy) {
+  report({.code = ErrorCode::kInconsistent,
+          .message = std::move(message),
+          .key = key,
+          .remedy = std::move(remedy)});
+}
+
+void Reading::missing(const std::string& key, std::string message, std::string remedy) {
+  report({.code = ErrorCode::kMissingKey,
+          .message = std::move(message),
+          .key = key,
+          .remedy = std::move(remedy)});
+}
+
+void Reading::unknown(const std::string& key, std::string message, std::string remedy) {
+  report({.code = ErrorCode::kUnknownKey,
+          .message = std::move(message),
+          .key = key,
+          .remedy = std::move(remedy)});
+}
+
+Errors Reading::errors(const std::string& file) const {
+  Errors sorted = errors_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Error& a, const Error& b) { return a.line < b.line; });
+  for (Error& error : sorted) error.file = file;
+  return sorted;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "trueflank/design/key_rule.h"
+
+namespace trueflank {
+
+/// What has been read of a file so far: which keys it has, and every error.
+class Reading {
+ public:
+  struct Found {
+    int line = 0;
+    std::string value;  ///< as the file writes it
+    bool good = true;   ///< obeys its own rule
+  };
+
+  void add(const std::string& key, Found found) { found_[key] = std::move(found); }
+  [[nodiscard]] bool has(const std::string& key) const { return found_.contains(key); }
+  /// There, and of itself right: fit to be compared with other values.
+  [[nodiscard]] bool good(const std::string& key) const;
+  /// Line of a key, else of the nearest table around it, else 1.
+  [[nodiscard]] int line(std::string key) const;
+  [[nodiscard]] const std::map<std::string, Found>& found() const { return found_; }
+
+  /// Adds an error; line and value are looked up by its key where it has none.
+  void report(Error error);
+  /// An error about the key's value and others.
+  void contradiction(const std::string& key, std::string message, std::string remedy);
+  void missing(const std::string& key, std::string message, std::string remedy);
+  void unknown(const std::string& key, std::string message, std::string remedy);
+
+  /// All errors in the order of their lines; the file's name in each.
+  [[nodiscard]] Errors errors(const std::string& file) const;
+  [[nodiscard]] bool clean() const { return errors_.empty(); }
+
+ private:
+  std::map<std::string, Found> found_;
+  Errors errors_;
+};
+
+}  // namespace trueflank
