@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "trueflank/check/finding.h"
+#include "trueflank/train/gear_train.h"
+
+// Designs the tests of the checks start from.
+namespace trueflank::test {
+
+/// The paper's prototype, 12/39/90/32/81.
+inline GearboxDesign paper_design(double backlash_mm = 0.05) {
+  GearboxDesign d{.name = "bilateral-drive-96",
+                  .kind = TrainKind::k3k,
+                  .output = OutputMember::kRing2,
+                  .planets = 3,
+                  .centre_distance_mm = 25.6826,
+                  .backlash_mm = backlash_mm};
+  d.gears = {{.name = "sun", .teeth = 12},
+             {.name = "planet1", .teeth = 39},
+             {.name = "ring1", .kind = GearKind::kInternal, .teeth = 90, .shift = 0.5225},
+             {.name = "planet2", .teeth = 32},
+             {.name = "ring2", .kind = GearKind::kInternal, .teeth = 81, .shift = 1.9967}};
+  return d;
+}
+
+inline GearboxDesign simple_design(int sun, int planet, int ring, int planets) {
+  GearboxDesign d{.name = "simple",
+                  .kind = TrainKind::kSimple,
+                  .output = OutputMember::kCarrier,
+                  .planets = planets};
+  d.gears = {{.name = "sun", .teeth = sun},
+             {.name = "planet", .teeth = planet},
+             {.name = "ring", .kind = GearKind::kInternal, .teeth = ring}};
+  return d;
+}
+
+inline GearboxDesign pair_design(int pinion, int wheel, bool internal, double backlash_mm = 0.0) {
+  GearboxDesign d{.name = "pair",
+                  .kind = TrainKind::kPair,
+                  .output = OutputMember::kWheel,
+                  .backlash_mm = backlash_mm};
+  d.gears = {{.name = "pinion", .teeth = pinion},
+             {.name = "wheel",
+              .kind = internal ? GearKind::kInternal : GearKind::kExternal,
+              .teeth = wheel}};
+  return d;
+}
+
+inline GearDesign& gear(GearboxDesign& design, const std::string& name) {
+  for (GearDesign& g : design.gears)
+    if (g.name == name) return g;
+  throw std::logic_error("no gear " + name);
+}
+
+/// Throws with the first error where the design cannot be laid out.
+inline GearTrain laid_out(const GearboxDesign& design) {
+  auto train = lay_out(design);
+  if (!train) throw std::runtime_error(train.error().front().message);
+  return std::move(*train);
+}
+
+/// The one finding of an id at a place; throws where there is none.
+inline Finding only(const Findings& findings, const std::string& id, const std::string& where = "") {
+  for (const Finding& f : findings)
+    if (f.id == id && (where.empty() || f.where == where)) return f;
+  throw std::logic_error("no finding " + id + " at " + where);
+}
+
+}  // namespace trueflank::test

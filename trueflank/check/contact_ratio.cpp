@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/contact_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/quantity_text.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kWantedContactRatio = 1.1;
+
+/// Overlap ratio of helical teeth: common face width over axial pitch.
+double overlap_ratio(const GearTrain& train, const TrainMesh& mesh) {
+  const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
+  const TrainGear& gear2 = train.gears[static_cast<std::size_t>(mesh.gear2)];
+  const double face = std::min(gear1.z_lower_mm + gear1.face_width_mm,
+                               gear2.z_lower_mm + gear2.face_width_mm) -
+                      std::max(gear1.z_lower_mm, gear2.z_lower_mm);
+  const Gear& gear = gear1.profile.gear();
+  return std::max(face, 0.0) * std::sin(std::abs(gear.helix_angle_rad)) /
+         (kPi * gear.normal_module_mm);
+}
+
+Finding judge(const GearTrain& train, const TrainMesh& mesh) {
+  const GearPair pair = train.pair(mesh);
+  const ContactRatios ratios = contact_ratios(pair);
+  const double overlap = overlap_ratio(train, mesh);
+  const double transverse = std::min(ratios.total, ratios.effective);
+  const double value = std::max(transverse, 0.0) + overlap;
+  const double limit = value < 1.0 ? 1.0 : kWantedContactRatio;
+  Finding finding{.id = "contact_ratio",
+                  .where = mesh.name,
+                  .value = value,
+                  .limit = limit,
+                  .margin = value - limit};
+  finding.message = "transverse " + number_text(ratios.total, 3) + " from the tip circles, " +
+                    number_text(ratios.effective, 3) + " effective";
+  if (overlap > 0.0) finding.message += ", and " + number_text(overlap, 3) + " by the helix";
+  if (value >= kWantedContactRatio) return finding;
+  finding.status = value < 1.0 ? CheckStatus::kFail : CheckStatus::kWarn;
+  // both tips lie on the line of action: a length more there is so much more contact
+  const double lacking = (limit - value) * line_of_action(pair).base_pitch_mm;
+  if (ratios.total - ratios.effective > limit - value) {
+    const LineOfAction line = line_of_action(pair);
+    const bool at1 = line.effective_start_mm - line.start_mm > line.end_mm - line.effective_end_mm;
+    finding.cure = "the root of " + (at1 ? gear1_name(train, mesh) : gear2_name(train, mesh)) +
+                   " takes " + number_text(ratios.total - ratios.effective, 3) +
+                   " away: a larger profile shift there, or a smaller root rounding";
+    return finding;
+  }
+  const double roll = pair.profile1->tip_form_roll_length_mm() + lacking;
+  finding.cure = "a tip diameter of " + gear1_name(train, mesh) + " of " +
+                 mm_text(2.0 * std::hypot(base_radius_mm(pair.gear1()), roll)) + " gives " +
+                 number_text(limit) + ", or a smaller working pressure angle (shifts, centre distance)";
+  return finding;
+}
+
+}  // namespace
+
+Findings check_contact_ratio(const GearTrain& train) {
+  return for_each_mesh(train, "contact_ratio", judge);
+}
+
+}  // namespace trueflank
