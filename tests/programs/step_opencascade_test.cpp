@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// OpenCASCADE reads what our STEP writer wrote and says whether it is a solid, which one, and how
+// far its flanks are from the involute.
+#include <gtest/gtest.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_Shell.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Shape.hxx>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "tests/support/sample_gears.h"
+#include "tests/support/sample_parts.h"
+#include "trueflank/export/step_writer.h"
+#include "trueflank/geometry/involute.h"
+
+namespace trueflank {
+namespace {
+
+class Silence : public ::testing::Environment {
+ public:
+  void SetUp() override { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
+};
+const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new Silence);
+
+TopoDS_Shape read_back(const PartShape& part) {
+  auto solid = brep_of(part);
+  EXPECT_TRUE(solid) << part.name << ": " << solid.error().message;
+  if (!solid) return {};
+  EXPECT_TRUE(is_closed(*solid)) << part.name;
+  std::istringstream text(io::step_text({.name = part.name, .solid = std::move(*solid)}));
+  STEPControl_Reader reader;
+  EXPECT_EQ(reader.ReadStream(part.name.c_str(), text), IFSelect_RetDone) << part.name;
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map.Extent();
+}
+
+std::map<GeomAbs_SurfaceType, int> surface_types(const TopoDS_Shape& shape) {
+  std::map<GeomAbs_SurfaceType, int> types;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    ++types[BRepAdaptor_Surface(TopoDS::Face(it.Current())).GetType()];
+  return types;
+}
+
+/// One closed valid solid, oriented outwards, of the volume that the exact curves give.
+void expect_exact_solid(const PartShape& part, const TopoDS_Shape& shape) {
+  ASSERT_FALSE(shape.IsNull()) << part.name;
+  EXPECT_EQ(shape.ShapeType(), TopAbs_SOLID) << part.name;
+  EXPECT_EQ(count(shape, TopAbs_SOLID), 1) << part.name;
+  EXPECT_EQ(count(shape, TopAbs_SHELL), 1) << part.name;
+  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid()) << part.name;
+  ShapeAnalysis_Shell shell;
+  shell.LoadShells(shape);
+  EXPECT_FALSE(shell.CheckOrientedShells(shape, true, true)) << part.name << ": bad or free edges";
+  EXPECT_FALSE(shell.HasFreeEdges()) << part.name;
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  const double exact = test::exact_volume_mm3(part);
+  EXPECT_NEAR(properties.Mass(), exact, 1e-6 * exact) << part.name;
+}
+
+/// Largest distance of points of the shape's faces from the involutes of an untwisted gear.
+double largest_flank_error_mm(const TopoDS_Shape& shape, const ToothProfile& profile) {
+  const Gear& gear = profile.gear();
+  const double r_b = base_radius_mm(gear), psi = base_half_angle_rad(gear);
+  const int sense = gear.kind == GearKind::kExternal ? -1 : 1;
+  double worst = 0.0;
+  int flanks = 0;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
+    const BRepAdaptor_Surface surface(TopoDS::Face(it.Current()));
+    if (surface.GetType() != GeomAbs_SurfaceOfExtrusion) continue;
+    const double u0 = surface.FirstUParameter(), u1 = surface.LastUParameter();
+    const double v0 = surface.FirstVParameter(), v1 = surface.LastVParameter();
+    const auto point = [&](double u, double v) {
+      const gp_Pnt p = surface.Value(u0 + u * (u1 - u0), v0 + v * (v1 - v0));
+      return Point2(p.X(), p.Y());
+    };
+    const double middle = point(0.5, 0.5).norm();
+    const double lower = std::min(profile.tip_form_radius_mm(), profile.root_form_radius_mm());
+    const double upper = std::max(profile.tip_form_radius_mm(), profile.root_form_radius_mm());
+    if (!(middle > lower && middle < upper)) continue;
+    ++flanks;
+    for (int i = 0; i <= 40; ++i)
+      for (const double v : {0.0, 0.37, 1.0}) {
+        const Point2 p = point(i / 40.0, v);
+        const double inv = involute_function(pressure_angle_at_radius_rad(p.norm(), r_b));
+        const double angle = centred_rad(polar_angle_rad(p), kTwoPi / gear.teeth);
+        worst = std::max(worst, std::abs(std::abs(angle) - (psi + sense * inv)) * r_b);
+      }
+  }
+  EXPECT_EQ(flanks, 2 * gear.teeth);
+  return worst;
+}
+
+TEST(StepRead, EverySampleGearIsOneExactSolidWithExactFlanks) {
+  for (const auto& [name, gear] : test::sample_gears()) {
+    const auto profile = ToothProfile::make(gear);
+    ASSERT_TRUE(profile) << name;
+    const PartShape part = gear.kind == GearKind::kExternal ? test::gear_part(name, *profile, 7.5)
+                                                            : test::ring_part(name, *profile, 7.5);
+    const TopoDS_Shape shape = read_back(part);
+    expect_exact_solid(part, shape);
+    // the contract is 1e-5 mm
+    EXPECT_LE(largest_flank_error_mm(shape, *profile), 2e-8) << name;
+  }
+}
+
+TEST(StepRead, AFlankAFilletSideATipAndARootAreOneFaceEach) {
+  const auto profile = ToothProfile::make(test::external_gear(39, 0.3));
+  ASSERT_TRUE(profile);
+  const PartShape part =
+      test::gear_part("gear", *profile, 8.0, {BoreOutline{{.diameter_mm = 8.0}}});
+  auto types = surface_types(read_back(part));
+  EXPECT_EQ(types[GeomAbs_SurfaceOfExtrusion], 4 * 39);
+  EXPECT_EQ(types[GeomAbs_Cylinder], 2 * 39 + 1);
+  EXPECT_EQ(types[GeomAbs_Plane], 2);
+}
+
+TEST(StepRead, BoresOfEveryKindAreExact) {
+  const auto profile = ToothProfile::make(test::external_gear(39, 0.3));
+  ASSERT_TRUE(profile);
+  for (const BoreDesign& bore :
+       {BoreDesign{.diameter_mm = 8.0},
+        BoreDesign{.diameter_mm = 8.0, .kind = BoreKind::kKeyway, .keyway_width_mm = 2.0, .keyway_depth_mm = 1.0},
+        BoreDesign{.diameter_mm = 8.0, .kind = BoreKind::kDFlat, .d_flat_mm = 7.0},
+        BoreDesign{.diameter_mm = 8.0, .kind = BoreKind::kDFlat, .d_flat_mm = 3.0},
+        BoreDesign{.diameter_mm = 8.0, .kind = BoreKind::kHex}}) {
+    const PartShape part = test::gear_part("gear", *profile, 8.0, {BoreOutline{bore}});
+    expect_exact_solid(part, read_back(part));
+  }
+}
+
+TEST(StepRead, CompoundPlanetIsOneClosedSolidWithStepFaces) {
+  const auto lower = ToothProfile::make(test::external_gear(39, 0.3));
+  const auto upper = ToothProfile::make(test::external_gear(32, 0.4));
+  ASSERT_TRUE(lower && upper);
+  const PartShape part = test::planet_part(*lower, *upper);
+  const TopoDS_Shape shape = read_back(part);
+  expect_exact_solid(part, shape);
+  auto types = surface_types(shape);
+  EXPECT_EQ(types[GeomAbs_Plane], 5);  // two ends, two steps, the mark's floor
+  EXPECT_EQ(types[GeomAbs_Cylinder], 2 * 39 + 2 * 32 + 3);  // and neck, bore, mark
+}
+
+TEST(StepRead, RingWithBoltHolesIsExact) {
+  const auto profile = ToothProfile::make(test::ring_gear(90, 0.5225));
+  ASSERT_TRUE(profile);
+  std::vector<Outline> bolts;
+  for (int i = 0; i < 6; ++i)
+    bolts.push_back(
+        CircleOutline{(profile->root_radius_mm() + 3.0) * unit_vector(kPi * i / 3.0), 1.5});
+  const PartShape part = test::ring_part("ring1", *profile, 10.0, bolts);
+  const TopoDS_Shape shape = read_back(part);
+  expect_exact_solid(part, shape);
+  // tip, two flanks, two fillets, root a tooth; rim and bolt holes
+  EXPECT_EQ(surface_types(shape)[GeomAbs_Cylinder], 4 * 90 + 7);
+}
+
+}  // namespace
+}  // namespace trueflank

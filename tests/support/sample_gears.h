@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/geometry/tooth_profile.h"
+
+// Gears with every shape of tooth that a profile can have.
+namespace trueflank::test {
+
+struct SampleGear {
+  std::string name;
+  Gear gear;
+};
+
+inline Gear external_gear(int teeth, double shift, double module_mm = 1.0) {
+  Gear gear;
+  gear.teeth = teeth;
+  gear.shift = shift;
+  gear.normal_module_mm = module_mm;
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  return gear;
+}
+
+inline Gear ring_gear(int teeth, double shift) {
+  Gear gear;
+  gear.kind = GearKind::kInternal;
+  gear.teeth = teeth;
+  gear.shift = shift;
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  return gear;
+}
+
+inline Gear shaped_ring(int teeth, double shift, ShaperCutter cutter) {
+  Gear gear = ring_gear(teeth, shift);
+  gear.ring_root = RingRoot::kShaper;
+  gear.cutter = cutter;
+  return gear;
+}
+
+inline Gear with_root_radius(Gear gear, double root_radius) {
+  gear.rack.root_radius = root_radius;
+  return gear;
+}
+
+inline std::vector<SampleGear> sample_gears() {
+  Gear odd_angle = external_gear(24, 0.1, 2.5);
+  odd_angle.rack.pressure_angle_rad = 0.25;
+  Gear thinned = external_gear(39, 0.3);
+  thinned.thinning_mm = 0.03;
+  return {
+      {"planet of 39 teeth", external_gear(39, 0.3)},
+      {"thinned planet", thinned},
+      {"5 teeth", external_gear(5, 0.6)},
+      {"undercut pinion of 8 teeth", external_gear(8, 0.0)},
+      {"pointed teeth", external_gear(9, 1.0)},
+      {"sharp rack", with_root_radius(external_gear(20, 0.0), 0.0)},
+      {"sharp rack, undercut", with_root_radius(external_gear(8, 0.1), 0.0)},
+      {"full round root", with_root_radius(external_gear(20, 0.0), 1.0)},
+      {"odd pressure angle", odd_angle},
+      {"module 10", external_gear(30, 0.0, 10.0)},
+      {"module 0.1", external_gear(30, 0.0, 0.1)},
+      {"200 teeth", external_gear(200, 0.0)},
+      {"ring of 81 teeth", ring_gear(81, 1.9967)},
+      {"ring with full round roots", with_root_radius(ring_gear(60, 0.0), 1.0)},
+      {"ring with sharp roots", with_root_radius(ring_gear(60, 0.0), 0.0)},
+      {"ring, tip inside the base circle", ring_gear(20, 0.0)},
+      {"shaped ring", shaped_ring(90, 0.5, {25, 0.0, 0.2})},
+      {"shaped ring, sharp cutter", shaped_ring(40, 0.0, {25, 0.0, 0.0})},
+      {"shaped ring, full round cutter", shaped_ring(60, 0.0, {25, 0.0, 0.5})},
+      {"ring trimmed by its cutter", shaped_ring(36, 0.0, {30, 0.0, 0.2})},
+  };
+}
+
+}  // namespace trueflank::test

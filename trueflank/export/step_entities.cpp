@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/step_entities.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace trueflank::io {
+namespace {
+
+void append_integer(std::string& text, int value) {
+  std::array<char, 16> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  text.append(buffer.data(), result.ptr);
+}
+
+void append_hex(std::string& text, std::uint32_t value) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[(value >> shift) & 15U];
+}
+
+/// One character of UTF-8, moving on past it; what is not UTF-8 becomes U+FFFD.
+std::uint32_t next_character(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const std::uint32_t first = byte(at++);
+  if (first < 0x80U) return first;
+  const int more = first >= 0xF0U ? 3 : first >= 0xE0U ? 2 : first >= 0xC0U ? 1 : 0;
+  if (more == 0 || first >= 0xF8U) return 0xFFFDU;
+  std::uint32_t character = first & (0x3FU >> more);
+  for (int i = 0; i < more; ++i) {
+    if ((byte(at) & 0xC0U) != 0x80U) return 0xFFFDU;
+    character = (character << 6U) | (byte(at++) & 0x3FU);
+  }
+  return character;
+}
+
+}  // namespace
+
+StepId StepEntities::begin(std::string_view opening) {
+  text_ += '#';
+  append_integer(text_, ++last_);
+  text_ += '=';
+  text_ += opening;
+  return last_;
+}
+
+StepId StepEntities::add(std::string_view opening, std::string_view arguments) {
+  const StepId id = begin(opening);
+  text_ += arguments;
+  end();
+  return id;
+}
+
+StepEntities& StepEntities::put(std::string_view text) {
+  text_ += text;
+  return *this;
+}
+
+StepEntities& StepEntities::put(StepId id) {
+  text_ += '#';
+  append_integer(text_, id);
+  return *this;
+}
+
+StepEntities& StepEntities::put(const std::vector<StepId>& ids) {
+  char separator = '(';
+  for (const StepId id : ids) {
+    text_ += separator;
+    put(id);
+    separator = ',';
+  }
+  text_ += ')';
+  return *this;
+}
+
+StepEntities& StepEntities::put_integer(int number) {
+  append_integer(text_, number);
+  return *this;
+}
+
+StepEntities& StepEntities::put_integers(const std::vector<int>& numbers) {
+  char separator = '(';
+  for (const int number : numbers) {
+    text_ += separator;
+    append_integer(text_, number);
+    separator = ',';
+  }
+  text_ += ')';
+  return *this;
+}
+
+StepEntities& StepEntities::put_reals(const std::vector<double>& numbers) {
+  char separator = '(';
+  for (const double number : numbers) {
+    text_ += separator;
+    put(number);
+    separator = ',';
+  }
+  text_ += ')';
+  return *this;
+}
+
+StepEntities& StepEntities::put(double number) {
+  std::array<char, 32> buffer{};
+  const double value = number == 0.0 ? 0.0 : number;  // no negative zero
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const std::string_view digits(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
+  const std::size_t exponent = digits.find('e');
+  const std::string_view mantissa = digits.substr(0, exponent);
+  text_ += mantissa;
+  if (mantissa.find('.') == std::string_view::npos) text_ += '.';
+  if (exponent != std::string_view::npos) {
+    text_ += 'E';
+    text_ += digits.substr(exponent + 1);
+  }
+  return *this;
+}
+
+StepEntities& StepEntities::put_coordinate(double value_mm) {
+  constexpr double kPerMillimetre = 1e10;
+  const double steps = value_mm * kPerMillimetre;
+  // beyond 2^53 steps doubles are coarser than the step
+  if (std::abs(steps) > 9e15) return put(value_mm);
+  return put(std::round(steps) / kPerMillimetre);
+}
+
+StepEntities& StepEntities::put_quoted(std::string_view utf8) {
+  text_ += '\'';
+  for (std::size_t at = 0; at < utf8.size();) {
+    const std::uint32_t character = next_character(utf8, at);
+    if (character == '\'' || character == '\\') text_ += static_cast<char>(character);
+    if (character >= 0x20U && character < 0x7FU) {
+      text_ += static_cast<char>(character);
+    } else {
+      text_ += "\\X4\\";
+      append_hex(text_, character);
+      text_ += "\\X0\\";
+    }
+  }
+  text_ += '\'';
+  return *this;
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueflank/solid/brep.h"
+
+// The data section of a STEP file (ISO 10303-21) as it grows, entity by entity.
+namespace trueflank::io {
+
+/// Number of an entity: #id.
+using StepId = int;
+
+class StepEntities {
+ public:
+  /// Begins an entity; write its text with the functions below, then end().
+  StepId begin(std::string_view opening);
+  void end() { text_ += ");\n"; }
+  /// An entity that is all text.
+  StepId add(std::string_view opening, std::string_view arguments);
+
+  StepEntities& put(std::string_view text);
+  StepEntities& put(StepId id);                         ///< #id
+  StepEntities& put(const std::vector<StepId>& ids);    ///< (#1,#2)
+  StepEntities& put_integer(int number);
+  StepEntities& put_integers(const std::vector<int>& numbers);
+  StepEntities& put_reals(const std::vector<double>& numbers);
+  /// A real number: shortest that reads back the same, always with a decimal point.
+  StepEntities& put(double number);
+  /// Coordinates: to 1e-10 mm, a hundred thousandth of the 0.01 um that flanks may be off.
+  StepEntities& put_coordinate(double value_mm);
+  /// A quoted string; anything beyond printable ASCII as ISO 10303-21 spells it.
+  StepEntities& put_quoted(std::string_view utf8);
+
+  [[nodiscard]] std::string take() { return std::move(text_); }
+  void reserve(std::size_t bytes) { text_.reserve(bytes); }
+
+ private:
+  std::string text_;
+  StepId last_ = 0;
+};
+
+/// @name Geometry
+/// @{
+[[nodiscard]] StepId add_point(StepEntities& out, const Point3& point);
+[[nodiscard]] StepId add_direction(StepEntities& out, const Point3& direction);
+[[nodiscard]] StepId add_placement(StepEntities& out, const Frame3& frame);
+/// A MANIFOLD_SOLID_BREP with everything it needs.
+[[nodiscard]] StepId add_solid(StepEntities& out, const Brep& solid, std::string_view name);
+/// @}
+
+}  // namespace trueflank::io
