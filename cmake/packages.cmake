@@ -13,7 +13,7 @@ macro(_trueflank_find debian)
 endmacro()
 
 # Finds package `name` and sets `targets` to what to link and `dependency` to the find_package call
-# that a project using the installed library needs.
+# that a project using the installed library needs (empty: none).
 function(trueflank_find_package name targets dependency)
   if(name STREQUAL "Eigen")
     _trueflank_find(libeigen3-dev Eigen3 3.4 NO_MODULE)
@@ -52,6 +52,15 @@ function(trueflank_find_package name targets dependency)
     _trueflank_find(libcli11-dev CLI11)
     set(found CLI11::CLI11)
     set(call "CLI11")
+  elseif(name STREQUAL "libdeflate")
+    find_library(TRUEFLANK_LIBDEFLATE deflate)
+    find_path(TRUEFLANK_LIBDEFLATE_INCLUDE libdeflate.h)
+    if(NOT TRUEFLANK_LIBDEFLATE OR NOT TRUEFLANK_LIBDEFLATE_INCLUDE)
+      message(FATAL_ERROR "trueflank: libdeflate not found. On Debian: apt-get install "
+        "libdeflate-dev (or run scripts/install-dependencies, which installs all of them).")
+    endif()
+    set(found deflate)  # by its plain name: Debian's package has no CMake configuration
+    set(call "")
   else()
     message(FATAL_ERROR "trueflank: unknown package `${name}`; add it to cmake/packages.cmake and "
       "to scripts/packages-build.txt")

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "trueflank/export/mesh_parsers.h"
+
+namespace trueflank::io {
+namespace {
+
+using nlohmann::json;
+using Matrix = Eigen::Matrix4d;
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
+constexpr int kTriangles = 4;
+constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+
+/// What is wrong in the file, thrown within this source only: JSON is left at any depth.
+struct Broken {
+  ErrorCode code;
+  std::string message;
+};
+[[noreturn]] void broken(const std::string& message) { throw Broken{ErrorCode::kSyntax, message}; }
+[[noreturn]] void unsupported(const std::string& message) {
+  throw Broken{ErrorCode::kUnsupported, message};
+}
+
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  if (at + sizeof word > bytes.size()) broken("the GLB file is cut off");
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+std::size_t index_of(const json& owner, const char* key) {
+  return owner.at(key).get<std::size_t>();
+}
+
+/// A run of values in the binary chunk.
+struct View {
+  const char* data = nullptr;
+  std::size_t count = 0, stride = 0;
+  int component = 0;
+};
+
+class Reader {
+ public:
+  Reader(const json& document, std::string_view bin) : document_(document), bin_(bin) {}
+
+  Bodies bodies() {
+    if (document_.contains("extensionsRequired") && !document_["extensionsRequired"].empty())
+      unsupported("the GLB file needs the extension " +
+                  document_["extensionsRequired"].at(0).get<std::string>());
+    Matrix to_mm = Matrix::Zero();  // metres, y up -> millimetres, z up
+    to_mm(0, 0) = 1000.0;
+    to_mm(1, 2) = -1000.0;
+    to_mm(2, 1) = 1000.0;
+    to_mm(3, 3) = 1.0;
+    const std::size_t scene = document_.value("scene", std::size_t{0});
+    for (const json& node : document_.at("scenes").at(scene).value("nodes", json::array()))
+      add_node(node.get<std::size_t>(), to_mm, 0);
+    return std::move(bodies_);
+  }
+
+ private:
+  View view_of(std::size_t accessor_index, const char* type, std::size_t components) {
+    const json& accessor = document_.at("accessors").at(accessor_index);
+    if (accessor.contains("sparse") || !accessor.contains("bufferView"))
+      unsupported("sparse accessors in a GLB file are not read");
+    if (accessor.at("type") != type) broken("an accessor of the GLB file has the wrong type");
+    View view;
+    view.component = accessor.at("componentType").get<int>();
+    view.count = index_of(accessor, "count");
+    const std::size_t width = view.component == kUint8 ? 1 : view.component == kUint16 ? 2 : 4;
+    const json& buffer_view = document_.at("bufferViews").at(index_of(accessor, "bufferView"));
+    if (buffer_view.value("buffer", 0) != 0) unsupported("GLB files with more than one buffer");
+    view.stride = buffer_view.value("byteStride", components * width);
+    const std::size_t begin = buffer_view.value("byteOffset", std::size_t{0}) +
+                              accessor.value("byteOffset", std::size_t{0});
+    if (begin > bin_.size() || view.stride == 0 ||
+        view.count > (bin_.size() - begin) / view.stride + 1 ||
+        (view.count > 0 &&
+         begin + (view.count - 1) * view.stride + components * width > bin_.size()))
+      broken("an accessor of the GLB file reaches beyond its buffer: cut off?");
+    view.data = bin_.data() + begin;
+    return view;
+  }
+
+  static std::uint32_t index_at(const View& view, std::size_t i) {
+    const char* at = view.data + i * view.stride;
+    if (view.component == kUint8) return static_cast<unsigned char>(*at);
+    if (view.component == kUint16) {
+      std::uint16_t value;
+      std::memcpy(&value, at, sizeof value);
+      return value;
+    }
+    if (view.component != kUint32) broken("indices of an impossible type");
+    std::uint32_t value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+  }
+
+  void add_primitive(const json& primitive, TriangleMesh& mesh) {
+    if (primitive.value("mode", kTriangles) != kTriangles)
+      unsupported("only lists of triangles are read from a GLB file");
+    const View positions = view_of(index_of(primitive.at("attributes"), "POSITION"), "VEC3", 3);
+    if (positions.component != kFloat) unsupported("GLB positions that are not float");
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::size_t i = 0; i < positions.count; ++i) {
+      float p[3];
+      std::memcpy(p, positions.data + i * positions.stride, sizeof p);
+      mesh.vertices.push_back({p[0], p[1], p[2]});
+    }
+    View indices;
+    const bool indexed = primitive.contains("indices");
+    if (indexed) indices = view_of(index_of(primitive, "indices"), "SCALAR", 1);
+    const std::size_t count = indexed ? indices.count : positions.count;
+    const auto corner = [&](std::size_t i) {
+      return first + (indexed ? index_at(indices, i) : static_cast<std::uint32_t>(i));
+    };
+    for (std::size_t i = 0; i + 2 < count; i += 3)
+      mesh.triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
+  }
+
+  static Matrix local_matrix(const json& node) {
+    if (node.contains("matrix")) {
+      const auto values = node["matrix"].get<std::array<double, 16>>();
+      return Eigen::Map<const Matrix>(values.data());  // both column by column
+    }
+    using Three = std::array<double, 3>;
+    const auto move = node.value("translation", Three{0, 0, 0});
+    const auto turn = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
+    const auto scale = node.value("scale", Three{1, 1, 1});
+    Eigen::Affine3d local = Eigen::Affine3d::Identity();
+    local.translate(Eigen::Vector3d(move[0], move[1], move[2]));
+    local.rotate(Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2]).normalized());
+    local.scale(Eigen::Vector3d(scale[0], scale[1], scale[2]));
+    return local.matrix();
+  }
+
+  void add_node(std::size_t index, const Matrix& outer, int depth) {
+    if (depth > 32 || ++placed_ > 100'000) unsupported("the GLB file nests its nodes too deeply");
+    const json& node = document_.at("nodes").at(index);
+    const Matrix global = outer * local_matrix(node);
+    if (node.contains("mesh")) {
+      const json& shape = document_.at("meshes").at(index_of(node, "mesh"));
+      MeshBody body{node.value("name", shape.value("name", std::string())), {}};
+      for (const json& primitive : shape.at("primitives")) add_primitive(primitive, body.mesh);
+      for (auto& v : body.mesh.vertices) {
+        const Eigen::Vector4d p = global * Eigen::Vector4d(v[0], v[1], v[2], 1.0);
+        v = {p[0], p[1], p[2]};
+      }
+      if (global.topLeftCorner<3, 3>().determinant() < 0.0)
+        for (auto& triangle : body.mesh.triangles) std::swap(triangle[1], triangle[2]);
+      bodies_.push_back(std::move(body));
+    }
+    for (const json& child : node.value("children", json::array()))
+      add_node(child.get<std::size_t>(), global, depth + 1);
+  }
+
+  const json& document_;
+  std::string_view bin_;
+  Bodies bodies_;
+  int placed_ = 0;
+};
+
+Bodies read(std::string_view content) {
+  if (word_at(content, 4) != 2) unsupported("only version 2 of GLB is read");
+  if (word_at(content, 8) > content.size()) broken("the GLB file is cut off");
+  std::string_view text, bin;
+  for (std::size_t at = 12; at + 8 <= content.size();) {
+    const std::size_t length = word_at(content, at);
+    const std::uint32_t kind = word_at(content, at + 4);
+    if (at + 8 + length > content.size()) broken("the GLB file is cut off");
+    if (kind == kJsonChunk) text = content.substr(at + 8, length);
+    if (kind == kBinChunk && bin.empty()) bin = content.substr(at + 8, length);
+    at += 8 + length;
+  }
+  return Reader(json::parse(text), bin).bodies();
+}
+
+}  // namespace
+
+Result<Bodies> parse_glb(std::string_view content) {
+  try {
+    return read(content);
+  } catch (const Broken& what) {
+    return fail(Error{.code = what.code, .message = what.message});
+  } catch (const json::exception& what) {
+    return syntax_error(std::string("the GLB file is damaged: ") + what.what());
+  }
+}
+
+}  // namespace trueflank::io

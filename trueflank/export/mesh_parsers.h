@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/export/mesh_reader.h"
+
+// One parser per format behind mesh_reader.h, and the few things they share.
+namespace trueflank::io {
+
+using Bodies = std::vector<MeshBody>;
+[[nodiscard]] Result<Bodies> parse_binary_stl(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_text_stl(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_obj(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_ply(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_3mf(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_glb(std::string_view content);
+
+[[nodiscard]] tl::unexpected<Error> syntax_error(std::string message, int line = 0);
+
+/// A number at the front of `text`, cut off with the blanks before it. Errors: false.
+[[nodiscard]] bool take_number(std::string_view& text, double& value);
+/// The next word at the front of `text`, cut off with the blanks before it; empty at the end.
+[[nodiscard]] std::string_view take_word(std::string_view& text);
+/// The next line without its end, cut off.
+[[nodiscard]] std::string_view take_line(std::string_view& text);
+
+/// Gathers triangles whose corners are given by coordinates: equal coordinates become one vertex.
+class Welder {
+ public:
+  explicit Welder(std::size_t expected_triangles);
+  [[nodiscard]] std::uint32_t vertex(const std::array<double, 3>& point);
+  void add_triangle(const std::array<std::array<double, 3>, 3>& corners);
+  [[nodiscard]] TriangleMesh take();
+
+ private:
+  void grow();
+  TriangleMesh mesh_;
+  std::vector<std::uint32_t> table_;  // open addressing; vertex index + 1, 0: free
+};
+
+/// Checks indices and coordinates. Errors: kSyntax.
+[[nodiscard]] Status check_mesh(const TriangleMesh& mesh);
+
+}  // namespace trueflank::io

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/mesh_reader.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/export/mesh_parsers.h"
+
+namespace trueflank::io {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return text.substr(0, word.size()) == word;
+}
+
+bool is_binary_stl_by_size(std::string_view content) {
+  if (content.size() < 84) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, content.data() + 80, sizeof count);
+  return content.size() == 84 + 50 * static_cast<std::size_t>(count);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+Error with_file(Error error, const std::filesystem::path& path) {
+  if (error.file.empty()) error.file = path.string();
+  return error;
+}
+
+}  // namespace
+
+tl::unexpected<Error> syntax_error(std::string message, int line) {
+  return fail(Error{.code = ErrorCode::kSyntax, .message = std::move(message), .line = line});
+}
+
+bool take_number(std::string_view& text, double& value) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+std::string_view take_word(std::string_view& text) {
+  std::size_t begin = 0;
+  while (begin < text.size() && (is_blank(text[begin]) || text[begin] == '\n')) ++begin;
+  std::size_t end = begin;
+  while (end < text.size() && !is_blank(text[end]) && text[end] != '\n') ++end;
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return word;
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+Welder::Welder(std::size_t expected_triangles) {
+  mesh_.triangles.reserve(expected_triangles);
+  mesh_.vertices.reserve(expected_triangles / 2 + 2);
+  table_.resize(std::bit_ceil(expected_triangles + 16));
+}
+
+std::uint32_t Welder::vertex(const std::array<double, 3>& point) {
+  if (2 * mesh_.vertices.size() >= table_.size()) grow();
+  const std::size_t mask = table_.size() - 1;
+  std::uint64_t hash = 0;
+  for (const double coordinate : point)  // + 0: negative zero is zero
+    hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9E3779B97F4A7C15U;
+  hash ^= hash >> 29;
+  hash *= 0xBF58476D1CE4E5B9U;
+  for (std::size_t at = (hash ^ hash >> 32) & mask;; at = (at + 1) & mask) {
+    if (table_[at] == 0) {
+      mesh_.vertices.push_back(point);
+      return (table_[at] = static_cast<std::uint32_t>(mesh_.vertices.size())) - 1;
+    }
+    if (mesh_.vertices[table_[at] - 1] == point) return table_[at] - 1;
+  }
+}
+
+void Welder::grow() {
+  Welder larger(2 * table_.size());
+  for (const auto& point : mesh_.vertices) static_cast<void>(larger.vertex(point));
+  table_ = std::move(larger.table_);
+}
+
+void Welder::add_triangle(const std::array<std::array<double, 3>, 3>& corners) {
+  mesh_.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
+}
+
+TriangleMesh Welder::take() { return std::move(mesh_); }
+
+Status check_mesh(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.vertices.size();
+  for (const auto& t : mesh.triangles)
+    if (t[0] >= count || t[1] >= count || t[2] >= count)
+      return syntax_error("a triangle refers to a vertex that does not exist (" +
+                          std::to_string(std::max({t[0], t[1], t[2]}) + 1) + " of " +
+                          std::to_string(count) + ")");
+  for (const auto& v : mesh.vertices)
+    if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
+      return syntax_error("a coordinate is not a finite number");
+  return {};
+}
+
+Result<std::string> read_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return fail(file_error("read", path, errno));
+  struct stat status {};
+  int error_number = ::fstat(descriptor, &status) != 0 ? errno : 0;
+  std::string content;
+  // One byte more than the size: the read that finds the end needs no second round.
+  std::size_t filled = 0, room = S_ISREG(status.st_mode) ? status.st_size + 1 : 65536;
+  while (error_number == 0) {
+    content.resize(std::max(room, content.size()));
+    const ssize_t got = ::read(descriptor, content.data() + filled, content.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) error_number = errno;
+    if (got <= 0) break;
+    filled += static_cast<std::size_t>(got);
+    if (filled == content.size()) room = 2 * content.size();
+  }
+  ::close(descriptor);
+  if (error_number != 0) return fail(file_error("read", path, error_number));
+  content.resize(filled);
+  return content;
+}
+
+Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
+  if (content.empty()) return syntax_error("the file is empty");
+  Result<Bodies> bodies = [&]() -> Result<Bodies> {
+    if (begins_with(content, "PK\3\4")) return parse_3mf(content);
+    if (begins_with(content, "glTF")) return parse_glb(content);
+    if (begins_with(content, "ply") && content.size() > 3 && (content[3] == '\n' || content[3] == '\r'))
+      return parse_ply(content);
+    if (is_binary_stl_by_size(content)) return parse_binary_stl(content);
+    const std::string ending = lower_case(extension);
+    if (ending == ".obj") return parse_obj(content);
+    std::string_view rest = content;
+    if (lower_case(take_word(rest)) == "solid" && content.find("facet") != content.npos)
+      return parse_text_stl(content);
+    if (ending == ".stl") return parse_binary_stl(content);  // which says what is wrong
+    return syntax_error("this is no mesh of a format known here (STL, OBJ, PLY, 3MF, GLB)");
+  }();
+  if (!bodies) return bodies;
+  for (const MeshBody& body : *bodies)
+    if (auto status = check_mesh(body.mesh); !status) return fail(std::move(status.error()));
+  return bodies;
+}
+
+Result<std::vector<MeshBody>> read_bodies(const std::filesystem::path& path) {
+  const auto content = read_file(path);
+  if (!content) return fail(content.error());
+  auto bodies = parse_bodies(*content, path.extension().string());
+  if (!bodies) return fail(with_file(std::move(bodies.error()), path));
+  return bodies;
+}
+
+Result<TriangleMesh> read_mesh(const std::filesystem::path& path) {
+  auto bodies = read_bodies(path);
+  if (!bodies) return fail(std::move(bodies.error()));
+  TriangleMesh all;
+  for (MeshBody& body : *bodies) {
+    if (all.vertices.empty()) {
+      all = std::move(body.mesh);
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+    for (const auto& t : body.mesh.triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  if (all.triangles.empty())
+    return fail(with_file({.code = ErrorCode::kSyntax, .message = "the mesh has no triangle"}, path));
+  return all;
+}
+
+Result<std::vector<std::array<double, 3>>> read_points(const std::filesystem::path& path) {
+  auto bodies = read_bodies(path);
+  if (!bodies) return fail(std::move(bodies.error()));
+  std::vector<std::array<double, 3>> points;
+  for (const MeshBody& body : *bodies)
+    points.insert(points.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+  if (points.empty())
+    return fail(with_file({.code = ErrorCode::kSyntax, .message = "the file has no point"}, path));
+  return points;
+}
+
+}  // namespace trueflank::io

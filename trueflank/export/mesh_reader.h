@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/solid/triangle_mesh.h"
+
+// Meshes from files: our own, other programs' and scans. Told by content, not by the file's name (but
+// for OBJ, which has no mark of its own).
+namespace trueflank::io {
+
+struct MeshBody {
+  std::string name;  ///< may be empty
+  TriangleMesh mesh; ///< in the file's common frame [mm]
+};
+
+/// STL (binary, text), OBJ, PLY (text, binary of both byte orders), 3MF (components, transforms, units,
+/// several model parts), GLB (node transforms). One body a solid, object or node; polygons become
+/// fans. Equal corners of an STL are one vertex. STL, OBJ and PLY are taken for millimetres, 3MF by
+/// its unit; GLB is turned from metres, y up, to millimetres, z up.
+/// Errors: kFileNotFound, kPermission, kDisk; kSyntax (no mesh, cut off, damaged, indices that do not
+/// exist), kUnsupported; file and, for text, line are given.
+[[nodiscard]] Result<std::vector<MeshBody>> read_bodies(const std::filesystem::path& path);
+
+/// All bodies of read_bodies() in one mesh. Errors: also kSyntax where there is no triangle.
+[[nodiscard]] Result<TriangleMesh> read_mesh(const std::filesystem::path& path);
+
+/// The vertices alone: a scan may be a cloud of points. Errors: as read_bodies'; kSyntax where there is
+/// no vertex.
+[[nodiscard]] Result<std::vector<std::array<double, 3>>> read_points(
+    const std::filesystem::path& path);
+
+/// As read_bodies(), of a file's content; `extension` (".obj") decides where the content does not.
+[[nodiscard]] Result<std::vector<MeshBody>> parse_bodies(std::string_view content,
+                                                         std::string_view extension);
+
+/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder).
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace trueflank::io

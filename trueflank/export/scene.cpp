@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/scene.h"
+
+#include <cmath>
+
+namespace trueflank::io {
+
+Colour part_colour(const std::string& part_name) {
+  const auto starts = [&](const char* word) { return part_name.rfind(word, 0) == 0; };
+  if (starts("sun") || starts("pinion")) return {0xE6, 0xA8, 0x2E};
+  if (starts("planet")) return {0x4F, 0x8F, 0xC4};
+  if (starts("ring1")) return {0x5B, 0x66, 0x73};
+  if (starts("ring2")) return {0xC2, 0x5B, 0x4A};
+  if (starts("ring") || starts("wheel")) return {0x5B, 0x66, 0x73};
+  if (starts("carrier")) return {0x7F, 0xA8, 0x6B};
+  return {0x9A, 0xA5, 0xB1};
+}
+
+std::string hex_text(Colour colour) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text = "#";
+  for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) {
+    text += kDigits[channel >> 4];
+    text += kDigits[channel & 15];
+  }
+  return text;
+}
+
+Scene part_scene(std::string design_name, const std::string& part_name, const TriangleMesh& mesh) {
+  return {.name = std::move(design_name),
+          .shapes = {{part_name, &mesh, part_colour(part_name)}},
+          .bodies = {{.part = 0, .name = part_name}}};
+}
+
+PlacementTransform::PlacementTransform(const Placement& placement)
+    : cos_(std::cos(placement.rotation_rad)),
+      sin_(std::sin(placement.rotation_rad)),
+      move_(placement.translation_mm) {}
+
+TriangleMesh placed_mesh(const TriangleMesh& mesh, const Placement& placement) {
+  const PlacementTransform place(placement);
+  TriangleMesh result;
+  result.triangles = mesh.triangles;
+  result.vertices.reserve(mesh.vertices.size());
+  for (const auto& vertex : mesh.vertices) result.vertices.push_back(place(vertex));
+  return result;
+}
+
+std::uint64_t triangle_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Placement& body : scene.bodies) count += scene.shapes[body.part].mesh->triangles.size();
+  return count;
+}
+
+std::uint64_t vertex_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Placement& body : scene.bodies) count += scene.shapes[body.part].mesh->vertices.size();
+  return count;
+}
+
+}  // namespace trueflank::io

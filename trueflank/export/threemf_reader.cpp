@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// 3MF core specification 1.2 and the production extension's model parts. Materials, slices and what
+// else a file may hold are passed over.
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "trueflank/export/mesh_parsers.h"
+#include "trueflank/export/xml_scanner.h"
+#include "trueflank/export/zip_archive.h"
+
+namespace trueflank::io {
+namespace {
+
+/// Rows: images of x, y, z and the origin; a point is a row vector.
+using Transform = std::array<double, 12>;
+constexpr Transform kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+std::array<double, 3> transformed(const Transform& m, const std::array<double, 3>& p) {
+  std::array<double, 3> q{};
+  for (int c = 0; c < 3; ++c) q[c] = p[0] * m[c] + p[1] * m[3 + c] + p[2] * m[6 + c] + m[9 + c];
+  return q;
+}
+
+/// First `inner`, then `outer`.
+Transform combined(const Transform& inner, const Transform& outer) {
+  Transform result{};
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 3; ++c) {
+      double sum = r == 3 ? outer[9 + c] : 0.0;
+      for (int k = 0; k < 3; ++k) sum += inner[3 * r + k] * outer[3 * k + c];
+      result[3 * r + c] = sum;
+    }
+  return result;
+}
+
+bool mirrors(const Transform& m) {
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+             m[2] * (m[3] * m[7] - m[4] * m[6]) < 0.0;
+}
+
+struct Reference {
+  int object = 0;
+  std::string model;  ///< part of the package; empty: the same
+  Transform transform = kIdentity;
+};
+struct Object {
+  std::string name;
+  bool is_support = false;
+  TriangleMesh mesh;
+  std::vector<Reference> components;
+};
+struct Model {
+  double unit_mm = 1.0;
+  std::map<int, Object> objects;
+  std::vector<Reference> build;
+};
+
+std::optional<double> unit_mm(std::string_view unit) {
+  if (unit == "millimeter") return 1.0;
+  if (unit == "micron") return 1e-3;
+  if (unit == "centimeter") return 10.0;
+  if (unit == "inch") return 25.4;
+  if (unit == "foot") return 304.8;
+  if (unit == "meter") return 1000.0;
+  return std::nullopt;
+}
+
+bool number_attribute(const XmlScanner::Tag& tag, std::string_view name, double& value) {
+  auto text = tag.attribute(name);
+  return text && take_number(*text, value);
+}
+
+template <class Integer>
+bool integer_attribute(const XmlScanner::Tag& tag, std::string_view name, Integer& value) {
+  const auto text = tag.attribute(name);
+  return text &&
+         std::from_chars(text->data(), text->data() + text->size(), value).ec == std::errc();
+}
+
+Result<Reference> reference_of(const XmlScanner::Tag& tag) {
+  Reference reference;
+  if (!integer_attribute(tag, "objectid", reference.object))
+    return syntax_error("<" + std::string(tag.name) + "> without a valid objectid");
+  reference.model = tag.text_attribute("path");
+  if (auto text = tag.attribute("transform"))
+    for (double& value : reference.transform)
+      if (!take_number(*text, value)) return syntax_error("a transform without twelve numbers");
+  return reference;
+}
+
+/// Fills a model tag by tag.
+class ModelParser {
+ public:
+  [[nodiscard]] Status take(const XmlScanner::Tag& tag) {
+    if (tag.name == "vertex" && tag.is_start) return take_vertex(tag);
+    if (tag.name == "triangle" && tag.is_start) return take_triangle(tag);
+    if (tag.name == "object") return tag.is_start ? take_object(tag) : Status{};
+    if (tag.name == "model" && tag.is_start) {
+      seen_ = true;
+      const auto unit = unit_mm(tag.attribute("unit").value_or("millimeter"));
+      if (!unit) return syntax_error("unknown unit '" + tag.text_attribute("unit") + "'");
+      model_.unit_mm = *unit;
+    } else if ((tag.name == "component" || tag.name == "item") && tag.is_start) {
+      auto reference = reference_of(tag);
+      if (!reference) return fail(reference.error());
+      if (tag.name == "item") model_.build.push_back(std::move(*reference));
+      else if (object_) object_->components.push_back(std::move(*reference));
+    }
+    return {};
+  }
+  [[nodiscard]] bool seen() const { return seen_; }
+  [[nodiscard]] Model finish() { return std::move(model_); }
+
+ private:
+  Status take_vertex(const XmlScanner::Tag& tag) {
+    std::array<double, 3> v{};
+    if (!number_attribute(tag, "x", v[0]) || !number_attribute(tag, "y", v[1]) ||
+        !number_attribute(tag, "z", v[2]))
+      return syntax_error("a vertex without three numbers");
+    if (object_) object_->mesh.vertices.push_back(v);
+    return {};
+  }
+  Status take_triangle(const XmlScanner::Tag& tag) {
+    std::array<std::uint32_t, 3> t{};
+    if (!integer_attribute(tag, "v1", t[0]) || !integer_attribute(tag, "v2", t[1]) ||
+        !integer_attribute(tag, "v3", t[2]))
+      return syntax_error("a triangle without three vertex numbers");
+    if (object_) object_->mesh.triangles.push_back(t);
+    return {};
+  }
+  Status take_object(const XmlScanner::Tag& tag) {
+    int id = 0;
+    if (!integer_attribute(tag, "id", id)) return syntax_error("an object without a valid id");
+    const auto [at, is_new] = model_.objects.try_emplace(id);
+    if (!is_new) return syntax_error("two objects with the id " + std::to_string(id));
+    object_ = &at->second;
+    object_->name = tag.text_attribute("name");
+    const auto type = tag.attribute("type").value_or("model");
+    object_->is_support = type == "support" || type == "solidsupport";
+    return {};
+  }
+
+  Model model_;
+  Object* object_ = nullptr;
+  bool seen_ = false;
+};
+
+Result<Model> parse_model(std::string_view text) {
+  XmlScanner scanner(text);
+  XmlScanner::Tag tag;
+  ModelParser parser;
+  while (scanner.next(tag))
+    if (auto status = parser.take(tag); !status) return fail(status.error());
+  if (scanner.is_broken() || !parser.seen())
+    return syntax_error("the 3MF model is no valid XML, or cut off");
+  return parser.finish();
+}
+
+/// The models of a package, read when they are asked for.
+class Package {
+ public:
+  explicit Package(std::string_view archive) : archive_(archive) {}
+
+  [[nodiscard]] Result<std::string> root_name() const {
+    const auto names = zip_names(archive_);
+    if (!names) return fail(names.error());
+    if (const auto relationships = zip_content(archive_, "_rels/.rels")) {
+      XmlScanner scanner(*relationships);
+      for (XmlScanner::Tag tag; scanner.next(tag);)
+        if (tag.name == "Relationship" &&
+            tag.text_attribute("Type").find("/3dmodel") != std::string::npos)
+          return tag.text_attribute("Target");
+    }
+    for (const std::string& name : *names)
+      if (name.ends_with(".model")) return name;
+    return syntax_error("the archive holds no 3MF model");
+  }
+
+  [[nodiscard]] Result<const Model*> model(const std::string& name) {
+    const std::string entry = name.starts_with('/') ? name.substr(1) : name;
+    if (const auto known = models_.find(entry); known != models_.end()) return &known->second;
+    const auto text = zip_content(archive_, entry);
+    if (!text) return fail(text.error());
+    auto parsed = parse_model(*text);
+    if (!parsed) return fail(parsed.error());
+    return &models_.emplace(entry, std::move(*parsed)).first->second;
+  }
+
+ private:
+  std::string_view archive_;
+  std::map<std::string, Model> models_;
+};
+
+/// Places the objects that the build names, components and all.
+class Builder {
+ public:
+  explicit Builder(Package& package) : package_(package) {}
+
+  /// `name`: of the object above, kept where it has but this one component.
+  [[nodiscard]] Status add(const std::string& model_name, const Reference& reference,
+                           const Transform& outer, const std::string& name, int depth) {
+    // Components of components of ... may multiply without end; no honest file comes near.
+    if (depth > 32 || ++placed_ > 100'000)
+      return fail(Error{.code = ErrorCode::kUnsupported,
+                        .message = "the 3MF file nests its components too deeply"});
+    const std::string& where = reference.model.empty() ? model_name : reference.model;
+    const auto model = package_.model(where);
+    if (!model) return fail(model.error());
+    const auto found = (*model)->objects.find(reference.object);
+    if (found == (*model)->objects.end())
+      return syntax_error("object " + std::to_string(reference.object) + " does not exist");
+    const Object& object = found->second;
+    if (object.is_support) return {};
+    const Transform transform = combined(reference.transform, outer);
+    const std::string& shown = name.empty() ? object.name : name;
+    if (!object.mesh.triangles.empty()) add_mesh(object.mesh, transform, shown);
+    for (const Reference& component : object.components) {
+      const bool alone = object.components.size() == 1;
+      if (auto status = add(where, component, transform, alone ? shown : std::string(), depth + 1);
+          !status)
+        return status;
+    }
+    return {};
+  }
+  [[nodiscard]] Bodies take() { return std::move(bodies_); }
+
+ private:
+  void add_mesh(const TriangleMesh& mesh, const Transform& transform, const std::string& name) {
+    MeshBody body{name, mesh};
+    if (transform != kIdentity)
+      for (auto& vertex : body.mesh.vertices) vertex = transformed(transform, vertex);
+    if (mirrors(transform))
+      for (auto& triangle : body.mesh.triangles) std::swap(triangle[1], triangle[2]);
+    bodies_.push_back(std::move(body));
+  }
+
+  Package& package_;
+  Bodies bodies_;
+  int placed_ = 0;
+};
+
+}  // namespace
+
+Result<Bodies> parse_3mf(std::string_view content) {
+  Package package(content);
+  const auto root_name = package.root_name();
+  if (!root_name) return fail(root_name.error());
+  const auto root = package.model(*root_name);
+  if (!root) return fail(root.error());
+  const double s = (*root)->unit_mm;
+  const Transform to_mm = {s, 0, 0, 0, s, 0, 0, 0, s, 0, 0, 0};
+  Builder builder(package);
+  for (const Reference& item : (*root)->build)
+    if (auto status = builder.add(*root_name, item, to_mm, {}, 0); !status)
+      return fail(status.error());
+  Bodies bodies = builder.take();
+  if (bodies.empty()) return syntax_error("the 3MF file builds no object");
+  return bodies;
+}
+
+}  // namespace trueflank::io

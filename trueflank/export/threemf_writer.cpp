@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/threemf_writer.h"
+
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/export/number_text.h"
+#include "trueflank/export/xml_text.h"
+#include "trueflank/export/zip_archive.h"
+
+namespace trueflank::io {
+namespace {
+
+constexpr std::string_view kContentTypes =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
+    "<Default Extension=\"rels\" "
+    "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
+    "<Default Extension=\"model\" "
+    "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n";
+constexpr std::string_view kRelationships =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+    "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
+
+constexpr int kMaterialsId = 1;
+constexpr int kFirstShapeId = 2;
+
+void append_attribute(std::string& text, std::string_view name, std::int64_t value) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  append_integer(text, value);
+  text += '"';
+}
+
+void append_materials(std::string& text, const Scene& scene) {
+  text += "<basematerials";
+  append_attribute(text, "id", kMaterialsId);
+  text += ">";
+  for (const SceneShape& shape : scene.shapes)
+    text += "<base name=\"" + xml_escaped(shape.name) + "\" displaycolor=\"" +
+            hex_text(shape.colour) + "\"/>";
+  text += "</basematerials>\n";
+}
+
+void append_shape(std::string& text, const SceneShape& shape, int index) {
+  text += "<object";
+  append_attribute(text, "id", kFirstShapeId + index);
+  text += " type=\"model\" name=\"" + xml_escaped(shape.name) + "\"";
+  append_attribute(text, "pid", kMaterialsId);
+  append_attribute(text, "pindex", index);
+  text += "><mesh><vertices>\n";
+  for (const auto& v : shape.mesh->vertices) {
+    text += "<vertex x=\"";
+    append_decimal(text, v[0]);
+    text += "\" y=\"";
+    append_decimal(text, v[1]);
+    text += "\" z=\"";
+    append_decimal(text, v[2]);
+    text += "\"/>\n";
+  }
+  text += "</vertices><triangles>\n";
+  for (const auto& t : shape.mesh->triangles) {
+    text += "<triangle v1=\"";
+    append_integer(text, t[0]);
+    text += "\" v2=\"";
+    append_integer(text, t[1]);
+    text += "\" v3=\"";
+    append_integer(text, t[2]);
+    text += "\"/>\n";
+  }
+  text += "</triangles></mesh></object>\n";
+}
+
+/// Points are row vectors here: the rows are the images of x, y, z and the origin.
+void append_transform(std::string& text, const Placement& body) {
+  const PlacementTransform place(body);
+  if (place.is_identity()) return;
+  const auto& move = body.translation_mm;
+  const double matrix[12] = {place.cos(), place.sin(), 0, -place.sin(), place.cos(), 0,
+                             0,           0,           1, move[0],      move[1],     move[2]};
+  text += " transform=\"";
+  for (int i = 0; i < 12; ++i) {
+    if (i > 0) text += ' ';
+    append_shortest(text, matrix[i]);
+  }
+  text += '"';
+}
+
+/// Objects of the bodies and of the whole; returns the id of the object to build.
+int append_assembly(std::string& text, const Scene& scene) {
+  int next_id = kFirstShapeId + static_cast<int>(scene.shapes.size());
+  std::string components;
+  for (const Placement& body : scene.bodies) {
+    int id = kFirstShapeId + body.part;
+    if (body.name != scene.shapes[body.part].name) {
+      text += "<object";
+      append_attribute(text, "id", next_id);
+      text += " type=\"model\" name=\"" + xml_escaped(body.name) + "\"><components><component";
+      append_attribute(text, "objectid", id);
+      text += "/></components></object>\n";
+      id = next_id++;
+    }
+    components += "<component";
+    append_attribute(components, "objectid", id);
+    append_transform(components, body);
+    components += "/>";
+  }
+  text += "<object";
+  append_attribute(text, "id", next_id);
+  text += " type=\"model\" name=\"assembly\"><components>" + components +
+          "</components></object>\n";
+  return next_id;
+}
+
+std::string model_text(const Scene& scene) {
+  std::string text;
+  text.reserve(1000 + 60 * (vertex_count(scene) + triangle_count(scene)));
+  text +=
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
+  text += "<metadata name=\"Title\">" + xml_escaped(scene.name) + "</metadata>";
+  text += "<metadata name=\"Application\">Trueflank</metadata>\n<resources>\n";
+  append_materials(text, scene);
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    append_shape(text, scene.shapes[i], static_cast<int>(i));
+  const bool alone = scene.bodies.size() == 1;
+  const int built = alone ? kFirstShapeId + scene.bodies.front().part : append_assembly(text, scene);
+  text += "</resources>\n<build><item";
+  append_attribute(text, "objectid", built);
+  if (alone) append_transform(text, scene.bodies.front());
+  text += "/></build>\n</model>\n";
+  return text;
+}
+
+}  // namespace
+
+Status write_3mf(const std::filesystem::path& path, const Scene& scene) {
+  auto file = AtomicFile::create(path);
+  if (!file) return fail(std::move(file.error()));
+  const auto archive = zip_archive({{"[Content_Types].xml", std::string(kContentTypes)},
+                                    {"_rels/.rels", std::string(kRelationships)},
+                                    {"3D/3dmodel.model", model_text(scene)}});
+  if (!archive) return fail(archive.error());
+  file->write(*archive);
+  return file->commit();
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueflank/base/result.h"
+
+// The container of 3MF files: PKZIP with deflated or stored entries, below 4 GB.
+namespace trueflank::io {
+
+struct ZipEntry {
+  std::string name;
+  std::string content;
+};
+
+/// An archive of the entries in their order, all dated 1980-01-01: the same entries, the same bytes.
+/// Errors: kUnsupported at 4 GB.
+[[nodiscard]] Result<std::string> zip_archive(const std::vector<ZipEntry>& entries);
+
+/// Names in the archive's directory. Errors: kSyntax for what is no archive or is cut off.
+[[nodiscard]] Result<std::vector<std::string>> zip_names(std::string_view archive);
+
+/// One entry's content, its checksum verified. Errors: kSyntax, kMissingKey (no such entry),
+/// kUnsupported (encrypted, another method, ZIP64).
+[[nodiscard]] Result<std::string> zip_content(std::string_view archive, std::string_view name);
+
+}  // namespace trueflank::io
