@@ -20,7 +20,7 @@ LAYERS = {
     "solid": ["base", "geometry", "train"],
     "export": ["base", "geometry", "train", "check", "solid"],
     "design": ["base", "geometry", "train"],
-    "loop": ["base", "geometry", "train", "solid"],
+    "loop": ["base", "geometry", "train", "solid", "export"],
     "app": ["base", "geometry", "train", "check", "solid", "export", "design", "loop"],
 }
 
@@ -30,7 +30,8 @@ THIRD_PARTY = {
     "tl::expected": (r"tl/expected", ["base"], ["base"]),
     "Eigen": (r"Eigen/", [f for f in EVERY if f != "base"], [f for f in EVERY if f != "base"]),
     "CGAL": (r"CGAL/", ["check", "solid", "loop"], []),
-    "assimp": (r"assimp/", ["export", "loop"], []),
+    "assimp": (r"assimp/", [], []),  # tests only: an independent reader
+    "libdeflate": (r"libdeflate", ["export"], []),
     # linked into tests only (33 ms at every start): tests/programs
     "OpenCASCADE": (r"(Standard|TopoDS|TopExp|BRep\w*|STEP\w*|XCAF\w*|gp)(_\w+)?\.hxx|opencascade/",
                     [], []),
