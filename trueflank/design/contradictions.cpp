@@ -71,13 +71,13 @@ class Contradictions {
         list += (list.empty() ? "\"" : " or \"") + std::string(to_text(output)) + '"';
       if (std::find(fitting.begin(), fitting.end(), design_.output) == fitting.end())
         reading_.contradiction("gearbox.output", "gearbox.output does not fit " + kind,
-                               list.empty() ? "left out: a single gear has no output" : list);
+                               list.empty() ? "leave it out: a single gear has no output" : list);
     }
     if (!has_planets(design_.kind) && reading_.good("gearbox.planets") && design_.planets != 1)
-      reading_.contradiction("gearbox.planets", kind + " has no planets", "left out");
+      reading_.contradiction("gearbox.planets", kind + " has no planets", "leave it out");
     if (design_.kind == TrainKind::kGear && reading_.good("gearbox.centre_distance_mm"))
       reading_.contradiction("gearbox.centre_distance_mm", "a single gear has no centre distance",
-                             "left out, or kind \"pair\"");
+                             "leave it out, or kind \"pair\"");
   }
 
   void check_gearbox() {
@@ -105,8 +105,9 @@ class Contradictions {
     gear_ = gear2;
     const auto module1 = module_mm(*gear1), module2 = module_mm(*gear2);
     if (module1 && module2 && *module1 != *module2) {
-      const std::string differ = std::string(name1) + " and " + name2 + " mesh, but their modules are " +
-                                 mm(*module1) + " and " + mm(*module2);
+      const std::string differ = std::string(name1) + " and " + name2 +
+                                 " mesh, but their modules are " + mm(*module1) + " and " +
+                                 mm(*module2);
       const GearDesign& own = gear2->module_mm ? *gear2 : *gear1;
       reading_.contradiction(own.name + ".module_mm", differ, "one module for gears that mesh");
     }
@@ -146,7 +147,8 @@ class Contradictions {
   void check_tip_and_thinning() {
     const auto module = module_mm(*gear_);
     if (good("thinning_um") && module && *gear_->thinning_mm > *module)
-      wrong("thinning_um", "is more than one module", "at most " + plain_number(*module * 1e3) + " um");
+      wrong("thinning_um", "is more than one module",
+            "at most " + plain_number(*module * 1e3) + " um");
     const auto root = root_diameter_mm();
     if (!good("tip_diameter_mm") || !root) return;
     const double tip = *gear_->tip_diameter_mm;
@@ -223,31 +225,38 @@ class Contradictions {
   }
 
   void check_planet2_bore() {
-    const GearDesign *planet1 = find_gear(design_, "planet1"), *planet2 = find_gear(design_, "planet2");
+    const GearDesign* planet1 = find_gear(design_, "planet1");
+    const GearDesign* planet2 = find_gear(design_, "planet2");
     if (!kind_known_ || !planet1 || !planet2 || planet2->bore == BoreDesign{}) return;
     if (planet2->bore == planet1->bore) return;
     gear_ = planet2;
     for (const auto& bore_key : gear_keys())
       if (std::string_view(bore_key.rule.name).starts_with("bore_") && good(bore_key.rule.name))
-        return wrong(bore_key.rule.name, "differs from planet1's bore, which goes through the planet",
+        return wrong(bore_key.rule.name,
+                     "differs from planet1's bore, which goes through the planet",
                      "the bore given in [planet1] alone");
   }
 
   void check_bolts() {
     const std::vector<std::string> names{"bolt_circle_diameter_mm", "bolt_count",
                                          "bolt_hole_diameter_mm"};
-    const auto given = std::count_if(names.begin(), names.end(), [&](const auto& n) { return has(n); });
+    const auto is_given = [&](const std::string& name) { return has(name); };
+    const auto is_good = [&](const std::string& name) { return good(name); };
+    const auto given = std::count_if(names.begin(), names.end(), is_given);
     if (given == 0) return;
     for (const std::string& name : names)
       if (!has(name))
         reading_.missing(key(name), "the bolt circle of " + gear_->name + " lacks " + name,
                          "all of " + names[0] + ", " + names[1] + ", " + names[2]);
-    if (given != 3 || !std::all_of(names.begin(), names.end(), [&](const auto& n) { return good(n); }))
-      return;
+    if (given == 3 && std::all_of(names.begin(), names.end(), is_good)) check_bolt_places();
+  }
+
+  void check_bolt_places() {
     const BoltCircleDesign& bolts = gear_->bolt_circle;
     const double spacing = bolts.circle_diameter_mm * std::sin(kPi / bolts.count);
     if (bolts.count > 1 && spacing <= bolts.hole_diameter_mm)
-      wrong("bolt_hole_diameter_mm", "makes the holes run into each other", "less than " + mm(spacing));
+      wrong("bolt_hole_diameter_mm", "makes the holes run into each other",
+            "less than " + mm(spacing));
     if (good("outer_diameter_mm") &&
         bolts.circle_diameter_mm + bolts.hole_diameter_mm >= *gear_->outer_diameter_mm)
       wrong("bolt_circle_diameter_mm", "puts the holes through the outer diameter",

@@ -37,7 +37,8 @@ std::vector<std::string> key_names(const std::vector<DesignKey<Target>>& keys) {
 /// Where else a key is known: "[gearbox]", "a gear's table", ...; empty where nowhere.
 std::string place_of(std::string_view name) {
   const auto in = [&](const auto& keys) {
-    return std::any_of(keys.begin(), keys.end(), [&](const auto& k) { return name == k.rule.name; });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const auto& key) { return name == key.rule.name; });
   };
   if (in(file_keys())) return "the top of the file";
   if (in(gearbox_keys())) return "[gearbox]";
@@ -46,15 +47,6 @@ std::string place_of(std::string_view name) {
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
   return "";
-}
-
-bool fits(KeyPlace place, const std::string& gear_name, GearKind kind) {
-  switch (place) {
-    case KeyPlace::kExternalGear: return kind == GearKind::kExternal;
-    case KeyPlace::kRing: return kind == GearKind::kInternal;
-    case KeyPlace::kMaybeRing: return may_be_ring(gear_name);
-    default: return true;
-  }
 }
 
 class DesignReader {
@@ -177,7 +169,7 @@ class DesignReader {
       else
         read_entry(name, entry, gear_keys(), gear, {"cutter", "modifications"}, kind);
     }
-    report_missing(name, gear_keys(), [&](KeyPlace place) { return fits(place, name, kind); });
+    report_missing(name, gear_keys(), [&](KeyPlace place) { return stands_in(place, name, kind); });
     return gear;
   }
 
@@ -185,7 +177,7 @@ class DesignReader {
     const std::string key = gear.name + ".cutter";
     if (gear.kind == GearKind::kExternal) {
       reading_.contradiction(key, gear.name + " is an external gear: no pinion cutter shapes it",
-                             "[" + key + "] left out");
+                             "leave out [" + key + "]");
     } else if (const auto* table = std::get_if<TomlTable>(&entry.value)) {
       gear.cutter = ShaperCutter{};
       read_keys(key, *table, cutter_keys(), *gear.cutter);
@@ -236,24 +228,26 @@ class DesignReader {
 
   template <class Target>
   static bool fits_gear(const DesignKey<Target>& key, const std::string& section, GearKind kind) {
-    if constexpr (std::is_same_v<Target, GearDesign>) return fits(key.place, section, kind);
+    if constexpr (std::is_same_v<Target, GearDesign>) return stands_in(key.place, section, kind);
     return true;
   }
 
   void report_misplaced(const std::string& dotted, const std::string& gear, KeyPlace place) {
     if (place == KeyPlace::kMaybeRing)
       reading_.contradiction(dotted, dotted + " is not " + gear + "'s to say",
-                             "left out: only the wheel of a pair or a single gear may be internal");
+                             "leave it out: only the wheel of a pair or a single gear may be internal");
     else if (place == KeyPlace::kRing)
       reading_.contradiction(dotted, dotted + " is for rings, and " + gear + " is an external gear",
-                             may_be_ring(gear) ? "left out, or internal = true" : "left out");
+                             may_be_ring(gear) ? "leave it out, or internal = true" : "leave it out");
     else
       reading_.contradiction(dotted, dotted + " is for external gears, and " + gear + " is a ring",
-                             "left out");
+                             "leave it out");
   }
 
-  void report_unknown(const std::string& dotted, const std::string& section, const std::string& name,
-                      std::vector<std::string> known, const std::vector<std::string>& also_known) {
+  void report_unknown(const std::string& dotted, const std::string& section,
+                      const std::string& name, std::vector<std::string> known,
+                      const std::vector<std::string>& also_known) {
+    if (reading_.full()) return reading_.unknown(dotted, "", "");
     known.insert(known.end(), also_known.begin(), also_known.end());
     std::string remedy;
     const std::string place = place_of(name), near = nearest_name(name, known);

@@ -41,6 +41,15 @@ bool may_be_ring(const std::string& gear_name) {
   return gear_name == "wheel" || gear_name == "gear";
 }
 
+bool stands_in(KeyPlace place, const std::string& gear_name, GearKind kind) {
+  switch (place) {
+    case KeyPlace::kExternalGear: return kind == GearKind::kExternal;
+    case KeyPlace::kRing: return kind == GearKind::kInternal;
+    case KeyPlace::kMaybeRing: return may_be_ring(gear_name);
+    default: return true;
+  }
+}
+
 bool has_planets(TrainKind kind) { return kind == TrainKind::k3k || kind == TrainKind::kSimple; }
 
 const std::vector<OutputMember>& outputs(TrainKind kind) {

@@ -50,6 +50,8 @@ inline constexpr int kDesignFormat = 1;
 [[nodiscard]] GearKind usual_kind(const std::string& gear_name);
 /// Whether `internal` is this gear's to say.
 [[nodiscard]] bool may_be_ring(const std::string& gear_name);
+/// Whether a key has its place in a gear's table.
+[[nodiscard]] bool stands_in(KeyPlace place, const std::string& gear_name, GearKind kind);
 [[nodiscard]] bool has_planets(TrainKind kind);
 /// Members that can drive out; empty where the kind has no choice.
 [[nodiscard]] const std::vector<OutputMember>& outputs(TrainKind kind);

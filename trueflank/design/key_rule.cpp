@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace trueflank {
 namespace {
 
 std::string type_name(const KeyRule& rule) {
   switch (rule.type) {
-    case KeyType::kWhole: return "a whole number";
+    case KeyType::kWhole: return rule.lower == rule.upper ? "" : "a whole number";
     case KeyType::kNumber: return "a number";
     case KeyType::kText: return "text in quotes";
     case KeyType::kFlag: return "true or false";
@@ -25,7 +26,9 @@ std::string type_name(const KeyRule& rule) {
 std::string range(const KeyRule& rule) {
   if (rule.type != KeyType::kWhole && rule.type != KeyType::kNumber) return "";
   const bool below = std::isfinite(rule.lower), above = std::isfinite(rule.upper);
-  if (below && above) return " from " + plain_number(rule.lower) + " to " + plain_number(rule.upper);
+  if (rule.lower == rule.upper) return plain_number(rule.lower);
+  if (below && above)
+    return " from " + plain_number(rule.lower) + " to " + plain_number(rule.upper);
   if (below) return " of at least " + plain_number(rule.lower);
   if (above) return " of at most " + plain_number(rule.upper);
   return "";
@@ -40,18 +43,19 @@ Error wrong(ErrorCode code, const KeyRule& rule, const std::string& key, const T
           .remedy = wanted(rule)};
 }
 
-/// Levenshtein distance, letters of either case alike.
+/// Letters to put in, leave out, change or swap with their neighbour; either case alike.
 std::size_t letters_to_change(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  std::vector<std::size_t> row(b.size() + 1);
+  const auto differ = [&](std::size_t i, std::size_t j) { return lower(a[i]) != lower(b[j]); };
+  std::vector<std::size_t> before, last, row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (lower(a[i - 1]) != lower(b[j - 1]));
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      row[j + 1] = std::min({last[j] + differ(i, j), last[j + 1] + 1, row[j] + 1});
+      if (i > 0 && j > 0 && !differ(i, j - 1) && !differ(i - 1, j))
+        row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
   }
   return row[b.size()];

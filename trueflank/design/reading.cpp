@@ -26,7 +26,10 @@ void Reading::report(Error error) {
     it->second.good = false;
     if (error.value.empty()) error.value = it->second.value;
   }
-  errors_.push_back(std::move(error));
+  if (full())
+    ++more_;
+  else
+    errors_.push_back(std::move(error));
 }
 
 void Reading::contradiction(const std::string& key, std::string message, std::string remedy) {
@@ -54,6 +57,11 @@ Errors Reading::errors(const std::string& file) const {
   Errors sorted = errors_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Error& a, const Error& b) { return a.line < b.line; });
+  if (more_ > 0)
+    sorted.push_back({.code = sorted.back().code,
+                      .message = "and " + std::to_string(more_) + " errors more",
+                      .remedy = "a design file",
+                      .line = sorted.back().line});
   for (Error& error : sorted) error.file = file;
   return sorted;
 }

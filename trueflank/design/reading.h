@@ -26,7 +26,8 @@ class Reading {
   [[nodiscard]] int line(std::string key) const;
   [[nodiscard]] const std::map<std::string, Found>& found() const { return found_; }
 
-  /// Adds an error; line and value are looked up by its key where it has none.
+  /// Adds an error; line and value are looked up by its key where it has none. Beyond kMostErrors
+  /// they are only counted.
   void report(Error error);
   /// An error about the key's value and others.
   void contradiction(const std::string& key, std::string message, std::string remedy);
@@ -36,10 +37,14 @@ class Reading {
   /// All errors in the order of their lines; the file's name in each.
   [[nodiscard]] Errors errors(const std::string& file) const;
   [[nodiscard]] bool clean() const { return errors_.empty(); }
+  [[nodiscard]] bool full() const { return errors_.size() >= kMostErrors; }
+
+  static constexpr std::size_t kMostErrors = 1000;
 
  private:
   std::map<std::string, Found> found_;
   Errors errors_;
+  std::size_t more_ = 0;
 };
 
 }  // namespace trueflank

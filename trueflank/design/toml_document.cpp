@@ -38,7 +38,47 @@ TomlTable converted(const toml::table& table) {
   return result;
 }
 
-/// What the parser says, as far as it is printable.
+std::string shortened(std::string text) {
+  constexpr std::size_t kLongest = 60;
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + "...";
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// The key of a line and what the line gives it, as well as that can be told of wrong TOML.
+struct Place {
+  std::string key;
+  std::string value;
+};
+
+Place place_at(std::string_view text, int line) {
+  Place place;
+  std::string table;
+  for (int number = 1; number <= line && !text.empty(); ++number) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const std::string_view row = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto equals = row.find('=');
+    if (row.starts_with('[')) {
+      table = trimmed(row.substr(1, row.find(']') - 1));
+      place = {table, std::string(row)};
+    } else if (equals == std::string_view::npos) {
+      place = {table, std::string(row)};
+    } else {
+      const std::string key(trimmed(row.substr(0, equals)));
+      place = {table.empty() ? key : table + "." + key, std::string(trimmed(row.substr(equals + 1)))};
+    }
+  }
+  return place;
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   for (const char c : text)
@@ -46,12 +86,16 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-std::string shortened(std::string text) {
-  constexpr std::size_t kLongest = 60;
-  if (text.size() <= kLongest) return text;
-  std::size_t end = kLongest - 3;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "...";
+Error syntax_error(std::string_view text, int line, std::string_view description) {
+  Place place = place_at(text, line);
+  const bool twice = description.find("redefine") != std::string_view::npos;
+  return {.code = ErrorCode::kSyntax,
+          .message = twice ? place.key + " is given twice" : printable(description),
+          .key = shortened(printable(place.key)),
+          .value = shortened(printable(place.value)),
+          .remedy = twice ? "one of the two"
+                          : "TOML: key = value, one a line, text in quotes, tables as [name]",
+          .line = line};
 }
 
 }  // namespace
@@ -67,27 +111,29 @@ Result<TomlTable> parse_toml(std::string_view text) {
   try {
     return converted(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    return fail({.code = ErrorCode::kSyntax,
-                 .message = shortened(printable(error.description())),
-                 .remedy = "TOML: key = value, one a line, text in quotes, tables as [name]",
-                 .line = static_cast<int>(error.source().begin.line)});
+    return fail(syntax_error(text, static_cast<int>(error.source().begin.line),
+                             error.description()));
   }
 }
 
 std::string toml_string(std::string_view text) {
+  constexpr char kHex[] = "0123456789ABCDEF";
   std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
+    // control characters from U+0080 on take two bytes; terminals obey them as well
+    const bool upper_control = byte == 0xC2 && next >= 0x80 && next < 0xA0;
+    if (byte == '"' || byte == '\\') {
       result += '\\';
-      result += c;
-    } else if (byte < 0x20 || byte == 0x7F) {
-      constexpr char kHex[] = "0123456789ABCDEF";
+      result += text[i];
+    } else if (byte < 0x20 || byte == 0x7F || upper_control) {
+      if (upper_control) byte = static_cast<unsigned char>(text[++i]);
       result += "\\u00";
       result += kHex[byte >> 4];
       result += kHex[byte & 15];
     } else {
-      result += c;
+      result += text[i];
     }
   }
   return result + '"';

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_reference.h"
+
+#include "trueflank/design/design_keys.h"
+
+namespace trueflank {
+namespace {
+
+constexpr const char* kIntroduction = R"(# The design file
+
+<!-- Made from the tables in trueflank/design/*_keys.cpp; tests/design keeps the two equal.
+     After a change there: TRUEFLANK_UPDATE=1 ctest --preset dev -R DesignReference -->
+
+A gearbox is described in one [TOML](https://toml.io) file of UTF-8 text. Lengths are in
+millimetres, small ones in micrometres, angles in degrees; every key with a unit says it in its
+name. Keys without a unit are pure numbers or multiples of the module.
+
+```toml
+format = 1
+name = "first-gear"
+
+[gearbox]
+kind = "gear"
+module_mm = 1.0
+
+[gear]
+teeth = 20
+face_width_mm = 8
+bore_mm = 5
+```
+
+`trueflank check FILE` reads it and tells **all** errors at once: file, line, key, the value found
+and what would be right. Unknown keys are errors, so a misspelt one is never passed over; the
+nearest known key is named. Nothing is repaired silently. Whole numbers are taken where numbers are
+wanted; `nan` and `inf` never are. Ranges are wide: they keep out slips (a misplaced decimal point,
+a forgotten unit), not odd gears. Whether such teeth exist and mesh is not for the reader but for
+the checks ([checks](checks.md)).
+
+Examples to start from, each with comments: `examples/*/design.toml`.
+
+## Gears of each kind
+
+| `kind` | tables of its gears | meshes |
+| --- | --- | --- |
+| `3k` | `[sun]` `[planet1]` `[ring1]` `[planet2]` `[ring2]` | `sun-planet1` `planet1-ring1` `planet2-ring2` |
+| `simple` | `[sun]` `[planet]` `[ring]` | `sun-planet` `planet-ring` |
+| `pair` | `[pinion]` `[wheel]` | `pinion-wheel` |
+| `gear` | `[gear]` | |
+
+All gears of the kind must be there, and no others. planet1 and planet2 of a 3k are one body.
+)";
+
+constexpr const char* kRules = R"(
+## What must agree
+
+- `output` fits the kind; `planets` and `centre_distance_mm` stand only where there are planets or a
+  mesh. `friction`, `backlash_mm` and `layer_gap_mm` say nothing about a single gear and are let be.
+- Gears that mesh have one module; the layers of a 3k may differ. A ring has more teeth than the
+  gear in it and than its cutter.
+- A keyway needs `bore_mm` and both its width and depth; a flat needs `bore_mm` and lies between its
+  half and whole; `bore_hex_mm` stands alone. The bore stays inside the root circle. planet1's bore
+  goes through the whole planet: `[planet2]` has none of its own, or the same.
+- The three keys of a bolt circle stand together; holes do not run into each other, into the teeth
+  or through the outer diameter.
+- `root = "shaper"` and `[<ring>.cutter]` need each other.
+- `tip_relief_um` above 0 and `tip_relief_start_diameter_mm` need each other.
+- Bore, bolt and rim keys are compared with the root circle where `shift` is given; where it is
+  solved, the checks do that.
+
+## What the text may be
+
+At most 1 MiB of UTF-8. Letters beyond ASCII may stand in strings and comments, not in bare keys.
+A key is given once. A wrong file of any sort ends the program with exit code 2, a file that is
+missing or not readable with 3.
+)";
+
+std::string type_of(const KeyRule& rule) {
+  std::string text = wanted(rule);
+  if (rule.type == KeyType::kText) text = "text";
+  return text;
+}
+
+std::string default_of(const KeyRule& rule, KeyPlace place) {
+  const std::string given = rule.by_default;
+  if (!rule.required) return given;
+  if (place == KeyPlace::kPlanetary) return "**needed** where there are planets";
+  if (place == KeyPlace::kUnlessEveryGear) return "**needed** unless every gear has its own";
+  return given.empty() ? "**needed**" : "**needed**; " + given;
+}
+
+const char* place_note(KeyPlace place) {
+  switch (place) {
+    case KeyPlace::kExternalGear: return "External gears: ";
+    case KeyPlace::kRing: return "Rings: ";
+    case KeyPlace::kMaybeRing: return "`wheel`, `gear`: ";
+    default: return "";
+  }
+}
+
+template <class Target>
+void describe(std::string& text, const std::string& title, const std::string& introduction,
+              const std::vector<DesignKey<Target>>& keys) {
+  text += "\n## " + title + "\n\n" + introduction;
+  if (!introduction.empty()) text += "\n\n";
+  text += "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const DesignKey<Target>& key : keys)
+    text += "| `" + std::string(key.rule.name) + "` | " + type_of(key.rule) + " | " +
+            default_of(key.rule, key.place) + " | " + place_note(key.place) + key.rule.meaning +
+            " |\n";
+}
+
+}  // namespace
+
+std::string design_reference() {
+  std::string text = kIntroduction;
+  describe(text, "Top of the file", "", file_keys());
+  describe(text, "`[gearbox]`", "", gearbox_keys());
+  describe(text, "`[rack]`",
+           "The basic rack that all gears share; ISO 53 profile A where nothing is said. The table "
+           "may be\nleft out.",
+           rack_keys());
+  describe(text, "A gear: `[sun]`, `[planet1]`, `[ring1]`, ...",
+           "Rings are `ring`, `ring1`, `ring2`, and a `wheel` or `gear` with `internal = true`; all "
+           "others are\nexternal gears.",
+           gear_keys());
+  describe(text, "`[<ring>.cutter]`",
+           "The pinion cutter that shapes a ring with `root = \"shaper\"`. Its tip circle is such "
+           "that the ring's\nroot circle comes out as r + m (dedendum + x).",
+           cutter_keys());
+  describe(text, "`[<gear>.modifications]`", "Of any gear; all may be left out.",
+           modification_keys());
+  return text + kRules;
+}
+
+}  // namespace trueflank
