@@ -52,11 +52,18 @@ struct Placement {
 struct PartShapes {
   std::vector<PartShape> parts;
   std::vector<Placement> assembly;  ///< one placement a body
+  std::vector<std::string> notes;   ///< what was left out for want of room, a sentence each
 };
 
 /// The parts of a train and the assembly in mesh at train.phases. Planets are one part `planet` where
-/// all bodies are alike, else `planet_1` ... `planet_N` with an index mark on the upper face.
-/// Requires: the train outlives the shapes. Errors: kInfeasible where a bore, neck or rim does not fit.
+/// all bodies are alike, else `planet_1` ... `planet_N` with an index mark on the upper face: as many
+/// blind holes as the body's number, about the direction of P1's tooth 1.
+/// A compound planet has a neck over the layer gap, a little inside both root circles; without a gap
+/// one section must lie inside the other's root circle. A ring without an outer diameter gets a rim of
+/// 2.5 modules, 2 mm at least, and room for its bolts; bolt 1 is on +x.
+/// Requires: the train outlives the shapes.
+/// Errors: all at once, keys of the design file, kInfeasible where a bore, neck, rim or bolt circle
+/// leaves no wall of a quarter of the module.
 [[nodiscard]] ResultAll<PartShapes> part_shapes(const GearTrain& train);
 
 }  // namespace trueflank
