@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/app/commands.h"
+#include "trueflank/app/design_input.h"
+#include "trueflank/app/error_text.h"
+#include "trueflank/app/terminal.h"
+#include "trueflank/check/finding.h"
+
+namespace trueflank::app {
+
+int run_check(const CheckOptions& options) {
+  const auto train = read_train(options.design);
+  if (!train) return report_errors(train.error());
+  const io::Report report = evaluate(*train);
+  // a document on standard output is alone there: scripts read it
+  const bool document_on_output = options.json == "-" || options.html == "-";
+  if (!options.json.empty())
+    if (auto ok = write_document(options.json, io::report_json(report)); !ok)
+      return report_errors({ok.error()});
+  if (!options.quiet && !document_on_output)
+    if (auto ok = print(io::report_text(report, standard_output_colour())); !ok)
+      return report_errors({ok.error()});
+  return verdict(report.findings) == CheckStatus::kFail ? 1 : 0;
+}
+
+}  // namespace trueflank::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/app/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "trueflank/app/commands.h"
+#include "trueflank/app/error_text.h"
+#include "trueflank/app/terminal.h"
+
+namespace trueflank::app {
+namespace {
+
+void add_check(CLI::App& program, CheckOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand("check", "every check of a design, as a table");
+  command->add_option("DESIGN", options.design, "design file (TOML)")->required();
+  command->add_option("--json", options.json, "write the report as JSON here (- is standard output)");
+  command->add_option("--html", options.html, "write the report as one HTML page here");
+  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->callback([&] { code = run_check(options); });
+}
+
+void add_make(CLI::App& program, MakeOptions& options, int& code) {
+  CLI::App* command =
+      program.add_subcommand("make", "checks, then parts and assembly in every format asked for");
+  command->add_option("DESIGN", options.design, "design file (TOML)")->required();
+  command->add_option("--output,-o", options.folder, "folder for the files; created if need be")
+      ->required();
+  command->add_option("--formats", options.formats,
+                      "comma-separated: stl,3mf,obj,ply,glb,step,dxf,svg,scad (default: all)")
+      ->delimiter(',');
+  command->add_option("--tolerance-um", options.tolerance_um,
+                      "largest distance of a facet from the true surface")
+      ->capture_default_str();
+  command->add_option("--part", options.part, "only this part");
+  command->add_option("--correct", options.correct,
+                      "loop.json: write geometry that cancels the effects found");
+  command->add_flag("--allow-failing", options.allow_failing,
+                    "write the parts though a check failed (the exit code is still 1)");
+  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->callback([&] { code = run_make(options); });
+}
+
+void add_compare(CLI::App& program, CompareOptions& options, int& code) {
+  CLI::App* command =
+      program.add_subcommand("compare", "are two mesh files the same shape? exit code 1: no");
+  command->add_option("GOLDEN", options.golden, "the mesh that is right")->required();
+  command->add_option("NEW", options.fresh, "the mesh to compare with it")->required();
+  command->add_option("--tolerance-um", options.tolerance_um, "largest distance that counts as same")
+      ->capture_default_str();
+  command->add_option("--json", options.json, "write the figures as JSON here (- is standard output)");
+  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->callback([&] { code = run_compare(options); });
+}
+
+}  // namespace
+
+std::string welcome_text() {
+  return "trueflank turns a gearbox design into exact gears, and learns from measured ones.\n"
+         "\n"
+         "  trueflank new mydrive --kind 3k         write a commented design file to start from\n"
+         "  trueflank check mydrive.toml            will it fit, turn and last?\n"
+         "  trueflank make mydrive.toml -o parts    STL, 3MF, STEP and more, with a report\n"
+         "  trueflank search needs.toml -o designs  find tooth numbers and profile shifts\n"
+         "  trueflank loop mydrive.toml scan.stl --gear sun -o loop\n"
+         "                                          what the made part tells about its process\n"
+         "  trueflank compare golden.stl new.stl    same shape? for continuous integration\n"
+         "\n"
+         "trueflank COMMAND --help tells more.\n";
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App program("Gear geometry: checked, made, measured and corrected.", "trueflank");
+  program.set_version_flag("--version", "trueflank " TRUEFLANK_VERSION);
+  program.require_subcommand(0, 1);
+  int code = 0;
+  CheckOptions check;
+  MakeOptions make;
+  CompareOptions compare;
+  add_check(program, check, code);
+  add_make(program, make, code);
+  add_compare(program, compare, code);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << error_text({.code = ErrorCode::kUsage,
+                             .message = error.what(),
+                             .remedy = "see trueflank --help"})
+              << "\n";
+    return 2;
+  }
+  if (program.get_subcommands().empty()) {
+    if (auto ok = print(welcome_text()); !ok) return report_errors({ok.error()});
+  }
+  return code;
+}
+
+}  // namespace trueflank::app

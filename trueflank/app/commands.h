@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// The program's commands: options in, exit code out (0 done and every check passed, 1 a check failed,
+// 2 wrong usage or input, 3 the environment failed).
+namespace trueflank::app {
+
+struct CheckOptions {
+  std::string design;
+  std::string json;  ///< file for report.json; "-": standard output; empty: none
+  std::string html;
+  bool quiet = false;
+};
+int run_check(const CheckOptions& options);
+
+struct MakeOptions {
+  std::string design;
+  std::string folder;
+  std::vector<std::string> formats;  ///< empty: all
+  double tolerance_um = 1.0;
+  std::string part;     ///< empty: all
+  std::string correct;  ///< loop.json; empty: none
+  bool allow_failing = false;
+  bool quiet = false;
+};
+int run_make(const MakeOptions& options);
+
+struct CompareOptions {
+  std::string golden, fresh;
+  double tolerance_um = 1.0;
+  std::string json;
+  bool quiet = false;
+};
+int run_compare(const CompareOptions& options);
+
+/// What a newcomer should do next: the answer to `trueflank` alone.
+[[nodiscard]] std::string welcome_text();
+
+}  // namespace trueflank::app

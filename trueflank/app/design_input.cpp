@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/app/design_input.h"
+
+#include "trueflank/check/check_gearbox.h"
+#include "trueflank/design/design_file.h"
+
+namespace trueflank::app {
+
+ResultAll<GearTrain> read_train(const std::string& path) {
+  auto file = read_design_file(path);
+  if (!file) return fail_all(file.error());
+  auto train = lay_out(file->design);
+  if (!train) return fail_all(located(train.error(), *file));
+  return train;
+}
+
+io::Report evaluate(const GearTrain& train) {
+  io::Report report;
+  report.train = &train;
+  report.findings = check_gearbox(train);
+  report.efficiency = efficiency(train);
+  return report;
+}
+
+}  // namespace trueflank::app

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/base/result.h"
+#include "trueflank/export/report.h"
+#include "trueflank/train/gear_train.h"
+
+namespace trueflank::app {
+
+/// Reads a design file and lays it out. Errors: all of the file, with file and line.
+[[nodiscard]] ResultAll<GearTrain> read_train(const std::string& path);
+
+/// Every check, sweep and efficiency of a train. The report refers to the train.
+[[nodiscard]] io::Report evaluate(const GearTrain& train);
+
+}  // namespace trueflank::app

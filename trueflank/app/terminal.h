@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "trueflank/base/result.h"
+#include "trueflank/export/report.h"
+
+namespace trueflank::app {
+
+/// Colour only where standard output is a terminal and NO_COLOR is not set.
+[[nodiscard]] io::TextColour standard_output_colour();
+
+/// Prints to standard output. Errors: kDisk (closed pipe, full device).
+[[nodiscard]] Status print(std::string_view text);
+
+/// Writes a document to a file, or to standard output for "-".
+[[nodiscard]] Status write_document(const std::string& path, std::string_view text);
+
+/// SIGINT, SIGTERM and SIGHUP remove half-written files and end the program with code 3.
+void install_interrupt_handlers();
+
+}  // namespace trueflank::app
