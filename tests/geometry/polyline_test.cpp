@@ -127,6 +127,18 @@ TEST(Polyline, UsesNoMoreChordsThanNeeded) {
   EXPECT_LE(used, least + least / 100);
 }
 
+TEST(Polyline, StraightFlankInsideTheBaseCircleIsOneChord) {
+  Gear gear{.kind = GearKind::kInternal, .teeth = 18, .shift = 0.0};
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  const auto profile = ToothProfile::make(gear);
+  ASSERT_TRUE(profile);
+  const HalfToothPolyline half = tessellate(*profile, 1e-3);
+  int radial = 0;
+  for (const auto& edge : half.edges)
+    radial += profile->pieces()[static_cast<std::size_t>(edge.piece)].kind == PieceKind::kRadial;
+  EXPECT_EQ(radial, 1);
+}
+
 TEST(Polyline, SectionIsSymmetricAndPeriodic) {
   for (const ToothProfile& profile : some_profiles()) {
     const SectionPolygon section = section_polygon(profile, 1e-3);

@@ -34,6 +34,9 @@ double reach(const Curve& curve, double from, double tolerance_mm, double& guess
     if (high != 0.0 && std::abs(high - low) < 1e-6 * std::abs(high)) break;
     step = next;
   }
+  // a tolerance below rounding: the smallest step that still moves
+  if (low == 0.0) low = 1e-9 * (curve.end - curve.begin);
+  if (std::abs(low) >= std::abs(room)) return curve.end;
   guess = low;
   return from + low;
 }
@@ -65,7 +68,7 @@ std::vector<double> spread_parameters(const Curve& curve, double tolerance_mm) {
   March best = march(curve, tolerance_mm);
   const auto count = best.parameters.size();
   double tried = tolerance_mm;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 4 && count > 2; ++i) {  // one chord has nothing to share
     const double ratio = best.fractional_count / static_cast<double>(count - 1);
     if (ratio > 0.995) break;
     tried *= ratio * ratio * 1.002;
