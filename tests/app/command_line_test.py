@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program as its users meet it: commands, exit codes, messages, files that appear or do not."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+DESIGN = SOURCE / "examples/bilateral_drive/design.toml"
+
+PAIR = """format = 1
+name = "p"
+[gearbox]
+kind = "pair"
+module_mm = 1.0
+backlash_mm = 0.05
+[pinion]
+teeth = 17
+face_width_mm = 8.0
+[wheel]
+teeth = 40
+face_width_mm = 8.0
+"""
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=60, **options)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = OUTPUT / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def design(self, text=PAIR, name="design.toml"):
+        path = self.folder / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def expect_error(self, result, code, *words):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        for word in words:
+            self.assertIn(word, result.stderr)
+        for line in result.stderr.splitlines():
+            self.assertTrue(line.startswith("trueflank: "), line)
+
+
+class CommandLine(Case):
+    def test_alone_it_tells_a_newcomer_what_to_do(self):
+        result = run()
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("trueflank new", result.stdout)
+
+    def test_help_everywhere_and_version(self):
+        for command in [[], ["check"], ["make"], ["compare"], ["search"], ["loop"], ["new"]]:
+            result = run(*command, "--help")
+            self.assertEqual(result.returncode, 0, command)
+            self.assertIn("Usage", result.stdout)
+        self.assertRegex(run("--version").stdout, r"^trueflank \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_two(self):
+        for arguments in [["frobnicate"], ["check"], ["make", DESIGN], ["check", DESIGN, "--no"],
+                          ["make", DESIGN, "-o", self.folder, "--formats", "stp"],
+                          ["make", DESIGN, "-o", self.folder, "--tolerance-um", "0"],
+                          ["make", DESIGN, "-o", self.folder, "--tolerance-um", "nan"],
+                          ["make", DESIGN, "-o", self.folder, "--part", "moon"]]:
+            result = run(*arguments)
+            self.expect_error(result, 2)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Check(Case):
+    def test_table_fits_a_terminal_and_json_holds_the_same(self):
+        result = run("check", DESIGN, "--json", self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
+        self.assertNotIn("\033", result.stdout)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["format"], "trueflank-report")
+        self.assertAlmostEqual(report["train"]["ratio"], 96.2419, places=4)
+        self.assertAlmostEqual(report["efficiency"]["forward"], 0.908, places=3)
+        self.assertIn(f"{report['train']['ratio']:.4f}", result.stdout)
+        self.assertEqual([g for g in report["gears"]],
+                         ["sun", "planet1", "ring1", "planet2", "ring2"])
+
+    def test_json_on_standard_output_is_alone_there(self):
+        result = run("check", DESIGN, "--json", "-")
+        json.loads(result.stdout)
+        self.assertEqual(run("check", DESIGN, "--json", "-").stdout, result.stdout)
+
+    def test_html_is_one_page(self):
+        result = run("check", DESIGN, "--html", self.folder / "r.html", "--quiet")
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+        page = (self.folder / "r.html").read_text()
+        self.assertIn("</html>", page)
+
+    def test_failing_design_is_one(self):
+        text = PAIR.replace("backlash_mm = 0.05", "centre_distance_mm = 28.3")
+        text = text.replace("teeth = 17", "teeth = 17\nshift = 0.0")
+        text = text.replace("teeth = 40", "teeth = 40\nshift = 0.0")
+        result = run("check", self.design(text))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("verdict: fail", result.stdout)
+
+    def test_errors_name_file_line_key_value_and_cure(self):
+        path = self.design(PAIR.replace("teeth = 17", "teeths = 17").replace(
+            "face_width_mm = 8.0\n[wheel]", "face_width_mm = -8.0\n[wheel]"))
+        result = run("check", path)
+        self.expect_error(result, 2, f"{path}:8: pinion.teeths", "-8", "pinion.face_width_mm")
+        self.assertGreaterEqual(len(result.stderr.splitlines()), 2)
+
+    def test_layout_errors_have_a_line_too(self):
+        text = PAIR.replace("backlash_mm = 0.05", "centre_distance_mm = 12.0")
+        self.expect_error(run("check", self.design(text)), 2, "design.toml:6:", "centre_distance_mm")
+
+    def test_environment_is_three(self):
+        self.expect_error(run("check", self.folder / "none.toml"), 3, "none.toml")
+        self.expect_error(run("check", DESIGN, "--json", self.folder / "no/such/r.json"), 3)
+        self.expect_error(run("check", DESIGN, "--json", "/dev/full"), 3, "/dev/full")
+        self.assertTrue(os.path.exists("/dev/full") and not os.path.isfile("/dev/full"))
+
+    def test_rubbish_is_two(self):
+        for content in [b"\x7fELF\x00\x01\x02" * 50, b"", b"\xff\xfe", "ä = 1".encode(),
+                        b"30\xef\xb9\xbf = 1", b"[" * 2000]:
+            self.expect_error(run("check", self.design(content)), 2)
+        self.expect_error(run("check", self.folder), 2)
+
+    def test_full_standard_output_is_three(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "check", str(DESIGN)], stdout=full,
+                                    stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(result.returncode, 3)
+
+
+class Make(Case):
+    def test_writes_every_part_format_and_report(self):
+        result = run("make", DESIGN, "-o", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        out = self.folder / "out"
+        for extension in ["stl", "3mf", "obj", "ply", "glb", "step", "dxf", "svg", "scad"]:
+            for part in ["sun", "planet", "ring1", "ring2"]:
+                self.assertTrue((out / f"{part}.{extension}").is_file(), f"{part}.{extension}")
+        for extension in ["3mf", "glb", "step", "scad"]:
+            self.assertTrue((out / f"assembly.{extension}").is_file(), extension)
+        report = json.loads((out / "report.json").read_text())
+        self.assertTrue((out / "report.html").is_file())
+        meshes = [f for f in report["files"]
+                  if f["format"] in ("stl", "3mf", "obj", "ply", "glb") and f["part"] != "assembly"]
+        self.assertEqual(len(meshes), 20)
+        for file in meshes:
+            self.assertLessEqual(file["accuracy_um"], 1.0, file)
+            self.assertGreater(file["accuracy_um"], 0.5, file)
+        self.assertEqual([p for p in out.iterdir() if p.name.startswith(".") or "tmp" in p.name], [])
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        for name in "ab":
+            self.assertEqual(run("make", DESIGN, "-o", self.folder / name, "-q").returncode, 0)
+        for file in (self.folder / "a").iterdir():
+            self.assertEqual(file.read_bytes(), (self.folder / "b" / file.name).read_bytes(),
+                             file.name)
+
+    def test_tolerance_is_kept(self):
+        for tolerance in ["10", "0.1"]:
+            out = self.folder / tolerance
+            self.assertEqual(run("make", DESIGN, "-o", out, "--formats", "stl",
+                                 "--tolerance-um", tolerance, "-q").returncode, 0)
+            for file in json.loads((out / "report.json").read_text())["files"]:
+                if file["accuracy_um"] is not None:
+                    self.assertLessEqual(file["accuracy_um"], float(tolerance), file)
+
+    def test_one_part_and_some_formats(self):
+        self.assertEqual(run("make", DESIGN, "-o", self.folder / "out", "--part", "sun",
+                             "--formats", "stl,step", "-q").returncode, 0)
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
+                         ["report.html", "report.json", "sun.step", "sun.stl"])
+
+    def test_failing_design_writes_the_report_and_no_part(self):
+        text = PAIR.replace("backlash_mm = 0.05", "centre_distance_mm = 28.3")
+        text = text.replace("teeth = 17", "teeth = 17\nshift = 0.0")
+        text = text.replace("teeth = 40", "teeth = 40\nshift = 0.0")
+        design = self.design(text)
+        self.assertEqual(run("make", design, "-o", self.folder / "out").returncode, 1)
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
+                         ["report.html", "report.json"])
+        self.assertEqual(run("make", design, "-o", self.folder / "out", "--formats", "stl",
+                             "--allow-failing").returncode, 1)
+        self.assertTrue((self.folder / "out" / "pinion.stl").is_file())
+
+    def test_folder_that_is_a_file_is_three(self):
+        (self.folder / "taken").write_text("mine")
+        self.expect_error(run("make", DESIGN, "-o", self.folder / "taken"), 3, "taken")
+        self.assertEqual((self.folder / "taken").read_text(), "mine")
+
+    def test_interrupted_leaves_nothing_half_written(self):
+        out = self.folder / "out"
+        process = subprocess.Popen([PROGRAM, "make", str(DESIGN), "-o", str(out),
+                                    "--tolerance-um", "0.02"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        for _ in range(400):
+            time.sleep(0.005)
+            if out.is_dir() and any(out.iterdir()):
+                break
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertIn(process.returncode, (0, 3))
+        if process.returncode == 3:
+            for file in out.iterdir():
+                self.assertRegex(file.name, r"^[a-z0-9_]+\.[a-z0-9]+$")
+                if file.suffix == ".stl":
+                    size = file.stat().st_size
+                    count = int.from_bytes(file.read_bytes()[80:84], "little")
+                    self.assertEqual(size, 84 + 50 * count)
+
+
+class Compare(Case):
+    def setUp(self):
+        super().setUp()
+        run("make", DESIGN, "-o", self.folder / "a", "--formats", "stl,obj,3mf", "--part", "sun", "-q")
+        run("make", DESIGN, "-o", self.folder / "b", "--formats", "stl", "--part", "sun", "-q",
+            "--tolerance-um", "3")
+
+    def test_same_shape_is_zero_whatever_format_and_mesh(self):
+        a = self.folder / "a"
+        self.assertEqual(run("compare", a / "sun.stl", a / "sun.stl").returncode, 0)
+        self.assertEqual(run("compare", a / "sun.stl", a / "sun.obj").returncode, 0)
+        self.assertEqual(run("compare", a / "sun.stl", a / "sun.3mf").returncode, 0)
+        self.assertEqual(run("compare", a / "sun.stl", self.folder / "b/sun.stl",
+                             "--tolerance-um", "4.2").returncode, 0)
+
+    def test_different_shape_is_one_and_tells_where(self):
+        moved = PAIR.replace("backlash_mm = 0.05", "backlash_mm = 0.07")
+        run("make", self.design(), "-o", self.folder / "c", "--formats", "stl", "-q")
+        run("make", self.design(moved), "-o", self.folder / "d", "--formats", "stl", "-q")
+        result = run("compare", self.folder / "c/pinion.stl", self.folder / "d/pinion.stl")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stdout, r"\d+\.\d+ um")
+
+    def test_what_is_no_mesh_is_two_and_what_is_not_there_three(self):
+        mesh = self.folder / "a/sun.stl"
+        self.expect_error(run("compare", mesh, DESIGN), 2)
+        self.expect_error(run("compare", mesh, self.folder / "none.stl"), 3)
+        (self.folder / "cut.stl").write_bytes(mesh.read_bytes()[:-100])
+        self.expect_error(run("compare", mesh, self.folder / "cut.stl"), 2, "cut.stl")
+
+
+class New(Case):
+    def test_what_it_writes_makes_at_once(self):
+        for kind in ["3k", "simple", "pair", "gear"]:
+            result = run("new", f"d{kind}", "--kind", kind, cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            made = run("make", self.folder / f"d{kind}.toml", "-o", self.folder / kind, "-q",
+                       "--formats", "stl")
+            self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+
+    def test_it_never_replaces_a_file(self):
+        (self.folder / "mine.toml").write_text("mine")
+        self.expect_error(run("new", "mine", cwd=self.folder), 2, "mine.toml")
+        self.assertEqual((self.folder / "mine.toml").read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
