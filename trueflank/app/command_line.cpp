@@ -41,16 +41,11 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->callback([&] { code = run_make(options); });
 }
 
-void add_compare(CLI::App& program, CompareOptions& options, int& code) {
-  CLI::App* command =
-      program.add_subcommand("compare", "are two mesh files the same shape? exit code 1: no");
-  command->add_option("GOLDEN", options.golden, "the mesh that is right")->required();
-  command->add_option("NEW", options.fresh, "the mesh to compare with it")->required();
-  command->add_option("--tolerance-um", options.tolerance_um, "largest distance that counts as same")
-      ->capture_default_str();
-  command->add_option("--json", options.json, "write the figures as JSON here (- is standard output)");
-  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
-  command->callback([&] { code = run_compare(options); });
+void add_new(CLI::App& program, NewOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
+  command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
+  command->add_option("--kind", options.kind, "3k, simple, pair or gear")->capture_default_str();
+  command->callback([&] { code = run_new(options); });
 }
 
 }  // namespace
@@ -76,10 +71,10 @@ int run_command_line(int argc, char** argv) {
   int code = 0;
   CheckOptions check;
   MakeOptions make;
-  CompareOptions compare;
+  NewOptions fresh;
   add_check(program, check, code);
   add_make(program, make, code);
-  add_compare(program, compare, code);
+  add_new(program, fresh, code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

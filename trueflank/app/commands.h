@@ -37,6 +37,12 @@ struct CompareOptions {
 };
 int run_compare(const CompareOptions& options);
 
+struct NewOptions {
+  std::string name;  ///< of the design, and of its file with .toml
+  std::string kind = "3k";
+};
+int run_new(const NewOptions& options);
+
 /// What a newcomer should do next: the answer to `trueflank` alone.
 [[nodiscard]] std::string welcome_text();
 

@@ -14,6 +14,11 @@ ResultAll<GearTrain> read_train(const std::string& path) {
   return train;
 }
 
+Errors located_in(const std::string& path, Errors errors) {
+  const auto file = read_design_file(path);
+  return file ? located(std::move(errors), *file) : std::move(errors);
+}
+
 io::Report evaluate(const GearTrain& train) {
   io::Report report;
   report.train = &train;

@@ -12,6 +12,9 @@ namespace trueflank::app {
 /// Reads a design file and lays it out. Errors: all of the file, with file and line.
 [[nodiscard]] ResultAll<GearTrain> read_train(const std::string& path);
 
+/// Errors of later stations with file and line of their keys in the design file.
+[[nodiscard]] Errors located_in(const std::string& path, Errors errors);
+
 /// Every check, sweep and efficiency of a train. The report refers to the train.
 [[nodiscard]] io::Report evaluate(const GearTrain& train);
 

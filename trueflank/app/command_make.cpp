@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "trueflank/app/commands.h"
+#include "trueflank/app/design_input.h"
+#include "trueflank/app/error_text.h"
+#include "trueflank/app/terminal.h"
+#include "trueflank/check/finding.h"
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/export/part_files.h"
+
+namespace trueflank::app {
+namespace {
+
+/// Finest and coarsest tolerance: below, doubles and file sizes end; above, teeth are no teeth.
+constexpr double kFinestTolerance_um = 0.001;
+constexpr double kCoarsestTolerance_um = 1000.0;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+Errors usage_errors(const MakeOptions& options) {
+  Errors errors;
+  const auto& known = io::format_names();
+  for (const std::string& format : options.formats)
+    if (std::find(known.begin(), known.end(), format) == known.end())
+      errors.push_back({.code = ErrorCode::kUsage,
+                        .message = "no such format",
+                        .key = "--formats",
+                        .value = format,
+                        .remedy = joined(known)});
+  if (!(options.tolerance_um >= kFinestTolerance_um &&
+        options.tolerance_um <= kCoarsestTolerance_um))
+    errors.push_back({.code = ErrorCode::kUsage,
+                      .message = "no tolerance for a part",
+                      .key = "--tolerance-um",
+                      .value = std::to_string(options.tolerance_um),
+                      .remedy = "0.001 to 1000"});
+  return errors;
+}
+
+Errors part_errors(const MakeOptions& options, const PartShapes& shapes) {
+  if (options.part.empty()) return {};
+  std::vector<std::string> names;
+  for (const PartShape& part : shapes.parts) names.push_back(part.name);
+  if (std::find(names.begin(), names.end(), options.part) != names.end()) return {};
+  return {{.code = ErrorCode::kUsage,
+           .message = "this design has no such part",
+           .key = "--part",
+           .value = options.part,
+           .remedy = joined(names)}};
+}
+
+Status write_report(const io::Report& report, const std::filesystem::path& folder) {
+  return io::write_file(folder / "report.json", io::report_json(report));
+}
+
+}  // namespace
+
+int run_make(const MakeOptions& options) {
+  if (Errors errors = usage_errors(options); !errors.empty()) return report_errors(errors);
+  const auto train = read_train(options.design);
+  if (!train) return report_errors(train.error());
+  const auto shapes = part_shapes(*train);
+  if (!shapes) return report_errors(located_in(options.design, shapes.error()));
+  if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);
+
+  io::Report report = evaluate(*train);
+  const std::filesystem::path folder(options.folder);
+  if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
+  const bool failed = verdict(report.findings) == CheckStatus::kFail;
+  if (!failed || options.allow_failing) {
+    auto files = io::write_part_files(
+        *train, *shapes, folder,
+        {.formats = options.formats.empty() ? io::format_names() : options.formats,
+         .tolerance_mm = mm_from_um(options.tolerance_um),
+         .part = options.part});
+    if (!files) return report_errors({files.error()});
+    report.tolerance_um = options.tolerance_um;
+    report.files = std::move(*files);
+  }
+  if (auto ok = write_report(report, folder); !ok) return report_errors({ok.error()});
+  if (!options.quiet) {
+    std::string text = io::report_text(report, standard_output_colour());
+    if (failed && !options.allow_failing)
+      text += "no part was written: a check failed (--allow-failing writes them all the same)\n";
+    else
+      text += "written to " + options.folder + "\n";
+    if (auto ok = print(text); !ok) return report_errors({ok.error()});
+  }
+  return failed ? 1 : 0;
+}
+
+}  // namespace trueflank::app
