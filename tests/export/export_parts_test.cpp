@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/export_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/export/sample_scene.h"
+#include "trueflank/design/design_file.h"
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/export/mesh_reader.h"
+
+namespace trueflank::io {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ScratchFolder;
+
+/// A design of examples/, laid out and meshed.
+struct Example {
+  GearTrain train;
+  PartShapes shapes;
+  std::vector<PartMesh> meshes;
+  explicit Example(const std::string& name) {
+    const std::string path = std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + name + "/design.toml";
+    train = lay_out(read_design(path).value()).value();
+    shapes = part_shapes(train).value();
+    for (const PartShape& shape : shapes.parts) meshes.push_back(part_mesh(shape));
+  }
+  [[nodiscard]] ExportModel model() const { return {&train, &shapes, &meshes}; }
+};
+
+const Example& drive() {
+  static const Example example("bilateral_drive");
+  return example;
+}
+
+TEST(ExportParts, WritesOneFileAPartAndFormatAndTheAssembly) {
+  const ScratchFolder folder;
+  const auto files =
+      export_parts(drive().model(), {.folder = folder / "new" / "folder", .formats = file_formats()});
+  ASSERT_TRUE(files) << files.error().front().message;
+  std::set<std::string> reported, found;
+  for (const ReportedFile& file : *files) {
+    reported.insert(file.path);
+    EXPECT_EQ(file.bytes, fs::file_size(folder / "new" / "folder" / file.path)) << file.path;
+    EXPECT_GT(file.bytes, 500U) << file.path;
+  }
+  for (const auto& entry : fs::directory_iterator(folder / "new" / "folder"))
+    found.insert(entry.path().filename());
+  std::set<std::string> expected;
+  for (const char* part : {"sun", "planet", "ring1", "ring2", "assembly"})
+    for (const FileFormat format : file_formats())
+      expected.insert(std::string(part) + "." + to_text(format));
+  EXPECT_EQ(reported, expected);
+  EXPECT_EQ(found, expected);
+}
+
+TEST(ExportParts, MeasuresWhatItWrote) {
+  const ScratchFolder folder;
+  const auto files = export_parts(
+      drive().model(),
+      {.folder = folder.path(),
+       .formats = {FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj, FileFormat::kPly, FileFormat::kGlb}});
+  ASSERT_TRUE(files) << files.error().front().message;
+  double parts_mm3 = 0.0;
+  for (const Placement& body : drive().shapes.assembly)
+    parts_mm3 += volume_mm3(drive().meshes[body.part].mesh);
+  for (const ReportedFile& file : *files) {
+    double expected_mm3 = parts_mm3;
+    for (std::size_t i = 0; i < drive().shapes.parts.size(); ++i)
+      if (drive().shapes.parts[i].name == file.part) expected_mm3 = volume_mm3(drive().meshes[i].mesh);
+    EXPECT_NEAR(file.volume_mm3, expected_mm3, 1e-7 * expected_mm3) << file.path;
+    EXPECT_GT(file.triangles, 1000U) << file.path;
+  }
+}
+
+TEST(ExportParts, GivesTheSameBytesInEveryRun) {
+  const ScratchFolder folder;
+  const auto first = export_parts(drive().model(), {.folder = folder / "a", .formats = file_formats()});
+  const auto second = export_parts(drive().model(), {.folder = folder / "b", .formats = file_formats()});
+  ASSERT_TRUE(first && second);
+  for (const ReportedFile& file : *first)
+    EXPECT_TRUE(read_file(folder / "a" / file.path).value() == read_file(folder / "b" / file.path).value())
+        << file.path;
+}
+
+TEST(ExportParts, WritesOnePartAlone) {
+  const ScratchFolder folder;
+  const auto files = export_parts(drive().model(), {.folder = folder.path(), .part = "ring1"});
+  ASSERT_TRUE(files);
+  EXPECT_EQ(folder.entries(), 2U);
+  EXPECT_TRUE(fs::exists(folder / "ring1.stl"));
+}
+
+TEST(ExportParts, WritesNoAssemblyOfASingleGear) {
+  const ScratchFolder folder;
+  const Example example("pinion_8_undercut");
+  const auto files = export_parts(example.model(), {.folder = folder.path()});
+  ASSERT_TRUE(files);
+  ASSERT_EQ(files->size(), 2U);
+  EXPECT_EQ(files->front().path, "gear.stl");
+}
+
+TEST(ExportParts, NamesThePartsThereAre) {
+  const ScratchFolder folder;
+  const auto files = export_parts(drive().model(), {.folder = folder / "x", .part = "ring3"});
+  ASSERT_FALSE(files);
+  EXPECT_EQ(files.error().front().code, ErrorCode::kUsage);
+  EXPECT_EQ(files.error().front().remedy, "one of sun, planet, ring1, ring2");
+  EXPECT_FALSE(fs::exists(folder / "x"));
+}
+
+TEST(ExportParts, ReportsAFolderThatCannotBe) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "file", "x"));
+  const auto files = export_parts(drive().model(), {.folder = folder / "file" / "inner"});
+  ASSERT_FALSE(files);
+  EXPECT_EQ(exit_code(files.error().front().code), 3);
+}
+
+TEST(ExportParts, LeavesNothingHalfWrittenWhereAFileCannotBe) {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "ring1.stl");  // in the way
+  const auto files = export_parts(drive().model(), {.folder = folder.path()});
+  ASSERT_FALSE(files);
+  EXPECT_NE(files.error().front().message.find("ring1.stl"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    if (entry.is_directory()) continue;
+    EXPECT_TRUE(read_mesh(entry.path())) << entry.path();
+  }
+}
+
+TEST(ExportParts, ShowsEveryFileAsProgress) {
+  const ScratchFolder folder;
+  std::set<std::string> shown;
+  const auto files = export_parts(drive().model(), {.folder = folder.path(),
+                                                    .formats = {FileFormat::kSvg},
+                                                    .on_written = [&](const std::string& name) {
+                                                      shown.insert(name);
+                                                    }});
+  ASSERT_TRUE(files);
+  EXPECT_EQ(shown.size(), files->size());
+}
+
+TEST(ParseFormats, TakesAListAndRefusesUnknownOnes) {
+  using enum FileFormat;
+  EXPECT_EQ(parse_formats("stl, 3mf,step,stl").value(), (std::vector{kStl, k3mf, kStep}));
+  for (const char* wrong : {"", "stl,", "STL", "stl;3mf", "iges"}) {
+    const auto formats = parse_formats(wrong);
+    ASSERT_FALSE(formats) << wrong;
+    EXPECT_EQ(formats.error().code, ErrorCode::kUsage);
+    EXPECT_EQ(formats.error().remedy, "any of stl,3mf,obj,ply,glb,step,dxf,svg");
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::io

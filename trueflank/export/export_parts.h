@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/export/report.h"
+#include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/part_shape.h"
+
+namespace trueflank::io {
+
+enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg };
+
+/// Every format, in the order of the enumeration.
+[[nodiscard]] const std::vector<FileFormat>& file_formats();
+/// The name that is option value and file extension: "stl", "3mf", ...
+[[nodiscard]] const char* to_text(FileFormat format);
+/// "stl,3mf" -> formats, each once. Errors: kUsage, naming the formats there are.
+[[nodiscard]] Result<std::vector<FileFormat>> parse_formats(std::string_view list);
+
+/// What is to be written; nothing is owned.
+struct ExportModel {
+  const GearTrain* train = nullptr;
+  const PartShapes* shapes = nullptr;
+  /// One a part. May be empty where no mesh format is asked for.
+  const std::vector<PartMesh>* meshes = nullptr;
+};
+
+struct ExportOptions {
+  std::filesystem::path folder;  ///< created where it is missing
+  std::vector<FileFormat> formats = {FileFormat::kStl, FileFormat::k3mf};
+  /// Largest distance of a drawing's chords from the true curve.
+  double tolerance_mm = 1e-3;
+  std::string part;  ///< this part alone, without the assembly; empty: all
+  /// Called after each file, by one thread at a time; for showing progress.
+  std::function<void(const std::string& file_name)> on_written = {};
+};
+
+/// One file per part and format, and `assembly` + extension where there is more than one body. Mesh
+/// files are read again from the disk and measured against the true surface. Works on all processors;
+/// files and report are the same whatever their number.
+/// The result is in the order parts x formats, the assembly last.
+/// Errors: kUsage (no such part), kFileNotFound, kPermission, kDisk, kInterrupted, kUnsupported (STEP of
+/// outlines that cross). Files written before an error stay; none of them is incomplete.
+[[nodiscard]] ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
+                                                                const ExportOptions& options);
+
+}  // namespace trueflank::io
