@@ -107,7 +107,7 @@ TEST(ExportParts, NamesThePartsThereAre) {
   const auto files = export_parts(drive().model(), {.folder = folder / "x", .part = "ring3"});
   ASSERT_FALSE(files);
   EXPECT_EQ(files.error().front().code, ErrorCode::kUsage);
-  EXPECT_EQ(files.error().front().remedy, "one of sun, planet, ring1, ring2");
+  EXPECT_EQ(files.error().front().remedy, "sun, planet, ring1, ring2");
   EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
@@ -145,13 +145,13 @@ TEST(ExportParts, ShowsEveryFileAsProgress) {
 
 TEST(ParseFormats, TakesAListAndRefusesUnknownOnes) {
   using enum FileFormat;
-  EXPECT_EQ(parse_formats("stl, 3mf,step,stl").value(), (std::vector{kStl, k3mf, kStep}));
-  for (const char* wrong : {"", "stl,", "STL", "stl;3mf", "iges"}) {
-    const auto formats = parse_formats(wrong);
-    ASSERT_FALSE(formats) << wrong;
-    EXPECT_EQ(formats.error().code, ErrorCode::kUsage);
-    EXPECT_EQ(formats.error().remedy, "any of stl,3mf,obj,ply,glb,step,dxf,svg");
-  }
+  EXPECT_EQ(parse_formats({"stl", "3mf", "step", "stl"}).value(), (std::vector{kStl, k3mf, kStep}));
+  EXPECT_EQ(parse_formats({}).value(), file_formats());
+  const auto formats = parse_formats({"STL", "obj", "", "iges"});
+  ASSERT_FALSE(formats);
+  EXPECT_EQ(formats.error().size(), 3U);
+  EXPECT_EQ(formats.error().front().code, ErrorCode::kUsage);
+  EXPECT_EQ(formats.error().front().remedy, "stl, 3mf, obj, ply, glb, step, dxf, svg");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/part_files.h"
+#include "trueflank/export/export_parts.h"
 
 namespace trueflank::app {
 namespace {
@@ -26,14 +26,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 Errors usage_errors(const MakeOptions& options) {
   Errors errors;
-  const auto& known = io::format_names();
-  for (const std::string& format : options.formats)
-    if (std::find(known.begin(), known.end(), format) == known.end())
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no such format",
-                        .key = "--formats",
-                        .value = format,
-                        .remedy = joined(known)});
+  if (auto formats = io::parse_formats(options.formats); !formats) errors = formats.error();
   if (!(options.tolerance_um >= kFinestTolerance_um &&
         options.tolerance_um <= kCoarsestTolerance_um))
     errors.push_back({.code = ErrorCode::kUsage,
@@ -75,12 +68,12 @@ int run_make(const MakeOptions& options) {
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
   const bool failed = verdict(report.findings) == CheckStatus::kFail;
   if (!failed || options.allow_failing) {
-    auto files = io::write_part_files(
-        *train, *shapes, folder,
-        {.formats = options.formats.empty() ? io::format_names() : options.formats,
-         .tolerance_mm = mm_from_um(options.tolerance_um),
-         .part = options.part});
-    if (!files) return report_errors({files.error()});
+    auto files = io::export_parts({.train = &*train, .shapes = &*shapes},
+                                  {.folder = folder,
+                                   .formats = io::parse_formats(options.formats).value(),
+                                   .tolerance_mm = mm_from_um(options.tolerance_um),
+                                   .part = options.part});
+    if (!files) return report_errors(files.error());
     report.tolerance_um = options.tolerance_um;
     report.files = std::move(*files);
   }

@@ -58,6 +58,8 @@ class Exporter {
       return std::any_of(jobs_.begin(), jobs_.end(), [&](const Job& j) { return j.format == format; });
     };
     if (has(FileFormat::kStep)) make_solids();
+    const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
+    if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) make_meshes();
     files_.resize(jobs_.size());
     if (errors_.empty())
       run_jobs(jobs_.size(), [&](std::size_t i) { return keep_error(run(jobs_[i], files_[i])); });
@@ -76,10 +78,10 @@ class Exporter {
       std::string names;
       for (const PartShape& part : parts) names += (names.empty() ? "" : ", ") + part.name;
       return fail(Error{.code = ErrorCode::kUsage,
-                        .message = "this design has no part '" + options_.part + "'",
+                        .message = "this design has no such part",
                         .key = "--part",
                         .value = options_.part,
-                        .remedy = "one of " + names});
+                        .remedy = names});
     }
     if (all && shapes_.assembly.size() > 1)
       for (const FileFormat format : options_.formats) jobs_.push_back({kAssembly, format});
@@ -93,11 +95,22 @@ class Exporter {
     return false;
   }
 
+  void make_meshes() {
+    own_meshes_.resize(shapes_.parts.size());
+    run_jobs(own_meshes_.size(), [&](std::size_t i) {
+      if (options_.part.empty() || shapes_.parts[i].name == options_.part)
+        own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = options_.tolerance_mm});
+      return true;
+    });
+    meshes_ = &own_meshes_;
+  }
+
   /// Solids serve the files of the parts and that of the assembly.
   void make_solids() {
     solids_.resize(shapes_.parts.size());
     run_jobs(solids_.size(), [&](std::size_t i) {
       const PartShape& shape = shapes_.parts[i];
+      if (!options_.part.empty() && shape.name != options_.part) return true;
       auto solid = brep_of(shape);
       if (!solid) return keep_error(fail(std::move(solid.error())));
       const Colour colour = part_colour(shape.name);
@@ -171,6 +184,7 @@ class Exporter {
   const std::vector<PartMesh>* meshes_;
   const ExportOptions& options_;
   std::vector<Job> jobs_;
+  std::vector<PartMesh> own_meshes_;
   std::vector<StepPart> solids_;
   std::vector<ReportedFile> files_;
   std::mutex mutex_;
@@ -191,29 +205,27 @@ const char* to_text(FileFormat format) {
   return kNames[static_cast<std::size_t>(format)];
 }
 
-Result<std::vector<FileFormat>> parse_formats(std::string_view list) {
+ResultAll<std::vector<FileFormat>> parse_formats(const std::vector<std::string>& names) {
+  const auto& all = file_formats();
+  if (names.empty()) return all;
+  std::string known;
+  for (const FileFormat format : all) known += std::string(known.empty() ? "" : ", ") + to_text(format);
   std::vector<FileFormat> formats;
-  while (true) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    std::string_view name = list.substr(0, comma);
-    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
-    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
-    const auto& all = file_formats();
+  Errors errors;
+  for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](FileFormat format) { return name == to_text(format); });
-    if (found == all.end()) {
-      std::string names;
-      for (const FileFormat format : all) names += std::string(names.empty() ? "" : ",") + to_text(format);
-      return fail(Error{.code = ErrorCode::kUsage,
-                        .message = "'" + std::string(name) + "' is no format",
+    if (found == all.end())
+      errors.push_back({.code = ErrorCode::kUsage,
+                        .message = "no such format",
                         .key = "--formats",
-                        .value = std::string(name),
-                        .remedy = "any of " + names});
-    }
-    if (std::find(formats.begin(), formats.end(), *found) == formats.end()) formats.push_back(*found);
-    if (comma == list.size()) return formats;
-    list.remove_prefix(comma + 1);
+                        .value = name,
+                        .remedy = known});
+    else if (std::find(formats.begin(), formats.end(), *found) == formats.end())
+      formats.push_back(*found);
   }
+  if (!errors.empty()) return fail_all(std::move(errors));
+  return formats;
 }
 
 ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,

@@ -3,9 +3,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "trueflank/base/result.h"
@@ -21,21 +19,22 @@ enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg };
 [[nodiscard]] const std::vector<FileFormat>& file_formats();
 /// The name that is option value and file extension: "stl", "3mf", ...
 [[nodiscard]] const char* to_text(FileFormat format);
-/// "stl,3mf" -> formats, each once. Errors: kUsage, naming the formats there are.
-[[nodiscard]] Result<std::vector<FileFormat>> parse_formats(std::string_view list);
+/// Formats by their names, each once; all for an empty list. Errors: kUsage, one a wrong name.
+[[nodiscard]] ResultAll<std::vector<FileFormat>> parse_formats(
+    const std::vector<std::string>& names);
 
 /// What is to be written; nothing is owned.
 struct ExportModel {
   const GearTrain* train = nullptr;
   const PartShapes* shapes = nullptr;
-  /// One a part. May be empty where no mesh format is asked for.
+  /// One a part; nullptr: made here, within the tolerance, where a mesh format is asked for.
   const std::vector<PartMesh>* meshes = nullptr;
 };
 
 struct ExportOptions {
   std::filesystem::path folder;  ///< created where it is missing
   std::vector<FileFormat> formats = {FileFormat::kStl, FileFormat::k3mf};
-  /// Largest distance of a drawing's chords from the true curve.
+  /// Largest distance of facets and chords from the true surface or curve.
   double tolerance_mm = 1e-3;
   std::string part;  ///< this part alone, without the assembly; empty: all
   /// Called after each file, by one thread at a time; for showing progress.
