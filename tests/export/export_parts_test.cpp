@@ -151,7 +151,7 @@ TEST(ParseFormats, TakesAListAndRefusesUnknownOnes) {
   ASSERT_FALSE(formats);
   EXPECT_EQ(formats.error().size(), 3U);
   EXPECT_EQ(formats.error().front().code, ErrorCode::kUsage);
-  EXPECT_EQ(formats.error().front().remedy, "stl, 3mf, obj, ply, glb, step, dxf, svg");
+  EXPECT_EQ(formats.error().front().remedy, "stl, 3mf, obj, ply, glb, step, dxf, svg, scad");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "trueflank/export/obj_writer.h"
 #include "trueflank/export/parallel_jobs.h"
 #include "trueflank/export/ply_writer.h"
+#include "trueflank/export/scad_writer.h"
 #include "trueflank/export/scene.h"
 #include "trueflank/export/section_contour.h"
 #include "trueflank/export/step_writer.h"
@@ -141,11 +142,17 @@ class Exporter {
       return measure(job, path, file);
     }
     if (job.format == FileFormat::kStep) return write_step(job, path, file);
+    if (job.format == FileFormat::kScad) return write_scad_file(job, path);
     const auto sections = job.part == kAssembly
                               ? assembly_sections(shapes_, options_.tolerance_mm)
                               : part_sections(shapes_.parts[job.part], options_.tolerance_mm);
     if (job.format == FileFormat::kDxf) return write_dxf(path, sections);
     return write_svg(path, train_.design.name + ": " + file.part, sections);
+  }
+
+  Status write_scad_file(const Job& job, const std::filesystem::path& path) const {
+    if (job.part == kAssembly) return write_scad_assembly(path, train_, shapes_);
+    return write_scad(path, train_.design.name, shapes_.parts[job.part], options_.tolerance_mm);
   }
 
   Scene scene_of(const Job& job) const {
@@ -196,12 +203,12 @@ class Exporter {
 const std::vector<FileFormat>& file_formats() {
   static const std::vector<FileFormat> all = {
       FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj, FileFormat::kPly, FileFormat::kGlb,
-      FileFormat::kStep, FileFormat::kDxf, FileFormat::kSvg};
+      FileFormat::kStep, FileFormat::kDxf, FileFormat::kSvg, FileFormat::kScad};
   return all;
 }
 
 const char* to_text(FileFormat format) {
-  constexpr std::array kNames = {"stl", "3mf", "obj", "ply", "glb", "step", "dxf", "svg"};
+  constexpr std::array kNames = {"stl", "3mf", "obj", "ply", "glb", "step", "dxf", "svg", "scad"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

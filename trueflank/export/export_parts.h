@@ -13,7 +13,7 @@
 
 namespace trueflank::io {
 
-enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg };
+enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg, kScad };
 
 /// Every format, in the order of the enumeration.
 [[nodiscard]] const std::vector<FileFormat>& file_formats();

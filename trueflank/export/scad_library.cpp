@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/scad_writer.h"
+
+namespace trueflank::io {
+
+std::string_view scad_library() {
+  return R"(
+// ------------------------------------------------------------------ curves of a half tooth
+// A curve is [kind, from, to, ...]: mm, degrees. A tooth's half runs from the middle of its tip
+// (on +x) to the middle of the gap, counter-clockwise about the gear's axis.
+function direction(a) = [cos(a), sin(a)];
+function turned(p, a) = [cos(a)*p[0] - sin(a)*p[1], sin(a)*p[0] + cos(a)*p[1]];
+function mirrored(p) = [p[0], -p[1]];
+
+// involute of the circle of radius rb; t: roll angle
+function involute_point(t, rb, half_angle, sense) =
+  rb*(direction(half_angle + sense*t) - sense*t*PI/180*direction(half_angle + sense*t + 90));
+// root fillet cut by the rounded corner of a rack; t: angle of the corner's normal
+function rack_point(t, rp, depth, offset, radius, stretch, gap) =
+  let (d = depth + radius*sin(t),
+       side = d*cos(t)/(stretch*sin(t)),
+       travel = offset + stretch*radius*cos(t) - side)
+  turned([rp - d, -side], gap - travel/rp*180/PI);
+// root fillet cut, or tip trimmed, by the rounded corner of a pinion cutter
+function cutter_point(t, distance, rp, rc, corner_angle, radius, ratio, gap, trims) =
+  let (swing = asin(max(-1, min(1, rc/rp*sin(t - corner_angle)))),
+       turn = trims ? t - 180 + swing : t - swing)
+  turned([distance, 0] + rc*direction(turn - corner_angle) + radius*direction(turn - t),
+         gap - turn*ratio);
+
+function curve_point(c, t) =
+  c[0] == "arc"      ? [c[3], c[4]] + c[5]*direction(t) :
+  c[0] == "line"     ? [c[3], c[4]] + t*[c[5], c[6]] :
+  c[0] == "involute" ? involute_point(t, c[3], c[4], c[5]) :
+  c[0] == "rack"     ? rack_point(t, c[3], c[4], c[5], c[6], c[7], c[8]) :
+                       cutter_point(t, c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10]);
+
+function chord_height(c, a, b) =
+  let (p = curve_point(c, a), d = curve_point(c, b) - p, m = curve_point(c, (a + b)/2) - p)
+  norm(d) == 0 ? 0 : abs(d[0]*m[1] - d[1]*m[0])/norm(d);
+// chords that keep the tolerance: a chord's height falls with the square of their number
+function chords(c, tolerance) = c[0] == "line" ? 1 :
+  let (step = (c[2] - c[1])/16,
+       highest = max([for (i = [0:15]) chord_height(c, c[1] + i*step, c[1] + (i + 1)*step)]))
+  max(1, ceil(16*1.06*sqrt(highest/tolerance)));
+
+function about_axis(c) = c[0] == "arc" && c[3] == 0 && c[4] == 0;
+// thinner by the angle `slack`: flank and fillet turn towards the tooth's middle, tip and root arc follow
+function thinned_point(c, t, slack) =
+  about_axis(c) ? curve_point(c, t) : turned(curve_point(c, t), -slack);
+function half_tooth(curves, tolerance, slack) =
+  let (last = len(curves) - 1)
+  [for (i = [0:last])
+     let (c = curves[i], n = chords(c, tolerance),
+          from = c[1] - (i == last && about_axis(c) ? slack : 0),
+          to = c[2] - (i == 0 && about_axis(c) ? slack : 0))
+     for (j = [i == 0 ? 0 : 1:n]) thinned_point(c, from + (to - from)*j/n, slack)];
+// one tooth, from gap to gap
+function tooth(curves, tolerance, slack) =
+  assert(slack == 0 || about_axis(curves[0]), "a pointed tooth cannot be thinned here")
+  let (half = half_tooth(curves, tolerance, slack), n = len(half),
+       closes = slack == 0 || about_axis(curves[len(curves) - 1]))
+  concat([for (j = [n - 1:-1:1]) mirrored(half[j])], [for (j = [0:n - 2]) half[j]],
+         closes ? [] : [half[n - 1]]);
+
+// ------------------------------------------------------------------ outlines, counter-clockwise
+function gear_outline(curves, teeth, rotation, tolerance, slack) =
+  let (one = tooth(curves, tolerance, slack))
+  [for (k = [0:teeth - 1]) for (p = one) turned(p, rotation + 360*k/teeth)];
+function arc_points(r, from, to, tolerance) =
+  let (n = max(3, ceil((to - from)/(2*acos(max(0, 1 - tolerance/r))))))
+  [for (i = [0:n]) r*direction(from + (to - from)*i/n)];
+function circle_outline(d, tolerance, centre = [0, 0]) =
+  let (n = max(12, ceil(180/acos(max(0, 1 - 2*tolerance/d)))))
+  [for (i = [0:n - 1]) centre + d/2*direction(360*i/n)];
+function d_outline(d, flat, tolerance) =
+  let (a = acos((flat - d/2)/(d/2))) arc_points(d/2, a, 360 - a, tolerance);
+function keyway_outline(d, width, depth, tolerance) =
+  let (a = asin(width/d))
+  concat(arc_points(d/2, a, 360 - a, tolerance), [[d/2 + depth, -width/2], [d/2 + depth, width/2]]);
+function hex_outline(across_flats) =
+  [for (i = [0:5]) across_flats/2/cos(30)*direction(60*i - 30)];
+
+// ------------------------------------------------------------------ solids without booleans
+function lengths_before(lists, i) = i == 0 ? 0 : lengths_before(lists, i - 1) + len(lists[i - 1]);
+module section(outer, holes = []) {
+  loops = concat([outer], holes);
+  polygon([for (loop = loops) for (p = loop) p],
+          [for (i = [0:len(loops) - 1])
+             let (first = lengths_before(loops, i)) [for (j = [0:len(loops[i]) - 1]) first + j]]);
+}
+module prism(height, outer, holes = [])
+  linear_extrude(height = height, convexity = 10) section(outer, holes);
+
+function heights_before(slabs, i) = i == 0 ? 0 : heights_before(slabs, i - 1) + slabs[i - 1][0];
+function largest_radius(loop) = max([for (p = loop) norm(p)]);
+function reversed(list, yes = true) = yes ? [for (i = [len(list) - 1:-1:0]) list[i]] : list;
+function wall(lower, upper, n, inwards = false) =
+  [for (i = [0:n - 1])
+     reversed([lower + i, upper + i, upper + (i + 1)%n, lower + (i + 1)%n], inwards)];
+function nearest(loop, p) =
+  let (off = [for (q = loop) abs(atan2(p[0]*q[1] - p[1]*q[0], p[0]*q[0] + p[1]*q[1]))],
+       least = min(off))
+  [for (i = [0:len(off) - 1]) if (off[i] == least) i][0];
+// the ring between two loops, a polygon for every `step` points of the outer one
+function annulus(outer, outer_first, step, inner, inner_first, up) =
+  let (n = len(outer), m = len(inner), cuts = [for (k = [0:step:n - 1]) k],
+       near = [for (k = cuts) nearest(inner, outer[k])])
+  [for (s = [0:len(cuts) - 1])
+     let (end = s + 1 < len(cuts) ? cuts[s + 1] : n, to = near[(s + 1)%len(cuts)],
+          count = (to - near[s] + m)%m)
+     reversed(concat([for (j = [cuts[s]:end]) outer_first + j%n],
+                     [for (j = [0:count]) inner_first + (to - j + m)%m]), up)];
+// slabs [height, outline, points a tooth], bottom to top, each inside or around its neighbours; with a
+// bore through all of them, or none ([])
+module stack(slabs, bore = []) {
+  n = len(slabs);
+  through = len(bore) > 0;
+  loops = concat([for (s = slabs) for (u = [0, 1]) s[1]], through ? [bore, bore] : []);
+  z = concat([for (i = [0:n - 1]) for (u = [0, 1]) heights_before(slabs, i + u)],
+             [0, heights_before(slabs, n)]);
+  first = [for (i = [0:len(loops)]) lengths_before(loops, i)];
+  walls = [for (i = [0:n - 1]) for (f = wall(first[2*i], first[2*i + 1], len(slabs[i][1]))) f];
+  steps = n < 2 ? [] : [for (i = [0:n - 2])
+    let (a = 2*i + 1, b = a + 1, up = largest_radius(loops[a]) > largest_radius(loops[b]),
+         o = up ? a : b, q = up ? b : a)
+    for (f = annulus(loops[o], first[o], slabs[up ? i : i + 1][2], loops[q], first[q], up)) f];
+  t = 2*n - 1;  // the uppermost outer loop; the bore's follow it
+  ends = through
+    ? concat(wall(first[t + 1], first[t + 2], len(bore), true),
+             annulus(loops[0], first[0], slabs[0][2], bore, first[t + 1], false),
+             annulus(loops[t], first[t], slabs[n - 1][2], bore, first[t + 2], true))
+    : [[for (i = [0:len(loops[0]) - 1]) i],
+       [for (i = [len(loops[t]) - 1:-1:0]) first[t] + i]];
+  polyhedron([for (i = [0:len(loops) - 1]) for (p = loops[i]) [p[0], p[1], z[i]]],
+             concat(walls, steps, ends), convexity = 10);
+}
+)";
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/scad_writer.h"
+
+#include <algorithm>
+
+#include "trueflank/base/units.h"
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/export/number_text.h"
+#include "trueflank/export/scene.h"
+#include "trueflank/solid/outline_loop.h"
+
+namespace trueflank::io {
+namespace {
+
+std::string number(double value) {
+  std::string text;
+  append_shortest(text, value);
+  return text;
+}
+/// For parameters that people read: to a nanometre.
+std::string short_number(double value) {
+  std::string text;
+  append_decimal(text, value);
+  return text;
+}
+std::string degrees(double angle_rad) { return number(deg_from_rad(angle_rad)); }
+
+/// Text without what would end a comment's line.
+std::string one_line(std::string text) {
+  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  return text;
+}
+
+template <class... Fields>
+std::string list(const Fields&... fields) {
+  std::string text;
+  ((text += (text.empty() ? "" : ", ") + fields), ...);
+  return "[" + text + "]";
+}
+
+// A curve as the library knows it: kind, interval, then the numbers of its struct in their order.
+std::string curve_list(const CircularArc& c, const Curve& curve) {
+  return list(std::string("\"arc\""), degrees(curve.begin), degrees(curve.end), number(c.centre.x()),
+              number(c.centre.y()), number(c.radius_mm));
+}
+std::string curve_list(const StraightLine& c, const Curve& curve) {
+  return list(std::string("\"line\""), number(curve.begin), number(curve.end), number(c.start.x()),
+              number(c.start.y()), number(c.direction.x()), number(c.direction.y()));
+}
+std::string curve_list(const Involute& c, const Curve& curve) {
+  return list(std::string("\"involute\""), degrees(curve.begin), degrees(curve.end),
+              number(c.base_radius_mm), degrees(c.base_half_angle_rad), std::to_string(c.sense));
+}
+std::string curve_list(const RackTrochoid& c, const Curve& curve) {
+  return list(std::string("\"rack\""), degrees(curve.begin), degrees(curve.end),
+              number(c.pitch_radius_mm), number(c.corner_depth_mm), number(c.corner_offset_mm),
+              number(c.corner_radius_mm), number(c.stretch), degrees(c.gap_angle_rad));
+}
+std::string curve_list(const CutterTrochoid& c, const Curve& curve) {
+  return list(std::string("\"cutter\""), degrees(curve.begin), degrees(curve.end),
+              number(c.centre_distance_mm), number(c.cutter_pitch_radius_mm),
+              number(c.corner_centre_radius_mm), degrees(c.corner_centre_angle_rad),
+              number(c.corner_radius_mm), number(c.ratio), degrees(c.gap_angle_rad),
+              std::string(c.contact == CutterContact::kTrimming ? "true" : "false"));
+}
+
+/// Gathers parameters, data and the solid's text slab by slab.
+class PartText {
+ public:
+  PartText(const PartShape& part, double tolerance_mm) : part_(part), tolerance_mm_(tolerance_mm) {}
+
+  std::string build(const std::string& design_name) {
+    for (const Slab& slab : part_.slabs) add_slab(slab);
+    const bool stacked = slabs_.size() > 1 && is_nested();
+    std::string text = "// " + part_.name + " of " + one_line(design_name) +
+                       ", written by Trueflank. Millimetres and degrees.\n"
+                       "// The part's axis is z, its lowest face at z = 0, tooth 1 on +x. Elsewhere:\n"
+                       "//   use <" + part_.name + ".scad>\n//   " + part_.name + "();  or  " +
+                       part_.name + "_section();\n\n";
+    text += "/* [Size] */\n" + sizes_;
+    text += "\n/* [Fit] */\n// taken off every tooth on top of the design, on the reference circle\n"
+            "extra_thinning_um = 0; // [0:5:300]\n";
+    text += "\n/* [Accuracy] */\n// largest distance between facets and the true surface\n"
+            "tolerance_um = " + short_number(um_from_mm(tolerance_mm_)) + ";\n";
+    text += "\n/* [Hidden] */\ntolerance = tolerance_um/1000;\n" + data_ + "\n";
+    text += part_.name + "();\n\n";
+    text += "module " + part_.name + "_section() section(" + slabs_.front().outer + ", " +
+            slabs_.front().holes + ");\n";
+    text += "module " + part_.name + "()";
+    text += stacked ? stack_text() : slabs_.size() == 1 ? prism_text(0, "0") : union_text();
+    text += scad_library();
+    return text;
+  }
+
+ private:
+  struct SlabText {
+    std::string height, outer, points_per_tooth, holes;
+  };
+
+  void add_size(const std::string& name, double value_mm, const char* comment) {
+    sizes_ += std::string("// ") + comment + "\n" + name + " = " + short_number(value_mm) + ";\n";
+  }
+  /// A name not used before: "bore", "bore_2", ...
+  std::string fresh(const std::string& name) {
+    names_.push_back(name);
+    const auto uses = std::count(names_.begin(), names_.end(), name);
+    return uses == 1 ? name : name + "_" + std::to_string(uses);
+  }
+
+  void add_slab(const Slab& slab) {
+    SlabText text;
+    const bool toothed =
+        std::holds_alternative<ToothedOutline>(slab.outer) ||
+        std::any_of(slab.holes.begin(), slab.holes.end(),
+                    [](const Outline& o) { return std::holds_alternative<ToothedOutline>(o); });
+    text.height = fresh(toothed ? "face_width" : "neck_height");
+    add_size(text.height, slab.z_upper_mm - slab.z_lower_mm,
+             toothed ? "height of the toothed section" : "height of the neck between the teeth");
+    text.outer = outline_name(slab.outer);
+    text.points_per_tooth = points_per_tooth(slab.outer, text.outer);
+    text.holes = "concat([]";
+    for (const Outline& hole : slab.holes) {
+      const std::string name = outline_name(hole);
+      // a bore that its user sets to 0 is left out
+      text.holes += ", len(" + name + ") > 0 ? [" + name + "] : []";
+    }
+    text.holes += ")";
+    slabs_.push_back(text);
+  }
+
+  static std::string points_per_tooth(const Outline& outline, const std::string& name) {
+    if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
+      return "len(" + name + ")/" + std::to_string(toothed->profile->gear().teeth);
+    return "ceil(len(" + name + ")/16)";
+  }
+
+  /// The variable that holds an outline, declared when it is met first.
+  std::string outline_name(const Outline& outline) {
+    for (const auto& [known, name] : outlines_)
+      if (same_outline(*known, outline)) return name;
+    const std::string name = std::visit([&](const auto& o) { return declare(o); }, outline);
+    outlines_.emplace_back(&outline, name);
+    return name;
+  }
+
+  std::string declare(const ToothedOutline& outline) {
+    const std::string name = fresh("teeth");
+    const Gear& gear = outline.profile->gear();
+    data_ += "// " + std::to_string(gear.teeth) + " teeth, module " +
+             short_number(gear.normal_module_mm) + ", profile shift " + short_number(gear.shift) +
+             "\n" + name + "_curves = [\n";
+    for (const ProfilePiece& piece : outline.profile->pieces())
+      data_ += "  " +
+               std::visit([&](const auto& c) { return curve_list(c, piece.curve); }, piece.curve.shape) +
+               ",\n";
+    data_ += "];\n" + name + " = gear_outline(" + name + "_curves, " + std::to_string(gear.teeth) +
+             ", " + degrees(outline.rotation_rad) + ", tolerance,\n  extra_thinning_um/2000/" +
+             number(reference_radius_mm(gear)) + "*180/PI);\n";
+    return name;
+  }
+
+  std::string declare(const CircleOutline& outline) {
+    const bool central = outline.centre == Point2::Zero();
+    const bool rim = central && std::any_of(part_.slabs.begin(), part_.slabs.end(), [&](const Slab& s) {
+      const auto* circle = std::get_if<CircleOutline>(&s.outer);
+      return circle == &outline && s.holes.size() > 0 &&
+             std::holds_alternative<ToothedOutline>(s.holes.front());
+    });
+    const std::string name = fresh(rim ? "rim" : central ? "neck" : "bolt_hole");
+    const std::string diameter = name.starts_with("bolt_hole") ? bolt_hole_diameter(outline)
+                                                               : name + "_diameter";
+    if (central)
+      add_size(diameter, 2.0 * outline.radius_mm, rim ? "outside of the ring" : "between the teeth");
+    const std::string centre =
+        central ? "" : ", " + list(number(outline.centre.x()), number(outline.centre.y()));
+    data_ += name + " = " + diameter + " > 0 ? circle_outline(" + diameter + ", tolerance" + centre +
+             ") : [];\n";
+    return name;
+  }
+
+  /// Holes of one size share a parameter.
+  std::string bolt_hole_diameter(const CircleOutline& outline) {
+    for (const auto& [radius_mm, name] : hole_diameters_)
+      if (radius_mm == outline.radius_mm) return name;
+    const std::string name = fresh("hole_diameter");
+    add_size(name, 2.0 * outline.radius_mm, "round holes beside the axis; 0: none");
+    hole_diameters_.emplace_back(outline.radius_mm, name);
+    return name;
+  }
+
+  std::string declare(const BoreOutline& outline) {
+    const BoreDesign& bore = outline.bore;
+    const std::string name = fresh("bore");
+    const bool hex = bore.kind == BoreKind::kHex;
+    const std::string size = name + (hex ? "_across_flats" : "_diameter");
+    add_size(size, bore.diameter_mm, hex ? "hexagonal bore; 0: none" : "bore; 0: none");
+    std::string call = hex ? "hex_outline(" + size + ")" : "circle_outline(" + size + ", tolerance)";
+    if (bore.kind == BoreKind::kDFlat) {
+      add_size(name + "_flat", bore.d_flat_mm, "from the flat to the opposite side of the bore");
+      call = "d_outline(" + size + ", " + name + "_flat, tolerance)";
+    } else if (bore.kind == BoreKind::kKeyway) {
+      add_size(name + "_keyway_width", bore.keyway_width_mm, "keyway");
+      add_size(name + "_keyway_depth", bore.keyway_depth_mm, "from the bore's circle to the floor");
+      call = "keyway_outline(" + size + ", " + name + "_keyway_width, " + name +
+             "_keyway_depth, tolerance)";
+    }
+    data_ += name + " = " + size + " > 0 ? " + call + " : [];\n";
+    return name;
+  }
+
+  /// Whether `stack` can make it: neighbours one inside the other, one bore through all or none.
+  bool is_nested() const {
+    for (std::size_t i = 0; i < part_.slabs.size(); ++i) {
+      const Slab& slab = part_.slabs[i];
+      const auto& holes = part_.slabs.front().holes;
+      if (slab.holes.size() != holes.size() || holes.size() > 1) return false;
+      if (!holes.empty() && (!same_outline(slab.holes.front(), holes.front()) ||
+                             !std::holds_alternative<BoreOutline>(holes.front())))
+        return false;
+      if (i == 0) continue;
+      const OutlineExtent below = extent(part_.slabs[i - 1].outer), here = extent(slab.outer);
+      if (!(below.outer_radius_mm < here.inner_radius_mm ||
+            here.outer_radius_mm < below.inner_radius_mm))
+        return false;
+    }
+    return true;
+  }
+
+  std::string prism_text(std::size_t i, const std::string& below) const {
+    const SlabText& slab = slabs_[i];
+    const std::string move = below == "0" ? "" : " translate([0, 0, " + below + "])";
+    return move + " prism(" + slab.height + ", " + slab.outer + ", " + slab.holes + ");\n";
+  }
+  std::string union_text() const {
+    std::string text = " {\n", below = "0";
+    for (std::size_t i = 0; i < slabs_.size(); ++i) {
+      text += " " + prism_text(i, below);
+      below += " + " + slabs_[i].height;
+    }
+    return text + "}\n";
+  }
+  std::string stack_text() const {
+    std::string text = " stack([";
+    for (const SlabText& slab : slabs_)
+      text += (text.ends_with('[') ? "" : ",\n  ") +
+              list(slab.height, slab.outer, slab.points_per_tooth);
+    const auto& holes = part_.slabs.front().holes;
+    return text + "]" + (holes.empty() ? "" : ", " + outlines_name(holes.front())) + ");\n";
+  }
+  std::string outlines_name(const Outline& outline) const {
+    for (const auto& [known, name] : outlines_)
+      if (same_outline(*known, outline)) return name;
+    return "[]";
+  }
+
+  const PartShape& part_;
+  double tolerance_mm_;
+  std::string sizes_, data_;
+  std::vector<SlabText> slabs_;
+  std::vector<std::pair<const Outline*, std::string>> outlines_;
+  std::vector<std::pair<double, std::string>> hole_diameters_;
+  std::vector<std::string> names_;
+};
+
+/// Turns of a body about its own axis, and of its axis about the sun's, per turn of the sun.
+struct BodySpeeds {
+  double own = 0.0, orbit = 0.0;
+};
+
+BodySpeeds speeds_of(const GearTrain& train, const std::string& body) {
+  const MemberSpeeds speeds = member_speeds(train);
+  if (body == "sun" || body == "pinion" || body == "gear") return {speeds.sun, 0.0};
+  if (body.starts_with("planet")) return {speeds.planet - speeds.carrier, speeds.carrier};
+  return {body == "ring2" ? speeds.ring2 : speeds.ring1, 0.0};
+}
+
+std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
+  std::string text = "// " + one_line(train.design.name) +
+                     " in mesh, written by Trueflank; uses the files of the parts beside it.\n"
+                     "// Preview (F5) is quick; View > Animate turns it.\n\n"
+                     "/* [View] */\n// turn of the sun (pinion)\nturn = 0; // [0:1:3600]\n"
+                     "// distance between the layers\nexplode = 0; // [0:1:100]\nshow = \"all\"; // [all";
+  for (const PartShape& part : shapes.parts) text += ", " + part.name;
+  text += "]\n\n";
+  for (const PartShape& part : shapes.parts) text += "use <" + part.name + ".scad>\n";
+  text += "\nangle = turn + 360*$t;\n"
+          "module body(part, orbit, place, rotation, shift)\n"
+          "  if (show == \"all\" || show == part)\n"
+          "    rotate(orbit*angle) translate(place + [0, 0, shift*explode]) rotate(rotation) children();\n\n";
+  for (const Placement& body : shapes.assembly) {
+    const std::string& part = shapes.parts[body.part].name;
+    const BodySpeeds speeds = speeds_of(train, body.name);
+    const auto& move = body.translation_mm;
+    const bool upper = move[2] > 0.0;
+    const int layer = part.starts_with("planet") ? 1 : upper ? 2 : part.starts_with("sun") ? 3 : 0;
+    text += "color(\"" + hex_text(part_colour(part)) + "\") body(\"" + part + "\", " +
+            number(speeds.orbit) + ", " +
+            list(number(move[0]), number(move[1]), number(move[2])) + ",\n  " +
+            degrees(body.rotation_rad) + " + " + number(speeds.own) + "*angle, " +
+            std::to_string(layer) + ") " + part + "();  // " + body.name + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Status write_scad(const std::filesystem::path& path, const std::string& design_name,
+                  const PartShape& part, double tolerance_mm) {
+  return write_file(path, PartText(part, tolerance_mm).build(design_name));
+}
+
+Status write_scad_assembly(const std::filesystem::path& path, const GearTrain& train,
+                           const PartShapes& shapes) {
+  return write_file(path, assembly_text(train, shapes));
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "trueflank/base/result.h"
+#include "trueflank/solid/part_shape.h"
+
+// OpenSCAD files that people go on working with (docs/formats.md).
+namespace trueflank::io {
+
+/// A part: parameters on top (face widths, bores, rims, extra thinning for a printer's fit, tolerance),
+/// the true curves of a half tooth below, evaluated when rendered. One `linear_extrude` of one `polygon`
+/// with holes, or one `polyhedron` for a stack of sections: no boolean operation in space, so it renders
+/// in well under a second. Stacks whose sections are not nested are a union of prisms.
+/// Modules: `<name>()` and `<name>_section()` (of the lowest section).
+/// Errors: as AtomicFile's.
+[[nodiscard]] Status write_scad(const std::filesystem::path& path, const std::string& design_name,
+                                const PartShape& part, double tolerance_mm);
+
+/// The assembly, made of the parts' files beside it: placed in mesh, turned by the true kinematics
+/// (parameter `turn`, and OpenSCAD's animation), exploded on demand. Errors: as AtomicFile's.
+[[nodiscard]] Status write_scad_assembly(const std::filesystem::path& path, const GearTrain& train,
+                                         const PartShapes& shapes);
+
+/// Functions and modules that the files of the parts share; each file carries them.
+[[nodiscard]] std::string_view scad_library();
+
+}  // namespace trueflank::io
