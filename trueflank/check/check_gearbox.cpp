@@ -8,24 +8,39 @@
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/fillet_interference.h"
+#include "trueflank/check/involute_interference.h"
+#include "trueflank/check/overlap.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/profile.h"
 #include "trueflank/check/tip_clearance.h"
 #include "trueflank/check/tip_thickness.h"
+#include "trueflank/check/trimming_interference.h"
+#include "trueflank/check/trochoid_interference.h"
 #include "trueflank/check/undercut.h"
 
 namespace trueflank {
+namespace {
 
-Findings check_gearbox(const GearTrain& train) {
+void append(Findings& all, Findings some) {
+  all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+}
+
+}  // namespace
+
+Findings check_gearbox(const GearTrain& train) { return check_gearbox(train, mesh_states(train)); }
+
+Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& states) {
   Findings all;
   for (const auto check :
        {check_profile, check_undercut, check_tip_thickness, check_centre_distance, check_backlash,
-        check_tip_clearance, check_contact_ratio, check_assembly, check_planet_spacing,
-        check_axial}) {
-    Findings some = check(train);
-    all.insert(all.end(), std::make_move_iterator(some.begin()),
-               std::make_move_iterator(some.end()));
-  }
+        check_tip_clearance, check_contact_ratio})
+    append(all, check(train));
+  for (const auto check : {check_overlap, check_fillet_interference, check_involute_interference,
+                           check_trochoid_interference, check_trimming_interference})
+    append(all, check(train, states));
+  for (const auto check : {check_assembly, check_planet_spacing, check_axial})
+    append(all, check(train));
   return all;
 }
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/interference_cure.h"
+
+#include <cmath>
+
+#include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/quantity_text.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kTipResolution_mm = 5e-4;
+constexpr double kShiftResolution = 1e-3;
+constexpr double kLargestShiftChange = 1.0;
+
+bool good(double margin) { return margin >= 0.0; }
+
+/// The train with the shifts of one layer moved together, so that no backlash changes.
+std::optional<GearTrain> with_layer_shifted(const GearTrain& train, const TrainMesh& mesh,
+                                            double change) {
+  GearboxDesign design = train.design;
+  const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
+  const bool sun_first = gear1.name == "sun" || gear1.name == "pinion";
+  const bool external = train.pair(mesh).gear2().kind == GearKind::kExternal;
+  // the sun moves against its planets, everything else with them
+  const double planet_change = sun_first && external ? -change : change;
+  design.centre_distance_mm = train.centre_distance_mm;
+  for (std::size_t i = 0; i < design.gears.size(); ++i) {
+    const TrainGear& gear = train.gears[i];
+    double moved = gear.layer == gear1.layer ? planet_change : 0.0;
+    if (gear.name == "sun" || (gear.name == "pinion" && external)) moved = -moved;
+    design.gears[i].shift = gear.shift + moved;
+  }
+  auto result = lay_out(design);
+  if (!result) return std::nullopt;
+  return std::move(*result);
+}
+
+double margin_with_shift(const GearTrain& train, const TrainMesh& mesh, double change,
+                         const PairMargin& margin) {
+  const auto shifted = with_layer_shifted(train, mesh, change);
+  return shifted ? margin(shifted->pair(mesh)) : kNaN;
+}
+
+}  // namespace
+
+std::optional<double> tip_radius_cure_mm(const GearPair& pair, bool of_gear1,
+                                         const PairMargin& margin) {
+  const ToothProfile& profile = of_gear1 ? *pair.profile1 : *pair.profile2;
+  const auto margin_at = [&](double radius_mm) {
+    Gear gear = profile.gear();
+    gear.tip_radius_mm = radius_mm;
+    const auto made = ToothProfile::make(gear);
+    if (!made) return kNaN;
+    GearPair changed = pair;
+    (of_gear1 ? changed.profile1 : changed.profile2) = &*made;
+    return margin(changed);
+  };
+  double bad = profile.tip_radius_mm();
+  double fine = 0.5 * (profile.tip_form_radius_mm() + profile.root_form_radius_mm());
+  if (!good(margin_at(fine))) return std::nullopt;
+  while (std::abs(fine - bad) > kTipResolution_mm) {
+    const double mid = 0.5 * (fine + bad);
+    (good(margin_at(mid)) ? fine : bad) = mid;
+  }
+  return fine;
+}
+
+std::optional<ShiftCure> shift_cure(const GearTrain& train, const TrainMesh& mesh,
+                                    const PairMargin& margin) {
+  for (double step = 0.05; step <= kLargestShiftChange; step *= 2.0) {
+    for (const double sign : {1.0, -1.0}) {
+      double fine = sign * step, bad = step > 0.05 ? 0.5 * fine : 0.0;
+      if (!good(margin_with_shift(train, mesh, fine, margin))) continue;
+      while (std::abs(fine - bad) > kShiftResolution) {
+        const double mid = 0.5 * (fine + bad);
+        (good(margin_with_shift(train, mesh, mid, margin)) ? fine : bad) = mid;
+      }
+      const auto shifted = with_layer_shifted(train, mesh, fine);
+      return ShiftCure{fine, shifted->gears[static_cast<std::size_t>(mesh.gear1)].shift,
+                       shifted->gears[static_cast<std::size_t>(mesh.gear2)].shift};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string cure_text(const GearTrain& train, const TrainMesh& mesh, bool tip_of_gear1,
+                      const PairMargin& margin) {
+  const GearPair pair = train.pair(mesh);
+  const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
+  std::string text;
+  if (const auto radius = tip_radius_cure_mm(pair, tip_of_gear1, margin)) {
+    const double now = (tip_of_gear1 ? pair.profile1 : pair.profile2)->tip_radius_mm();
+    text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " + mm_text(2.0 * *radius) + " (" +
+           (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
+  }
+  if (const auto shift = shift_cure(train, mesh, margin)) {
+    text += text.empty() ? "" : "; or ";
+    text += "shift of " + name1 + " " + number_text(shift->shift1) + " (" +
+            (shift->change > 0.0 ? "+" : "") + number_text(shift->change, 3) + ") with " + name2 +
+            " " + number_text(shift->shift2);
+    if (train.gears.size() > 2) text += ", the rest of the layer alike";
+  }
+  if (text.empty())
+    text = "other tooth counts: neither a shorter tip nor a profile shift within 1 clears it";
+  return text;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/involute_interference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/tolerance.h"
+#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/quantity_text.h"
+
+namespace trueflank {
+namespace {
+
+struct RollLengths {
+  double gear1_mm = 0.0, gear2_mm = kNaN;  ///< at first and last contact; gear 2: external only
+  [[nodiscard]] double smaller() const { return std::fmin(gear1_mm, gear2_mm); }
+};
+
+/// A ring's tip circle inside its base circle meets the base circle's tangent nowhere: then the
+/// involute's own end, on the base circle, is what comes first.
+RollLengths roll_lengths(const GearPair& pair) {
+  const LineOfAction line = line_of_action(pair);
+  RollLengths rolls{line.start_mm, kNaN};
+  if (!pair.internal())
+    rolls.gear2_mm =
+        pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair)) - line.end_mm;
+  return rolls;
+}
+
+Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+  const GearPair pair = train.pair(mesh);
+  const RollLengths rolls = roll_lengths(pair);
+  const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
+  Finding finding{.id = "involute_interference",
+                  .where = mesh.name,
+                  .value = rolls.smaller(),
+                  .limit = 0.0,
+                  .margin = rolls.smaller(),
+                  .unit = "mm"};
+  finding.message = "roll length where the tip of " + name2 + " meets " + name1 + " " +
+                    mm_text(rolls.gear1_mm);
+  if (!pair.internal())
+    finding.message += ", where the tip of " + name1 + " meets " + name2 + " " + mm_text(rolls.gear2_mm);
+  if (rolls.smaller() >= 0.0) return finding;
+  const bool penetrates = state.centred.clearance_mm < -tolerance::kTouch_mm;
+  finding.status = penetrates ? CheckStatus::kFail : CheckStatus::kWarn;
+  finding.message += penetrates ? "; below the base circle there is no involute, and the exact "
+                                  "profiles penetrate by " +
+                                      um_text(state.centred.penetration_mm())
+                                : "; below the base circle there is no involute, but the exact "
+                                  "profiles clear each other by " +
+                                      um_text(state.centred.clearance_mm);
+  const bool tip_of_gear1 = rolls.gear2_mm < rolls.gear1_mm;
+  finding.cure = cure_text(train, mesh, tip_of_gear1, [](const GearPair& changed) {
+    return roll_lengths(changed).smaller();
+  });
+  return finding;
+}
+
+}  // namespace
+
+Findings check_involute_interference(const GearTrain& train,
+                                     const std::vector<MeshState>& states) {
+  std::size_t i = 0;
+  return for_each_mesh(train, "involute_interference",
+                       [&](const GearTrain& t, const TrainMesh& mesh) {
+                         return judge(t, mesh, states[i++]);
+                       });
+}
+
+}  // namespace trueflank

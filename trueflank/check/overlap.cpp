@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/overlap.h"
+
+#include <cmath>
+
+#include "trueflank/base/tolerance.h"
+#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/quantity_text.h"
+
+namespace trueflank {
+namespace {
+
+/// Whose tip it is that goes too deep: the piece nearer to its own tip circle.
+bool tip_is_of_gear1(const GearPair& pair, const MeshPlace& place) {
+  const double depth1 = std::abs(place.radius1_mm - pair.profile1->tip_radius_mm());
+  const double depth2 = std::abs(place.radius2_mm - pair.profile2->tip_radius_mm());
+  return depth1 < depth2;
+}
+
+std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
+  const GearPair pair = train.pair(mesh);
+  const double backlash = circumferential_backlash_mm(pair);
+  if (backlash < -tolerance::kTouch_mm)
+    return "teeth thinned by " +
+           um_text(-backlash * reference_radius_mm(pair.gear1()) / pitch_radius1_mm(pair)) +
+           " on the reference circle (both gears together), or shifts that fit the centre distance";
+  return cure_text(train, mesh, tip_is_of_gear1(pair, centred.place), [](const GearPair& changed) {
+    return sweep_clearance_mm(changed) + tolerance::kTouch_mm;
+  });
+}
+
+Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
+  const double clearance = centred.clearance_mm;
+  Finding finding{.id = "overlap",
+                  .where = mesh.name,
+                  .value = um_from_mm(clearance),
+                  .limit = 0.0,
+                  .margin = um_from_mm(clearance),
+                  .unit = "um"};
+  const std::string place =
+      place_text(centred.place, gear1_name(train, mesh), gear2_name(train, mesh));
+  const bool cross = centred.exact == ExactVerdict::kCross;
+  // within their chord error the polygons prove nothing and the curves decide
+  const bool proven = std::abs(clearance) > centred.chord_error_mm;
+  const bool penetrates = proven ? cross : clearance < -tolerance::kTouch_mm;
+  if (!penetrates) {
+    finding.message = (clearance > tolerance::kTouch_mm ? "smallest clearance " + um_text(clearance)
+                                                        : std::string("the flanks touch")) +
+                      " over a mesh cycle: " + place;
+    return finding;
+  }
+  finding.status = CheckStatus::kFail;
+  finding.message = "the profiles penetrate by " + um_text(-clearance) + ": " + place +
+                    (proven ? "; the outlines cross by exact predicates"
+                            : "; too little for polygons, found on the curves");
+  finding.cure = cure_of(train, mesh, centred);
+  return finding;
+}
+
+}  // namespace
+
+Findings check_overlap(const GearTrain& train, const std::vector<MeshState>& states) {
+  std::size_t i = 0;
+  return for_each_mesh(train, "overlap", [&](const GearTrain& t, const TrainMesh& mesh) {
+    return judge(t, mesh, states[i++].centred);
+  });
+}
+
+}  // namespace trueflank
