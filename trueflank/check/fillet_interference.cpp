@@ -46,7 +46,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
                   .limit = 0.0,
                   .margin = margins.smaller(),
                   .unit = "mm"};
-  finding.message = "start of active profile beyond the root form circle by " +
+  finding.message = "start of active profile clear of the root form circle by " +
                     mm_text(margins.gear1) + " on " + name1 + ", " + mm_text(margins.gear2) + " on " +
                     name2;
   const bool criterion = margins.smaller() >= -kEqualRadii_mm;
@@ -60,9 +60,12 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   } else if (!criterion) {
     finding.status = CheckStatus::kWarn;
     const double driving = state.driving.clearance_mm;
-    finding.message += "; the exact profiles clear each other with centred backlash, so contact is "
-                       "lost there but nothing jams";
-    if (driving < -tolerance::kTouch_mm)
+    if (centred.clearance_mm < -tolerance::kTouch_mm)
+      finding.message += "; the exact profiles do penetrate, but not worst at a root (see overlap)";
+    else
+      finding.message += "; the exact profiles clear each other with centred backlash, so contact is "
+                         "lost there but nothing jams";
+    if (centred.clearance_mm >= 0.0 && driving < -tolerance::kTouch_mm)
       finding.message += "; driving, the " +
                          place_text(state.driving.place, name1, name2) + " meet " +
                          um_text(-driving) + " before the flanks do";

@@ -67,7 +67,8 @@ bool blocked(const std::vector<Edge>& pinion, const std::vector<Edge>& ring, dou
     const Point2 from = edge.a + perpendicular(along) * (seen_mm / length);
     if (from.y() < 0.0) continue;  // the other half is the mirror image of another rotation
     for (const Edge& wall : pinion) {
-      if ((wall.a.y() > from.y()) == (wall.b.y() > from.y())) continue;
+      // only where +x enters the pinion: its edges run down there
+      if (!(wall.a.y() > from.y() && wall.b.y() <= from.y())) continue;
       const double u = (from.y() - wall.a.y()) / (wall.b.y() - wall.a.y());
       const double x = wall.a.x() + u * (wall.b.x() - wall.a.x());
       if (x > from.x() && x - from.x() < travel_mm) return true;

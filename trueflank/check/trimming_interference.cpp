@@ -50,9 +50,11 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   if (removal.at_every_rotation) return finding;
   finding.status = CheckStatus::kWarn;
   finding.message += axial_text(train, state);
-  finding.cure = cure_text(train, mesh, true, [](const GearPair& changed) {
-    return changed.internal() && radial_removal(changed).at_every_rotation ? 0.0 : -1.0;
-  });
+  finding.cure = margin >= 0.0 ? "axial assembly; or more teeth between pinion and ring"
+                               : "axial assembly; or " +
+                                     cure_text(train, mesh, true, [](const GearPair& changed) {
+                                       return changed.internal() ? trimming_margin_rad(changed) : kNaN;
+                                     });
   return finding;
 }
 

@@ -32,8 +32,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
       std::isnan(margin)
           ? "the tip circle of " + name1 + " lies all around that of " + name2 +
                 ": the criterion does not exist, the teeth are in reach all the way round"
-          : "where the tip circles cross, the tip of " + name1 + " passes the tip of " + name2 +
-                " with " + deg_text(margin) + " of the ring's rotation to spare";
+          : "where the tip circles cross, the tip of " + name1 +
+                (margin >= 0.0 ? " passes" : " runs into") + " the tip of " + name2 + " by " +
+                deg_text(std::abs(margin)) + " of the ring's rotation";
   if (margin >= -tolerance::kAngle_rad) return finding;
   const bool penetrates = state.centred.clearance_mm < -tolerance::kTouch_mm;
   finding.status = penetrates ? CheckStatus::kFail : CheckStatus::kWarn;
