@@ -67,6 +67,7 @@ March march(const Curve& curve, double tolerance_mm) {
 std::vector<double> spread_parameters(const Curve& curve, double tolerance_mm) {
   March best = march(curve, tolerance_mm);
   const auto count = best.parameters.size();
+  if (count == 2) return best.parameters;  // one chord (a straight line): nothing to even out
   double tried = tolerance_mm;
   for (int i = 0; i < 4 && count > 2; ++i) {  // one chord has nothing to share
     const double ratio = best.fractional_count / static_cast<double>(count - 1);
