@@ -127,6 +127,25 @@ TEST(Polyline, UsesNoMoreChordsThanNeeded) {
   EXPECT_LE(used, least + least / 100);
 }
 
+TEST(Polyline, PieceFarBelowTheToleranceLeavesNoShortEdge) {
+  // a tip circle 1 nm inside the point where the flanks meet: the tip land is far below any tolerance
+  Gear gear{.teeth = 17, .shift = 0.8, .tip_radius_mm = 20.0};
+  const auto pointed = ToothProfile::make(gear);
+  ASSERT_TRUE(pointed && pointed->notes().pointed);
+  gear.tip_radius_mm = pointed->tip_radius_mm() - 1e-6;
+  const auto profile = ToothProfile::make(gear);
+  ASSERT_TRUE(profile);
+  ASSERT_EQ(profile->pieces().front().kind, PieceKind::kTip);
+  const SectionPolygon section = section_polygon(*profile, 1e-3);
+  double shortest = 1.0;
+  for (std::size_t i = 0; i < section.points.size(); ++i)
+    shortest = std::min(
+        shortest, (section.points[i] - section.points[(i + 1) % section.points.size()]).norm());
+  EXPECT_GT(shortest, 0.25e-3);
+  EXPECT_LE(section.chord_error_mm, 1e-3);
+  EXPECT_LE(curve_to_polygon(*profile, section), section.chord_error_mm * (1.0 + 1e-6));
+}
+
 TEST(Polyline, StraightFlankInsideTheBaseCircleIsOneChord) {
   Gear gear{.kind = GearKind::kInternal, .teeth = 18, .shift = 0.0};
   gear.tip_radius_mm = nominal_tip_radius_mm(gear);

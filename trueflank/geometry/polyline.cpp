@@ -67,7 +67,6 @@ March march(const Curve& curve, double tolerance_mm) {
 std::vector<double> spread_parameters(const Curve& curve, double tolerance_mm) {
   March best = march(curve, tolerance_mm);
   const auto count = best.parameters.size();
-  if (count == 2) return best.parameters;  // one chord (a straight line): nothing to even out
   double tried = tolerance_mm;
   for (int i = 0; i < 4 && count > 2; ++i) {  // one chord has nothing to share
     const double ratio = best.fractional_count / static_cast<double>(count - 1);
@@ -119,14 +118,35 @@ ArcSpan split_symmetric_arc(const Curve& curve, double radius_mm, double toleran
   return span;
 }
 
+/// A piece shorter than this share of the tolerance gets no edge: its ends become one vertex. Else the
+/// rest of a nearly pointed tooth would leave edges that 32-bit coordinates cannot tell apart.
+constexpr double kSkippedShare = 0.25;
+
+/// Whole length of a piece: tip and root go on, mirrored, beyond the middle.
+double whole_length_mm(const ProfilePiece& piece) {
+  const double length = (piece.curve.end_point() - piece.curve.start_point()).norm();
+  const bool mirrored = piece.kind == PieceKind::kTip || piece.kind == PieceKind::kRoot;
+  return mirrored ? 2.0 * length : length;
+}
+
 }  // namespace
 
-HalfToothPolyline tessellate(const ToothProfile& profile, double tolerance_mm) {
-  TRUEFLANK_EXPECTS(tolerance_mm > 0.0);
+HalfToothPolyline tessellate(const ToothProfile& profile, double asked_tolerance_mm) {
+  TRUEFLANK_EXPECTS(asked_tolerance_mm > 0.0);
   HalfToothPolyline line;
   const auto& pieces = profile.pieces();
+  double skipped_mm = 0.0;  // moves a vertex that far along the outline: costs as much tolerance
+  for (const ProfilePiece& piece : pieces)
+    if (const double length = whole_length_mm(piece); length < kSkippedShare * asked_tolerance_mm)
+      skipped_mm = std::max(skipped_mm, length);
+  const double tolerance_mm = asked_tolerance_mm - skipped_mm;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Curve& curve = pieces[k].curve;
+    if (whole_length_mm(pieces[k]) <= skipped_mm) {
+      if (line.points.empty()) line.points.push_back(curve.start_point());
+      if (k + 1 == pieces.size()) line.points.back() = curve.end_point();
+      continue;
+    }
     std::vector<double> parameters;
     const auto* arc = std::get_if<CircularArc>(&curve.shape);
     if (arc && (pieces[k].kind == PieceKind::kTip || pieces[k].kind == PieceKind::kRoot)) {
@@ -147,6 +167,7 @@ HalfToothPolyline tessellate(const ToothProfile& profile, double tolerance_mm) {
       line.edges.push_back({static_cast<int>(k), parameters[i - 1], parameters[i]});
     }
   }
+  line.chord_error_mm += skipped_mm;
   // exact symmetry lines
   const double gap = kPi / profile.gear().teeth;
   if (line.vertex_at_tooth_middle) line.points.front() = {line.points.front().norm(), 0.0};

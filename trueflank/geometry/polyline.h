@@ -34,7 +34,8 @@ struct SectionPolygon {
 };
 
 /// The fewest vertices on each smooth piece that keep the chord error within the tolerance, spread so
-/// that all chords of a piece have the same error. Joints of pieces (but the two middles) are vertices.
+/// that all chords of a piece have the same error. Joints of pieces (but the two middles) are vertices;
+/// a piece shorter than a quarter of the tolerance is skipped, its ends are one vertex.
 /// Requires: tolerance_mm > 0.
 /// Guarantees: distance polyline to curve and curve to polyline <= tolerance, both ways.
 [[nodiscard]] HalfToothPolyline tessellate(const ToothProfile& profile, double tolerance_mm);
