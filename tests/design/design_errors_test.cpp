@@ -374,7 +374,7 @@ TEST(DesignErrors, KeysOfTheOtherSortOfGearAreRefused) {
            {"teeth = 90\n", "teeth = 90\nbore_mm = 20\n", kAgainst, "ring1.bore_mm", "20",
             "leave it out", "bore_mm = 20"},
            {"teeth = 90\n", "teeth = 90\ninternal = true\n", kAgainst, "ring1.internal", "true",
-            "only the wheel", "internal"},
+            "only a wheel", "internal"},
            {"[planet2]", "[planet1.cutter]\nteeth = 20\n[planet2]", kAgainst, "planet1.cutter",
             "a table", "leave out", "[planet1.cutter]"},
            {"root = \"shaper\"\n", "", kAgainst, "ring2.cutter", "a table", "root = \"shaper\"",
@@ -400,15 +400,34 @@ TEST(DesignErrors, WrongTomlIsToldWithLineKeyAndValue) {
             "teeth = 13"},
            {"[planet2]", "[sun]\n[planet2]", kSyntax, "sun", "[sun]", "one of the two",
             "[sun]\n[planet2]"},
-           {"kind = \"3k\"", "kind = 3k", kSyntax, "gearbox.kind", "3k", "text in quotes", "kind"},
-           {"module_mm = 1.0", "module_mm = 1,0", kSyntax, "gearbox.module_mm", "1,0", "TOML",
-            "module"},
-           {"bore_mm = 5.0", "bore_mm = 5.0 mm", kSyntax, "sun.bore_mm", "5.0 mm", "TOML",
+           {"kind = \"3k\"", "kind = 3k", kSyntax, "gearbox.kind", "3k", "in quotes: \"3k\"", "kind"},
+           {"module_mm = 1.0", "module_mm = 1,0", kSyntax, "gearbox.module_mm", "1,0",
+            "a decimal point", "module"},
+           {"bore_mm = 5.0", "bore_mm = 5.0 mm", kSyntax, "sun.bore_mm", "5.0 mm", "no unit",
             "bore_mm"},
-           {"module_mm = 1.0", "module_mm =", kSyntax, "gearbox.module_mm", "", "TOML", "module"},
-           {"\"drive\"", "\"drive", kSyntax, "name", "\"drive", "TOML", "name"},
-           {"[rack]", "[rack", kSyntax, "rack", "[rack", "TOML", "[rack"}})
+           {"module_mm = 1.0", "module_mm =", kSyntax, "gearbox.module_mm", "", "a number",
+            "module"},
+           {"\"drive\"", "\"drive", kSyntax, "name", "\"drive", "a closing \"", "name"},
+           {"layer_gap_mm = 1.0", "layer_gap_mm 1.0", kSyntax, "gearbox.layer_gap_mm",
+            "layer_gap_mm 1.0", "key = value", "layer_gap"},
+           {"layer_gap_mm = 1.0", "größe = 1.0", kSyntax, "gearbox", "größe = 1.0", "a-z", "größe"},
+           {"shift = 0.5225", "shift = +0.5.225", kSyntax, "ring1.shift", "+0.5.225", "a number",
+            "shift = +"},
+           {"[rack]", "[rack", kSyntax, "rack", "[rack", "[name]", "[rack"}})
     expect_slip(k3k, slip);
+}
+
+TEST(DesignErrors, OfTomlDoNotHideTheOthers) {
+  std::string text = replaced(k3k, "kind = \"3k\"", "kind = 3k");
+  text = replaced(text, "friction = 0.1", "friction = 0,1");
+  text = replaced(text, "teeth = 12", "teeth = 4");
+  text = replaced(text, "[ring2.cutter]", "[ring2.cutter");
+  text = replaced(text, "addendum", "adendum");
+  const auto design = read_design_text(text, "many.toml");
+  ASSERT_FALSE(design);
+  std::string keys;
+  for (const Error& error : design.error()) keys += error.key + " ";
+  EXPECT_EQ(keys, "gearbox.kind gearbox.friction rack.adendum sun.teeth ring2.cutter ");
 }
 
 TEST(DesignErrors, ManyAreToldAtOnceEachOnce) {

@@ -5,13 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
 
 #include "trueflank/design/design_file.h"
-#include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 namespace {
@@ -82,44 +82,36 @@ TEST(DesignRubbish, BinaryIsRefusedInOneClearMessage) {
   };
   for (const Case& c : std::vector<Case>{
            {std::string("a\nb\0c", 5), "the file holds a NUL byte: it is no text", 2},
-           {"\xFF\xFE[\0g\0", "the file is UTF-16 text", 1},
+           {std::string("\xFF\xFE[\0g\0", 6), "the file is UTF-16 text", 1},
            {"name = \"\xC0\xAF\"", "the file is not UTF-8 text", 1},
            {"\n\n# \xED\xA0\x80", "the file is not UTF-8 text", 3},
            {"# \xF4\x90\x80\x80", "the file is not UTF-8 text", 1},
-           {"# \xE2\x82", "the file is not UTF-8 text", 1},
-           {"x = 1\n30\xEF\xB9\xBF = 1", "non-ASCII letter outside of strings and comments", 2},
-           {"größe = 1", "non-ASCII letter outside of strings and comments", 1}}) {
+           {"# \xE2\x82", "the file is not UTF-8 text", 1}}) {
     const auto design = read_design_text(c.text, "binary");
     ASSERT_FALSE(design);
     ASSERT_EQ(design.error().size(), 1u);
-    EXPECT_EQ(design.error().front().message, c.message);
-    EXPECT_EQ(design.error().front().line, c.line);
-    EXPECT_EQ(static_cast<int>(design.error().front().code), static_cast<int>(ErrorCode::kSyntax));
+    const Error& error = design.error().front();
+    EXPECT_EQ(error.message, c.message);
+    EXPECT_EQ(error.line, c.line);
+    EXPECT_EQ(error.file, "binary");
+    EXPECT_EQ(static_cast<int>(error.code), static_cast<int>(ErrorCode::kSyntax));
   }
 }
 
-TEST(DesignRubbish, LettersBeyondAsciiAreWelcomeInStringsAndComments) {
-  for (const char* text : {"# größe\nformat = 1", "a = \"größe\"", "a = 'größe'", "\"größe\" = 1",
-                           "a = \"\"\"grö\n\"ße\"\"\"\"\"", "a = '''grö\n'ße'''''", "a = \"\\\"ä\"",
-                           "a = 'C:\\'\nb = \"ä\"", "\xEF\xBB\xBF" "a = 1"})
-    EXPECT_TRUE(parse_toml(text)) << text;
-  EXPECT_FALSE(parse_toml("a = '\\'ä'"));
-}
-
-TEST(DesignRubbish, DeepNestingIsRefusedBeforeItCanExhaustTheStack) {
-  std::string key = "a";
+TEST(DesignRubbish, DeepNestingAndManyKeysCannotExhaustStackOrTime) {
+  std::string key = "a", keys;
   for (int i = 0; i < 200000; ++i) key += ".a";
+  for (int i = 0; i < 100000; ++i) keys += "k" + std::to_string(i) + " = 1\n";
   for (const std::string& text :
        {key + " = 1", "[" + key + "]", "[[" + key + "]]", "x = {" + key + " = 1}",
-        "x = " + std::string(400000, '['), "x = " + std::string(1, '[') + std::string(300, '{')}) {
+        "x = " + std::string(400000, '['), "x = [" + std::string(300, '{'), keys,
+        "x = " + std::string(300000, '"'), std::string(300000, '['), std::string(500000, '\n') + "=",
+        std::string(1000000, '=')}) {
     const auto design = read_design_text(text, "deep.toml");
     ASSERT_FALSE(design);
-    EXPECT_EQ(design.error().size(), 1u);
-    EXPECT_LT(design.error().front().message.size(), 300u);
+    EXPECT_LT(design.error().size(), 1002u);
+    for (const Error& error : design.error()) EXPECT_LT(error.message.size(), 300u);
   }
-  EXPECT_TRUE(parse_toml("a = [1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5,"
-                         "1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5,"
-                         "1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5, 1.5, 2.5]"));
 }
 
 /// What reading a path says.
@@ -173,12 +165,12 @@ TEST(DesignRubbish, APipeIsReadLikeAFile) {
 
 TEST(DesignRubbish, OfThousandsOfErrorsTheFirstThousandIsTold) {
   std::string text = "format = 1\n";
-  for (int i = 0; i < 40000; ++i) text += "unknown_key_number_" + std::to_string(i) + " = 1\n";
+  for (int i = 0; i < 9000; ++i) text += "unknown_key_number_" + std::to_string(i) + " = 1\n";
   const auto design = read_design_text(text, "long.toml");
   ASSERT_FALSE(design);
   ASSERT_EQ(design.error().size(), 1001u);
   EXPECT_EQ(design.error()[3].line, 5);
-  EXPECT_EQ(design.error().back().message, "and 39001 errors more");  // [gearbox] is missing too
+  EXPECT_EQ(design.error().back().message, "and 8001 errors more");  // [gearbox] is missing too
 }
 
 }  // namespace

@@ -51,10 +51,12 @@ std::string place_of(std::string_view name) {
 
 class DesignReader {
  public:
-  explicit DesignReader(const TomlTable& root) : root_(root) {}
+  explicit DesignReader(const TomlDocument& document)
+      : root_(document.root), syntax_errors_(document.errors) {}
 
   ResultAll<DesignFile> read(const std::string& file) {
     note_lines("", root_);
+    for (const Error& error : syntax_errors_) reading_.report(error);
     read_top();
     if (const TomlTable* table = section("gearbox")) read_gearbox(*table);
     if (const TomlTable* table = section("rack"))
@@ -73,7 +75,8 @@ class DesignReader {
   void note_lines(const std::string& prefix, const TomlTable& table) {
     for (const TomlEntry& entry : table.entries) {
       const std::string key = prefix + entry.key;
-      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value)});
+      const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
+      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
       if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
     }
   }
@@ -96,6 +99,7 @@ class DesignReader {
   }
 
   void report_no_table(const std::string& key) {
+    if (!reading_.good(key)) return;  // unreadable: told already
     reading_.report({.code = ErrorCode::kWrongType,
                      .message = key + " is not a table",
                      .key = key,
@@ -214,6 +218,7 @@ class DesignReader {
         misplaced = &key;
         continue;
       }
+      if (!reading_.good(dotted)) return;  // unreadable: told already
       if (const auto value = take_value(key.rule, dotted, entry.value))
         key.set(target, *value);
       else
@@ -235,10 +240,10 @@ class DesignReader {
   void report_misplaced(const std::string& dotted, const std::string& gear, KeyPlace place) {
     if (place == KeyPlace::kMaybeRing)
       reading_.contradiction(dotted, dotted + " is not " + gear + "'s to say",
-                             "leave it out: only the wheel of a pair or a single gear may be internal");
+                             "leave it out: only a wheel or a single gear may be internal");
     else if (place == KeyPlace::kRing)
       reading_.contradiction(dotted, dotted + " is for rings, and " + gear + " is an external gear",
-                             may_be_ring(gear) ? "leave it out, or internal = true" : "leave it out");
+                             may_be_ring(gear) ? "internal = true, or leave it out" : "leave it out");
     else
       reading_.contradiction(dotted, dotted + " is for external gears, and " + gear + " is a ring",
                              "leave it out");
@@ -271,6 +276,7 @@ class DesignReader {
   }
 
   const TomlTable& root_;
+  const Errors& syntax_errors_;
   Reading reading_;
   DesignFile file_;
   bool kind_known_ = false;
@@ -279,11 +285,10 @@ class DesignReader {
 }  // namespace
 
 ResultAll<DesignFile> read_design_file_text(std::string_view text, const std::string& file) {
-  auto root = parse_toml(text);
-  if (root) return DesignReader(*root).read(file);
-  Error error = root.error();
-  error.file = file;
-  return fail_all({std::move(error)});
+  TomlDocument document = parse_toml(text);
+  if (document.whole) return DesignReader(document).read(file);
+  for (Error& error : document.errors) error.file = file;
+  return fail_all(std::move(document.errors));
 }
 
 ResultAll<DesignFile> read_design_file(const std::string& path) {

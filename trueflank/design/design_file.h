@@ -22,9 +22,9 @@ struct DesignFile {
 inline constexpr std::size_t kLargestDesignFile_bytes = 1 << 20;
 
 /// Reads and checks a whole design file (a pipe or device will do).
-/// Errors: all of the file at once, in the order of its lines, each with file, line, dotted key, the
-/// value found and what would be right. kFileNotFound, kPermission, kDisk where it cannot be read;
-/// kUsage for a directory; kSyntax (one error) where it is no TOML; kUnknownKey, kMissingKey,
+/// Errors: all of the file at once, in the order of its lines, each with file, line, dotted key,
+/// the value found and what would be right. kFileNotFound, kPermission, kDisk where it cannot be
+/// read; kUsage for a directory; kSyntax where a line is no TOML; kUnknownKey, kMissingKey,
 /// kWrongType, kOutOfRange, kInconsistent. Not checked here: whether such gears exist and mesh.
 [[nodiscard]] ResultAll<DesignFile> read_design_file(const std::string& path);
 /// The same of a text; `file` names it in errors, its stem is the design's name where it has none.

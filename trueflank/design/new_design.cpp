@@ -145,7 +145,7 @@ std::string fitting(const std::string& name) {
     while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xC0) == 0x80) --end;
     result.resize(end);
   }
-  const bool valid = !result.empty() && parse_toml("name = " + toml_string(result)).has_value();
+  const bool valid = !result.empty() && parse_toml("name = " + toml_string(result)).errors.empty();
   return valid ? result : "gearbox";
 }
 
