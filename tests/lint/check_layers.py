@@ -37,7 +37,6 @@ THIRD_PARTY = {
                     [], []),
     "Ceres": (r"ceres/", ["loop"], []),
     "NLopt": (r"nlopt", ["train"], []),
-    "toml++": (r"toml\+\+|tomlplusplus|toml\.h", ["design"], []),
     "nlohmann_json": (r"nlohmann/", ["export", "loop", "app"], []),
     "CLI11": (r"CLI/", ["app"], []),
 }
