@@ -2,6 +2,7 @@
 #pragma once
 
 #include "trueflank/base/result.h"
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/gear.h"
 
 // Flank tolerances of ISO 1328-1:2013.

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/report_html.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/check/check_gearbox.h"
+
+namespace trueflank::io {
+namespace {
+
+GearTrain pair_train(const std::string& name) {
+  GearboxDesign design;
+  design.name = name;
+  design.kind = TrainKind::kPair;
+  design.output = OutputMember::kWheel;
+  design.gears.resize(2);
+  design.gears[0].name = "pinion";
+  design.gears[0].teeth = 20;
+  design.gears[1].name = "wheel";
+  design.gears[1].teeth = 31;
+  for (GearDesign& gear : design.gears) gear.shift = 0.0;
+  return lay_out(design).value();
+}
+
+Report report_of(const GearTrain& train) {
+  Report report;
+  report.train = &train;
+  report.findings = check_gearbox(train);
+  report.efficiency = efficiency(train);
+  return report;
+}
+
+/// Text of a script element of the page.
+std::string script_text(const std::string& page, const std::string& id) {
+  const std::string start = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t from = page.find(start) + start.size();
+  return page.substr(from, page.find("</script>", from) - from);
+}
+
+TEST(ReportHtml, CarriesTheReportWhole) {
+  const GearTrain train = pair_train("plain");
+  const Report report = report_of(train);
+  const std::string page = report_html(report);
+  EXPECT_EQ(nlohmann::json::parse(script_text(page, "report-data")),
+            nlohmann::json::parse(report_json(report)));
+}
+
+TEST(ReportHtml, IsTheSameBytesForTheSameReport) {
+  const GearTrain train = pair_train("plain");
+  const Report report = report_of(train);
+  EXPECT_EQ(report_html(report), report_html(report));
+}
+
+TEST(ReportHtml, NeedsNothingFromOutside) {
+  const GearTrain train = pair_train("plain");
+  const std::string page = report_html(report_of(train));
+  EXPECT_EQ(page.find(" src=\"http"), std::string::npos);
+  EXPECT_EQ(page.find(" href=\"http"), std::string::npos);
+  EXPECT_EQ(page.find("@import"), std::string::npos);
+  EXPECT_LT(page.size(), 2u << 20);
+}
+
+TEST(ReportHtml, ANameCannotBreakOutOfThePage) {
+  const std::string name = "</script><script>alert(1)</script><!-- \"&";
+  const GearTrain train = pair_train(name);
+  const std::string page = report_html(report_of(train));
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_NE(page.find("<title>&lt;/script&gt;"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(script_text(page, "report-data"))["design"], name);
+  // as many script elements begin as end
+  const auto count = [&](const std::string& word) {
+    int n = 0;
+    for (std::size_t at = page.find(word); at != std::string::npos; at = page.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("</script>"), 4);
+}
+
+TEST(ReportHtml, DrawsTheTeethAsTheyAre) {
+  const GearTrain train = pair_train("plain");
+  const auto model = nlohmann::json::parse(script_text(report_html(report_of(train)), "model-data"));
+  for (std::size_t i = 0; i < train.gears.size(); ++i) {
+    const auto& tooth = model["gears"][i]["tooth"];
+    double largest = 0.0, smallest = 1e9;
+    for (std::size_t k = 0; k < tooth.size(); k += 2) {
+      const double r = std::hypot(tooth[k].get<double>(), tooth[k + 1].get<double>());
+      largest = std::max(largest, r);
+      smallest = std::min(smallest, r);
+    }
+    EXPECT_NEAR(largest, train.gears[i].profile.tip_radius_mm(), 2e-5);
+    EXPECT_NEAR(smallest, train.gears[i].profile.root_radius_mm(), 2e-5);
+  }
+}
+
+TEST(ReportHtml, TellsWhatTheToleranceStandardDoesNotCover) {
+  GearTrain train = pair_train("plain");
+  train.gears[0].face_width_mm = 3.0;
+  const auto model = nlohmann::json::parse(script_text(report_html(report_of(train)), "model-data"));
+  EXPECT_TRUE(model["gears"][0]["iso1328"]["classes"].empty());
+  EXPECT_NE(model["gears"][0]["iso1328"]["scope"].get<std::string>().find("face width"),
+            std::string::npos);
+  EXPECT_EQ(model["gears"][1]["iso1328"]["classes"].size(), 11u);
+}
+
+TEST(ReportHtml, WithoutATrainIsABug) {
+  EXPECT_THROW((void)report_html(Report{}), ContractViolation);
+}
+
+}  // namespace
+}  // namespace trueflank::io

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/report_html.h"
+
+#include <array>
+#include <utility>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/export/report_model.h"
+#include "trueflank/export/report_page.h"
+
+namespace trueflank::io {
+namespace {
+
+/// JSON inside a script element: '<' stands only in strings, and "</script" or "<!--" there would
+/// end or confuse the element.
+std::string json_for_script(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (char c : json) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+std::string text_for_html(std::string_view plain) {
+  std::string text;
+  for (char c : plain) {
+    switch (c) {
+      case '&': text += "&amp;"; break;
+      case '<': text += "&lt;"; break;
+      case '>': text += "&gt;"; break;
+      case '"': text += "&quot;"; break;
+      default: text += c;
+    }
+  }
+  return text;
+}
+
+/// The frame with its @PLACES@ filled, each once, in the order of the frame.
+template <std::size_t N>
+std::string filled(std::string_view frame,
+                   const std::array<std::pair<std::string_view, std::string_view>, N>& places) {
+  std::size_t size = frame.size();
+  for (const auto& [place, text] : places) size += text.size();
+  std::string page;
+  page.reserve(size);
+  for (const auto& [place, text] : places) {
+    const std::size_t at = frame.find(place);
+    TRUEFLANK_EXPECTS(at != std::string_view::npos);
+    page.append(frame.substr(0, at)).append(text);
+    frame.remove_prefix(at + place.size());
+  }
+  return page.append(frame);
+}
+
+}  // namespace
+
+bool report_html_has_3d() { return !page::kViewer.empty(); }
+
+std::string report_html(const Report& report, const HtmlModel& model) {
+  TRUEFLANK_EXPECTS(report.train != nullptr);
+  const std::string title = text_for_html(report.train->design.name);
+  const std::string licence = text_for_html(page::kLicence);
+  const std::string data = json_for_script(report_json(report));
+  const std::string drawn = json_for_script(report_model_json(report, model));
+  return filled<7>(page::kFrame, {{{"@TITLE@", title},
+                                   {"@STYLE@", page::kStyle},
+                                   {"@LICENCE@", licence},
+                                   {"@REPORT@", data},
+                                   {"@MODEL@", drawn},
+                                   {"@SCRIPT@", page::kScript},
+                                   {"@VIEWER@", page::kViewer}}});
+}
+
+}  // namespace trueflank::io
