@@ -33,7 +33,8 @@ function digitsFor(value) {
 }
 function text(value, digits = null) {
   if (!isNumber(value)) return '–';
-  const shown = value.toFixed(digits ?? digitsFor(value));
+  const fixed = value.toFixed(digits ?? digitsFor(value));
+  const shown = digits === null && fixed.includes('.') ? fixed.replace(/\.?0+$/, '') : fixed;
   return (Number(shown) === 0 ? shown.replace('-', '') : shown).replace('-', '−');
 }
 /** A number of the report: the element carries its path, so that anyone can compare. */

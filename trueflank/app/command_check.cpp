@@ -2,6 +2,7 @@
 #include "trueflank/app/commands.h"
 #include "trueflank/app/design_input.h"
 #include "trueflank/app/error_text.h"
+#include "trueflank/app/html_document.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
 
@@ -16,6 +17,11 @@ int run_check(const CheckOptions& options) {
   if (!options.json.empty())
     if (auto ok = write_document(options.json, io::report_json(report)); !ok)
       return report_errors({ok.error()});
+  if (!options.html.empty()) {
+    const auto shapes = part_shapes(*train);
+    const std::string page = html_document(report, shapes ? &*shapes : nullptr);
+    if (auto ok = write_document(options.html, page); !ok) return report_errors({ok.error()});
+  }
   if (!options.quiet && !document_on_output)
     if (auto ok = print(io::report_text(report, standard_output_colour())); !ok)
       return report_errors({ok.error()});

@@ -6,6 +6,7 @@
 #include "trueflank/app/commands.h"
 #include "trueflank/app/design_input.h"
 #include "trueflank/app/error_text.h"
+#include "trueflank/app/html_document.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/export/atomic_file.h"
@@ -49,7 +50,10 @@ Errors part_errors(const MakeOptions& options, const PartShapes& shapes) {
            .remedy = joined(names)}};
 }
 
-Status write_report(const io::Report& report, const std::filesystem::path& folder) {
+Status write_report(const io::Report& report, const PartShapes& shapes,
+                    const std::filesystem::path& folder) {
+  if (auto ok = io::write_file(folder / "report.html", html_document(report, &shapes)); !ok)
+    return ok;
   return io::write_file(folder / "report.json", io::report_json(report));
 }
 
@@ -77,7 +81,7 @@ int run_make(const MakeOptions& options) {
     report.tolerance_um = options.tolerance_um;
     report.files = std::move(*files);
   }
-  if (auto ok = write_report(report, folder); !ok) return report_errors({ok.error()});
+  if (auto ok = write_report(report, *shapes, folder); !ok) return report_errors({ok.error()});
   if (!options.quiet) {
     std::string text = io::report_text(report, standard_output_colour());
     if (failed && !options.allow_failing)

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/export/report.h"
+#include "trueflank/solid/part_shape.h"
+
+namespace trueflank::app {
+
+/// report.html of a report, with the allowable torques of the default material.
+/// shapes: null where the parts cannot be built; the bare toothings are drawn then.
+[[nodiscard]] std::string html_document(const io::Report& report, const PartShapes* shapes);
+
+}  // namespace trueflank::app
