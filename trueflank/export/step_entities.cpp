@@ -15,9 +15,14 @@ void append_integer(std::string& text, int value) {
   text.append(buffer.data(), result.ptr);
 }
 
-void append_hex(std::string& text, std::uint32_t value) {
+/// A character as ISO 10303-21 spells it: four hexadecimal digits where that is enough.
+void append_encoded(std::string& text, std::uint32_t character) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
-  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[(value >> shift) & 15U];
+  const bool wide = character > 0xFFFFU;
+  text += wide ? "\\X4\\" : "\\X2\\";
+  for (int shift = wide ? 28 : 12; shift >= 0; shift -= 4)
+    text += kDigits[(character >> shift) & 15U];
+  text += "\\X0\\";
 }
 
 /// One character of UTF-8, moving on past it; what is not UTF-8 becomes U+FFFD.
@@ -132,13 +137,10 @@ StepEntities& StepEntities::put_quoted(std::string_view utf8) {
   for (std::size_t at = 0; at < utf8.size();) {
     const std::uint32_t character = next_character(utf8, at);
     if (character == '\'' || character == '\\') text_ += static_cast<char>(character);
-    if (character >= 0x20U && character < 0x7FU) {
+    if (character >= 0x20U && character < 0x7FU)
       text_ += static_cast<char>(character);
-    } else {
-      text_ += "\\X4\\";
-      append_hex(text_, character);
-      text_ += "\\X0\\";
-    }
+    else
+      append_encoded(text_, character);
   }
   text_ += '\'';
   return *this;
