@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/export/step_entities.h"
 
-#include <array>
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "trueflank/export/number_text.h"
+
 namespace trueflank::io {
 namespace {
-
-void append_integer(std::string& text, int value) {
-  std::array<char, 16> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  text.append(buffer.data(), result.ptr);
-}
 
 /// A character as ISO 10303-21 spells it: four hexadecimal digits where that is enough.
 void append_encoded(std::string& text, std::uint32_t character) {
@@ -109,18 +104,12 @@ StepEntities& StepEntities::put_reals(const std::vector<double>& numbers) {
 }
 
 StepEntities& StepEntities::put(double number) {
-  std::array<char, 32> buffer{};
-  const double value = number == 0.0 ? 0.0 : number;  // no negative zero
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  const std::string_view digits(buffer.data(), static_cast<std::size_t>(result.ptr - buffer.data()));
-  const std::size_t exponent = digits.find('e');
-  const std::string_view mantissa = digits.substr(0, exponent);
-  text_ += mantissa;
-  if (mantissa.find('.') == std::string_view::npos) text_ += '.';
-  if (exponent != std::string_view::npos) {
-    text_ += 'E';
-    text_ += digits.substr(exponent + 1);
-  }
+  const std::size_t start = text_.size();
+  append_shortest(text_, number == 0.0 ? 0.0 : number);  // no negative zero
+  const std::size_t exponent = text_.find('e', start);
+  if (exponent != std::string::npos) text_[exponent] = 'E';
+  if (text_.find('.', start) == std::string::npos)
+    text_.insert(std::min(exponent, text_.size()), 1, '.');
   return *this;
 }
 

@@ -8,25 +8,12 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/base/units.h"
+#include "trueflank/solid/outline_loop.h"
 
 namespace trueflank {
 namespace {
 
 Point3 at_height(const Point2& p, double z_mm) { return {p.x(), p.y(), z_mm}; }
-
-bool same(const Outline& a, const Outline& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* t = std::get_if<ToothedOutline>(&a)) {
-    const auto& u = std::get<ToothedOutline>(b);
-    return t->profile == u.profile && t->rotation_rad == u.rotation_rad;
-  }
-  if (const auto* c = std::get_if<CircleOutline>(&a)) {
-    const auto& d = std::get<CircleOutline>(b);
-    return c->centre == d.centre && c->radius_mm == d.radius_mm;
-  }
-  return std::get<BoreOutline>(a).bore == std::get<BoreOutline>(b).bore;
-}
 
 /// An outline from the slab it starts in to the one it ends with.
 struct Wall {
@@ -41,7 +28,7 @@ std::vector<Wall> walls_of(const PartShape& part, const PathTolerance& tolerance
   std::vector<Wall> walls;
   const auto add = [&](const Outline& outline, bool outer, std::size_t slab) {
     for (Wall& wall : walls)
-      if (wall.last_slab + 1 == slab && wall.outer == outer && same(*wall.outline, outline)) {
+      if (wall.last_slab + 1 == slab && wall.outer == outer && same_outline(*wall.outline, outline)) {
         wall.last_slab = slab;
         return;
       }
@@ -172,20 +159,23 @@ class WallBuilder {
 struct WallEnd {
   const Wall* wall = nullptr;
   bool above = false;  ///< the wall stands on this height, else it ends here
-  RadialBounds radii = {};
-  bool round_origin = true;           ///< contains the axis
-  std::vector<Point2> polygon = {};   ///< made where radii do not tell
+  OutlineExtent extent = {};
+  std::vector<Point2> polygon = {};      ///< made where the extents do not tell
   std::vector<std::size_t> inside = {};  ///< other ends that contain this one
 };
 
 bool is_circle(const WallEnd& end) { return end.wall->path.pieces.size() == 1; }
 
-/// What is known from radii alone; kCrossing: they do not tell.
-enum class Nesting { kInside, kApart, kCrossing };
+/// What is known from the circles about the axis between which two ends lie.
+enum class Nesting { kInside, kApart, kUnknown };
 Nesting nesting_by_radii(const WallEnd& inner, const WallEnd& outer) {
-  if (inner.radii.upper_mm < outer.radii.lower_mm)
-    return outer.round_origin ? Nesting::kInside : Nesting::kApart;
-  return inner.radii.lower_mm > outer.radii.upper_mm ? Nesting::kApart : Nesting::kCrossing;
+  const double inner_off = inner.extent.centre.norm(), outer_off = outer.extent.centre.norm();
+  const double nearest = std::max(inner_off - inner.extent.outer_radius_mm,
+                                  inner.extent.inner_radius_mm - inner_off);
+  if (nearest > outer_off + outer.extent.outer_radius_mm) return Nesting::kApart;
+  if (inner_off + inner.extent.outer_radius_mm < outer.extent.inner_radius_mm - outer_off)
+    return Nesting::kInside;
+  return Nesting::kUnknown;
 }
 
 /// How many of the inner polygon's points the outer end contains. The polygon's vertices are on the
@@ -201,13 +191,7 @@ std::size_t points_within(const WallEnd& inner, const WallEnd& outer) {
 }
 
 Status find_nesting(std::vector<WallEnd>& ends, const PartShape& part) {
-  for (WallEnd& end : ends) {
-    end.radii = radial_bounds(end.wall->path);
-    if (is_circle(end)) {
-      const PathCircle& circle = end.wall->path.circles.front();
-      end.round_origin = circle.centre.norm() < circle.radius_mm;
-    }
-  }
+  for (WallEnd& end : ends) end.extent = extent(*end.wall->outline);
   const auto make_polygon = [](WallEnd& end) {
     if (end.polygon.empty()) end.polygon = path_polygon(end.wall->path);
   };
@@ -216,7 +200,7 @@ Status find_nesting(std::vector<WallEnd>& ends, const PartShape& part) {
       if (&ends[k] == &inner) continue;
       const Nesting nesting = nesting_by_radii(inner, ends[k]);
       if (nesting == Nesting::kInside) inner.inside.push_back(k);
-      if (nesting != Nesting::kCrossing) continue;
+      if (nesting != Nesting::kUnknown) continue;
       make_polygon(inner);
       if (!is_circle(ends[k])) make_polygon(ends[k]);
       const std::size_t count = points_within(inner, ends[k]);

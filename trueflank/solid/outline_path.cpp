@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
+#include "trueflank/solid/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -178,26 +178,13 @@ OutlinePath path_of(const BoreOutline& outline, const PathTolerance& tolerance) 
   const double radius = 0.5 * bore.diameter_mm;
   if (bore.kind == BoreKind::kRound) return path_of(CircleOutline{{0.0, 0.0}, radius}, tolerance);
   OutlinePath path;
-  if (bore.kind == BoreKind::kHex) {
-    const double corner_mm = radius / std::cos(kPi / 6.0);
-    for (int i = 0; i < 6; ++i)
-      path.pieces.push_back({corner_mm * unit_vector(kPi * (2 * i - 1) / 6.0), PathSegment{}});
-    return path;
+  // keyway and flat are on +x: no arc passes there
+  if (bore.kind != BoreKind::kHex) path.circles.push_back({Point2::Zero(), radius, 0.0});
+  for (const BoreEdge& edge : bore_edges(bore)) {
+    PathPiece piece{edge.from, PathSegment{}};
+    if (edge.arc) piece.shape = PathArc{};
+    path.pieces.push_back(std::move(piece));
   }
-  path.circles.push_back({Point2::Zero(), radius, 0.0});
-  if (bore.kind == BoreKind::kDFlat) {
-    const double flat_mm = bore.d_flat_mm - radius;
-    const double half_mm = std::sqrt(radius * radius - flat_mm * flat_mm);
-    path.pieces = {{{flat_mm, -half_mm}, PathSegment{}}, {{flat_mm, half_mm}, PathArc{}}};
-    return path;
-  }
-  const double half_mm = 0.5 * bore.keyway_width_mm;
-  const double mouth_mm = std::sqrt(radius * radius - half_mm * half_mm);
-  const double floor_mm = radius + bore.keyway_depth_mm;
-  path.pieces = {{{mouth_mm, -half_mm}, PathSegment{}},
-                 {{floor_mm, -half_mm}, PathSegment{}},
-                 {{floor_mm, half_mm}, PathSegment{}},
-                 {{mouth_mm, half_mm}, PathArc{}}};
   return path;
 }
 
@@ -243,28 +230,6 @@ bool contains(const std::vector<Point2>& polygon, const Point2& point) {
       inside = !inside;
   }
   return inside;
-}
-
-RadialBounds radial_bounds(const OutlinePath& path) {
-  RadialBounds bounds{std::numeric_limits<double>::infinity(), 0.0};
-  const auto include = [&](double lower, double upper) {
-    bounds = {std::min(bounds.lower_mm, lower), std::max(bounds.upper_mm, upper)};
-  };
-  for (std::size_t i = 0; i < path.pieces.size(); ++i) {
-    const PathPiece& piece = path.pieces[i];
-    if (const auto* arc = std::get_if<PathArc>(&piece.shape)) {
-      const PathCircle& c = path.circles[static_cast<std::size_t>(arc->circle)];
-      const double centre = c.centre.norm();
-      include(std::abs(centre - c.radius_mm), centre + c.radius_mm);
-      continue;
-    }
-    // a spline lies in the convex hull of its poles, a segment in that of its ends
-    std::vector<Point2> hull{piece.start, path.pieces[(i + 1) % path.pieces.size()].start};
-    if (const auto* s = std::get_if<PathSpline>(&piece.shape)) hull = s->spline.poles;
-    const Point2 direction = (hull.front() + hull.back()).normalized();
-    for (const Point2& p : hull) include(std::max(p.dot(direction), 0.0), p.norm());
-  }
-  return bounds;
 }
 
 }  // namespace trueflank

@@ -54,11 +54,4 @@ struct PathTolerance {
 [[nodiscard]] std::vector<Point2> path_polygon(const OutlinePath& path);
 [[nodiscard]] bool contains(const std::vector<Point2>& polygon, const Point2& point);
 
-
-/// Bounds of the distance of the path's points from the origin; close, not always reached.
-struct RadialBounds {
-  double lower_mm = 0.0, upper_mm = 0.0;
-};
-[[nodiscard]] RadialBounds radial_bounds(const OutlinePath& path);
-
 }  // namespace trueflank
