@@ -14,8 +14,11 @@ namespace {
 
 // APPNOTE.TXT 6.3: signatures and sizes of the fixed parts.
 constexpr std::uint32_t kLocalHeader = 0x04034b50, kDirectoryHeader = 0x02014b50,
-                        kEndOfDirectory = 0x06054b50;
-constexpr std::size_t kLocalHeaderBytes = 30, kDirectoryHeaderBytes = 46, kEndBytes = 22;
+                        kEndOfDirectory = 0x06054b50, kEnd64 = 0x06064b50,
+                        kEnd64Locator = 0x07064b50;
+constexpr std::size_t kLocalHeaderBytes = 30, kDirectoryHeaderBytes = 46, kEndBytes = 22,
+                      kEnd64Bytes = 56, kLocatorBytes = 20;
+constexpr std::uint32_t kSizes64 = 0x0001;  // extra field with what did not fit into 32 bits
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kVersionNeeded = 20, kUtf8Names = 0x0800, kEncrypted = 0x0001;
 constexpr std::uint16_t kFirstDay = 0x0021;  // 1980-01-01, the first date the format knows
@@ -37,6 +40,10 @@ std::uint32_t get16(std::string_view bytes, std::size_t at) {
 }
 std::uint32_t get32(std::string_view bytes, std::size_t at) {
   return get16(bytes, at) | get16(bytes, at + 2) << 16;
+}
+
+std::uint64_t get64(std::string_view bytes, std::size_t at) {
+  return get32(bytes, at) | static_cast<std::uint64_t>(get32(bytes, at + 4)) << 32;
 }
 
 Error broken(const char* what) {
@@ -80,24 +87,56 @@ struct DirectoryEntry {
   std::size_t packed_bytes = 0, content_bytes = 0, local_header = 0;
 };
 
-Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
+/// Where the directory lies and how many entries it has.
+struct DirectoryPlace {
+  std::size_t begin = 0, end = 0, count = 0;
+};
+
+Result<DirectoryPlace> find_directory(std::string_view archive) {
   if (archive.size() < kEndBytes) return fail(broken("is cut off"));
   std::optional<std::size_t> end;  // searched backwards: a comment may follow it
   const std::size_t lowest = archive.size() - std::min(archive.size(), kEndBytes + 65535);
   for (std::size_t at = archive.size() - kEndBytes + 1; at-- > lowest && !end;)
     if (get32(archive, at) == kEndOfDirectory) end = at;
   if (!end) return fail(broken("has no directory: cut off, or no archive"));
-  const std::size_t count = get16(archive, *end + 10);
-  std::size_t at = get32(archive, *end + 16);
-  if (count == 0xffff || at == kLargest)
-    return fail(Error{.code = ErrorCode::kUnsupported, .message = "the archive is a ZIP64 one"});
+  const DirectoryPlace place{get32(archive, *end + 16), *end, get16(archive, *end + 10)};
+  // ZIP64: some programs write it for small files too
+  if (*end < kLocatorBytes || get32(archive, *end - kLocatorBytes) != kEnd64Locator) return place;
+  const std::uint64_t end64 = get64(archive, *end - kLocatorBytes + 8);
+  if (end64 > *end || *end - end64 < kEnd64Bytes || get32(archive, end64) != kEnd64)
+    return fail(broken("has a damaged directory"));
+  return DirectoryPlace{get64(archive, end64 + 48), end64, get64(archive, end64 + 32)};
+}
+
+/// Takes from the ZIP64 extra field what the entry's 32 bits could not hold.
+void widen(DirectoryEntry& entry, std::string_view extra) {
+  while (extra.size() >= 4) {
+    const std::size_t length = std::min<std::size_t>(get16(extra, 2), extra.size() - 4);
+    if (get16(extra, 0) == kSizes64) {
+      std::size_t at = 4;
+      for (std::size_t* value : {&entry.content_bytes, &entry.packed_bytes, &entry.local_header})
+        if (*value == kLargest && at + 8 <= 4 + length) {
+          *value = get64(extra, at);
+          at += 8;
+        }
+    }
+    extra.remove_prefix(4 + length);
+  }
+}
+
+Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
+  const auto place = find_directory(archive);
+  if (!place) return fail(place.error());
+  std::size_t at = place->begin;
+  const auto room = [&] { return at <= place->end ? place->end - at : 0; };
   std::vector<DirectoryEntry> entries;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (at + kDirectoryHeaderBytes > *end || get32(archive, at) != kDirectoryHeader)
+  for (std::size_t i = 0; i < place->count; ++i) {
+    if (room() < kDirectoryHeaderBytes || get32(archive, at) != kDirectoryHeader)
       return fail(broken("has a damaged directory"));
-    const std::size_t name_bytes = get16(archive, at + 28);
-    if (at + kDirectoryHeaderBytes + name_bytes > *end)
-      return fail(broken("has a damaged directory"));
+    const std::size_t name_bytes = get16(archive, at + 28), extra_bytes = get16(archive, at + 30);
+    const std::size_t all_bytes =
+        kDirectoryHeaderBytes + name_bytes + extra_bytes + get16(archive, at + 32);
+    if (room() < all_bytes) return fail(broken("has a damaged directory"));
     entries.push_back({.name = archive.substr(at + kDirectoryHeaderBytes, name_bytes),
                        .flags = get16(archive, at + 8),
                        .method = get16(archive, at + 10),
@@ -105,7 +144,8 @@ Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
                        .packed_bytes = get32(archive, at + 20),
                        .content_bytes = get32(archive, at + 24),
                        .local_header = get32(archive, at + 42)});
-    at += kDirectoryHeaderBytes + name_bytes + get16(archive, at + 30) + get16(archive, at + 32);
+    widen(entries.back(), archive.substr(at + kDirectoryHeaderBytes + name_bytes, extra_bytes));
+    at += all_bytes;
   }
   return entries;
 }
@@ -116,11 +156,13 @@ Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& ent
                       .message = "entry '" + std::string(entry.name) +
                                  "' of the archive is encrypted or packed in an unknown way"});
   const std::size_t header = entry.local_header;
-  if (header + kLocalHeaderBytes > archive.size() || get32(archive, header) != kLocalHeader)
+  if (archive.size() < kLocalHeaderBytes || header > archive.size() - kLocalHeaderBytes ||
+      get32(archive, header) != kLocalHeader)
     return fail(broken("is damaged"));
   const std::size_t begin =
       header + kLocalHeaderBytes + get16(archive, header + 26) + get16(archive, header + 28);
-  if (begin + entry.packed_bytes > archive.size()) return fail(broken("is cut off"));
+  if (begin > archive.size() || entry.packed_bytes > archive.size() - begin)
+    return fail(broken("is cut off"));
   // Deflate cannot pack more than 1032 : 1; a larger claim is a trap for our memory.
   if (entry.content_bytes / 1040 > entry.packed_bytes) return fail(broken("is damaged"));
   const std::string_view body = archive.substr(begin, entry.packed_bytes);

@@ -7,7 +7,7 @@
 
 #include "trueflank/base/result.h"
 
-// The container of 3MF files: PKZIP with deflated or stored entries, below 4 GB.
+// The container of 3MF files: PKZIP with deflated or stored entries; written below 4 GB, ZIP64 is read.
 namespace trueflank::io {
 
 struct ZipEntry {
@@ -23,7 +23,7 @@ struct ZipEntry {
 [[nodiscard]] Result<std::vector<std::string>> zip_names(std::string_view archive);
 
 /// One entry's content, its checksum verified. Errors: kSyntax, kMissingKey (no such entry),
-/// kUnsupported (encrypted, another method, ZIP64).
+/// kUnsupported (encrypted, another method).
 [[nodiscard]] Result<std::string> zip_content(std::string_view archive, std::string_view name);
 
 }  // namespace trueflank::io

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What other programs make of the files of `trueflank make`.
+
+PrusaSlicer and admesh must find closed bodies with nothing to repair, OpenSCAD must render the same
+shape from the .scad, ezdxf must find no error in the .dxf and the area of the section in it, xmllint
+must take .svg and the model in the .3mf for well-formed.
+"""
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import unittest
+import zipfile
+
+import ezdxf
+import ezdxf.path
+import numpy as np
+
+SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+EXAMPLES = sorted(p.parent.name for p in SOURCE.glob("examples/*/design.toml"))
+DRIVE = "bilateral_drive"
+TOLERANCE_MM = 1e-3
+
+
+def run(*command, timeout=120):
+    environment = dict(os.environ, HOME=str(OUTPUT), LC_ALL="C")
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=timeout,
+                          env=environment, errors="replace")
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: exit {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.stdout + done.stderr
+
+
+def read_stl(path):
+    """Triangles as an array n x 3 x 3 of a binary or text STL."""
+    data = path.read_bytes()
+    if data.startswith(b"solid"):
+        numbers = [line.split()[1:] for line in data.decode().splitlines()
+                   if line.strip().startswith("vertex")]
+        return np.array(numbers, dtype=float).reshape(-1, 3, 3)
+    count = struct.unpack_from("<I", data, 80)[0]
+    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    return np.frombuffer(data, record, count, 84)["corners"].astype(float)
+
+
+def volume_of(triangles):
+    return float(np.einsum("ij,ij->i", triangles[:, 0],
+                           np.cross(triangles[:, 1], triangles[:, 2])).sum() / 6)
+
+
+def wall_edges(triangles, z):
+    """Edges at a height that belong to walls, as arrays of ends (n x 2)."""
+    on = np.isclose(triangles[:, :, 2], z, atol=1e-4)
+    rows = np.flatnonzero(on.sum(axis=1) == 2)
+    ends = np.array([triangles[i][on[i]][:, :2] for i in rows])
+    return ends[:, 0], ends[:, 1]
+
+
+def farthest_mm(points, begin, end):
+    """Largest distance of points to the nearest of some segments."""
+    farthest = 0.0
+    for chunk in np.array_split(points, max(1, len(points) // 200)):
+        along = end - begin
+        share = np.einsum("pij,ij->pi", chunk[:, None] - begin[None], along)
+        share = np.clip(share / np.maximum((along * along).sum(axis=1), 1e-30), 0, 1)
+        nearest = begin[None] + share[..., None] * along[None]
+        farthest = max(farthest, np.linalg.norm(chunk[:, None] - nearest, axis=2).min(axis=1).max())
+    return farthest
+
+
+def prusa(path):
+    """Values of `prusa-slicer --info`, a dictionary for each object of the file."""
+    objects = []
+    for line in run("prusa-slicer", "--info", path).splitlines():
+        if line.startswith("["):
+            if "trace" not in line:
+                objects.append({})
+        elif " = " in line and objects:
+            key, value = line.split(" = ")
+            objects[-1][key.strip()] = value.strip()
+    return objects
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        for name in EXAMPLES:
+            formats = "stl,3mf,obj,dxf,svg,scad" if name == DRIVE else "stl,scad,dxf"
+            run(PROGRAM, "make", SOURCE / "examples" / name / "design.toml", "-o", OUTPUT / name,
+                "--formats", formats)
+
+    def parts(self, name):
+        return sorted(p.stem for p in (OUTPUT / name).glob("*.stl") if p.stem != "assembly")
+
+    def test_prusa_slicer_finds_one_closed_body_in_every_part(self):
+        for part in self.parts(DRIVE):
+            exact = volume_of(read_stl(OUTPUT / DRIVE / f"{part}.stl"))
+            for extension in ("stl", "3mf", "obj"):
+                with self.subTest(f"{part}.{extension}"):
+                    objects = prusa(OUTPUT / DRIVE / f"{part}.{extension}")
+                    self.assertEqual(len(objects), 1)
+                    self.assertEqual(objects[0]["manifold"], "yes")
+                    self.assertEqual(objects[0]["number_of_parts"], "1")
+                    self.assertAlmostEqual(float(objects[0]["volume"]) / exact, 1, delta=1e-4)
+
+    def test_prusa_slicer_finds_every_body_of_the_assembly_in_its_place(self):
+        objects = prusa(OUTPUT / DRIVE / "assembly.3mf")
+        self.assertEqual(len(objects), 6)
+        for found in objects:
+            self.assertEqual(found["manifold"], "yes")
+        middles = sorted((round((float(o["min_x"]) + float(o["max_x"])) / 2, 1),
+                          round((float(o["min_y"]) + float(o["max_y"])) / 2, 1), float(o["min_z"]))
+                         for o in objects)
+        expected = sorted([(0, 0, 0), (0, 0, 0), (0, 0, 13), (25.7, 0, 0), (-12.8, 22.2, 0),
+                           (-12.8, -22.2, 0)])
+        for found, wanted in zip(middles, expected):
+            np.testing.assert_allclose(found, wanted, atol=0.1)
+
+    def test_admesh_has_nothing_to_repair(self):
+        clean = ("disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed",
+                 "Facets reversed", "Backwards edges", "Normals fixed", "Facets added")
+        for name in EXAMPLES:
+            for part in self.parts(name):
+                text = run("admesh", OUTPUT / name / f"{part}.stl")
+                for line in text.splitlines():
+                    if any(word in line for word in clean):
+                        numbers = line.split(":")[1].split()
+                        self.assertEqual(numbers[-1] if len(numbers) == 2 else numbers[0], "0",
+                                         f"{name}/{part}: {line}")
+
+    def test_openscad_renders_the_same_shape(self):
+        for name in EXAMPLES:
+            for part in self.parts(name):
+                with self.subTest(f"{name}/{part}"):
+                    rendered = OUTPUT / "rendered.stl"
+                    text = run("openscad", "-o", rendered, OUTPUT / name / f"{part}.scad")
+                    self.assertNotIn("WARNING", text)
+                    theirs, ours = read_stl(rendered), read_stl(OUTPUT / name / f"{part}.stl")
+                    self.assertAlmostEqual(volume_of(theirs) / volume_of(ours), 1, delta=1e-4)
+                    for z in np.unique(np.round(ours[:, :, 2], 3)):
+                        a, b = wall_edges(ours, z), wall_edges(theirs, z)
+                        # corners of both lie on the true curve, chords within the tolerance of it
+                        allowed = TOLERANCE_MM + 1e-4
+                        self.assertLess(farthest_mm(np.unique(b[0], axis=0), *a), allowed)
+                        self.assertLess(farthest_mm(np.unique(a[0], axis=0), *b), allowed)
+
+    def test_openscad_takes_new_sizes(self):
+        folder = OUTPUT / DRIVE
+        def volume(part, *definitions):
+            out = OUTPUT / "changed.stl"
+            run("openscad", "-o", out, *(f"-D{d}" for d in definitions), folder / f"{part}.scad")
+            return volume_of(read_stl(out))
+        whole = volume("planet")
+        # 2 x 39 flanks and 2 x 32 flanks lose about half of 0.1 mm each over their height
+        thinner = volume("planet", "extra_thinning_um=100")
+        self.assertAlmostEqual(whole - thinner, 0.1 * (39 * 12 + 32 * 14) * 2.25, delta=40)
+        self.assertAlmostEqual(volume("planet", "bore_diameter=0") - whole, np.pi * 9.5**2 * 27, delta=2)
+        self.assertAlmostEqual(volume("ring1", "face_width=24") / volume("ring1"), 2, delta=1e-4)
+        self.assertAlmostEqual(volume("ring1", "hole_diameter=0") - volume("ring1"),
+                               8 * np.pi * 2.25**2 * 12, delta=1)
+
+    def test_openscad_places_the_assembly(self):
+        out = OUTPUT / "assembly.csg"
+        run("openscad", "-o", out, OUTPUT / DRIVE / "assembly.scad")
+        self.assertEqual(out.read_text().count("polyhedron("), 3)
+
+    def test_ezdxf_finds_no_error_and_the_area_of_the_section(self):
+        for name in EXAMPLES:
+            for part in self.parts(name):
+                with self.subTest(f"{name}/{part}"):
+                    document = ezdxf.readfile(str(OUTPUT / name / f"{part}.dxf"))
+                    audit = document.audit()
+                    self.assertEqual((len(audit.errors), len(audit.fixes)), (0, 0))
+                    self.assertEqual(document.units, 4)
+                    areas = []
+                    for entity in document.modelspace():
+                        if entity.dxf.layer.startswith("SECTION_1_"):
+                            if entity.dxftype() == "CIRCLE":  # ezdxf's path of it is 0.03 % off
+                                areas.append(np.pi * entity.dxf.radius**2)
+                                continue
+                            self.assertTrue(entity.closed)
+                            path = ezdxf.path.make_path(entity)
+                            x, y = np.array([(p.x, p.y) for p in path.flattening(1e-4)]).T
+                            areas.append(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
+                    section = max(areas) - (sum(areas) - max(areas))
+                    mesh = read_stl(OUTPUT / name / f"{part}.stl")
+                    low = mesh[np.isclose(mesh[:, :, 2], 0).all(axis=1)][:, :, :2]
+                    u, v = low[:, 1] - low[:, 0], low[:, 2] - low[:, 0]
+                    exact = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
+                    self.assertAlmostEqual(section / exact, 1, delta=1e-4)
+
+    def test_xml_is_well_formed(self):
+        for path in (OUTPUT / DRIVE).glob("*.svg"):
+            run("xmllint", "--noout", path)
+        for path in (OUTPUT / DRIVE).glob("*.3mf"):
+            with zipfile.ZipFile(path) as archive:
+                self.assertIsNone(archive.testzip())
+                for entry in archive.namelist():
+                    out = OUTPUT / "entry.xml"
+                    out.write_bytes(archive.read(entry))
+                    run("xmllint", "--noout", out)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv)
