@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/geometry/gear_pair.h"
+
+// An independent judge of the overlap check: brute force, sharing nothing with it but the curves.
+namespace trueflank::test {
+
+/// Smallest signed distance of two outlines over one pitch of rotation.
+struct SimulatedClearance {
+  double clearance_mm = 0.0;  ///< at most the window below; negative: penetration
+  double window_mm = 0.0;     ///< distances beyond this are not looked for
+};
+
+/// All teeth near the mesh as dense polygons, placed at many rotations over one pitch with the backlash
+/// centred; every vertex of either gear against the edges of the other. Which side a vertex lies on is
+/// decided by counting the edges that a circle about the axis crosses on the way from a tooth's middle.
+/// Accuracy: overestimates the clearance by at most about 0.4 um at module 1 (vertices every 0.02 module
+/// or 0.1 um of sag, positions every 0.01 module of relative travel).
+[[nodiscard]] SimulatedClearance simulate_mesh(const GearPair& pair);
+
+/// Both gears at one position, gear 1 at the origin, gear 2 at `axis2_mm`.
+[[nodiscard]] double simulate_position_mm(const GearPair& pair, double rotation1_rad,
+                                          double rotation2_rad, const Point2& axis2_mm);
+
+}  // namespace trueflank::test
