@@ -22,7 +22,13 @@ Errors located_in(const std::string& path, Errors errors) {
 io::Report evaluate(const GearTrain& train) {
   io::Report report;
   report.train = &train;
-  report.findings = check_gearbox(train);
+  const std::vector<MeshState> states = mesh_states(train);
+  report.findings = check_gearbox(train, states);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    report.sweeps.push_back(
+        {.mesh = train.meshes[i].name,
+         .minimum_clearance_um = um_from_mm(states[i].centred.minimum_clearance_mm()),
+         .penetration_um = um_from_mm(states[i].centred.penetration_mm())});
   report.efficiency = efficiency(train);
   return report;
 }
