@@ -82,7 +82,7 @@ TEST(DesignFile, TellsAllItsErrorsInTheOrderOfTheLines) {
   const Errors& errors = design.error();
   EXPECT_EQ(errors[0].key, "gearbox.modul_mm");
   EXPECT_EQ(errors[0].line, 4);
-  EXPECT_EQ(errors[0].remedy, "did you mean module_mm?");
+  EXPECT_EQ(errors[0].message, "unknown key; did you mean module_mm?");
   EXPECT_EQ(errors[1].key, "gearbox.module_mm");
   EXPECT_EQ(errors[1].value, "nan");
   EXPECT_EQ(errors[2].key, "gear.face_width_mm");

@@ -48,7 +48,7 @@ class Contradictions {
   [[nodiscard]] bool good(const std::string& name) const { return reading_.good(key(name)); }
   [[nodiscard]] bool has(const std::string& name) const { return reading_.has(key(name)); }
   void wrong(const std::string& name, std::string message, std::string remedy) {
-    reading_.contradiction(key(name), key(name) + " " + std::move(message), std::move(remedy));
+    reading_.contradiction(key(name), std::move(message), std::move(remedy));
   }
 
   void check_name() {
@@ -57,7 +57,7 @@ class Contradictions {
     });
     if (design_.name.empty() || design_.name.size() > 100 || !printable)
       reading_.report({.code = ErrorCode::kOutOfRange,
-                       .message = "name is empty, too long or not printable",
+                       .message = "empty, too long or not printable",
                        .key = "name",
                        .remedy = "one line of 1 to 100 characters"});
   }
@@ -70,14 +70,14 @@ class Contradictions {
       for (OutputMember output : fitting)
         list += (list.empty() ? "\"" : " or \"") + std::string(to_text(output)) + '"';
       if (std::find(fitting.begin(), fitting.end(), design_.output) == fitting.end())
-        reading_.contradiction("gearbox.output", "gearbox.output does not fit " + kind,
-                               list.empty() ? "leave it out: a single gear has no output" : list);
+        reading_.contradiction("gearbox.output", "does not fit " + kind,
+                               list.empty() ? "no such key: a single gear has no output" : list);
     }
     if (!has_planets(design_.kind) && reading_.good("gearbox.planets") && design_.planets != 1)
-      reading_.contradiction("gearbox.planets", kind + " has no planets", "leave it out");
+      reading_.contradiction("gearbox.planets", kind + " has no planets", "no such key");
     if (design_.kind == TrainKind::kGear && reading_.good("gearbox.centre_distance_mm"))
       reading_.contradiction("gearbox.centre_distance_mm", "a single gear has no centre distance",
-                             "leave it out, or kind \"pair\"");
+                             "no such key, or kind \"pair\"");
   }
 
   void check_gearbox() {
@@ -85,10 +85,10 @@ class Contradictions {
         reading_.good("gearbox.herringbone") &&
         (!reading_.has("gearbox.helix_angle_deg") || reading_.good("gearbox.helix_angle_deg")))
       reading_.contradiction("gearbox.herringbone", "herringbone teeth need a helix angle",
-                             "helix_angle_deg other than 0, or herringbone = false");
+                             "a helix_angle_deg other than 0, or false");
     if (reading_.good("gearbox.backlash_mm") && reading_.good("gearbox.module_mm") &&
         design_.backlash_mm > design_.module_mm)
-      reading_.contradiction("gearbox.backlash_mm", "gearbox.backlash_mm is more than one module",
+      reading_.contradiction("gearbox.backlash_mm", "more than one module",
                              "at most " + mm(design_.module_mm));
   }
 
@@ -113,7 +113,7 @@ class Contradictions {
     }
     if (gear2->kind == GearKind::kInternal && reading_.good(gear1->name + ".teeth") &&
         good("teeth") && gear2->teeth <= gear1->teeth)
-      wrong("teeth", "must be more than the " + std::to_string(gear1->teeth) + " of " + name1,
+      wrong("teeth", "not more than the " + std::to_string(gear1->teeth) + " of " + name1,
             "more than " + std::to_string(gear1->teeth));
   }
 
@@ -147,13 +147,13 @@ class Contradictions {
   void check_tip_and_thinning() {
     const auto module = module_mm(*gear_);
     if (good("thinning_um") && module && *gear_->thinning_mm > *module)
-      wrong("thinning_um", "is more than one module",
+      wrong("thinning_um", "more than one module",
             "at most " + plain_number(*module * 1e3) + " um");
     const auto root = root_diameter_mm();
     if (!good("tip_diameter_mm") || !root) return;
     const double tip = *gear_->tip_diameter_mm;
     if (gear_->kind == GearKind::kExternal ? tip <= *root : tip >= *root)
-      wrong("tip_diameter_mm", "lies on the wrong side of the root circle",
+      wrong("tip_diameter_mm", "on the wrong side of the root circle",
             (gear_->kind == GearKind::kExternal ? "more than " : "less than ") + mm(*root));
   }
 
@@ -163,15 +163,15 @@ class Contradictions {
     if (good(table + "tip_relief_um") && m.tip_relief_um > 0.0 &&
         !has(table + "tip_relief_start_diameter_mm"))
       reading_.missing(key(table + "tip_relief_start_diameter_mm"),
-                       key(table) + "tip_relief_um needs tip_relief_start_diameter_mm",
+                       "missing, and tip_relief_um needs it",
                        "the diameter at which the tip relief starts");
     if (good(table + "tip_relief_start_diameter_mm") && !has(table + "tip_relief_um"))
-      wrong(table + "tip_relief_start_diameter_mm", "stands without tip_relief_um",
-            "tip_relief_um, or neither");
+      wrong(table + "tip_relief_start_diameter_mm", "without tip_relief_um",
+            "tip_relief_um beside it, or neither");
     if (good(table + "tip_relief_start_diameter_mm") && good("tip_diameter_mm")) {
       const double start = m.tip_relief_start_diameter_mm, tip = *gear_->tip_diameter_mm;
       if (gear_->kind == GearKind::kExternal ? start >= tip : start <= tip)
-        wrong(table + "tip_relief_start_diameter_mm", "lies beyond the tip circle",
+        wrong(table + "tip_relief_start_diameter_mm", "beyond the tip circle",
               (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + mm(tip));
     }
     if (good(table + "edge_chamfer_mm") && good("face_width_mm") &&
@@ -183,20 +183,21 @@ class Contradictions {
   void check_bore_kind() {
     const bool round = has("bore_mm"), hex = has("bore_hex_mm"), flat = has("bore_d_flat_mm");
     const bool width = has("bore_keyway_width_mm"), depth = has("bore_keyway_depth_mm");
-    if (hex && round) wrong("bore_hex_mm", "stands beside bore_mm", "one of the two");
+    if (hex && round) wrong("bore_hex_mm", "a second bore beside bore_mm", "one of the two");
     for (const char* name : {"bore_keyway_width_mm", "bore_keyway_depth_mm", "bore_d_flat_mm"}) {
       if (!has(name)) continue;
       if (hex)
-        wrong(name, "stands beside bore_hex_mm", "one of the two");
+        wrong(name, "not for a hexagon", "one of the two");
       else if (!round)
         wrong(name, "needs a bore", "bore_mm beside it");
     }
     if (flat && (width || depth))
-      wrong("bore_d_flat_mm", "stands beside a keyway", "a flat or a keyway");
+      wrong("bore_d_flat_mm", "a flat beside a keyway", "one of the two");
     if (width != depth) {
       const char* there = width ? "bore_keyway_width_mm" : "bore_keyway_depth_mm";
       const char* absent = width ? "bore_keyway_depth_mm" : "bore_keyway_width_mm";
-      reading_.missing(key(absent), key(there) + " needs " + absent, "both, or neither");
+      reading_.missing(key(absent), std::string("missing, and ") + there + " needs it",
+                       "both, or neither");
     }
   }
 
@@ -205,10 +206,10 @@ class Contradictions {
     const double d = bore.diameter_mm;
     if (good("bore_mm")) {
       if (good("bore_d_flat_mm") && (bore.d_flat_mm >= d || bore.d_flat_mm <= 0.5 * d))
-        wrong("bore_d_flat_mm", "is no flat of this bore",
+        wrong("bore_d_flat_mm", "no flat of this bore",
               "more than " + mm(0.5 * d) + " and less than " + mm(d));
       if (good("bore_keyway_width_mm") && bore.keyway_width_mm >= d)
-        wrong("bore_keyway_width_mm", "is not narrower than the bore", "less than " + mm(d));
+        wrong("bore_keyway_width_mm", "not narrower than the bore", "less than " + mm(d));
     }
     const auto root = root_diameter_mm();
     const char* name = bore.kind == BoreKind::kHex ? "bore_hex_mm" : "bore_mm";
@@ -246,7 +247,7 @@ class Contradictions {
     if (given == 0) return;
     for (const std::string& name : names)
       if (!has(name))
-        reading_.missing(key(name), "the bolt circle of " + gear_->name + " lacks " + name,
+        reading_.missing(key(name), "missing, and the bolt circle needs it",
                          "all of " + names[0] + ", " + names[1] + ", " + names[2]);
     if (given == 3 && std::all_of(names.begin(), names.end(), is_good)) check_bolt_places();
   }
@@ -277,14 +278,14 @@ class Contradictions {
     if (has("root") && !good("root")) return;
     const bool shaper = gear_->root == RingRoot::kShaper;
     if (shaper && !has("cutter"))
-      reading_.missing(key("cutter"), key("root") + " = \"shaper\" needs a cutter",
+      reading_.missing(key("cutter"), "missing, and root = \"shaper\" needs it",
                        "a table [" + key("cutter") + "] with teeth, shift, tip_radius");
     if (!shaper && gear_->cutter)
-      wrong("cutter", "stands without root = \"shaper\"",
+      wrong("cutter", "a cutter without root = \"shaper\"",
             "root = \"shaper\" in [" + gear_->name + "], or no cutter");
     if (gear_->cutter && good("cutter.teeth") && good("teeth") &&
         gear_->cutter->teeth >= gear_->teeth)
-      wrong("cutter.teeth", "must be fewer than the ring's " + std::to_string(gear_->teeth),
+      wrong("cutter.teeth", "not fewer than the ring's " + std::to_string(gear_->teeth),
             "fewer than " + std::to_string(gear_->teeth));
   }
 

@@ -94,14 +94,14 @@ class DesignReader {
     }
     report_missing("", file_keys(), [](KeyPlace) { return true; });
     if (!root_.find("gearbox"))
-      reading_.missing("gearbox", "the table [gearbox] is missing",
+      reading_.missing("gearbox", "the table is missing",
                        "[gearbox] with kind, module_mm, ...");
   }
 
   void report_no_table(const std::string& key) {
     if (!reading_.good(key)) return;  // unreadable: told already
     reading_.report({.code = ErrorCode::kWrongType,
-                     .message = key + " is not a table",
+                     .message = "not a table",
                      .key = key,
                      .remedy = "a table: the line [" + key + "] and its keys below"});
   }
@@ -130,7 +130,7 @@ class DesignReader {
     if (!section("gearbox") || reading_.has("gearbox.module_mm")) return;
     const auto has_own = [&](const GearDesign& g) { return reading_.has(g.name + ".module_mm"); };
     if (gears.empty() || !std::all_of(gears.begin(), gears.end(), has_own))
-      reading_.missing("gearbox.module_mm", "gearbox.module_mm is missing",
+      reading_.missing("gearbox.module_mm", "missing",
                        "the module of the gears that do not set their own");
     else
       file_.design.module_mm = gears.front().module_mm.value_or(1.0);
@@ -146,7 +146,7 @@ class DesignReader {
       } else if (kind_known_ && !root_.find(name)) {
         const std::string kind = to_text(file_.design.kind);
         reading_.report({.code = ErrorCode::kMissingKey,
-                         .message = "the table [" + name + "] is missing",
+                         .message = "the table is missing",
                          .key = name,
                          .remedy = "kind \"" + kind + "\" has the gears " + joined(own),
                          .line = reading_.line("gearbox.kind")});
@@ -155,8 +155,8 @@ class DesignReader {
     for (const std::string& name : all)
       if (root_.find(name) && std::find(own.begin(), own.end(), name) == own.end())
         reading_.contradiction(
-            name, "kind \"" + std::string(to_text(file_.design.kind)) + "\" has no gear " + name,
-            "its gears are " + joined(own));
+            name, "kind \"" + std::string(to_text(file_.design.kind)) + "\" has no such gear",
+            "the gears " + joined(own));
   }
 
   GearDesign read_gear(const std::string& name, const TomlTable& table) {
@@ -181,7 +181,7 @@ class DesignReader {
     const std::string key = gear.name + ".cutter";
     if (gear.kind == GearKind::kExternal) {
       reading_.contradiction(key, gear.name + " is an external gear: no pinion cutter shapes it",
-                             "leave out [" + key + "]");
+                             "no such table");
     } else if (const auto* table = std::get_if<TomlTable>(&entry.value)) {
       gear.cutter = ShaperCutter{};
       read_keys(key, *table, cutter_keys(), *gear.cutter);
@@ -228,7 +228,7 @@ class DesignReader {
     if (misplaced)
       report_misplaced(dotted, section, misplaced->place);
     else
-      report_unknown(dotted, section, entry.key, key_names(keys), also_known);
+      report_unknown(dotted, entry.key, key_names(keys), also_known);
   }
 
   template <class Target>
@@ -239,30 +239,27 @@ class DesignReader {
 
   void report_misplaced(const std::string& dotted, const std::string& gear, KeyPlace place) {
     if (place == KeyPlace::kMaybeRing)
-      reading_.contradiction(dotted, dotted + " is not " + gear + "'s to say",
-                             "leave it out: only a wheel or a single gear may be internal");
+      reading_.contradiction(dotted, "not for " + gear,
+                             "nothing here: only a wheel or a single gear may be internal");
     else if (place == KeyPlace::kRing)
-      reading_.contradiction(dotted, dotted + " is for rings, and " + gear + " is an external gear",
-                             may_be_ring(gear) ? "internal = true, or leave it out" : "leave it out");
+      reading_.contradiction(dotted, "for rings only, and " + gear + " is an external gear",
+                             may_be_ring(gear) ? "internal = true, or no such key here" : "no such key here");
     else
-      reading_.contradiction(dotted, dotted + " is for external gears, and " + gear + " is a ring",
-                             "leave it out");
+      reading_.contradiction(dotted, "for external gears only, and " + gear + " is a ring",
+                             "no such key here");
   }
 
-  void report_unknown(const std::string& dotted, const std::string& section,
-                      const std::string& name, std::vector<std::string> known,
-                      const std::vector<std::string>& also_known) {
+  void report_unknown(const std::string& dotted, const std::string& name,
+                      std::vector<std::string> known, const std::vector<std::string>& also_known) {
     if (reading_.full()) return reading_.unknown(dotted, "", "");
     known.insert(known.end(), also_known.begin(), also_known.end());
-    std::string remedy;
     const std::string place = place_of(name), near = nearest_name(name, known);
     if (!place.empty())
-      remedy = name + " belongs to " + place;
+      reading_.unknown(dotted, "unknown key here; it belongs to " + place, "");
     else if (!near.empty())
-      remedy = "did you mean " + near + "?";
+      reading_.unknown(dotted, "unknown key; did you mean " + near + "?", "");
     else
-      remedy = (section.empty() ? "the file" : "[" + section + "]") + " has " + joined(known);
-    reading_.unknown(dotted, dotted + " is not known", std::move(remedy));
+      reading_.unknown(dotted, "unknown key", joined(known));
   }
 
   template <class Target, class Applies>
@@ -271,7 +268,7 @@ class DesignReader {
     const std::string prefix = section.empty() ? "" : section + ".";
     for (const DesignKey<Target>& key : keys)
       if (key.rule.required && applies(key.place) && !reading_.has(prefix + key.rule.name))
-        reading_.missing(prefix + key.rule.name, prefix + key.rule.name + " is missing",
+        reading_.missing(prefix + key.rule.name, "missing",
                          wanted(key.rule));
   }
 

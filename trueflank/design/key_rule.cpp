@@ -37,7 +37,7 @@ std::string range(const KeyRule& rule) {
 Error wrong(ErrorCode code, const KeyRule& rule, const std::string& key, const TomlValue& value,
             std::string why) {
   return {.code = code,
-          .message = key + " " + std::move(why),
+          .message = std::move(why),
           .key = key,
           .value = quoted_toml(value),
           .remedy = wanted(rule)};
@@ -89,27 +89,27 @@ Result<KeyValue> take_value(const KeyRule& rule, const std::string& key, const T
   switch (rule.type) {
     case KeyType::kFlag:
       if (const auto* flag = std::get_if<bool>(&value)) return KeyValue(*flag);
-      return wrong_type("is neither true nor false");
+      return wrong_type("neither true nor false");
     case KeyType::kText:
       if (text) return KeyValue(*text);
-      return wrong_type("is not text in quotes");
+      return wrong_type("not text in quotes");
     case KeyType::kChoice:
-      if (!text) return wrong_type("is not text in quotes");
+      if (!text) return wrong_type("not text in quotes");
       if (std::find(rule.choices.begin(), rule.choices.end(), *text) == rule.choices.end())
-        return out_of_range("is none of the values there are");
+        return out_of_range("no such value");
       return KeyValue(*text);
     case KeyType::kWhole:
-      if (!whole) return wrong_type("is not a whole number");
+      if (!whole) return wrong_type("not a whole number");
       if (static_cast<double>(*whole) < rule.lower || static_cast<double>(*whole) > rule.upper)
-        return out_of_range("is out of range");
+        return out_of_range("out of range");
       return KeyValue(*whole);
     case KeyType::kNumber: break;
   }
   const auto* real = std::get_if<double>(&value);
-  if (!whole && !real) return wrong_type("is not a number");
+  if (!whole && !real) return wrong_type("not a number");
   const double number = whole ? static_cast<double>(*whole) : *real;
-  if (!std::isfinite(number)) return out_of_range("is not a finite number");
-  if (number < rule.lower || number > rule.upper) return out_of_range("is out of range");
+  if (!std::isfinite(number)) return out_of_range("not a finite number");
+  if (number < rule.lower || number > rule.upper) return out_of_range("out of range");
   return KeyValue(number + 0.0);  // -0.0 becomes 0.0
 }
 

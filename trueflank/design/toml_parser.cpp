@@ -223,7 +223,6 @@ class TomlParser {
   void report(Error error) {
     error.key = shortened_text(key_);
     error.value = shortened_text(value_);
-    if (!error.key.empty()) error.message = error.key + ": " + error.message;
     document_.errors.push_back(std::move(error));
   }
 
