@@ -178,8 +178,10 @@ TEST(DesignErrors, WrongTypesAndImpossibleValuesAreRefused) {
            {"\"drive\"", "\"\"", kRange, "name", "\"\"", "100 characters", "name"},
            {"\"drive\"", R"("a\u001Bb")", kRange, "name", R"("a\u001Bb")", "100", "name"},
            {"kind = \"3k\"", "kind = 3", kType, "gearbox.kind", "3", "one of \"3k\"", "kind"},
-           {"kind = \"3k\"", "kind = \"3K\"", kRange, "gearbox.kind", "\"3K\"", "\"simple\"", "kind"},
-           {"planets = 3", "planets = 0", kRange, "gearbox.planets", "0", "from 1 to 50", "planets"},
+           {"kind = \"3k\"", "kind = \"3K\"", kRange, "gearbox.kind", "\"3K\"", "\"simple\"",
+            "kind"},
+           {"planets = 3", "planets = 0", kRange, "gearbox.planets", "0", "from 1 to 50",
+            "planets"},
            {"planets = 3", "planets = 2.5", kType, "gearbox.planets", "2.5", "whole", "planets"},
            {"module_mm = 1.0", "module_mm = 0", kRange, "gearbox.module_mm", "0", "from 0.01",
             "module_mm"},
@@ -251,7 +253,8 @@ TEST(DesignErrors, MissingKeysAndTablesAreNamed) {
 }
 
 TEST(DesignErrors, MissingKindIsToldWithoutGuessingWhichGearsThereAre) {
-  expect_slip(k3k, {"kind = \"3k\"\n", "", kMissing, "gearbox.kind", "", "\"simple\"", "[gearbox]"});
+  expect_slip(k3k,
+              {"kind = \"3k\"\n", "", kMissing, "gearbox.kind", "", "\"simple\"", "[gearbox]"});
 }
 
 TEST(DesignErrors, ValuesThatContradictEachOtherAreRefused) {
@@ -295,7 +298,8 @@ TEST(DesignErrors, ValuesThatContradictEachOtherAreRefused) {
 
 TEST(DesignErrors, ModulesMustAgreeWithinALayerOnly) {
   const auto other = [&](const std::string& text, const char* gear) {
-    return replaced(text, "[" + std::string(gear) + "]\n", "[" + std::string(gear) + "]\nmodule_mm = 1.25\n");
+    const std::string header = "[" + std::string(gear) + "]\n";
+    return replaced(text, header, header + "module_mm = 1.25\n");
   };
   EXPECT_TRUE(read_design_text(other(other(k3k, "planet2"), "ring2"), "layers.toml"));
   EXPECT_FALSE(read_design_text(other(k3k, "planet2"), "layers.toml"));
@@ -361,7 +365,8 @@ TEST(DesignErrors, RimsAndBoltsThatCannotBeAreRefused) {
             "less than 4.49", "bolt_hole"}}) {
     if (std::string(slip.key) == "ring1.outer_diameter_mm") {
       const std::string no_bolts = replaced(
-          k3k, "bolt_circle_diameter_mm = 103.0\nbolt_count = 8\nbolt_hole_diameter_mm = 4.5\n", "");
+          k3k,
+          "bolt_circle_diameter_mm = 103.0\nbolt_count = 8\nbolt_hole_diameter_mm = 4.5\n", "");
       expect_slip(no_bolts, slip);
     } else {
       expect_slip(k3k, slip);
@@ -402,7 +407,8 @@ TEST(DesignErrors, WrongTomlIsToldWithLineKeyAndValue) {
             "teeth = 13"},
            {"[planet2]", "[sun]\n[planet2]", kSyntax, "sun", "[sun]", "one of the two",
             "[sun]\n[planet2]"},
-           {"kind = \"3k\"", "kind = 3k", kSyntax, "gearbox.kind", "3k", "in quotes: \"3k\"", "kind"},
+           {"kind = \"3k\"", "kind = 3k", kSyntax, "gearbox.kind", "3k", "in quotes: \"3k\"",
+            "kind"},
            {"module_mm = 1.0", "module_mm = 1,0", kSyntax, "gearbox.module_mm", "1,0",
             "a decimal point", "module"},
            {"bore_mm = 5.0", "bore_mm = 5.0 mm", kSyntax, "sun.bore_mm", "5.0 mm", "no unit",

@@ -65,9 +65,74 @@ TEST(DesignFile, IsReadIntoMillimetresAndRadians) {
   EXPECT_EQ(ring.cutter, (ShaperCutter{.teeth = 25, .shift = 0.0, .tip_radius = 0.2}));
 }
 
+TEST(DesignFile, MayHoldEveryKeyThereIs) {
+  const auto design = read_design_text(R"(format = 1
+name = "bilateral-drive-96"
+
+[gearbox]
+kind = "3k"
+output = "ring2"
+planets = 3
+module_mm = 1.0
+centre_distance_mm = 25.6826
+friction = 0.1
+backlash_mm = 0.0
+layer_gap_mm = 1.0
+helix_angle_deg = 0.0
+herringbone = false
+
+[rack]
+pressure_angle_deg = 20.0
+addendum = 1.0
+dedendum = 1.25
+root_radius = 0.38
+
+[sun]
+teeth = 12
+module_mm = 1
+face_width_mm = 10.0
+bore_mm = 5.0
+
+[ring1]
+teeth = 90
+shift = 0.5225
+face_width_mm = 10
+outer_diameter_mm = 104.0
+root = "fillet"
+[ring1.cutter]
+teeth = 25
+shift = 0.0
+tip_radius = 0.2
+[planet1.modifications]
+tip_relief_um = 8
+tip_relief_start_diameter_mm = 40.5
+crowning_um = 0
+edge_chamfer_mm = 0.0
+[planet1]
+teeth = 39
+face_width_mm = 10
+tip_diameter_mm = 41.5
+thinning_um = 20
+[planet2]
+teeth = 32
+face_width_mm = 10
+[ring2]
+teeth = 81
+shift = 1.9967
+face_width_mm = 10
+)",
+                                       "all.toml");
+  ASSERT_TRUE(design) << design.error().front().key << " " << design.error().front().message;
+  EXPECT_EQ(design->gears[1].name, "planet1");
+  EXPECT_EQ(design->gears[1].modifications.tip_relief_start_diameter_mm, 40.5);
+  EXPECT_EQ(design->gears[2].root, RingRoot::kFillet);
+  EXPECT_TRUE(design->gears[2].cutter);
+}
+
 TEST(DesignFile, IsNamedAfterItsFileWhereItHasNoName) {
   const auto design = read_design_text(
-      "format = 1\n[gearbox]\nkind = \"gear\"\nmodule_mm = 1\n[gear]\nteeth = 20\nface_width_mm = 5\n",
+      "format = 1\n[gearbox]\nkind = \"gear\"\nmodule_mm = 1\n"
+      "[gear]\nteeth = 20\nface_width_mm = 5\n",
       "folder/my-gear.toml");
   ASSERT_TRUE(design) << design.error().front().message;
   EXPECT_EQ(design->name, "my-gear");

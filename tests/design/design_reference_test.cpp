@@ -63,7 +63,8 @@ void expect_meanings(const std::vector<DesignKey<Target>>& keys) {
     if (!unit.empty() && unit != "module")
       EXPECT_TRUE(name.ends_with("_" + unit)) << name;
     else
-      EXPECT_FALSE(name.ends_with("_mm") || name.ends_with("_um") || name.ends_with("_deg")) << name;
+      EXPECT_FALSE(name.ends_with("_mm") || name.ends_with("_um") || name.ends_with("_deg"))
+          << name;
   }
 }
 

@@ -76,7 +76,7 @@ class RandomDesigns {
                        .circle_diameter_mm = real(5e4, 9e4),
                        .hole_diameter_mm = real(1.0, 9.0)};
     if (coin()) {
-      g.root = RingRoot::kShaper;
+      g.root = coin() ? RingRoot::kShaper : RingRoot::kFillet;
       g.cutter = ShaperCutter{
           .teeth = whole(5, 100), .shift = real(-1.0, 1.0), .tip_radius = real(0.0, 0.3)};
     }
@@ -117,7 +117,7 @@ class RandomDesigns {
 
 TEST(DesignRoundTrip, WrittenDesignsReadBackEqual) {
   RandomDesigns designs(20240607);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const GearboxDesign design = designs.next();
     const std::string text = design_file_text(design, "case " + std::to_string(i));
     const auto read = read_design_text(text, "x.toml");
@@ -131,7 +131,7 @@ TEST(DesignRoundTrip, WrittenDesignsReadBackEqual) {
 TEST(DesignRoundTrip, AnglesNoDegreeHitsComeBackToOneUnitInTheLastPlace) {
   GearboxDesign design = RandomDesigns(7).next();
   std::mt19937_64 engine(7);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     const double angle_rad = 0.1 + 0.7 * static_cast<double>(engine() >> 11) * 0x1p-53;
     design.rack.pressure_angle_rad = angle_rad;
     const auto read = read_design_text(design_file_text(design), "x.toml");

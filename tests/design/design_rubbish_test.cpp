@@ -106,8 +106,8 @@ TEST(DesignRubbish, DeepNestingAndManyKeysCannotExhaustStackOrTime) {
   for (const std::string& text :
        {key + " = 1", "[" + key + "]", "[[" + key + "]]", "x = {" + key + " = 1}",
         "x = " + std::string(400000, '['), "x = [" + std::string(300, '{'), keys,
-        "x = " + std::string(300000, '"'), std::string(300000, '['), std::string(500000, '\n') + "=",
-        std::string(1000000, '=')}) {
+        "x = " + std::string(300000, '"'), std::string(300000, '['),
+        std::string(500000, '\n') + "=", std::string(1000000, '=')}) {
     const auto design = read_design_text(text, "deep.toml");
     ASSERT_FALSE(design);
     EXPECT_LT(design.error().size(), 1002u);

@@ -44,7 +44,8 @@ TEST(TomlDocument, ReadsTheFourKindsOfStrings) {
   EXPECT_EQ(std::get<std::string>(value_of(R"("a\tb\"c\\ \u00e9 \U0001F600")")),
             "a\tb\"c\\ \u00e9 \U0001F600");
   EXPECT_EQ(std::get<std::string>(value_of(R"('C:\new')")), "C:\\new");
-  EXPECT_EQ(std::get<std::string>(value_of("\"\"\"\na\n\"b\"\\\n \n  c\"\"\"\"\"")), "a\n\"b\"c\"\"");
+  EXPECT_EQ(std::get<std::string>(value_of("\"\"\"\na\n\"b\"\\\n \n  c\"\"\"\"\"")),
+            "a\n\"b\"c\"\"");
   EXPECT_EQ(std::get<std::string>(value_of("'''\r\na\r\n'b'''''")), "a\n'b''");
   EXPECT_EQ(std::get<std::string>(value_of("\"größe\" # größe")), "größe");
 }
@@ -140,7 +141,8 @@ TEST(TomlDocument, QuotesValuesOnOneShortLine) {
   EXPECT_EQ(quoted_toml(value_of("\"a\\nb\"")), "\"a\\u000Ab\"");
   EXPECT_EQ(quoted_toml(value_of("1.50")), "1.5");
   EXPECT_EQ(quoted_toml(value_of("[1]")), "an array");
-  const std::string long_text = quoted_toml(TomlValue(std::string(50, 'x') + std::string(50, '\xC3')));
+  const TomlValue much(std::string(50, 'x') + std::string(50, '\xC3'));
+  const std::string long_text = quoted_toml(much);
   EXPECT_LE(long_text.size(), 60u);
   EXPECT_TRUE(long_text.ends_with("..."));
 }

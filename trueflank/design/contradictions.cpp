@@ -280,7 +280,8 @@ class Contradictions {
     if (shaper && !has("cutter"))
       reading_.missing(key("cutter"), "missing, and root = \"shaper\" needs it",
                        "a table [" + key("cutter") + "] with teeth, shift, tip_radius");
-    if (!shaper && gear_->cutter)
+    // an explicit root = "fillet" lets the cutter rest
+    if (!has("root") && gear_->cutter)
       wrong("cutter", "a cutter without root = \"shaper\"",
             "root = \"shaper\" in [" + gear_->name + "], or no cutter");
     if (gear_->cutter && good("cutter.teeth") && good("teeth") &&

@@ -243,7 +243,8 @@ class DesignReader {
                              "nothing here: only a wheel or a single gear may be internal");
     else if (place == KeyPlace::kRing)
       reading_.contradiction(dotted, "for rings only, and " + gear + " is an external gear",
-                             may_be_ring(gear) ? "internal = true, or no such key here" : "no such key here");
+                             may_be_ring(gear) ? "internal = true, or no such key"
+                                               : "no such key here");
     else
       reading_.contradiction(dotted, "for external gears only, and " + gear + " is a ring",
                              "no such key here");

@@ -87,8 +87,8 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
   static const std::vector<DesignKey<D>> keys{
       {{.name = "kind", .type = KeyType::kChoice, .choices = {"3k", "simple", "pair", "gear"},
         .required = true,
-        .meaning = "3k: sun, two rings and compound planets; simple: sun, planets and a ring; pair: "
-                   "two gears; gear: one gear alone"},
+        .meaning = "3k: sun, two rings and compound planets; simple: sun, planets and a ring; "
+                   "pair: two gears; gear: one gear alone"},
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.kind = train_kind(text(v)); },
        [](const D& d) { return Value(std::string(to_text(d.kind))); }},
@@ -109,7 +109,8 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
        [](D& d, const KeyValue& v) { d.planets = whole(v); },
        [](const D& d) { return has_planets(d.kind) ? whole_value(d.planets) : Value(); }},
       {{.name = "module_mm", .unit = "mm", .lower = 0.01, .upper = 100, .required = true,
-        .meaning = "module of every gear that does not set its own; with a helix the normal module"},
+        .meaning = "module of every gear that does not set its own; with a helix the normal "
+                   "module"},
        KeyPlace::kUnlessEveryGear,
        [](D& d, const KeyValue& v) { d.module_mm = number(v); },
        [](const D& d) { return Value(d.module_mm); }},
@@ -170,8 +171,8 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        [](R& r, const KeyValue& v) { r.dedendum = number(v); },
        [](const R& r) { return Value(r.dedendum); }},
       {{.name = "root_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0.38",
-        .meaning = "rounding of the cutting rack's tips (a ring's root fillet); 0 is the sharp rack; "
-                   "one that does not fit is reduced to the full round and reported"},
+        .meaning = "rounding of the cutting rack's tips (a ring's root fillet); 0 is the sharp "
+                   "rack; one that does not fit is reduced to the full round and reported"},
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.root_radius = number(v); },
        [](const R& r) { return Value(r.root_radius); }},

@@ -62,7 +62,8 @@ constexpr const char* kRules = R"(
   goes through the whole planet: `[planet2]` has none of its own, or the same.
 - The three keys of a bolt circle stand together; holes do not run into each other, into the teeth
   or through the outer diameter.
-- `root = "shaper"` and `[<ring>.cutter]` need each other.
+- `root = "shaper"` and `[<ring>.cutter]` need each other; with an explicit `root = "fillet"` the
+  cutter rests.
 - `tip_relief_um` above 0 and `tip_relief_start_diameter_mm` need each other.
 - Bore, bolt and rim keys are compared with the root circle where `shift` is given; where it is
   solved, the checks do that.
@@ -120,8 +121,8 @@ std::string design_reference() {
            "may be\nleft out.",
            rack_keys());
   describe(text, "A gear: `[sun]`, `[planet1]`, `[ring1]`, ...",
-           "Rings are `ring`, `ring1`, `ring2`, and a `wheel` or `gear` with `internal = true`; all "
-           "others are\nexternal gears.",
+           "Rings are `ring`, `ring1`, `ring2`, and a `wheel` or `gear` with `internal = true`; "
+           "all others are\nexternal gears.",
            gear_keys());
   describe(text, "`[<ring>.cutter]`",
            "The pinion cutter that shapes a ring with `root = \"shaper\"`. Its tip circle is such "

@@ -149,7 +149,8 @@ std::vector<DesignKey<G>> ring_keys() {
          g.root = std::get<std::string>(v) == "shaper" ? RingRoot::kShaper : RingRoot::kFillet;
        },
        [](const G& g) {
-         return g.root == RingRoot::kShaper ? Value(std::string("shaper")) : Value();
+         if (g.root == RingRoot::kShaper) return Value(std::string("shaper"));
+         return g.cutter ? Value(std::string("fillet")) : Value();
        }},
   };
 }

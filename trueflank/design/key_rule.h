@@ -19,7 +19,7 @@ enum class KeyType { kWhole, kNumber, kText, kChoice, kFlag };
 struct KeyRule {
   const char* name = "";
   KeyType type = KeyType::kNumber;
-  const char* unit = "";  ///< "mm", "um", "deg", "module" (a coefficient of it), "" for pure numbers
+  const char* unit = "";  ///< "mm", "um", "deg", "module" (a coefficient), "" for pure numbers
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::vector<const char*> choices = {};  ///< kChoice

@@ -12,16 +12,16 @@ kind = "3k"                    # sun, planets of two layers, two rings: high rat
 output = "ring2"               # ring1 is fixed; "ring1" would fix ring2
 planets = 3
 module_mm = 1.0
-centre_distance_mm = 25.6826   # shifts that are left out are solved from it
+centre_distance_mm = 27.41     # shifts that are left out are solved from it
 friction = 0.1                 # of the tooth flanks, for the efficiency
 backlash_mm = 0.05             # per mesh; 3D prints rather want 0.1 to 0.2
 layer_gap_mm = 1.0             # between the two layers
 
 [sun]
-teeth = 12
+teeth = 15
 face_width_mm = 12.0
 bore_mm = 5.0                  # motor shaft ...
-bore_d_flat_mm = 4.5           # ... with a flat; or bore_keyway_width_mm and _depth_mm, or bore_hex_mm
+bore_d_flat_mm = 4.5           # ... with a flat; or bore_hex_mm, or a keyway
 
 [planet1]                      # one body with planet2
 teeth = 39
@@ -29,11 +29,11 @@ face_width_mm = 12.0
 bore_mm = 10.0                 # through the whole planet
 
 [ring1]
-teeth = 90
-shift = 0.5225                 # profile shift in modules; positive moves a ring's teeth outwards
+teeth = 93
+shift = 0.67                   # profile shift in modules; positive moves a ring's teeth outwards
 face_width_mm = 12.0
-outer_diameter_mm = 112.0
-# bolt_circle_diameter_mm = 103.0
+outer_diameter_mm = 114.0
+# bolt_circle_diameter_mm = 105.5
 # bolt_count = 8
 # bolt_hole_diameter_mm = 4.5
 
@@ -42,10 +42,10 @@ teeth = 32
 face_width_mm = 12.0
 
 [ring2]
-teeth = 81
-shift = 1.9967
+teeth = 86
+shift = 0.65
 face_width_mm = 12.0
-outer_diameter_mm = 106.0
+outer_diameter_mm = 108.0
 )";
 
 constexpr const char* kSimpleText = R"(

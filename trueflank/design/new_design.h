@@ -7,8 +7,9 @@
 
 namespace trueflank {
 
-/// A commented design file to start from: reads without error, passes every check and makes at once.
-/// `name` becomes the design's name (any text; what does not fit a name is left out).
+/// A commented design file to start from: reads without error, passes every check and
+/// makes at once. `name` becomes the design's name (any text; what does not
+/// fit a name is left out).
 [[nodiscard]] std::string new_design_text(TrainKind kind, const std::string& name);
 
 }  // namespace trueflank

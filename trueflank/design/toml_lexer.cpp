@@ -184,7 +184,8 @@ Status TomlLexer::escape(std::string& result, bool multi_line) {
       return {};
     }
   }
-  return fail(error("an escape that TOML does not know", "\\\\ for a backslash, or 'text' as it is"));
+  return fail(
+      error("an escape that TOML does not know", "\\\\ for a backslash, or 'text' as it is"));
 }
 
 Status TomlLexer::code_point(std::string& result, int digits) {
@@ -206,15 +207,15 @@ Status TomlLexer::code_point(std::string& result, int digits) {
 std::string_view TomlLexer::word() {
   const std::size_t begin = position_;
   const auto run = [&] {
-    while (!at_line_end() && std::string_view(" \t#,]}[{=\"'").find(peek()) == std::string_view::npos)
-      advance();
+    constexpr std::string_view kEnds = " \t#,]}[{=\"'";
+    while (!at_line_end() && kEnds.find(peek()) == std::string_view::npos) advance();
   };
   run();
   // 1979-05-27 07:32:00
   const std::string_view rest = text_.substr(position_);
   const std::string_view date = text_.substr(begin, position_ - begin);
-  if (date.size() == 10 && date[4] == '-' && rest.size() > 3 && rest[0] == ' ' && is_digit(rest[1]) &&
-      is_digit(rest[2]) && rest[3] == ':') {
+  if (date.size() == 10 && date[4] == '-' && rest.size() > 3 && rest[0] == ' ' &&
+      is_digit(rest[1]) && is_digit(rest[2]) && rest[3] == ':') {
     advance();
     run();
   }

@@ -27,7 +27,8 @@ class TomlParser {
   explicit TomlParser(std::string_view text) : lexer_(text) {}
 
   TomlDocument parse() {
-    while (!lexer_.at_end() && document_.errors.size() < kMostTomlErrors && keys_ <= kMostTomlKeys) {
+    while (!lexer_.at_end() && document_.errors.size() < kMostTomlErrors &&
+           keys_ <= kMostTomlKeys) {
       statement_line_ = lexer_.line();
       key_.clear();
       value_.clear();
@@ -167,8 +168,8 @@ class TomlParser {
     const bool array = lexer_.peek() == '[';
     if (array || lexer_.peek() == '{') {
       if (depth >= kDeepestToml)
-        return fail(lexer_.error("brackets in more than " + std::to_string(kDeepestToml) + " levels",
-                                 "key = value"));
+        return fail(lexer_.error(
+            "brackets in more than " + std::to_string(kDeepestToml) + " levels", "key = value"));
       lexer_.advance();
       return array ? rest_of_array(at, depth + 1) : rest_of_inline_table(at, depth + 1);
     }
@@ -199,7 +200,8 @@ class TomlParser {
       lexer_.skip_blanks();
     } while (lexer_.take(','));
     if (!lexer_.take('}'))
-      return fail(lexer_.error("an inline table whose } is missing", "{ key = value, key = value }"));
+      return fail(
+          lexer_.error("an inline table whose } is missing", "{ key = value, key = value }"));
     return TomlValue(std::move(table));
   }
 
