@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/search_optimise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+#include <optional>
+
+#include "trueflank/train/gear_train.h"
+#include "trueflank/train/strength.h"
+
+namespace trueflank {
+namespace {
+
+constexpr int kGridDistances = 17;  ///< centre distances of the start grid
+constexpr int kGridShifts = 17;     ///< ring shifts of it, per layer
+constexpr int kCoarse = 7;          ///< the same where nothing on the fine grid keeps all limits
+constexpr std::size_t kStarts = 3;
+constexpr int kSlsqpSteps = 60;
+constexpr int kCobylaSteps = 120;
+constexpr int kRestoreSteps = 200;
+/// Step of the one-sided differences, in modules; profiles are solved to 1e-12.
+constexpr double kDifference = 1e-6;
+/// Limits are approached to this (modules), so that rounding leaves a design on the good side.
+constexpr double kLimitReserve = 1e-7;
+/// And corners outside the line of action to this: 1 um at module 1, more than sampling hides.
+constexpr double kCornerReserve = 1e-3;
+/// Compromises between two objectives: shares of the way from one optimum to the other.
+constexpr std::array<double, 3> kCompromises{0.25, 0.5, 0.75};
+
+/// A lower bound on another objective's merit, for compromises and a torque that is asked for.
+struct MeritBound {
+  SearchObjective objective;
+  double merit = 0.0;
+};
+
+bool needs_strength(SearchObjective objective) { return objective == SearchObjective::kTorque; }
+
+double at_grid(double low, double high, int i, int count) {
+  // cell middles and a hair inside of the ends: optima often lie at a bound
+  if (i == 0) return low + 1e-6 * (high - low);
+  if (i == count - 1) return high - 1e-6 * (high - low);
+  return low + (high - low) * i / (count - 1);
+}
+
+class SetOptimiser {
+ public:
+  SetOptimiser(const SearchRequirements& requirements, const ToothSet& set,
+               const LimitReserve& reserve)
+      : r_(requirements), model_(requirements, set), reserve_(reserve) {
+    for (std::size_t i = 0; i < kLimits; ++i) {
+      const Limit limit = limit_entries()[i].limit;
+      const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
+      offset_[i] = reserve_[static_cast<std::size_t>(limit)] +
+                   (corner ? kCornerReserve : 0.0) + kLimitReserve;
+    }
+  }
+
+  SetResult run() {
+    std::vector<FreeShifts> starts = grid_starts();
+    if (starts.empty())
+      if (const auto restored = restore()) starts.push_back(*restored);
+    if (!starts.empty()) collect(starts);
+    result_.evaluations = evaluations_;
+    return std::move(result_);
+  }
+
+ private:
+  struct State {
+    Layer1Evaluation layer1;
+    Layer2Evaluation layer2;
+  };
+
+  State state(const FreeShifts& free) {
+    evaluations_ += 2;
+    return {model_.layer1(free.centre_distance, free.ring1_shift),
+            model_.layer2(free.centre_distance, free.ring2_shift)};
+  }
+
+  void margins(const State& s, double* out) const {
+    for (std::size_t i = 0; i < kLayer1Limits; ++i) out[i] = s.layer1.margins[i] - offset_[i];
+    for (std::size_t i = 0; i < kLayer2Limits; ++i)
+      out[kLayer1Limits + i] = s.layer2.margins[i] - offset_[kLayer1Limits + i];
+  }
+
+  double least_margin(const State& s) const {
+    std::array<double, kLimits> m;
+    margins(s, m.data());
+    // what the offset keeps back is no breach of the limit
+    return *std::min_element(m.begin(), m.end()) + kLimitReserve;
+  }
+
+  double allowable_torque(const FreeShifts& free) {
+    auto train = lay_out(model_.design(free));
+    if (!train) return 0.0;
+    auto result = strength(*train, r_.strength);
+    return result && std::isfinite(result->output_torque_nm) ? result->output_torque_nm : 0.0;
+  }
+
+  double merit(const State& s, const FreeShifts& free, SearchObjective objective) {
+    switch (objective) {
+      case SearchObjective::kForward:
+        return model_.efficiency(s.layer1.sun_planet, s.layer1.planet_ring, s.layer2.planet_ring,
+                                 DriveDirection::kForward);
+      case SearchObjective::kBackward:
+        return model_.efficiency(s.layer1.sun_planet, s.layer1.planet_ring, s.layer2.planet_ring,
+                                 DriveDirection::kBackward);
+      case SearchObjective::kTorque: return allowable_torque(free);
+      case SearchObjective::kSize: return -model_.outer_diameter(free) * model_.module_mm(free);
+    }
+    return kNaN;
+  }
+
+  std::vector<FreeShifts> grid_starts();
+  void collect(const std::vector<FreeShifts>& starts);
+  std::optional<FreeShifts> restore();
+  std::optional<FreeShifts> climb(const std::vector<FreeShifts>& starts, SearchObjective objective,
+                                  const std::vector<MeritBound>& bounds);
+  void slsqp(FreeShifts start, SearchObjective objective);
+  void cobyla(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds,
+              double step);
+  void remember(const FreeShifts& free, const State& s, double merit_value,
+                const std::vector<double>& bound_margins);
+  void set_box(nlopt::opt& opt) const;
+
+  const SearchRequirements& r_;
+  SearchModel model_;
+  LimitReserve reserve_;
+  std::array<double, kLimits> offset_{};
+  SetResult result_;
+  int evaluations_ = 0;
+  std::optional<FreeShifts> best_;
+  double best_merit_ = 0.0;
+};
+
+FreeShifts free_of(const double* v) { return {v[0], v[1], v[2]}; }
+
+/// NLopt's view of a lambda: value and gradient of one function, or of all constraints.
+template <class F>
+double call_objective(unsigned, const double* x, double* gradient, void* data) {
+  return (*static_cast<F*>(data))(x, gradient);
+}
+template <class F>
+void call_constraints(unsigned, double* values, unsigned, const double* x, double* gradient,
+                      void* data) {
+  (*static_cast<F*>(data))(values, x, gradient);
+}
+
+/// Runs and takes round-off stops and the like as ends: what counts is remembered on the way.
+void run_quietly(nlopt::opt& opt, std::vector<double>& x) {
+  double value = 0.0;
+  try {
+    opt.optimize(x, value);
+  } catch (const std::exception&) {  // roundoff_limited, generic failure of a line search
+  }
+}
+
+std::vector<FreeShifts> SetOptimiser::grid_starts() {
+  struct Start {
+    FreeShifts free;
+    double merit;
+  };
+  std::vector<Start> per_distance;
+  const ToothSet& set = model_.set();
+  const SearchObjective guide = r_.objectives.front() == SearchObjective::kBackward
+                                    ? SearchObjective::kBackward
+                                    : SearchObjective::kForward;
+  const DriveDirection direction = guide == SearchObjective::kBackward ? DriveDirection::kBackward
+                                                                       : DriveDirection::kForward;
+  const double stop = reserve_ == LimitReserve{} ? 0.0 : *std::max_element(reserve_.begin(), reserve_.end());
+  for (int i = 0; i < kGridDistances; ++i) {
+    const double a = at_grid(set.centre_distance_min, set.centre_distance_max, i, kGridDistances);
+    // at a fixed distance the layers are independent, and any gain of a mesh is one of the train
+    std::optional<std::pair<double, MeshLoss>> layer2;
+    const auto range2 = model_.ring2_shift_range(a);
+    for (int k = 0; k < kGridShifts; ++k) {
+      const double x = at_grid(range2[0], range2[1], k, kGridShifts);
+      const Layer2Evaluation e = model_.layer2(a, x, stop);
+      ++evaluations_;
+      if (e.least_margin >= stop && (!layer2 || e.planet_ring.driving1 > layer2->second.driving1))
+        layer2 = {x, e.planet_ring};
+    }
+    if (!layer2) continue;
+    std::optional<Start> best;
+    const auto range1 = model_.ring1_shift_range(a);
+    for (int k = 0; k < kGridShifts; ++k) {
+      const double x = at_grid(range1[0], range1[1], k, kGridShifts);
+      const Layer1Evaluation e = model_.layer1(a, x, stop);
+      ++evaluations_;
+      if (!(e.least_margin >= stop)) continue;
+      const double merit =
+          model_.efficiency(e.sun_planet, e.planet_ring, layer2->second, direction);
+      if (!best || merit > best->merit) best = Start{{a, x, layer2->first}, merit};
+    }
+    if (best) per_distance.push_back(*best);
+  }
+  std::stable_sort(per_distance.begin(), per_distance.end(),
+                   [](const Start& p, const Start& q) { return p.merit > q.merit; });
+  std::vector<FreeShifts> starts;
+  for (const Start& start : per_distance)
+    if (starts.size() < kStarts) starts.push_back(start.free);
+  return starts;
+}
+
+void SetOptimiser::set_box(nlopt::opt& opt) const {
+  const ToothSet& set = model_.set();
+  std::vector<double> low{set.centre_distance_min, r_.shift_min, r_.shift_min};
+  std::vector<double> high{set.centre_distance_max, r_.shift_max, r_.shift_max};
+  if (opt.get_dimension() == 4) {
+    low.push_back(-1e3);
+    high.push_back(1.0);
+  }
+  opt.set_lower_bounds(low);
+  opt.set_upper_bounds(high);
+}
+
+/// Nothing on the grid keeps all limits: makes the worst margin as large as it gets.
+std::optional<FreeShifts> SetOptimiser::restore() {
+  const ToothSet& set = model_.set();
+  FreeShifts best;
+  double best_margin = -1e300;
+  for (int i = 0; i < kCoarse; ++i) {
+    const double a = at_grid(set.centre_distance_min, set.centre_distance_max, i, kCoarse);
+    const auto range1 = model_.ring1_shift_range(a), range2 = model_.ring2_shift_range(a);
+    double margin1 = -1e300, margin2 = -1e300, x1 = 0.0, x2 = 0.0;
+    for (int k = 0; k < kCoarse; ++k) {
+      const double at1 = at_grid(range1[0], range1[1], k, kCoarse);
+      const double at2 = at_grid(range2[0], range2[1], k, kCoarse);
+      const double m1 = model_.layer1(a, at1).least_margin, m2 = model_.layer2(a, at2).least_margin;
+      evaluations_ += 2;
+      if (m1 > margin1) margin1 = m1, x1 = at1;
+      if (m2 > margin2) margin2 = m2, x2 = at2;
+    }
+    if (std::min(margin1, margin2) > best_margin)
+      best_margin = std::min(margin1, margin2), best = {a, x1, x2};
+  }
+  double least = best_margin;
+  const auto constraints = [&](double* values, const double* v, double*) {
+    const State s = state(free_of(v));
+    margins(s, values);
+    const double now = least_margin(s);
+    if (now > least) least = now, best = free_of(v);
+    for (std::size_t i = 0; i < kLimits; ++i) values[i] = v[3] - values[i];
+  };
+  const auto slack = [&](const double* v, double*) { return -v[3]; };
+  nlopt::opt opt(nlopt::LN_COBYLA, 4);
+  set_box(opt);
+  auto slack_copy = slack;
+  auto constraints_copy = constraints;
+  opt.set_min_objective(call_objective<decltype(slack_copy)>, &slack_copy);
+  opt.add_inequality_mconstraint(call_constraints<decltype(constraints_copy)>, &constraints_copy,
+                                 std::vector<double>(kLimits, 0.0));
+  opt.set_maxeval(kRestoreSteps);
+  opt.set_xtol_abs(1e-5);
+  opt.set_initial_step(std::vector<double>{0.05, 0.1, 0.1, 0.1});
+  std::vector<double> x{best.centre_distance, best.ring1_shift, best.ring2_shift,
+                        std::max(-1e3, best_margin)};
+  run_quietly(opt, x);
+  if (least >= 0.0) return best;
+  std::array<double, kLimits> at_best;
+  margins(state(best), at_best.data());
+  result_.failed_limit = static_cast<int>(
+      std::min_element(at_best.begin(), at_best.end()) - at_best.begin());
+  return std::nullopt;
+}
+
+void SetOptimiser::remember(const FreeShifts& free, const State& s, double merit_value,
+                            const std::vector<double>& bound_margins) {
+  if (!(least_margin(s) >= 0.0) || !std::isfinite(merit_value)) return;
+  for (const double margin : bound_margins)
+    if (!(margin >= 0.0)) return;
+  if (best_ && !(merit_value > best_merit_)) return;
+  best_ = free;
+  best_merit_ = merit_value;
+}
+
+void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective) {
+  // one point's value and differences serve objective and constraints
+  struct Cached {
+    std::array<double, 3> at{kNaN, kNaN, kNaN};
+    double value = 0.0;
+    std::array<double, 3> slope{};
+    std::array<double, kLimits> margin{};
+    std::array<std::array<double, 3>, kLimits> margin_slope{};
+  } cached;
+  const auto update = [&](const double* v) {
+    if (std::equal(cached.at.begin(), cached.at.end(), v)) return;
+    std::copy(v, v + 3, cached.at.begin());
+    const FreeShifts free = free_of(v);
+    const State s = state(free);
+    cached.value = merit(s, free, objective);
+    margins(s, cached.margin.data());
+    remember(free, s, cached.value, {});
+    for (std::size_t d = 0; d < 3; ++d) {
+      std::array<double, 3> w = cached.at;
+      w[d] += kDifference;
+      const FreeShifts moved = free_of(w.data());
+      State t = s;  // a ring's shift moves its own layer only
+      if (d != 2) t.layer1 = model_.layer1(moved.centre_distance, moved.ring1_shift), ++evaluations_;
+      if (d != 1) t.layer2 = model_.layer2(moved.centre_distance, moved.ring2_shift), ++evaluations_;
+      cached.slope[d] = (merit(t, moved, objective) - cached.value) / kDifference;
+      std::array<double, kLimits> margin;
+      margins(t, margin.data());
+      for (std::size_t i = 0; i < kLimits; ++i)
+        cached.margin_slope[i][d] = (margin[i] - cached.margin[i]) / kDifference;
+    }
+  };
+  auto value = [&](const double* v, double* gradient) {
+    update(v);
+    for (std::size_t d = 0; gradient && d < 3; ++d)
+      gradient[d] = std::isfinite(cached.slope[d]) ? -cached.slope[d] : 0.0;
+    return std::isfinite(cached.value) ? -cached.value : 0.0;
+  };
+  auto constraints = [&](double* values, const double* v, double* gradient) {
+    update(v);
+    for (std::size_t i = 0; i < kLimits; ++i) {
+      values[i] = -cached.margin[i];
+      for (std::size_t d = 0; gradient && d < 3; ++d)
+        gradient[3 * i + d] = -cached.margin_slope[i][d];
+    }
+  };
+  nlopt::opt opt(nlopt::LD_SLSQP, 3);
+  set_box(opt);
+  opt.set_min_objective(call_objective<decltype(value)>, &value);
+  opt.add_inequality_mconstraint(call_constraints<decltype(constraints)>, &constraints,
+                                 std::vector<double>(kLimits, 0.0));
+  opt.set_maxeval(kSlsqpSteps);
+  opt.set_xtol_abs(1e-7);
+  opt.set_ftol_rel(1e-9);
+  std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
+  run_quietly(opt, x);
+}
+
+void SetOptimiser::cobyla(FreeShifts start, SearchObjective objective,
+                          const std::vector<MeritBound>& bounds, double step) {
+  const std::size_t count = kLimits + bounds.size();
+  struct Cached {
+    std::array<double, 3> at{kNaN, kNaN, kNaN};
+    double value = 0.0;
+    std::vector<double> margin;
+  } cached;
+  cached.margin.resize(count);
+  const auto update = [&](const double* v) {
+    if (std::equal(cached.at.begin(), cached.at.end(), v)) return;
+    std::copy(v, v + 3, cached.at.begin());
+    const FreeShifts free = free_of(v);
+    const State s = state(free);
+    cached.value = merit(s, free, objective);
+    margins(s, cached.margin.data());
+    std::vector<double> bound_margins;
+    for (std::size_t b = 0; b < bounds.size(); ++b) {
+      // relative, so that newton metres and efficiencies weigh alike
+      const double scale = std::max(1e-9, std::abs(bounds[b].merit));
+      bound_margins.push_back((merit(s, free, bounds[b].objective) - bounds[b].merit) / scale);
+      cached.margin[kLimits + b] = bound_margins.back();
+    }
+    remember(free, s, cached.value, bound_margins);
+  };
+  const double scale = std::max(1.0, std::abs(best_ ? best_merit_ : 1.0));
+  auto value = [&](const double* v, double*) {
+    update(v);
+    return std::isfinite(cached.value) ? -cached.value / scale : 0.0;
+  };
+  auto constraints = [&](double* values, const double* v, double*) {
+    update(v);
+    for (std::size_t i = 0; i < count; ++i) values[i] = -cached.margin[i];
+  };
+  nlopt::opt opt(nlopt::LN_COBYLA, 3);
+  set_box(opt);
+  opt.set_min_objective(call_objective<decltype(value)>, &value);
+  opt.add_inequality_mconstraint(call_constraints<decltype(constraints)>, &constraints,
+                                 std::vector<double>(count, 0.0));
+  opt.set_maxeval(kCobylaSteps);
+  opt.set_xtol_abs(1e-6);
+  opt.set_initial_step(step);
+  std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
+  run_quietly(opt, x);
+}
+
+std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& starts,
+                                              SearchObjective objective,
+                                              const std::vector<MeritBound>& bounds) {
+  best_.reset();
+  const bool smooth = bounds.empty() && !needs_strength(objective);
+  for (const FreeShifts& start : starts) {
+    if (smooth)
+      slsqp(start, objective);
+    else
+      cobyla(start, objective, bounds, 0.05);
+  }
+  // the limits have kinks (tip shortening, undercut) at which a line search may stop early
+  if (best_) cobyla(*best_, objective, bounds, smooth ? 0.005 : 0.01);
+  return best_;
+}
+
+void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
+  std::vector<MeritBound> asked;
+  std::vector<FreeShifts> from = starts;
+  if (r_.output_torque_nm) {
+    const auto strongest = climb(starts, SearchObjective::kTorque, {});
+    if (!strongest || allowable_torque(*strongest) < *r_.output_torque_nm) {
+      result_.failed_limit = static_cast<int>(kLimits);
+      return;
+    }
+    asked.push_back({SearchObjective::kTorque, *r_.output_torque_nm});
+    from.insert(from.begin(), *strongest);
+  }
+  const auto keep = [&](const std::optional<FreeShifts>& free) {
+    if (free) result_.candidates.push_back(evaluate_candidate(r_, model_, *free, reserve_));
+  };
+  for (const SearchObjective objective : r_.objectives) {
+    std::optional<FreeShifts> free;
+    if (!asked.empty() && !needs_strength(objective)) {
+      // mostly the torque asked for binds nowhere, and the smooth way is the better one
+      free = climb(starts, objective, {});
+      if (free && allowable_torque(*free) < *r_.output_torque_nm) free.reset();
+    }
+    if (!free) free = climb(from, objective, needs_strength(objective) ? std::vector<MeritBound>{}
+                                                                      : asked);
+    keep(free);
+    if (free) from.push_back(*free);
+  }
+  const std::vector<SearchCandidate> ends = result_.candidates;
+  for (std::size_t other = 1; other < ends.size(); ++other)
+    for (const double share : kCompromises) {
+      const SearchObjective objective = r_.objectives[other];
+      const double at_first = ends.front().merit(objective), at_own = ends[other].merit(objective);
+      if (!(at_own > at_first)) continue;
+      std::vector<MeritBound> bounds = asked;
+      bounds.push_back({objective, at_first + share * (at_own - at_first)});
+      keep(climb({ends[other].free, ends.front().free}, r_.objectives.front(), bounds));
+    }
+  if (result_.candidates.empty()) result_.failed_limit = static_cast<int>(kLimits);
+}
+
+}  // namespace
+
+double SearchCandidate::merit(SearchObjective objective) const {
+  switch (objective) {
+    case SearchObjective::kForward: return forward;
+    case SearchObjective::kBackward: return backward;
+    case SearchObjective::kTorque: return torque_nm;
+    case SearchObjective::kSize: return -size_mm;
+  }
+  return kNaN;
+}
+
+SetResult optimise_set(const SearchRequirements& requirements, const ToothSet& set,
+                       const LimitReserve& reserve) {
+  return SetOptimiser(requirements, set, reserve).run();
+}
+
+SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const SearchModel& model,
+                                   const FreeShifts& free, const LimitReserve& reserve) {
+  const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
+  const Layer2Evaluation layer2 = model.layer2(free.centre_distance, free.ring2_shift);
+  SearchCandidate candidate{.free = free};
+  candidate.forward = model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
+                                       DriveDirection::kForward);
+  candidate.backward = model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
+                                        DriveDirection::kBackward);
+  candidate.size_mm = model.outer_diameter(free) * model.module_mm(free);
+  candidate.least_margin = 1e300;
+  for (std::size_t i = 0; i < kLimits; ++i) {
+    const double margin = i < kLayer1Limits ? layer1.margins[i] : layer2.margins[i - kLayer1Limits];
+    candidate.least_margin =
+        std::min(candidate.least_margin,
+                 margin - reserve[static_cast<std::size_t>(limit_entries()[i].limit)]);
+  }
+  if (auto train = lay_out(model.design(free)))
+    if (auto result = strength(*train, requirements.strength))
+      candidate.torque_nm = result->output_torque_nm;
+  return candidate;
+}
+
+}  // namespace trueflank
