@@ -12,9 +12,9 @@
 namespace trueflank {
 namespace {
 
-constexpr int kTightenings = 3;
-/// First extra distance from a limit a check found broken, in modules; doubled each time.
-constexpr double kFirstTightening = 0.005;
+constexpr int kTightenings = 4;
+/// First extra distance from a limit a check found broken, in modules; four times that each time.
+constexpr double kFirstTightening = 5e-5;
 
 int thread_count(int wanted) {
   return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -116,7 +116,7 @@ class Judging {
     for (const std::string& check : failed)
       for (const Limit limit : limits_behind(check)) {
         double& reserve = state.reserve[static_cast<std::size_t>(limit)];
-        reserve = reserve == 0.0 ? kFirstTightening : 2.0 * reserve;
+        reserve = reserve == 0.0 ? kFirstTightening : 4.0 * reserve;
         mendable = true;
       }
     if (!mendable) return std::nullopt;

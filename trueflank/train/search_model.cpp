@@ -194,23 +194,26 @@ double SearchModel::efficiency(const MeshLoss& a, const MeshLoss& b, const MeshL
   return result > 0.0 && result <= 1.0 + 1e-12 ? result : 0.0;
 }
 
-MeshLoss SearchModel::loss(const GearPair& pair, double approach, double recess) const {
-  const SearchRequirements& r = *requirements_;
-  if (r.loss_model == LossModel::kPathIntegral) {
-    const SlidingEfficiency s =
-        sliding_efficiency(contact_path(pair, r.face_width_mm), r.friction, LoadSharing::kEqual);
-    return {s.gear1_driving, s.gear2_driving};
-  }
-  const double value = basic_efficiency({.teeth1 = pair.gear1().teeth,
-                                         .teeth2 = pair.gear2().teeth,
-                                         .internal = pair.internal(),
+MeshLoss SearchModel::formula_loss(const MeshTeeth& mesh, double approach, double recess) const {
+  const double value = basic_efficiency({.teeth1 = mesh.teeth1,
+                                         .teeth2 = mesh.teeth2,
+                                         .internal = mesh.internal,
                                          .approach = approach,
                                          .recess = recess},
-                                        r.friction);
+                                        requirements_->friction);
   return {value, value};
 }
 
-Layer1Evaluation SearchModel::layer1(double a, double ring1_shift, double stop_below) const {
+MeshLoss SearchModel::path_loss(const GearPair& pair) const {
+  const SlidingEfficiency s =
+      sliding_efficiency(contact_path(pair, requirements_->face_width_mm), requirements_->friction,
+                         LoadSharing::kEqual);
+  return {s.gear1_driving, s.gear2_driving};
+}
+
+Layer1Evaluation SearchModel::layer1(
+    double a, double ring1_shift, double stop_below,
+    const std::function<bool(const Layer1Evaluation&)>& worth) const {
   const SearchRequirements& r = *requirements_;
   Layer1Evaluation result;
   Margins margins(result.margins, stop_below);
@@ -247,6 +250,12 @@ Layer1Evaluation SearchModel::layer1(double a, double ring1_shift, double stop_b
   add_internal_clearances(r, planet, ring, a, margins);
   margins.add(trochoid_margin(planet, ring, a));
   if (margins.stop()) return done();
+  const bool formula = r.loss_model == LossModel::kContactRatios;
+  if (formula) {
+    result.sun_planet = formula_loss(mesh_a_, view_a.approach, view_a.recess);
+    result.planet_ring = formula_loss(mesh_b_, view_b.approach, view_b.recess);
+    if (worth && !worth(result)) return done();
+  }
 
   const auto sun_profile = ToothProfile::make(sun), planet_profile = ToothProfile::make(planet),
              ring_profile = ToothProfile::make(ring);
@@ -255,12 +264,16 @@ Layer1Evaluation SearchModel::layer1(double a, double ring1_shift, double stop_b
   const GearPair pair_b{&*planet_profile, &*ring_profile, a};
   add_root_margins(r, pair_a, margins);
   add_root_margins(r, pair_b, margins);
-  result.sun_planet = loss(pair_a, view_a.approach, view_a.recess);
-  result.planet_ring = loss(pair_b, view_b.approach, view_b.recess);
+  if (!formula) {
+    result.sun_planet = path_loss(pair_a);
+    result.planet_ring = path_loss(pair_b);
+  }
   return done();
 }
 
-Layer2Evaluation SearchModel::layer2(double a1, double ring2_shift, double stop_below) const {
+Layer2Evaluation SearchModel::layer2(
+    double a1, double ring2_shift, double stop_below,
+    const std::function<bool(const Layer2Evaluation&)>& worth) const {
   const SearchRequirements& r = *requirements_;
   Layer2Evaluation result;
   Margins margins(result.margins, stop_below);
@@ -288,12 +301,17 @@ Layer2Evaluation SearchModel::layer2(double a1, double ring2_shift, double stop_
   add_internal_clearances(r, planet, ring, a, margins);
   margins.add(trochoid_margin(planet, ring, a));
   if (margins.stop()) return done();
+  const bool formula = r.loss_model == LossModel::kContactRatios;
+  if (formula) {
+    result.planet_ring = formula_loss(mesh_c_, view.approach, view.recess);
+    if (worth && !worth(result)) return done();
+  }
 
   const auto planet_profile = ToothProfile::make(planet), ring_profile = ToothProfile::make(ring);
   if (!planet_profile || !ring_profile) return done();
   const GearPair pair{&*planet_profile, &*ring_profile, a};
   add_root_margins(r, pair, margins);
-  result.planet_ring = loss(pair, view.approach, view.recess);
+  if (!formula) result.planet_ring = path_loss(pair);
   return done();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -66,12 +67,15 @@ class SearchModel {
  public:
   SearchModel(const SearchRequirements& requirements, const ToothSet& set);
 
-  /// With `stop_below`, evaluation ends as soon as a margin is below it (cheap ones come first); what
-  /// was not computed is -1e9.
-  [[nodiscard]] Layer1Evaluation layer1(double centre_distance, double ring1_shift,
-                                        double stop_below = -1e300) const;
-  [[nodiscard]] Layer2Evaluation layer2(double centre_distance, double ring2_shift,
-                                        double stop_below = -1e300) const;
+  /// Cheap margins come first. Evaluation ends as soon as a margin is below `stop_below`, or where
+  /// `worth`, asked with the losses before profiles are made (not with LossModel::kPathIntegral), says
+  /// no; what was not computed is -1e9.
+  [[nodiscard]] Layer1Evaluation layer1(
+      double centre_distance, double ring1_shift, double stop_below = -1e300,
+      const std::function<bool(const Layer1Evaluation&)>& worth = {}) const;
+  [[nodiscard]] Layer2Evaluation layer2(
+      double centre_distance, double ring2_shift, double stop_below = -1e300,
+      const std::function<bool(const Layer2Evaluation&)>& worth = {}) const;
 
   /// Efficiency from mesh losses; 0 where the train locks. Equal to solve_balance (tested), without
   /// trying every assignment each time.
@@ -98,7 +102,8 @@ class SearchModel {
     double sun, planet1, ring1, planet2, ring2;
   };
   [[nodiscard]] Shifts shifts(const FreeShifts& free) const;
-  [[nodiscard]] MeshLoss loss(const GearPair& pair, double approach, double recess) const;
+  [[nodiscard]] MeshLoss formula_loss(const MeshTeeth& mesh, double approach, double recess) const;
+  [[nodiscard]] MeshLoss path_loss(const GearPair& pair) const;
 
   const SearchRequirements* requirements_;
   ToothSet set_;

@@ -12,10 +12,18 @@
 namespace trueflank {
 namespace {
 
-constexpr int kGridDistances = 17;  ///< centre distances of the start grid
-constexpr int kGridShifts = 17;     ///< ring shifts of it, per layer
+constexpr int kGridDistances = 21;  ///< centre distances of the start grid
+constexpr int kGridShifts = 21;     ///< ring shifts of it, per layer
 constexpr int kCoarse = 7;          ///< the same where nothing on the fine grid keeps all limits
-constexpr std::size_t kStarts = 3;
+constexpr std::size_t kPeaks = 4;   ///< best peaks over the distance that are looked at closer
+constexpr std::size_t kStarts = 2;  ///< of them that the optimiser starts from
+constexpr int kZoomLevels = 4;
+constexpr int kZoomDistances = 5;
+constexpr int kZoomShifts = 9;
+constexpr double kZoomFactor = 0.4;
+/// What a start may lack of a limit, in modules, and what that costs it in efficiency.
+constexpr double kBreachTolerance = 0.05;
+constexpr double kBreachPrice = 3.0;
 constexpr int kSlsqpSteps = 60;
 constexpr int kCobylaSteps = 120;
 constexpr int kRestoreSteps = 200;
@@ -23,8 +31,9 @@ constexpr int kRestoreSteps = 200;
 constexpr double kDifference = 1e-6;
 /// Limits are approached to this (modules), so that rounding leaves a design on the good side.
 constexpr double kLimitReserve = 1e-7;
-/// And corners outside the line of action to this: 1 um at module 1, more than sampling hides.
-constexpr double kCornerReserve = 1e-3;
+/// And corners in roots to this, more than sampling hides. Not more: near its fillet a tip keeps a
+/// nearly constant distance over a wide range of shifts, and 1e-3 would cost half a percent.
+constexpr double kCornerReserve = 5e-6;
 /// Compromises between two objectives: shares of the way from one optimum to the other.
 constexpr std::array<double, 3> kCompromises{0.25, 0.5, 0.75};
 
@@ -53,14 +62,17 @@ class SetOptimiser {
       const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
       offset_[i] = reserve_[static_cast<std::size_t>(limit)] +
                    (corner ? kCornerReserve : 0.0) + kLimitReserve;
+      grid_margin_ = std::max(grid_margin_, offset_[i]);
     }
+    if (requirements.objectives.front() == SearchObjective::kBackward)
+      guide_ = DriveDirection::kBackward;
   }
 
   SetResult run() {
-    std::vector<FreeShifts> starts = grid_starts();
-    if (starts.empty())
-      if (const auto restored = restore()) starts.push_back(*restored);
+    const std::vector<FreeShifts> starts = grid_starts();
     if (!starts.empty()) collect(starts);
+    if (result_.candidates.empty() && result_.failed_limit < 0)
+      if (const auto restored = restore()) collect({*restored});
     result_.evaluations = evaluations_;
     return std::move(result_);
   }
@@ -111,7 +123,18 @@ class SetOptimiser {
     return kNaN;
   }
 
+  struct Start {
+    FreeShifts free;
+    double merit = 0.0;
+    double margin = 0.0;
+  };
+  using Range = std::array<double, 2>;
+
   std::vector<FreeShifts> grid_starts();
+  std::optional<Start> best_at(double a, const Range& range1, const Range& range2, int count,
+                               double tolerance);
+  Start zoomed(Start start, double distance_step, double shift_step, double tolerance);
+  void add_peaks(double tolerance, std::vector<FreeShifts>& starts);
   void collect(const std::vector<FreeShifts>& starts);
   std::optional<FreeShifts> restore();
   std::optional<FreeShifts> climb(const std::vector<FreeShifts>& starts, SearchObjective objective,
@@ -122,11 +145,17 @@ class SetOptimiser {
   void remember(const FreeShifts& free, const State& s, double merit_value,
                 const std::vector<double>& bound_margins);
   void set_box(nlopt::opt& opt) const;
+  [[nodiscard]] SearchObjective guide() const {
+    return guide_ == DriveDirection::kForward ? SearchObjective::kForward
+                                              : SearchObjective::kBackward;
+  }
 
   const SearchRequirements& r_;
   SearchModel model_;
   LimitReserve reserve_;
   std::array<double, kLimits> offset_{};
+  double grid_margin_ = 0.0;  ///< enough for every limit
+  DriveDirection guide_ = DriveDirection::kForward;
   SetResult result_;
   int evaluations_ = 0;
   std::optional<FreeShifts> best_;
@@ -155,50 +184,110 @@ void run_quietly(nlopt::opt& opt, std::vector<double>& x) {
   }
 }
 
-std::vector<FreeShifts> SetOptimiser::grid_starts() {
-  struct Start {
-    FreeShifts free;
-    double merit;
+/// Best ring shifts at one centre distance, on grids over two ranges. At a fixed distance the layers
+/// are independent, and any gain of a mesh is one of the train. Points a little beyond a limit count
+/// too, at a price: the feasible region has islands smaller than a cell.
+std::optional<SetOptimiser::Start> SetOptimiser::best_at(double a, const Range& range1,
+                                                         const Range& range2, int count,
+                                                         double tolerance) {
+  const double least = grid_margin_ - tolerance;
+  const auto price = [&](double margin) {
+    return margin < grid_margin_ ? kBreachPrice * (grid_margin_ - margin) : 0.0;
   };
-  std::vector<Start> per_distance;
+  const auto worth2 = [&](const Layer2Evaluation& e) { return e.planet_ring.driving1; };
+  std::optional<Start> layer2_best;
+  MeshLoss layer2;
+  for (int k = 0; k < count; ++k) {
+    const double x = at_grid(range2[0], range2[1], k, count);
+    const auto better = [&](const Layer2Evaluation& e) {
+      return !layer2_best || worth2(e) > layer2_best->merit;
+    };
+    const Layer2Evaluation e = model_.layer2(a, x, least, better);
+    ++evaluations_;
+    if (!(e.least_margin >= least)) continue;
+    const double score = worth2(e) - 0.1 * price(e.least_margin);
+    if (layer2_best && !(score > layer2_best->merit)) continue;
+    layer2_best = Start{{a, 0.0, x}, score, e.least_margin};
+    layer2 = e.planet_ring;
+  }
+  if (!layer2_best) return std::nullopt;
+  std::optional<Start> best;
+  for (int k = 0; k < count; ++k) {
+    const double x = at_grid(range1[0], range1[1], k, count);
+    const auto merit = [&](const Layer1Evaluation& e) {
+      return model_.efficiency(e.sun_planet, e.planet_ring, layer2, guide_);
+    };
+    const auto better = [&](const Layer1Evaluation& e) { return !best || merit(e) > best->merit; };
+    const Layer1Evaluation e = model_.layer1(a, x, least, better);
+    ++evaluations_;
+    if (!(e.least_margin >= least)) continue;
+    const double margin = std::min(e.least_margin, layer2_best->margin);
+    const double score = merit(e) - price(margin);
+    if (!best || score > best->merit)
+      best = Start{{a, x, layer2_best->free.ring2_shift}, score, margin};
+  }
+  return best;
+}
+
+/// Finer and finer grids around a start: the feasible region has many corners, and an optimum is
+/// mostly one of them.
+SetOptimiser::Start SetOptimiser::zoomed(Start start, double distance_step, double shift_step,
+                                         double tolerance) {
   const ToothSet& set = model_.set();
-  const SearchObjective guide = r_.objectives.front() == SearchObjective::kBackward
-                                    ? SearchObjective::kBackward
-                                    : SearchObjective::kForward;
-  const DriveDirection direction = guide == SearchObjective::kBackward ? DriveDirection::kBackward
-                                                                       : DriveDirection::kForward;
-  const double stop = reserve_ == LimitReserve{} ? 0.0 : *std::max_element(reserve_.begin(), reserve_.end());
+  for (int level = 0; level < kZoomLevels; ++level) {
+    const Start centre = start;
+    for (int i = 0; i < kZoomDistances; ++i) {
+      const double a = std::clamp(
+          at_grid(centre.free.centre_distance - distance_step,
+                  centre.free.centre_distance + distance_step, i, kZoomDistances),
+          set.centre_distance_min, set.centre_distance_max);
+      // ring1's shift goes up with the distance about as planet1's mesh asks: follow its range
+      const auto range1 = model_.ring1_shift_range(a), range2 = model_.ring2_shift_range(a);
+      const auto around = [&](double x, const Range& range) {
+        return Range{std::max(range[0], x - shift_step), std::min(range[1], x + shift_step)};
+      };
+      const auto best = best_at(a, around(centre.free.ring1_shift, range1),
+                                around(centre.free.ring2_shift, range2), kZoomShifts,
+                                tolerance);
+      if (best && best->merit > start.merit) start = *best;
+    }
+    distance_step *= kZoomFactor;
+    shift_step *= kZoomFactor;
+  }
+  return start;
+}
+
+void SetOptimiser::add_peaks(double tolerance, std::vector<FreeShifts>& starts) {
+  std::vector<std::optional<Start>> line;
+  const ToothSet& set = model_.set();
   for (int i = 0; i < kGridDistances; ++i) {
     const double a = at_grid(set.centre_distance_min, set.centre_distance_max, i, kGridDistances);
-    // at a fixed distance the layers are independent, and any gain of a mesh is one of the train
-    std::optional<std::pair<double, MeshLoss>> layer2;
-    const auto range2 = model_.ring2_shift_range(a);
-    for (int k = 0; k < kGridShifts; ++k) {
-      const double x = at_grid(range2[0], range2[1], k, kGridShifts);
-      const Layer2Evaluation e = model_.layer2(a, x, stop);
-      ++evaluations_;
-      if (e.least_margin >= stop && (!layer2 || e.planet_ring.driving1 > layer2->second.driving1))
-        layer2 = {x, e.planet_ring};
-    }
-    if (!layer2) continue;
-    std::optional<Start> best;
-    const auto range1 = model_.ring1_shift_range(a);
-    for (int k = 0; k < kGridShifts; ++k) {
-      const double x = at_grid(range1[0], range1[1], k, kGridShifts);
-      const Layer1Evaluation e = model_.layer1(a, x, stop);
-      ++evaluations_;
-      if (!(e.least_margin >= stop)) continue;
-      const double merit =
-          model_.efficiency(e.sun_planet, e.planet_ring, layer2->second, direction);
-      if (!best || merit > best->merit) best = Start{{a, x, layer2->first}, merit};
-    }
-    if (best) per_distance.push_back(*best);
+    line.push_back(best_at(a, model_.ring1_shift_range(a), model_.ring2_shift_range(a), kGridShifts,
+                           tolerance));
   }
-  std::stable_sort(per_distance.begin(), per_distance.end(),
-                   [](const Start& p, const Start& q) { return p.merit > q.merit; });
+  const auto merit_at = [&](std::size_t i) {
+    return i < line.size() && line[i] ? line[i]->merit : -1e9;
+  };
+  std::vector<Start> peaks;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] && merit_at(i) >= merit_at(i - 1) && merit_at(i) > merit_at(i + 1))
+      peaks.push_back(*line[i]);
+  const auto better = [](const Start& p, const Start& q) { return p.merit > q.merit; };
+  std::stable_sort(peaks.begin(), peaks.end(), better);
+  if (peaks.size() > kPeaks) peaks.resize(kPeaks);
+  const double distance_step =
+      (set.centre_distance_max - set.centre_distance_min) / (kGridDistances - 1);
+  for (Start& peak : peaks)
+    peak = zoomed(peak, distance_step, (r_.shift_max - r_.shift_min) / (kGridShifts - 1), tolerance);
+  std::stable_sort(peaks.begin(), peaks.end(), better);
+  if (peaks.size() > kStarts) peaks.resize(kStarts);
+  for (const Start& peak : peaks) starts.push_back(peak.free);
+}
+
+std::vector<FreeShifts> SetOptimiser::grid_starts() {
   std::vector<FreeShifts> starts;
-  for (const Start& start : per_distance)
-    if (starts.size() < kStarts) starts.push_back(start.free);
+  add_peaks(0.0, starts);
+  add_peaks(kBreachTolerance, starts);
   return starts;
 }
 
@@ -390,6 +479,10 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
   }
   // the limits have kinks (tip shortening, undercut) at which a line search may stop early
   if (best_) cobyla(*best_, objective, bounds, smooth ? 0.005 : 0.01);
+  if (best_ && smooth && objective == guide()) {
+    const Start finest = zoomed({*best_, best_merit_, 0.0}, 0.05, 0.1, 0.0);
+    remember(finest.free, state(finest.free), finest.merit, {});
+  }
   return best_;
 }
 
@@ -398,7 +491,8 @@ void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
   std::vector<FreeShifts> from = starts;
   if (r_.output_torque_nm) {
     const auto strongest = climb(starts, SearchObjective::kTorque, {});
-    if (!strongest || allowable_torque(*strongest) < *r_.output_torque_nm) {
+    if (!strongest) return;
+    if (allowable_torque(*strongest) < *r_.output_torque_nm) {
       result_.failed_limit = static_cast<int>(kLimits);
       return;
     }
@@ -430,7 +524,6 @@ void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
       bounds.push_back({objective, at_first + share * (at_own - at_first)});
       keep(climb({ends[other].free, ends.front().free}, r_.objectives.front(), bounds));
     }
-  if (result_.candidates.empty()) result_.failed_limit = static_cast<int>(kLimits);
 }
 
 }  // namespace
