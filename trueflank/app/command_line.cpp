@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "trueflank/app/command_search.h"
 #include "trueflank/app/commands.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
@@ -41,6 +42,22 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->callback([&] { code = run_make(options); });
 }
 
+void add_search(CLI::App& program, SearchOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand(
+      "search", "tooth numbers exhaustively, shifts and centre distance continuously");
+  command->add_option("REQUIREMENTS", options.requirements, "requirements file (TOML)")->required();
+  command->add_option("--output,-o", options.folder, "folder for the files; created if need be")
+      ->required();
+  command->add_option("--threads", options.threads, "0: one per processor")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--materials", options.materials, "file with more [material.NAME] tables");
+  command->add_flag("--resume", options.resume, "go on where the folder's journal ends");
+  command->add_option("--shard", options.shard, "i/n: only this part, for --merge");
+  command->add_option("--merge", options.merge, "folders of all parts: their answer as one");
+  command->add_flag("--quiet,-q", options.quiet, "no summary, no progress");
+  command->callback([&] { code = run_search(options); });
+}
+
 void add_new(CLI::App& program, NewOptions& options, int& code) {
   CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
@@ -72,9 +89,11 @@ int run_command_line(int argc, char** argv) {
   CheckOptions check;
   MakeOptions make;
   NewOptions fresh;
+  SearchOptions search;
   add_check(program, check, code);
   add_make(program, make, code);
   add_new(program, fresh, code);
+  add_search(program, search, code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

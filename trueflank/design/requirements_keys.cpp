@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/requirements_keys.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank {
+namespace {
+
+using R = SearchRequirements;
+using V = KeyValue;
+
+double number(const V& v) { return std::get<double>(v); }
+int whole(const V& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
+bool flag(const V& v) { return std::get<bool>(v); }
+const std::string& text(const V& v) { return std::get<std::string>(v); }
+
+/// The words of "a, b, c".
+std::vector<std::string> words(const std::string& list) {
+  std::vector<std::string> result(1);
+  for (const char c : list) {
+    if (c == ',')
+      result.emplace_back();
+    else if (c != ' ')
+      result.back() += c;
+  }
+  return result;
+}
+
+std::string set_objectives(R& r, const V& v) {
+  r.objectives.clear();
+  for (const std::string& word : words(text(v))) {
+    const auto all = {SearchObjective::kForward, SearchObjective::kBackward,
+                      SearchObjective::kTorque, SearchObjective::kSize};
+    const auto it = std::find_if(all.begin(), all.end(),
+                                 [&](SearchObjective o) { return word == to_text(o); });
+    if (it == all.end()) return "forward, backward, torque, size: one, or several by commas";
+    if (std::find(r.objectives.begin(), r.objectives.end(), *it) != r.objectives.end())
+      return "each objective once";
+    r.objectives.push_back(*it);
+  }
+  return "";
+}
+
+std::string set_module_ratios(R& r, const V& v) {
+  r.layer2_module_ratios.clear();
+  for (const std::string& word : words(text(v))) {
+    double ratio = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), ratio);
+    if (error != std::errc() || end != word.data() + word.size() || !(ratio >= 0.2 && ratio <= 5.0))
+      return "numbers from 0.2 to 5, by commas";
+    r.layer2_module_ratios.push_back(ratio);
+  }
+  return "";
+}
+
+std::string set_output(R& r, const V& v) {
+  if (text(v) == "any")
+    r.outputs = {OutputMember::kRing2, OutputMember::kRing1};
+  else
+    r.outputs = {text(v) == "ring1" ? OutputMember::kRing1 : OutputMember::kRing2};
+  return "";
+}
+
+std::string set_direction(R& r, const V& v) {
+  r.direction = text(v) == "same"       ? OutputDirection::kSame
+                : text(v) == "opposite" ? OutputDirection::kOpposite
+                                        : OutputDirection::kAny;
+  return "";
+}
+
+RequirementsSection top() {
+  return {"",
+          {{{.name = "format", .type = KeyType::kWhole, .lower = 1, .upper = 1, .required = true,
+             .meaning = "of this file"},
+            [](R&, const V&) { return std::string(); }},
+           {{.name = "name", .type = KeyType::kText, .by_default = "the file's name",
+             .meaning = "of the designs found"},
+            [](R& r, const V& v) { return r.name = text(v), std::string(); }}}};
+}
+
+RequirementsSection gearbox() {
+  return {"gearbox",
+          {{{.name = "kind", .type = KeyType::kChoice, .choices = {"3k"}, .required = true,
+             .meaning = "what is searched"},
+            [](R&, const V&) { return std::string(); }},
+           {{.name = "output", .type = KeyType::kChoice, .choices = {"ring2", "ring1", "any"},
+             .by_default = "ring2", .meaning = "type I, type II, or both"},
+            set_output},
+           {{.name = "planets", .type = KeyType::kWhole, .lower = 1, .upper = 20,
+             .by_default = "3", .meaning = "number of planet bodies"},
+            [](R& r, const V& v) { return r.planets = whole(v), std::string(); }},
+           {{.name = "friction", .lower = 0, .upper = 1, .by_default = "0.1",
+             .meaning = "mesh friction coefficient"},
+            [](R& r, const V& v) { return r.friction = number(v), std::string(); }},
+           {{.name = "module_mm", .unit = "mm", .lower = 0.05, .upper = 100, .by_default = "1",
+             .meaning = "of layer 1"},
+            [](R& r, const V& v) { return r.module_mm = number(v), std::string(); }},
+           {{.name = "outer_diameter_mm", .unit = "mm", .lower = 1, .upper = 20000,
+             .by_default = "none", .meaning = "of the larger ring: the module follows from it"},
+            [](R& r, const V& v) { return r.outer_diameter_mm = number(v), std::string(); }},
+           {{.name = "rim", .unit = "module", .lower = 0, .upper = 20, .by_default = "2.5",
+             .meaning = "of the rings outside their root circles"},
+            [](R& r, const V& v) { return r.rim = number(v), std::string(); }},
+           {{.name = "layer2_module_ratios", .type = KeyType::kText, .by_default = "\"1\"",
+             .meaning = "module of layer 2 over that of layer 1: every value tried, \"1, 0.8\""},
+            set_module_ratios},
+           {{.name = "face_width_mm", .unit = "mm", .lower = 0.1, .upper = 10000,
+             .by_default = "10", .meaning = "of every gear"},
+            [](R& r, const V& v) { return r.face_width_mm = number(v), std::string(); }},
+           {{.name = "backlash_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0",
+             .meaning = "of every mesh, written into the designs"},
+            [](R& r, const V& v) { return r.backlash_mm = number(v), std::string(); }}}};
+}
+
+RequirementsSection rack() {
+  return {"rack",
+          {{{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 45,
+             .by_default = "20", .meaning = "basic rack, as in a design file"},
+            [](R& r, const V& v) {
+              return r.rack.pressure_angle_rad = rad_from_deg(number(v)), std::string();
+            }},
+           {{.name = "addendum", .unit = "module", .lower = 0.1, .upper = 3, .by_default = "1"},
+            [](R& r, const V& v) { return r.rack.addendum = number(v), std::string(); }},
+           {{.name = "dedendum", .unit = "module", .lower = 0.1, .upper = 3, .by_default = "1.25"},
+            [](R& r, const V& v) { return r.rack.dedendum = number(v), std::string(); }},
+           {{.name = "root_radius", .unit = "module", .lower = 0, .upper = 2, .by_default = "0.38"},
+            [](R& r, const V& v) { return r.rack.root_radius = number(v), std::string(); }}}};
+}
+
+RequirementsSection ratio() {
+  return {"ratio",
+          {{{.name = "min", .lower = 1, .upper = 1e6, .required = true,
+             .meaning = "least input speed over output speed"},
+            [](R& r, const V& v) { return r.ratio_min = number(v), std::string(); }},
+           {{.name = "max", .lower = 1, .upper = 1e6, .required = true, .meaning = "greatest"},
+            [](R& r, const V& v) { return r.ratio_max = number(v), std::string(); }},
+           {{.name = "direction", .type = KeyType::kChoice, .choices = {"any", "same", "opposite"},
+             .by_default = "any", .meaning = "of the output against the input"},
+            set_direction}}};
+}
+
+KeyRule teeth_rule(const char* name, double least, const char* by_default) {
+  return {.name = name, .type = KeyType::kWhole, .lower = least, .upper = 1000,
+          .by_default = by_default};
+}
+
+RequirementsSection teeth() {
+  return {"teeth",
+          {{teeth_rule("sun_min", 4, "6"),
+            [](R& r, const V& v) { return r.sun.min = whole(v), std::string(); }},
+           {teeth_rule("sun_max", 4, "60"),
+            [](R& r, const V& v) { return r.sun.max = whole(v), std::string(); }},
+           {teeth_rule("planet1_min", 4, "6"),
+            [](R& r, const V& v) { return r.planet1.min = whole(v), std::string(); }},
+           {teeth_rule("planet1_max", 4, "60"),
+            [](R& r, const V& v) { return r.planet1.max = whole(v), std::string(); }},
+           {teeth_rule("ring1_min", 6, "12"),
+            [](R& r, const V& v) { return r.ring1.min = whole(v), std::string(); }},
+           {teeth_rule("ring1_max", 6, "120"),
+            [](R& r, const V& v) { return r.ring1.max = whole(v), std::string(); }},
+           {teeth_rule("planet2_min", 4, "6"),
+            [](R& r, const V& v) { return r.planet2.min = whole(v), std::string(); }},
+           {teeth_rule("planet2_max", 4, "60"),
+            [](R& r, const V& v) { return r.planet2.max = whole(v), std::string(); }},
+           {teeth_rule("ring2_min", 6, "12"),
+            [](R& r, const V& v) { return r.ring2.min = whole(v), std::string(); }},
+           {teeth_rule("ring2_max", 6, "120"),
+            [](R& r, const V& v) { return r.ring2.max = whole(v), std::string(); }},
+           {{.name = "identical_planets", .type = KeyType::kFlag, .by_default = "true",
+             .meaning = "all planet bodies alike at equal spacing"},
+            [](R& r, const V& v) { return r.identical_planets = flag(v), std::string(); }}}};
+}
+
+RequirementsSection shift() {
+  return {"shift",
+          {{{.name = "min", .unit = "module", .lower = -5, .upper = 5, .by_default = "-2",
+             .meaning = "least profile shift of every gear"},
+            [](R& r, const V& v) { return r.shift_min = number(v), std::string(); }},
+           {{.name = "max", .unit = "module", .lower = -5, .upper = 5, .by_default = "2",
+             .meaning = "greatest"},
+            [](R& r, const V& v) { return r.shift_max = number(v), std::string(); }}}};
+}
+
+RequirementsSection limits() {
+  return {"limits",
+          {{{.name = "contact_ratio_min", .lower = 1, .upper = 5, .by_default = "1",
+             .meaning = "of every mesh, of its tip circles and of what its roots leave"},
+            [](R& r, const V& v) { return r.contact_ratio_min = number(v), std::string(); }},
+           {{.name = "contact_ratio_max", .lower = 1, .upper = 10, .by_default = "2",
+             .meaning = "of every mesh, of its tip circles"},
+            [](R& r, const V& v) { return r.contact_ratio_max = number(v), std::string(); }},
+           {{.name = "tip_clearance", .unit = "module", .lower = 0, .upper = 1,
+             .by_default = "0.1", .meaning = "least, tip to root"},
+            [](R& r, const V& v) { return r.tip_clearance = number(v), std::string(); }},
+           {{.name = "tip_thickness", .unit = "module", .lower = 0, .upper = 1,
+             .by_default = "0.2", .meaning = "least"},
+            [](R& r, const V& v) { return r.tip_thickness = number(v), std::string(); }},
+           {{.name = "planet_clearance_mm", .unit = "mm", .lower = 0, .upper = 1000,
+             .by_default = "0.5", .meaning = "least, between tip circles of neighbours"},
+            [](R& r, const V& v) { return r.planet_clearance_mm = number(v), std::string(); }}}};
+}
+
+KeyRule factor_rule(const char* name, const char* by_default, const char* meaning) {
+  return {.name = name, .lower = 0.01, .upper = 100, .by_default = by_default, .meaning = meaning};
+}
+
+RequirementsSection strength() {
+  return {"strength",
+          {{{.name = "output_torque_nm", .unit = "N m", .lower = 0, .upper = 1e9,
+             .by_default = "none", .meaning = "to be carried by every design"},
+            [](R& r, const V& v) { return r.output_torque_nm = number(v), std::string(); }},
+           {{.name = "material", .type = KeyType::kText, .by_default = kDefaultMaterial,
+             .meaning = "of every gear (docs/strength.md)"},
+            [](R& r, const V& v) { return r.strength.material = text(v), std::string(); }},
+           {{.name = "reversing", .type = KeyType::kFlag, .by_default = "true",
+             .meaning = "loaded in both directions"},
+            [](R& r, const V& v) { return r.strength.reversing = flag(v), std::string(); }},
+           {factor_rule("overload_factor", "1", "K_O"),
+            [](R& r, const V& v) { return r.strength.overload_factor = number(v), std::string(); }},
+           {factor_rule("dynamic_factor", "1", "K_V"),
+            [](R& r, const V& v) { return r.strength.dynamic_factor = number(v), std::string(); }},
+           {factor_rule("face_load_factor", "1", "K_Hbeta"),
+            [](R& r, const V& v) { return r.strength.face_load_factor = number(v), std::string(); }},
+           {factor_rule("planet_load_factor", "1", "worst planet's share over the mean"),
+            [](R& r, const V& v) {
+              return r.strength.planet_load_factor = number(v), std::string();
+            }},
+           {factor_rule("bending_life_factor", "1", "K_L"),
+            [](R& r, const V& v) {
+              return r.strength.bending_life_factor = number(v), std::string();
+            }},
+           {factor_rule("contact_life_factor", "1", "K_HL"),
+            [](R& r, const V& v) {
+              return r.strength.contact_life_factor = number(v), std::string();
+            }},
+           {factor_rule("bending_safety", "1.2", "S_F"),
+            [](R& r, const V& v) { return r.strength.bending_safety = number(v), std::string(); }},
+           {factor_rule("contact_safety", "1.15", "S_H"),
+            [](R& r, const V& v) {
+              return r.strength.contact_safety = number(v), std::string();
+            }}}};
+}
+
+RequirementsSection search() {
+  return {"search",
+          {{{.name = "objectives", .type = KeyType::kText, .by_default = "\"forward\"",
+             .meaning = "forward, backward, torque, size: one, or several for their Pareto front"},
+            set_objectives},
+           {{.name = "loss_model", .type = KeyType::kChoice,
+             .choices = {"contact_ratios", "path_integral"}, .by_default = "contact_ratios",
+             .meaning = "how a mesh's basic efficiency is computed"},
+            [](R& r, const V& v) {
+              r.loss_model = text(v) == "path_integral" ? LossModel::kPathIntegral
+                                                        : LossModel::kContactRatios;
+              return std::string();
+            }},
+           {{.name = "results", .type = KeyType::kWhole, .lower = 1, .upper = 1000,
+             .by_default = "20", .meaning = "design files written at most"},
+            [](R& r, const V& v) { return r.results = whole(v), std::string(); }}}};
+}
+
+}  // namespace
+
+const std::vector<RequirementsSection>& requirements_sections() {
+  static const std::vector<RequirementsSection> kSections{
+      top(), gearbox(), rack(), ratio(), teeth(), shift(), limits(), strength(), search()};
+  return kSections;
+}
+
+const std::vector<RequirementsKey<Material>>& material_keys() {
+  using M = Material;
+  static const std::vector<RequirementsKey<Material>> kKeys{
+      {{.name = "bending_limit_mpa", .unit = "MPa", .lower = 0.1, .upper = 1e4, .required = true,
+        .meaning = "sigma_Flim, pulsating"},
+       [](M& m, const V& v) { return m.bending_limit_mpa = number(v), std::string(); }},
+      {{.name = "contact_limit_mpa", .unit = "MPa", .lower = 0.1, .upper = 1e4, .required = true,
+        .meaning = "sigma_Hlim"},
+       [](M& m, const V& v) { return m.contact_limit_mpa = number(v), std::string(); }},
+      {{.name = "elastic_modulus_mpa", .unit = "MPa", .lower = 1, .upper = 1e7, .required = true},
+       [](M& m, const V& v) { return m.elastic_modulus_mpa = number(v), std::string(); }},
+      {{.name = "poisson_ratio", .lower = 0, .upper = 0.5, .required = true},
+       [](M& m, const V& v) { return m.poisson_ratio = number(v), std::string(); }},
+      {{.name = "density_kg_m3", .unit = "kg/m3", .lower = 1, .upper = 1e5, .required = true},
+       [](M& m, const V& v) { return m.density_kg_m3 = number(v), std::string(); }},
+      {{.name = "source", .type = KeyType::kText, .by_default = "empty",
+        .meaning = "where the limits come from"},
+       [](M& m, const V& v) { return m.source = text(v), std::string(); }}};
+  return kKeys;
+}
+
+}  // namespace trueflank
