@@ -14,7 +14,10 @@ namespace {
 
 class RequirementsReader {
  public:
-  explicit RequirementsReader(const TomlTable& root) : root_(root) { note_lines("", root); }
+  explicit RequirementsReader(const TomlDocument& document) : root_(document.root) {
+    note_lines("", root_);
+    for (const Error& error : document.errors) reading_.report(error);
+  }
 
   ResultAll<SearchRequirements> read(const std::string& file, MaterialTable materials) {
     SearchRequirements r;
@@ -48,7 +51,8 @@ class RequirementsReader {
   void note_lines(const std::string& prefix, const TomlTable& table) {
     for (const TomlEntry& entry : table.entries) {
       const std::string key = prefix + entry.key;
-      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value)});
+      const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
+      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
       if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
     }
   }
@@ -88,6 +92,7 @@ class RequirementsReader {
     for (const auto& key : keys) {
       known.emplace_back(key.rule.name);
       if (entry.key != key.rule.name) continue;
+      if (!reading_.good(dotted)) return;  // its line is already told
       const auto value = take_value(key.rule, dotted, entry.value);
       if (!value) return reading_.report(value.error());
       if (std::string remedy = key.set(target, *value); !remedy.empty())
@@ -131,11 +136,10 @@ class RequirementsReader {
 
 template <class T, class Read>
 ResultAll<T> of_text(std::string_view text, const std::string& file, const Read& read) {
-  auto root = parse_toml(text);
-  if (root) return read(RequirementsReader(*root));
-  Error error = root.error();
-  error.file = file;
-  return fail_all({std::move(error)});
+  TomlDocument document = parse_toml(text);
+  if (document.whole) return read(RequirementsReader(document));
+  for (Error& error : document.errors) error.file = file;
+  return fail_all(std::move(document.errors));
 }
 
 }  // namespace

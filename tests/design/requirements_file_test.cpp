@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/requirements_file.h"
+
+#include <gtest/gtest.h>
+
+namespace trueflank {
+namespace {
+
+const std::string kSmall =
+    "format = 1\n[gearbox]\nkind = \"3k\"\n[ratio]\nmin = 90\nmax = 100\n";
+
+Errors errors_of(const std::string& text) {
+  const auto read = read_requirements_text(text, "needs.toml");
+  EXPECT_FALSE(read.has_value());
+  return read ? Errors{} : read.error();
+}
+
+TEST(RequirementsFile, TheLeastFileTakesTheDefaultsThePageStates) {
+  const auto read = read_requirements_text(kSmall, "folder/needs.toml");
+  ASSERT_TRUE(read.has_value()) << read.error().front().message;
+  EXPECT_EQ(read->name, "needs");
+  EXPECT_EQ(read->ratio_min, 90);
+  EXPECT_EQ(read->shift_max, 2.0);
+  EXPECT_EQ(read->objectives, std::vector<SearchObjective>{SearchObjective::kForward});
+  EXPECT_TRUE(read->identical_planets);
+}
+
+TEST(RequirementsFile, EveryKeyReachesItsRequirement) {
+  const auto read = read_requirements_text(
+      kSmall +
+          "direction = \"opposite\"\n"
+          "[rack]\npressure_angle_deg = 25\naddendum = 0.9\ndedendum = 1.2\nroot_radius = 0.3\n"
+          "[teeth]\nsun_min = 7\nsun_max = 8\nplanet1_min = 9\nplanet1_max = 10\nring1_min = 20\n"
+          "ring1_max = 30\nplanet2_min = 11\nplanet2_max = 12\nring2_min = 21\nring2_max = 31\n"
+          "identical_planets = false\n"
+          "[shift]\nmin = -0.5\nmax = 0.9\n"
+          "[limits]\ncontact_ratio_min = 1.1\ncontact_ratio_max = 1.9\ntip_clearance = 0.2\n"
+          "tip_thickness = 0.3\nplanet_clearance_mm = 1\n"
+          "[strength]\noutput_torque_nm = 12\nmaterial = \"mine\"\nreversing = false\n"
+          "bending_safety = 1.5\n"
+          "[material.mine]\nbending_limit_mpa = 100\ncontact_limit_mpa = 500\n"
+          "elastic_modulus_mpa = 2e5\npoisson_ratio = 0.3\ndensity_kg_m3 = 7800\n"
+          "[search]\nobjectives = \"backward, size\"\nloss_model = \"path_integral\"\nresults = 5\n",
+      "needs.toml");
+  ASSERT_TRUE(read.has_value()) << read.error().front().message << read.error().front().key;
+  EXPECT_EQ(read->direction, OutputDirection::kOpposite);
+  EXPECT_NEAR(read->rack.pressure_angle_rad, rad_from_deg(25), 1e-15);
+  EXPECT_EQ(read->sun.min, 7);
+  EXPECT_EQ(read->ring2.max, 31);
+  EXPECT_FALSE(read->identical_planets);
+  EXPECT_EQ(read->shift_min, -0.5);
+  EXPECT_EQ(read->contact_ratio_max, 1.9);
+  EXPECT_EQ(read->output_torque_nm, 12);
+  EXPECT_EQ(read->strength.materials.find("mine")->bending_limit_mpa, 100);
+  EXPECT_FALSE(read->strength.reversing);
+  EXPECT_EQ(read->objectives.size(), 2u);
+  EXPECT_EQ(read->objectives[1], SearchObjective::kSize);
+  EXPECT_EQ(read->loss_model, LossModel::kPathIntegral);
+  EXPECT_EQ(read->results, 5);
+}
+
+TEST(RequirementsFile, AllErrorsAreToldAtOnceWithLineAndRemedy) {
+  const Errors errors = errors_of(
+      "format = 1\n[gearbox]\nkind = \"3k\"\nplanetts = 3\nfriction = \"much\"\n[ratio]\nmin = 90\n"
+      "max = 1e9\n[search]\nobjectives = \"fast\"\n[nonsense]\n");
+  ASSERT_EQ(errors.size(), 5u);
+  EXPECT_EQ(errors[0].key, "gearbox.planetts");
+  EXPECT_EQ(errors[0].line, 4);
+  EXPECT_EQ(errors[0].remedy, "did you mean planets?");
+  EXPECT_EQ(errors[1].code, ErrorCode::kWrongType);
+  EXPECT_EQ(errors[2].key, "ratio.max");
+  EXPECT_EQ(errors[3].key, "search.objectives");
+  EXPECT_EQ(errors[4].key, "nonsense");
+  for (const Error& error : errors) EXPECT_EQ(error.file, "needs.toml");
+}
+
+TEST(RequirementsFile, ContradictionsAreErrorsOfTheirKeys) {
+  EXPECT_EQ(errors_of("format = 1\n[gearbox]\nkind = \"3k\"\n[ratio]\nmin = 100\nmax = 90\n")[0].key,
+            "ratio.max");
+  EXPECT_EQ(errors_of(kSmall + "[teeth]\nsun_min = 20\nsun_max = 10\n")[0].key, "teeth.sun");
+  EXPECT_EQ(errors_of(kSmall + "[shift]\nmin = 1\nmax = 0\n")[0].key, "shift.max");
+  EXPECT_EQ(errors_of(kSmall + "[strength]\nmaterial = \"cheese\"\n")[0].key, "strength.material");
+  EXPECT_EQ(errors_of("format = 1\n")[0].code, ErrorCode::kMissingKey);
+  EXPECT_EQ(errors_of("what is this")[0].code, ErrorCode::kSyntax);
+}
+
+TEST(RequirementsFile, MaterialsExtendATable) {
+  const auto table = read_materials_text(
+      "[material.pom]\nbending_limit_mpa = 40\ncontact_limit_mpa = 70\nelastic_modulus_mpa = 2900\n"
+      "poisson_ratio = 0.35\ndensity_kg_m3 = 1400\nsource = \"own tests\"\n",
+      "m.toml");
+  ASSERT_TRUE(table.has_value());
+  EXPECT_EQ(table->find("pom")->source, "own tests");
+  EXPECT_NE(table->find("brass"), nullptr);
+  EXPECT_FALSE(read_materials_text("[material.x]\npoisson_ratio = 3\n", "m.toml").has_value());
+}
+
+TEST(RequirementsFile, EveryKeyHasItsPlaceInTheListOfTables) {
+  const auto tables = requirements_tables();
+  EXPECT_EQ(tables.size(), 10u);
+  for (const RequirementsTable& table : tables) EXPECT_FALSE(table.rules.empty()) << table.name;
+}
+
+}  // namespace
+}  // namespace trueflank
