@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/tolerance.h"
+#include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/check/train_turning.h"
 
 namespace trueflank {
 namespace {
@@ -26,48 +29,87 @@ double departure_rad(const std::vector<double>& positions_rad) {
   return largest;
 }
 
-}  // namespace
+/// How many different places there are for a planet, and how far apart.
+std::string places_text(const AssemblyCondition& condition) {
+  return " Identical planets mesh at multiples of " +
+         number_text(deg_from_rad(condition.angle_step_rad), 4) + " deg (" +
+         number_text(std::round(kTwoPi / condition.angle_step_rad), 0) + " places round the sun).";
+}
 
-Findings check_assembly(const GearTrain& train) {
-  Finding finding{.id = "assembly", .where = "train"};
-  const bool planetary =
-      train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
-  if (!planetary) {
-    finding.status = CheckStatus::kNotApplicable;
-    finding.message = "there are no planets to assemble";
-    return {finding};
+std::string order_text(const GearTrain& train, const std::vector<MeshState>& states) {
+  if (train.design.herringbone)
+    return " Order: herringbone teeth do not slide into each other along the axis; split the ring"
+           " gears (or the sun) at the apex and close them over the planets.";
+  const bool compound = train.design.kind == TrainKind::k3k;
+  std::string text = " Order: planets on the carrier at their angles and marks, then the sun along the axis";
+  if (compound) {
+    const double room = train.centre_distance_mm - train.find("planet2")->profile.tip_radius_mm();
+    text += train.find("sun")->profile.tip_radius_mm() < room ? " from either side"
+                                                              : " from below (planet2 bars it above)";
+    text += ", ring1 along the axis from below, ring2 from above";
+  } else {
+    text += ", then the ring along the axis";
   }
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i].removal && states[i].removal->at_every_rotation)
+      text += "; without the sun in place, " + gear1_name(train, train.meshes[i]) +
+              " also goes into " + gear2_name(train, train.meshes[i]) + " radially";
+  return text + ".";
+}
+
+/// The closed form's word, without the order.
+Finding by_closed_form(const GearTrain& train) {
   const AssemblyCondition& condition = train.assembly;
   const std::string count = std::to_string(train.design.planets);
-  const std::string step = " Planets that are alike mesh at multiples of " +
-                           number_text(deg_from_rad(condition.angle_step_rad), 4) + " deg.";
-  finding.unit = "deg";
-  finding.limit = 0.0;
-  finding.value = 0.0;
+  Finding finding{.id = "assembly", .where = "train", .value = 0.0, .limit = 0.0, .unit = "deg"};
   if (condition.equal_spacing && condition.identical_planets) {
-    finding.message = count + " identical planets mesh with all gears at equal spacing." + step;
+    finding.message = count + " identical planets mesh with all gears at equal spacing.";
   } else if (condition.equal_spacing) {
     finding.status = CheckStatus::kWarn;
     finding.message = count + " planets mesh at equal spacing, but their bodies differ: planet2 ahead "
                       "of planet1, against body 1, by " +
                       list_text(condition.planet_offsets_rad) + ".";
-    finding.cure = condition.nearest_angles_rad.empty()
-                       ? "mark the bodies and mount each in its place"
-                       : "mark the bodies and mount each in its place, or mount identical ones at " +
-                             list_text(condition.nearest_angles_rad);
+    finding.cure = "mark the bodies and mount each in its place";
+    if (!condition.nearest_angles_rad.empty())
+      finding.cure += ", or mount identical ones at " + list_text(condition.nearest_angles_rad);
   } else {
     finding.status = CheckStatus::kFail;
     finding.message = count + " planets do not mesh at equal spacing with sun and rings.";
     finding.value = kNaN;
+    finding.cure = "tooth numbers of sun and ring whose sum is a multiple of " + count;
     if (!condition.nearest_angles_rad.empty()) {
       finding.value = deg_from_rad(departure_rad(condition.nearest_angles_rad));
       finding.message += " Identical ones do at " + list_text(condition.nearest_angles_rad) + ".";
+      finding.cure += ", or the angles given";
     }
-    finding.message += step;
-    finding.cure = "tooth numbers of sun and ring whose sum is a multiple of " + count +
-                   (condition.nearest_angles_rad.empty() ? "" : ", or the angles given");
   }
   finding.margin = -finding.value;
+  finding.message += places_text(condition);
+  return finding;
+}
+
+}  // namespace
+
+Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& states) {
+  const bool planetary =
+      train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
+  if (!planetary)
+    return {{.id = "assembly",
+             .where = "train",
+             .status = CheckStatus::kNotApplicable,
+             .message = "there are no planets to assemble"}};
+  Finding finding = by_closed_form(train);
+  const TrainTurning turning = turn_train(train, states);
+  // equal spacing where nothing meshes is drawn all the same: the closed form has failed it already
+  if (turning.phase_error_mm > tolerance::kTouch_mm) {
+    finding.status = CheckStatus::kFail;
+    finding.message += " Turned, " + turning.mesh + " stands " + um_text(turning.phase_error_mm) +
+                       " out of phase, clearance " + um_text(turning.clearance_mm) + ".";
+    if (finding.cure.empty()) finding.cure = "tooth numbers that assemble";
+  } else {
+    finding.message += " Turned, every mesh of every planet keeps its phase.";
+  }
+  finding.message += order_text(train, states);
   return {finding};
 }
 

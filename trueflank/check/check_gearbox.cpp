@@ -37,9 +37,10 @@ Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& sta
         check_tip_clearance, check_contact_ratio})
     append(all, check(train));
   for (const auto check : {check_overlap, check_fillet_interference, check_involute_interference,
-                           check_trochoid_interference, check_trimming_interference})
+                           check_trochoid_interference, check_trimming_interference,
+                           check_assembly})
     append(all, check(train, states));
-  for (const auto check : {check_assembly, check_planet_spacing, check_axial})
+  for (const auto check : {check_planet_spacing, check_axial})
     append(all, check(train));
   return all;
 }

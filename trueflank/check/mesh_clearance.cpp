@@ -358,7 +358,9 @@ std::vector<MeshState> mesh_states(const GearTrain& train) {
   for (const TrainMesh& mesh : train.meshes) {
     const GearPair pair = train.pair(mesh);
     const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-    states.push_back({centred(pair, d, 0.0), driving(pair, d)});
+    MeshState state{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
+    if (pair.internal()) state.removal = radial_removal(pair);
+    states.push_back(std::move(state));
   }
   return states;
 }

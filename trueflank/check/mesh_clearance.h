@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/check/ring_criteria.h"
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/train/gear_train.h"
 
@@ -59,11 +61,13 @@ struct MeshClearance {
 [[nodiscard]] std::string place_text(const MeshPlace& place, const std::string& name1,
                                      const std::string& name2);
 
-/// Clearance of every mesh of a train, in its order, backlash centred.
+/// What turning and moving the real profiles of a mesh says.
 struct MeshState {
   MeshClearance centred;
   MeshClearance driving;
+  std::optional<RadialRemoval> removal;  ///< rings only
 };
+/// Of every mesh of a train, in its order.
 [[nodiscard]] std::vector<MeshState> mesh_states(const GearTrain& train);
 
 }  // namespace trueflank

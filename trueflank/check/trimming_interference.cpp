@@ -30,7 +30,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   }
   const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
   const double margin = trimming_margin_rad(pair);
-  const RadialRemoval removal = radial_removal(pair);
+  const RadialRemoval& removal = *state.removal;
   if (std::isnan(margin)) {
     const double excess = pair.profile2->tip_radius_mm() - pair.profile1->tip_radius_mm();
     finding.value = finding.margin = excess;
