@@ -7,7 +7,7 @@ namespace trueflank::test {
 namespace {
 
 TEST(OverlapSimulation, AgreesOnTheFirstRandomDesigns) {
-  const Comparison c = compare_with_simulation(1, 25);
+  const Comparison c = compare_with_simulation(1, 12);
   EXPECT_EQ(c.wrong, 0);
   EXPECT_EQ(c.exact_wrong, 0);
   EXPECT_GT(c.failing, 0);
