@@ -127,6 +127,32 @@ TEST(Polyline, UsesNoMoreChordsThanNeeded) {
   EXPECT_LE(used, least + least / 100);
 }
 
+TEST(Polyline, FilletThatSwingsAcrossItsChordKeepsTheTolerance) {
+  // the trochoid of this gear is nearly straight, with an inflection: humps on either side of a chord
+  const Gear gear{.teeth = 8,
+                  .normal_module_mm = 1.13543,
+                  .rack = {.pressure_angle_rad = rad_from_deg(17.4776),
+                           .addendum = 1.03444,
+                           .dedendum = 1.36439,
+                           .root_radius = 0.4327},
+                  .shift = 1.45868,
+                  .thinning_mm = 0.0431,
+                  .tip_radius_mm = 7.37246};
+  const auto profile = ToothProfile::make(gear);
+  ASSERT_TRUE(profile);
+  for (double tolerance = 1e-5; tolerance < 1e-2; tolerance *= 1.05) {
+    const HalfToothPolyline half = tessellate(*profile, tolerance);
+    for (const auto& edge : half.edges) {
+      const Curve& curve = profile->pieces()[static_cast<std::size_t>(edge.piece)].curve;
+      const Point2 a = point_at(curve, edge.from), b = point_at(curve, edge.to);
+      for (int i = 1; i < 32; ++i) {
+        const Point2 p = point_at(curve, edge.from + (edge.to - edge.from) * i / 32.0);
+        ASSERT_LE(distance_to_segment(p, a, b), half.chord_error_mm * (1.0 + 1e-6) + 1e-13);
+      }
+    }
+  }
+}
+
 TEST(Polyline, PieceFarBelowTheToleranceLeavesNoShortEdge) {
   // a tip circle 1 nm inside the point where the flanks meet: the tip land is far below any tolerance
   Gear gear{.teeth = 17, .shift = 0.8, .tip_radius_mm = 20.0};

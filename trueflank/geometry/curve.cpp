@@ -91,15 +91,26 @@ double chord_error_mm(const Curve& curve, double from, double to) {
   const auto height = [&](double u) {
     return std::abs((point_at(curve, from + u * (to - from)) - a).dot(across));
   };
-  // The height is smooth with one maximum near the middle: parabola through three points, thrice.
-  double centre = 0.5, best = height(0.5);
-  for (double width = 0.25; width > 0.01; width *= 0.25) {
+  // The height is smooth with one maximum, near the middle unless the parameter runs very unevenly:
+  // parabola through three points, moved on at the same width where it points outside them. A trochoid
+  // may swing across its chord: there the search starts from the highest of a few places.
+  double centre = 0.5, best = height(0.5), width = 0.25;
+  if (std::holds_alternative<RackTrochoid>(curve.shape) ||
+      std::holds_alternative<CutterTrochoid>(curve.shape)) {
+    width = 0.125;
+    for (double u : {0.125, 0.25, 0.375, 0.625, 0.75, 0.875})
+      if (const double h = height(u); h > best) best = h, centre = u;
+  }
+  for (int i = 0; i < 12 && width > 0.01; ++i) {
     const double low = height(centre - width), high = height(centre + width);
     const double curvature = low - 2.0 * best + high;
     if (curvature >= 0.0) return std::max({low, best, high});
-    const double shift = std::clamp(0.5 * (low - high) / curvature, -1.0, 1.0) * width;
-    centre = std::clamp(centre + shift, 0.05, 0.95);
+    const double shift = 0.5 * (low - high) / curvature;
+    const double bounded = std::clamp(shift, -1.0, 1.0) * width;
+    centre = std::clamp(centre + bounded, width, 1.0 - width);
     best = std::max(best, height(centre));
+    if (std::abs(shift) < 0.3) width *= 0.25;
+    else if (std::abs(shift) < 1.0) width *= 0.5;
   }
   return best;
 }
