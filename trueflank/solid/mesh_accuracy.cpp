@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/mesh_accuracy.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
+#include "trueflank/solid/outline_distance.h"
+
+namespace trueflank {
+namespace {
+
+using Point3 = Eigen::Vector3d;
+
+/// Sine of the angle up to which a facet counts as plane face or as wall.
+constexpr double kSteep = 0.05;
+/// Chords longer than this part of the outline's size are looked at in more places than the middle.
+constexpr double kLongChord = 0.01;
+/// Samples of a true curve for each chord that the error found would need.
+constexpr double kSamplesPerChord = 2.0;
+constexpr int kLeastSamples = 5, kMostSamples = 4000;
+
+struct Segment {
+  Point2 a, b;
+};
+
+double distance_to(const Segment& s, const Point2& p) {
+  const Point2 along = s.b - s.a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - s.a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (s.a + t * along - p).norm();
+}
+
+/// Segments of a cut found by their direction seen from the outline's centre.
+class SegmentFan {
+ public:
+  SegmentFan(std::vector<Segment> segments, const Point2& centre)
+      : segments_(std::move(segments)), centre_(centre) {
+    bins_ = std::max<std::size_t>(1, segments_.size() / 4);
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;  // first bin, count
+    begin_.assign(bins_ + 1, 0);
+    for (const Segment& s : segments_) {
+      const double a = direction(s.a), turn = centred_rad(direction(s.b) - a);
+      const std::size_t first = bin_of(turn < 0.0 ? a + turn : a);
+      const std::size_t last = bin_of(turn < 0.0 ? a : a + turn);
+      const std::size_t count = std::min(bins_, (last + bins_ - first) % bins_ + 1);
+      ranges.emplace_back(first, count);
+      for (std::size_t k = 0; k < count; ++k) ++begin_[(first + k) % bins_ + 1];
+    }
+    for (std::size_t i = 0; i < bins_; ++i) begin_[i + 1] += begin_[i];
+    members_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t s = 0; s < segments_.size(); ++s)
+      for (std::size_t k = 0; k < ranges[s].second; ++k)
+        members_[next[(ranges[s].first + k) % bins_]++] = s;
+  }
+
+  [[nodiscard]] bool empty() const { return segments_.empty(); }
+
+  [[nodiscard]] double distance_mm(const Point2& p) const {
+    double best = std::numeric_limits<double>::infinity();
+    const double angle = direction(p), radius = (p - centre_).norm();
+    const double width = kTwoPi / static_cast<double>(bins_);
+    const std::size_t home = bin_of(angle);
+    const double into = wrapped_rad(angle) - static_cast<double>(home) * width;
+    for (std::size_t away = 0; 2 * away <= bins_; ++away) {
+      visit((home + away) % bins_, p, best);
+      if (away > 0) visit((home + bins_ - away) % bins_, p, best);
+      // nothing beyond the bins visited is nearer than their bounding rays
+      const double clear = static_cast<double>(away) * width + std::min(into, width - into);
+      if (best <= radius * std::sin(std::min(clear, 0.5 * kPi))) break;
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] double direction(const Point2& p) const { return polar_angle_rad(p - centre_); }
+  [[nodiscard]] std::size_t bin_of(double angle) const {
+    const auto bin = static_cast<std::size_t>(wrapped_rad(angle) / kTwoPi * static_cast<double>(bins_));
+    return std::min(bin, bins_ - 1);
+  }
+  void visit(std::size_t bin, const Point2& p, double& best) const {
+    for (std::size_t i = begin_[bin]; i < begin_[bin + 1]; ++i)
+      best = std::min(best, distance_to(segments_[members_[i]], p));
+  }
+
+  std::vector<Segment> segments_;
+  Point2 centre_;
+  std::size_t bins_ = 1;
+  std::vector<std::size_t> begin_, members_;
+};
+
+/// An outline of a slab: its curves and the cut's segments that lie on it.
+struct Wall {
+  OutlineDistance curves;
+  bool hole = false;
+  std::vector<Segment> cut = {};
+  double error_mm = 0.0;  ///< largest found from the facets' side
+  Point2 error_foot = Point2::Zero();  ///< where on the curve
+};
+
+struct SlabWalls {
+  double z_lower_mm = 0.0, z_upper_mm = 0.0;
+  std::vector<Wall> walls;
+  [[nodiscard]] double z_middle_mm() const { return 0.5 * (z_lower_mm + z_upper_mm); }
+};
+
+struct NearestWall {
+  std::size_t wall = 0;
+  double excess_mm = 0.0;  ///< distance, positive with too much material
+  Point2 foot = Point2::Zero();
+};
+
+class Measurement {
+ public:
+  Measurement(const TriangleMesh& mesh, const PartShape& shape) : mesh_(mesh) {
+    TRUEFLANK_EXPECTS(!shape.slabs.empty());
+    for (const Slab& slab : shape.slabs) {
+      SlabWalls walls{slab.z_lower_mm, slab.z_upper_mm, {}};
+      walls.walls.push_back({.curves = OutlineDistance(slab.outer), .hole = false});
+      for (const Outline& hole : slab.holes)
+        walls.walls.push_back({.curves = OutlineDistance(hole), .hole = true});
+      planes_mm_.push_back(slab.z_lower_mm);
+      slabs_.push_back(std::move(walls));
+    }
+    planes_mm_.push_back(shape.slabs.back().z_upper_mm);
+    measured_.assign(mesh.vertices.size(), -1);
+  }
+
+  Accuracy run() {
+    for (const auto& t : mesh_.triangles) measure_triangle(t);
+    for (SlabWalls& slab : slabs_)
+      for (Wall& wall : slab.walls) measure_curves(slab, wall);
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] Point3 vertex(std::uint32_t v) const { return Point3(mesh_.vertices[v].data()); }
+
+  void facet_is_off(double distance_mm, const Point3& place) {
+    if (!(distance_mm > result_.facets_to_surface_mm)) return;
+    if (distance_mm > result_.largest_mm()) result_.worst_place_mm = {place.x(), place.y(), place.z()};
+    result_.facets_to_surface_mm = distance_mm;
+  }
+
+  [[nodiscard]] std::size_t slab_at(double z_mm) const {
+    std::size_t s = 0;
+    while (s + 1 < slabs_.size() && z_mm > slabs_[s].z_upper_mm) ++s;
+    return s;
+  }
+  [[nodiscard]] double plane_distance_mm(double z_mm) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (double plane : planes_mm_) nearest = std::min(nearest, std::abs(z_mm - plane));
+    return nearest;
+  }
+  [[nodiscard]] double outside_stack_mm(double z_mm) const {
+    return std::max({0.0, planes_mm_.front() - z_mm, z_mm - planes_mm_.back()});
+  }
+
+  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point2& p) {
+    NearestWall nearest{.wall = 0, .excess_mm = std::numeric_limits<double>::infinity()};
+    for (std::size_t w = 0; w < slab.walls.size(); ++w) {
+      const Wall& wall = slab.walls[w];
+      if (wall.curves.lower_bound_mm(p) >= std::abs(nearest.excess_mm)) continue;
+      const OutlineFoot foot = wall.curves.foot(p);
+      if (std::abs(foot.distance_mm) < std::abs(nearest.excess_mm))
+        nearest = {w, wall.hole ? -foot.distance_mm : foot.distance_mm, foot.point};
+    }
+    return nearest;
+  }
+
+  void measure_triangle(const std::array<std::uint32_t, 3>& t) {
+    const std::array<Point3, 3> corner{vertex(t[0]), vertex(t[1]), vertex(t[2])};
+    const Point3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    const double length = normal.norm();
+    if (!(length > 0.0)) return;
+    if (std::hypot(normal.x(), normal.y()) <= kSteep * length) {
+      for (const Point3& p : corner) facet_is_off(plane_distance_mm(p.z()), p);
+      return;
+    }
+    const std::size_t slab = slab_at((corner[0].z() + corner[1].z() + corner[2].z()) / 3.0);
+    if (std::abs(normal.z()) <= kSteep * length) {
+      measure_wall_facet(t, corner, slab);
+      cut_triangle(corner, slab);
+    } else {
+      measure_slanting_facet(corner, slab);
+      cut_triangle(corner, slabs_.size());
+    }
+  }
+
+  /// A facet of a wall seen from above is a chord.
+  void measure_wall_facet(const std::array<std::uint32_t, 3>& t,
+                          const std::array<Point3, 3>& corner, std::size_t slab) {
+    const auto stamp = static_cast<std::int32_t>(slab);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (measured_[t[i]] == stamp) continue;
+      measured_[t[i]] = stamp;
+      // the vertex below or above was measured just before: walls come in rows
+      if (corner[i].head<2>() != last_vertex_ || slab != last_slab_) measure_on_wall(slab, corner[i]);
+      else facet_is_off(outside_stack_mm(corner[i].z()), corner[i]);
+      last_vertex_ = corner[i].head<2>();
+    }
+    std::size_t longest = 0;
+    double length = -1.0;
+    for (std::size_t e = 0; e < 3; ++e) {
+      const double l = (corner[(e + 1) % 3] - corner[e]).head<2>().squaredNorm();
+      if (l > length) longest = e, length = l;
+    }
+    const Point3 &from = corner[longest], &to = corner[(longest + 1) % 3];
+    // the other triangle of a rectangle is seen from above as the same chord
+    const bool same = slab == last_slab_ &&
+                      ((from.head<2>() == last_from_ && to.head<2>() == last_to_) ||
+                       (to.head<2>() == last_from_ && from.head<2>() == last_to_));
+    if (same) return;
+    last_slab_ = slab;
+    last_from_ = from.head<2>();
+    last_to_ = to.head<2>();
+    const int parts = length > std::pow(kLongChord, 2) * from.head<2>().squaredNorm() ? 8 : 2;
+    for (int i = 1; i < parts; ++i)
+      last_wall_ = measure_on_wall(slab, from + (to - from) * (static_cast<double>(i) / parts));
+  }
+
+  /// Returns the wall the point belongs to.
+  std::size_t measure_on_wall(std::size_t slab, const Point3& p) {
+    const NearestWall nearest = nearest_wall(slabs_[slab], p.head<2>());
+    Wall& wall = slabs_[slab].walls[nearest.wall];
+    if (std::abs(nearest.excess_mm) > wall.error_mm) {
+      wall.error_mm = std::abs(nearest.excess_mm);
+      wall.error_foot = nearest.foot;
+    }
+    result_.most_excess_mm = std::max(result_.most_excess_mm, nearest.excess_mm);
+    result_.most_deficit_mm = std::min(result_.most_deficit_mm, nearest.excess_mm);
+    facet_is_off(std::hypot(nearest.excess_mm, outside_stack_mm(p.z())), p);
+    return nearest.wall;
+  }
+
+  /// Neither wall nor plane face: no part has such facets, so a coarse measure will do.
+  void measure_slanting_facet(const std::array<Point3, 3>& corner, std::size_t slab) {
+    constexpr int kSteps = 4;
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; i + j <= kSteps; ++j) {
+        const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+        const Point3 p = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
+        const double excess = nearest_wall(slabs_[slab], p.head<2>()).excess_mm;
+        facet_is_off(std::min(plane_distance_mm(p.z()),
+                              std::hypot(excess, outside_stack_mm(p.z()))), p);
+      }
+  }
+
+  /// Keeps where a facet crosses the middle heights of slabs. In its own slab a wall facet has just
+  /// been measured.
+  void cut_triangle(const std::array<Point3, 3>& corner, std::size_t measured_slab) {
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      SlabWalls& slab = slabs_[s];
+      const double z = slab.z_middle_mm();
+      std::array<Point2, 2> ends;
+      std::size_t count = 0;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Point3 &a = corner[e], &b = corner[(e + 1) % 3];
+        if ((a.z() < z) == (b.z() < z)) continue;
+        ends[count++] = (a + (b - a) * ((z - a.z()) / (b.z() - a.z()))).head<2>();
+      }
+      if (count != 2) continue;
+      std::size_t wall = last_wall_;
+      if (s != measured_slab) {
+        const Point2 middle = 0.5 * (ends[0] + ends[1]);
+        wall = measure_on_wall(s, {middle.x(), middle.y(), z});
+      }
+      slab.walls[wall].cut.push_back({ends[0], ends[1]});
+    }
+  }
+
+  // ------------------------------------------------------------ from the surface to the facets
+
+  struct Worst {
+    double distance_mm = -1.0, parameter = 0.0, step = 0.0;
+    std::size_t piece = 0;
+    int copy = 0;
+  };
+
+  void measure_curves(const SlabWalls& slab, Wall& wall) {
+    if (wall.cut.empty()) {  // the wall is missing: whatever else is there is far away
+      std::vector<Segment> all;
+      for (const Wall& other : slab.walls) all.insert(all.end(), other.cut.begin(), other.cut.end());
+      if (all.empty()) {
+        surface_is_off(std::numeric_limits<double>::infinity(), Point2::Zero(), slab);
+        return;
+      }
+      wall.cut = std::move(all);
+    }
+    const SegmentFan fan(std::move(wall.cut), wall.curves.centre());
+    Worst worst;
+    const auto& pieces = wall.curves.pieces();
+    for (std::size_t i = 0; i < pieces.size(); ++i) sample(fan, wall, i, worst);
+    refine(fan, wall, worst);
+    const Point2 place = wall.curves.to_outline(
+        point_at(pieces[worst.piece].curve, worst.parameter), worst.copy);
+    surface_is_off(worst.distance_mm, place, slab);
+    surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, slab);
+    wall.cut.clear();
+  }
+
+  void surface_is_off(double distance_mm, const Point2& place, const SlabWalls& slab) {
+    if (!(distance_mm > result_.surface_to_facets_mm)) return;
+    if (distance_mm > result_.largest_mm())
+      result_.worst_place_mm = {place.x(), place.y(), slab.z_middle_mm()};
+    result_.surface_to_facets_mm = distance_mm;
+  }
+
+  static void sample(const SegmentFan& fan, const Wall& wall, std::size_t index, Worst& worst) {
+    const OutlineDistance::Piece& piece = wall.curves.pieces()[index];
+    // a curve of length s that turns by t needs sqrt(s t / (8 error)) chords, spread at their best
+    const double error = std::max(wall.error_mm, 1e-6);
+    const double chords = std::sqrt(piece.length_mm * piece.turning_rad / (8.0 * error));
+    const int samples =
+        std::clamp(static_cast<int>(kSamplesPerChord * chords), kLeastSamples, kMostSamples);
+    const double span = piece.curve.end - piece.curve.begin;
+    for (int i = 0; i <= samples; ++i) {
+      const double parameter = piece.curve.begin + span * i / samples;
+      const Point2 on_piece = point_at(piece.curve, parameter);
+      for (int copy = 0; copy < wall.curves.copies(); ++copy) {
+        const double distance = fan.distance_mm(wall.curves.to_outline(on_piece, copy));
+        if (distance > worst.distance_mm)
+          worst = {distance, parameter, span / samples, index, copy};
+      }
+    }
+  }
+
+  /// Climbs to the largest distance next to the worst sample.
+  static void refine(const SegmentFan& fan, const Wall& wall, Worst& worst) {
+    const Curve& curve = wall.curves.pieces()[worst.piece].curve;
+    const double low = std::min(curve.begin, curve.end), high = std::max(curve.begin, curve.end);
+    for (double step = 0.5 * worst.step; std::abs(step) > 0.01 * std::abs(worst.step); step *= 0.5)
+      for (double sign : {-1.0, 1.0}) {
+        const double at = std::clamp(worst.parameter + sign * step, low, high);
+        const double distance =
+            fan.distance_mm(wall.curves.to_outline(point_at(curve, at), worst.copy));
+        if (distance <= worst.distance_mm) continue;
+        worst.distance_mm = distance;
+        worst.parameter = at;
+      }
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<SlabWalls> slabs_;
+  std::vector<double> planes_mm_;
+  std::vector<std::int32_t> measured_;  ///< slab a vertex was last measured in
+  std::size_t last_slab_ = 0, last_wall_ = 0;  ///< of the chord measured last
+  Point2 last_from_ = Point2::Zero(), last_to_ = Point2::Zero(), last_vertex_ = Point2::Zero();
+  Accuracy result_;
+};
+
+}  // namespace
+
+Accuracy measure_accuracy(const TriangleMesh& mesh, const PartShape& shape) {
+  return Measurement(mesh, shape).run();
+}
+
+}  // namespace trueflank

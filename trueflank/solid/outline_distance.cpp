@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/outline_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "trueflank/base/units.h"
+#include "trueflank/solid/outline_loop.h"
+
+namespace trueflank {
+namespace {
+
+/// Nodes of a trochoid's table; between them the direction of travel is interpolated.
+constexpr int kNodes = 33;
+/// A step of this share of a trochoid, some 1e-5 mm, bends by less than 1e-9 mm away from the tangent.
+constexpr double kLastStep = 1e-5;
+
+double parameter(const Curve& curve, double share) {
+  return curve.begin + share * (curve.end - curve.begin);
+}
+
+double length_of(const Curve& curve) {
+  double length = 0.0;
+  Point2 last = curve.start_point();
+  for (int i = 1; i <= 16; ++i) {
+    const Point2 next = point_at(curve, parameter(curve, i / 16.0));
+    length += (next - last).norm();
+    last = next;
+  }
+  return length;
+}
+
+double turning_of(const Curve& curve) {
+  double turning = 0.0;
+  Point2 last = tangent_at(curve, curve.begin);
+  for (int i = 1; i <= 8; ++i) {
+    const Point2 next = tangent_at(curve, parameter(curve, i / 8.0));
+    turning += std::abs(std::atan2(cross(last, next), last.dot(next)));
+    last = next;
+  }
+  return turning;
+}
+
+/// Out of the enclosed area: right of the direction of travel.
+Point2 normal_of(const Curve& curve, double at) { return -perpendicular(tangent_at(curve, at)); }
+
+/// The foot within a curve, where there is one.
+using InnerFoot = std::optional<OutlineFoot>;
+
+InnerFoot inner_foot(const CircularArc& c, const Curve& curve, const Point2& p) {
+  const double low = std::min(curve.begin, curve.end), high = std::max(curve.begin, curve.end);
+  const Point2 from_centre = p - c.centre;
+  const double distance = from_centre.norm();
+  if (distance == 0.0 || low + wrapped_rad(polar_angle_rad(from_centre) - low) > high) return {};
+  const double outside = curve.end > curve.begin ? 1.0 : -1.0;  // counter-clockwise: away from the centre
+  return OutlineFoot{c.centre + from_centre * (c.radius_mm / distance),
+                     outside * (distance - c.radius_mm)};
+}
+
+InnerFoot inner_foot(const StraightLine& c, const Curve& curve, const Point2& p) {
+  const double t = (p - c.start).dot(c.direction) / c.direction.squaredNorm();
+  if (t < std::min(curve.begin, curve.end) || t > std::max(curve.begin, curve.end)) return {};
+  const Point2 right = curve.end > curve.begin ? Point2(-perpendicular(c.direction.normalized()))
+                                               : perpendicular(c.direction.normalized());
+  const Point2 foot = c.start + t * c.direction;
+  return OutlineFoot{foot, (p - foot).dot(right)};
+}
+
+InnerFoot inner_foot(const Involute& c, const Curve& curve, const Point2& p) {
+  const double r2 = p.squaredNorm(), r_b = c.base_radius_mm;
+  if (r2 < r_b * r_b) return {};
+  // The normal through p touches the base circle at angle tau and crosses the involute at roll angle
+  // xi; outside the enclosed area the point is farther from there than the involute, on either kind.
+  const double tangent = std::sqrt(r2 - r_b * r_b);
+  const double tau = polar_angle_rad(p) + c.sense * std::atan2(tangent, r_b);
+  const double xi = c.sense * (tau - c.base_half_angle_rad);
+  if (xi < std::min(curve.begin, curve.end) || xi > std::max(curve.begin, curve.end)) return {};
+  const Point2 e = (r_b * p + c.sense * tangent * perpendicular(p)) / r2;
+  const double distance = tangent - r_b * xi;
+  return OutlineFoot{p + c.sense * distance * perpendicular(e), distance};
+}
+
+/// The distance of a point nearly abreast of a curve's point; what is left of the way to the foot lies
+/// along the tangent.
+OutlineFoot foot_along_tangent(const Curve& curve, double share, const Point2& at,
+                               const Point2& point) {
+  const double ahead = share + (share < 0.5 ? 1e-6 : -1e-6);
+  const Point2 tangent = (point_at(curve, parameter(curve, ahead)) - at) * (ahead - share);
+  const Point2 normal = -perpendicular(tangent).normalized();
+  const double distance = (point - at).dot(normal);
+  return {point - distance * normal, distance};
+}
+
+/// Golden section around the nearest node: for points beyond the centre of curvature, where steps
+/// along the tangent do not settle.
+InnerFoot searched_foot(const Curve& curve, std::size_t node, const Point2& point) {
+  constexpr double kGolden = 0.6180339887498949;
+  double low = std::max(0.0, (static_cast<double>(node) - 1.0) / (kNodes - 1.0));
+  double high = std::min(1.0, (static_cast<double>(node) + 1.0) / (kNodes - 1.0));
+  const auto distance = [&](double share) {
+    return (point_at(curve, parameter(curve, share)) - point).squaredNorm();
+  };
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = distance(a), at_b = distance(b);
+  while (high - low > 1e-9) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a, a = high - kGolden * (high - low), at_a = distance(a);
+    } else {
+      low = a, a = b, at_a = at_b, b = low + kGolden * (high - low), at_b = distance(b);
+    }
+  }
+  const double share = 0.5 * (low + high);
+  if (share < 1e-8 || share > 1.0 - 1e-8) return {};
+  return foot_along_tangent(curve, share, point_at(curve, parameter(curve, share)), point);
+}
+
+Curve line_between(const Point2& from, const Point2& to) {
+  const double length = (to - from).norm();
+  return {StraightLine{from, (to - from) / length}, 0.0, length};
+}
+
+}  // namespace
+
+OutlineDistance::OutlineDistance(const Outline& outline) {
+  const OutlineExtent radii = extent(outline);
+  centre_ = radii.centre;
+  inner_radius_mm_ = radii.inner_radius_mm;
+  outer_radius_mm_ = radii.outer_radius_mm;
+  if (const auto* toothed = std::get_if<ToothedOutline>(&outline)) {
+    teeth_ = toothed->profile->gear().teeth;
+    rotation_rad_ = toothed->rotation_rad;
+    for (int k = 0; k < teeth_; ++k)
+      directions_.push_back(unit_vector(rotation_rad_ + kTwoPi * k / teeth_));
+    for (const ProfilePiece& piece : toothed->profile->pieces()) add(piece.curve);
+  } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
+    add({CircularArc{Point2::Zero(), circle->radius_mm}, 0.0, kTwoPi});
+  } else {
+    const BoreDesign& bore = std::get<BoreOutline>(outline).bore;
+    for (const BoreEdge& edge : bore_edges(bore)) {
+      if (!edge.arc) {
+        add(line_between(edge.from, edge.to));
+        continue;
+      }
+      const double from = polar_angle_rad(edge.from);
+      double angle = wrapped_rad(polar_angle_rad(edge.to) - from);
+      if (angle == 0.0) angle = kTwoPi;
+      add({CircularArc{Point2::Zero(), 0.5 * bore.diameter_mm}, from, from + angle});
+    }
+  }
+  finish();
+}
+
+void OutlineDistance::add(const Curve& curve) {
+  pieces_.push_back({curve, length_of(curve), turning_of(curve)});
+  Form form;
+  form.start = curve.start_point();
+  form.end = curve.end_point();
+  form.least_radius_mm = std::numeric_limits<double>::infinity();
+  const bool table = std::holds_alternative<RackTrochoid>(curve.shape) ||
+                     std::holds_alternative<CutterTrochoid>(curve.shape);
+  for (int i = 0; i < kNodes; ++i) {
+    const Point2 node = point_at(curve, parameter(curve, i / (kNodes - 1.0)));
+    form.least_radius_mm = std::min(form.least_radius_mm, node.norm());
+    form.largest_radius_mm = std::max(form.largest_radius_mm, node.norm());
+    if (table) form.nodes.push_back(node);
+  }
+  // a curve bulges beyond its samples, a line towards the axis by much more
+  const double margin = 0.1 * pieces_.back().length_mm;
+  form.least_radius_mm = std::max(0.0, form.least_radius_mm - margin);
+  form.largest_radius_mm += margin;
+  const double step = 1e-4 / (kNodes - 1.0);
+  for (int i = 0; table && i < kNodes; ++i) {
+    const double share = i / (kNodes - 1.0);
+    const double before = std::max(0.0, share - step), after = std::min(1.0, share + step);
+    form.derivatives.push_back((point_at(curve, parameter(curve, after)) -
+                                point_at(curve, parameter(curve, before))) /
+                               (after - before));
+  }
+  forms_.push_back(std::move(form));
+}
+
+void OutlineDistance::finish() {
+  const std::size_t n = pieces_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Curve& curve = pieces_[i].curve;
+    forms_[i].start_normal = normal_of(curve, curve.begin);
+    forms_[i].end_normal = normal_of(curve, curve.end);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    Form& next = forms_[i + 1 < n ? i + 1 : 0];
+    if (teeth_ > 0 && i + 1 == n) break;
+    forms_[i].end_normal = next.start_normal = forms_[i].end_normal + next.start_normal;
+  }
+  if (teeth_ == 0) return;
+  // beyond the middles of tooth and gap the mirror image goes on
+  forms_.front().start_normal.y() = 0.0;
+  const Point2 gap = unit_vector(kPi / teeth_);
+  forms_.back().end_normal = gap * forms_.back().end_normal.dot(gap);
+}
+
+double OutlineDistance::lower_bound_mm(const Point2& point) const {
+  const double r = (point - centre_).norm();
+  return std::max({0.0, r - outer_radius_mm_, inner_radius_mm_ - r});
+}
+
+Point2 OutlineDistance::to_outline(const Point2& on_piece, int copy) const {
+  if (teeth_ == 0) return on_piece + centre_;
+  return from_tooth(copy % 2 == 0 ? on_piece : mirrored(on_piece), static_cast<std::size_t>(copy / 2));
+}
+
+Point2 OutlineDistance::from_tooth(const Point2& p, std::size_t tooth) const {
+  const Point2& direction = directions_[tooth];
+  return p.x() * direction + p.y() * perpendicular(direction);
+}
+
+OutlineFoot OutlineDistance::foot(const Point2& point) const {
+  if (teeth_ == 0) {
+    OutlineFoot result = foot_on_half_tooth(point - centre_);
+    result.point += centre_;
+    return result;
+  }
+  const double pitch = kTwoPi / teeth_;
+  const double teeth_away = std::round(wrapped_rad(polar_angle_rad(point) - rotation_rad_) / pitch);
+  const std::size_t tooth = static_cast<std::size_t>(teeth_away) % directions_.size();
+  const Point2& direction = directions_[tooth];
+  Point2 local(direction.dot(point), cross(direction, point));
+  const bool below = local.y() < 0.0;
+  if (below) local = mirrored(local);
+  OutlineFoot result = foot_on_half_tooth(local);
+  result.point = from_tooth(below ? mirrored(result.point) : result.point, tooth);
+  return result;
+}
+
+OutlineFoot OutlineDistance::foot_on_half_tooth(const Point2& point) const {
+  OutlineFoot best{point, std::numeric_limits<double>::infinity()};
+  const double r = point.norm();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Form& form = forms_[i];
+    const double bound = std::max(r - form.largest_radius_mm, form.least_radius_mm - r);
+    if (bound > std::abs(best.distance_mm)) continue;
+    const OutlineFoot candidate = foot_on_piece(i, point, std::abs(best.distance_mm));
+    if (std::abs(candidate.distance_mm) < std::abs(best.distance_mm)) best = candidate;
+  }
+  return best;
+}
+
+OutlineFoot OutlineDistance::foot_on_piece(std::size_t index, const Point2& point,
+                                           double limit_mm) const {
+  const Curve& curve = pieces_[index].curve;
+  const Form& form = forms_[index];
+  const auto signed_foot = [&](const Point2& at, const Point2& normal) {
+    const Point2 away = point - at;
+    return OutlineFoot{at, std::copysign(away.norm(), away.dot(normal))};
+  };
+  InnerFoot within;
+  if (const auto* arc = std::get_if<CircularArc>(&curve.shape))
+    within = inner_foot(*arc, curve, point);
+  else if (const auto* line = std::get_if<StraightLine>(&curve.shape))
+    within = inner_foot(*line, curve, point);
+  else if (const auto* involute = std::get_if<Involute>(&curve.shape))
+    within = inner_foot(*involute, curve, point);
+  else
+    within = foot_on_trochoid(index, point, limit_mm);
+  if (within) return *within;
+  const bool start = (point - form.start).squaredNorm() < (point - form.end).squaredNorm();
+  return start ? signed_foot(form.start, form.start_normal) : signed_foot(form.end, form.end_normal);
+}
+
+std::optional<OutlineFoot> OutlineDistance::foot_on_trochoid(std::size_t index,
+                                                              const Point2& point,
+                                                              double limit_mm) const {
+  const Curve& curve = pieces_[index].curve;
+  const Form& form = forms_[index];
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < form.nodes.size(); ++i)
+    if ((form.nodes[i] - point).squaredNorm() < (form.nodes[nearest] - point).squaredNorm())
+      nearest = i;
+  // nodes lie nowhere farther apart than an eighth of the curve
+  if ((form.nodes[nearest] - point).norm() - pieces_[index].length_mm / 16.0 > limit_mm) return {};
+  double share = static_cast<double>(nearest) / (kNodes - 1.0);
+  Point2 at = Point2::Zero(), derivative = Point2::UnitX();
+  double step = 1.0;
+  for (int i = 0; i < 12 && std::abs(step) > kLastStep; ++i) {
+    const double node = share * (kNodes - 1.0);
+    const auto k = std::min(static_cast<std::size_t>(node), form.nodes.size() - 2);
+    const double part = node - static_cast<double>(k);
+    derivative = (1.0 - part) * form.derivatives[k] + part * form.derivatives[k + 1];
+    at = point_at(curve, parameter(curve, share));
+    step = (point - at).dot(derivative) / derivative.squaredNorm();
+    if (std::abs(step) > kLastStep) share = std::clamp(share + step, 0.0, 1.0);
+  }
+  const double node_distance = (form.nodes[nearest] - point).norm();
+  if (std::abs(step) > kLastStep || (point - at).norm() > node_distance + 1e-12)
+    return searched_foot(curve, nearest, point);
+  if (share <= 0.0 || share >= 1.0) return {};
+  return foot_along_tangent(curve, share, at, point);
+}
+
+}  // namespace trueflank
