@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "trueflank/base/units.h"
+#include "trueflank/design/design_name.h"
 
 namespace trueflank {
 namespace {
@@ -136,6 +137,10 @@ TEST(DesignFile, IsNamedAfterItsFileWhereItHasNoName) {
       "folder/my-gear.toml");
   ASSERT_TRUE(design) << design.error().front().message;
   EXPECT_EQ(design->name, "my-gear");
+  EXPECT_EQ(design_name_from("gr\xC3\xB6\xC3\x9F" "e"), "größe");
+  EXPECT_EQ(design_name_from("a\x1B[1m\u009Bb"), "a[1mb");
+  EXPECT_EQ(design_name_from("\xFF\xFE"), "gearbox");
+  EXPECT_EQ(design_name_from(std::string(99, 'x') + "ö"), std::string(99, 'x'));
 }
 
 TEST(DesignFile, TellsAllItsErrorsInTheOrderOfTheLines) {

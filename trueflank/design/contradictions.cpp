@@ -7,6 +7,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/design_name.h"
 
 namespace trueflank {
 namespace {
@@ -52,10 +53,7 @@ class Contradictions {
   }
 
   void check_name() {
-    const bool printable = std::none_of(design_.name.begin(), design_.name.end(), [](char c) {
-      return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-    });
-    if (design_.name.empty() || design_.name.size() > 100 || !printable)
+    if (!is_design_name(design_.name))
       reading_.report({.code = ErrorCode::kOutOfRange,
                        .message = "empty, too long or not printable",
                        .key = "name",

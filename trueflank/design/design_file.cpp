@@ -7,6 +7,7 @@
 
 #include "trueflank/design/contradictions.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/design_name.h"
 #include "trueflank/design/reading.h"
 #include "trueflank/design/toml_document.h"
 
@@ -67,7 +68,8 @@ class DesignReader {
     if (!reading_.clean()) return fail_all(reading_.errors(file));
     file_.file = file;
     for (const auto& [key, found] : reading_.found()) file_.lines[key] = found.line;
-    if (file_.design.name.empty()) file_.design.name = std::filesystem::path(file).stem().string();
+    if (file_.design.name.empty())
+      file_.design.name = design_name_from(std::filesystem::path(file).stem().string());
     return std::move(file_);
   }
 

@@ -84,7 +84,8 @@ std::vector<DesignKey<G>> bore_keys() {
        [](const G& g) { return unless_zero(g.bore.keyway_width_mm); }},
       {{.name = "bore_keyway_depth_mm", .unit = "mm", .lower = 0.01, .upper = 50000,
         .by_default = "no keyway",
-        .meaning = "depth of the keyway in its middle, from the bore's circle (t2 of ISO 773)"},
+        .meaning = "depth of the keyway in its middle, from the bore's circle (t2 of ISO 773); "
+                   "keyway, flat and hexagon face +x, where tooth 1 is"},
        KeyPlace::kExternalGear,
        [](G& g, const KeyValue& v) {
          g.bore.kind = BoreKind::kKeyway;
@@ -118,7 +119,8 @@ std::vector<DesignKey<G>> bore_keys() {
 std::vector<DesignKey<G>> ring_keys() {
   return {
       {{.name = "outer_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
-        .by_default = "a sensible rim", .meaning = "outer diameter of the ring"},
+        .by_default = "a rim of 2.5 modules, at least 2 mm",
+        .meaning = "outer diameter of the ring"},
        KeyPlace::kRing,
        [](G& g, const KeyValue& v) { g.outer_diameter_mm = number(v); },
        [](const G& g) { return if_given(g.outer_diameter_mm); }},

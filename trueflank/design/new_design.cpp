@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/design/new_design.h"
 
+#include "trueflank/design/design_name.h"
 #include "trueflank/design/toml_document.h"
 
 namespace trueflank {
@@ -135,24 +136,10 @@ const char* body(TrainKind kind) {
   return kGearText;
 }
 
-/// What of a name the reader takes: printable UTF-8, at most 100 bytes, not nothing.
-std::string fitting(const std::string& name) {
-  std::string result;
-  for (const char c : name)
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) result += c;
-  if (result.size() > 100) {
-    std::size_t end = 100;
-    while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xC0) == 0x80) --end;
-    result.resize(end);
-  }
-  const bool valid = !result.empty() && parse_toml("name = " + toml_string(result)).errors.empty();
-  return valid ? result : "gearbox";
-}
-
 }  // namespace
 
 std::string new_design_text(TrainKind kind, const std::string& name) {
-  const std::string title = toml_string(fitting(name));
+  const std::string title = toml_string(design_name_from(name));
   return "# A Trueflank design. Lengths in mm, angles in degrees; every key: docs/design-file.md\n"
          "# Check it: trueflank check FILE      Make it: trueflank make FILE -o FOLDER\n\n"
          "format = 1\nname = " +
