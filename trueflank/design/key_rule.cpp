@@ -100,6 +100,8 @@ Result<KeyValue> take_value(const KeyRule& rule, const std::string& key, const T
       return KeyValue(*text);
     case KeyType::kWhole:
       if (!whole) return wrong_type("not a whole number");
+      if (rule.lower == rule.upper && static_cast<double>(*whole) != rule.lower)
+        return out_of_range("no such value");
       if (static_cast<double>(*whole) < rule.lower || static_cast<double>(*whole) > rule.upper)
         return out_of_range("out of range");
       return KeyValue(*whole);
