@@ -37,7 +37,10 @@ const CircularArc* as_arc(const ProfilePiece& piece) {
 class ToothedPath {
  public:
   ToothedPath(const ToothedOutline& outline, const PathTolerance& tolerance)
-      : outline_(outline), tolerance_(tolerance), half_(outline.profile->pieces()) {
+      : outline_(outline), tolerance_(tolerance) {
+    for (const ProfilePiece& piece : outline.profile->pieces())
+      if ((piece.curve.end_point() - piece.curve.start_point()).norm() >= tolerance.shortest_mm)
+        half_.push_back(piece);
     TRUEFLANK_EXPECTS(!half_.empty());
     gap_angle_rad_ = kPi / outline.profile->gear().teeth;
   }
@@ -56,8 +59,8 @@ class ToothedPath {
     return arc && std::abs(cross(arc->centre, direction)) < tolerance::kCurve_mm;
   }
 
-  /// Where the half profile's pieces meet. Pieces too short to be made were left out: an arc keeps
-  /// its end there, a spline is led to it.
+  /// Where the half profile's pieces meet. Where one between them was left out for its shortness, an
+  /// arc keeps its end and a spline is led to it.
   void find_joints() {
     const std::size_t n = half_.size();
     const Point2 gap = unit_vector(gap_angle_rad_);
@@ -69,6 +72,11 @@ class ToothedPath {
       joints_[i] = as_arc(half_[i - 1]) ? half_[i - 1].curve.end_point()
                                         : half_[i].curve.start_point();
     joints_[n] = half_.back().curve.end_point().dot(gap) * gap;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Curve& curve = half_[i].curve;
+      path_.fit_error_mm = std::max({path_.fit_error_mm, (curve.start_point() - joints_[i]).norm(),
+                                     (curve.end_point() - joints_[i + 1]).norm()});
+    }
   }
 
   void build_tooth() {
@@ -155,7 +163,7 @@ class ToothedPath {
 
   const ToothedOutline& outline_;
   PathTolerance tolerance_;
-  const std::vector<ProfilePiece>& half_;
+  std::vector<ProfilePiece> half_;
   double gap_angle_rad_ = 0.0;
   bool tip_merged_ = false, gap_merged_ = false;
   std::vector<Point2> joints_;

@@ -36,12 +36,15 @@ struct PathPiece {
 struct OutlinePath {
   std::vector<PathCircle> circles;
   std::vector<PathPiece> pieces;
-  double fit_error_mm = 0.0;  ///< largest distance of the splines from the true curves
+  double fit_error_mm = 0.0;  ///< largest distance from the true curves, left out pieces included
 };
 
 struct PathTolerance {
   double flank_mm = 1e-8;   ///< of an involute's spline: 0.00001 um, one Bezier span up to module 10
   double fillet_mm = 1e-7;  ///< of a trochoid's spline
+  /// Shorter pieces of a half tooth are left out, their neighbours meet: kernels with a resolution of
+  /// 1e-5 mm would take them for points.
+  double shortest_mm = 5e-6;
 };
 
 /// Tip, root and fillet arcs of a ring are single arcs across the middle of tooth and gap; every flank

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/step_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+#include <set>
+
+#include "tests/support/sample_gears.h"
+#include "tests/support/sample_parts.h"
+#include "trueflank/base/contract.h"
+#include "trueflank/export/step_entities.h"
+
+namespace trueflank::io {
+namespace {
+
+std::string real_text(double number) { return StepEntities().put(number).take(); }
+std::string coordinate_text(double number) { return StepEntities().put_coordinate(number).take(); }
+std::string quoted_text(std::string_view text) { return StepEntities().put_quoted(text).take(); }
+
+StepPart sample_part(std::string name) {
+  const auto profile = ToothProfile::make(test::external_gear(12, 0.3));
+  EXPECT_TRUE(profile);
+  auto solid = brep_of(test::gear_part(name, *profile, 10.0, {BoreOutline{{.diameter_mm = 5.0}}}));
+  EXPECT_TRUE(solid);
+  return {.name = std::move(name), .solid = std::move(*solid)};
+}
+
+int occurrences(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(StepEntities, RealNumbersAlwaysHaveADecimalPoint) {
+  EXPECT_EQ(real_text(0.0), "0.");
+  EXPECT_EQ(real_text(-0.0), "0.");
+  EXPECT_EQ(real_text(10.0), "10.");
+  EXPECT_EQ(real_text(-2.5), "-2.5");
+  EXPECT_EQ(real_text(1e-7), "1.E-07");
+  EXPECT_EQ(real_text(1.5e-7), "1.5E-07");
+  EXPECT_EQ(real_text(1e300), "1.E+300");
+  for (const double x : {0.1, 1.0 / 3.0, 1e22, 123456789.0, -5e-324})
+    EXPECT_EQ(std::strtod(real_text(x).c_str(), nullptr), x);
+}
+
+TEST(StepEntities, CoordinatesAreRoundedToATenthOfAPicometre) {
+  EXPECT_EQ(coordinate_text(0.1 + 0.2), "0.3");
+  EXPECT_EQ(coordinate_text(-1e-12), "0.");
+  EXPECT_EQ(coordinate_text(25.68261234567891), "25.6826123457");
+}
+
+TEST(StepEntities, StringsKeepQuotesBackslashesAndForeignLetters) {
+  EXPECT_EQ(quoted_text("planet 1"), "'planet 1'");
+  EXPECT_EQ(quoted_text("it's"), "'it''s'");
+  EXPECT_EQ(quoted_text("a\\b"), "'a\\\\b'");
+  EXPECT_EQ(quoted_text("ü"), "'\\X2\\00FC\\X0\\'");
+  EXPECT_EQ(quoted_text("😀"), "'\\X4\\0001F600\\X0\\'");
+  EXPECT_EQ(quoted_text("\n"), "'\\X2\\000A\\X0\\'");
+  EXPECT_EQ(quoted_text("\xFF"), "'\\X2\\FFFD\\X0\\'");
+}
+
+TEST(StepWriter, TheSamePartGivesTheSameBytes) {
+  EXPECT_EQ(step_text(sample_part("sun")), step_text(sample_part("sun")));
+}
+
+TEST(StepWriter, EveryReferenceIsToAnEntityThatExistsOnce) {
+  const std::string text = step_text(sample_part("sun"));
+  std::set<int> defined;
+  const std::regex definition("\n#(\\d+)=");
+  for (std::sregex_iterator it(text.begin(), text.end(), definition), end; it != end; ++it)
+    EXPECT_TRUE(defined.insert(std::stoi((*it)[1])).second) << (*it)[1];
+  const std::regex reference("#(\\d+)");
+  for (std::sregex_iterator it(text.begin(), text.end(), reference), end; it != end; ++it)
+    EXPECT_TRUE(defined.contains(std::stoi((*it)[1]))) << (*it)[1];
+}
+
+TEST(StepWriter, OuterBoundsStandBeforeHoles) {
+  const std::string text = step_text(sample_part("sun"));
+  std::set<std::string> outer;
+  const std::regex bound("\n#(\\d+)=FACE_OUTER_BOUND");
+  for (std::sregex_iterator it(text.begin(), text.end(), bound), end; it != end; ++it)
+    outer.insert((*it)[1]);
+  int faces = 0;
+  const std::regex face("ADVANCED_FACE\\('',\\(#(\\d+)");
+  for (std::sregex_iterator it(text.begin(), text.end(), face), end; it != end; ++it, ++faces)
+    EXPECT_TRUE(outer.contains((*it)[1])) << "face of bound " << (*it)[1];
+  EXPECT_EQ(faces, 6 * 12 + 3);
+  EXPECT_EQ(static_cast<int>(outer.size()), faces);
+}
+
+TEST(StepWriter, AnAssemblyHoldsEveryPartOnce) {
+  const std::string text =
+      step_text({sample_part("sun"), sample_part("planet")},
+                {{.part = 0, .name = "sun"}, {.part = 1, .name = "planet 1"}, {.part = 1, .name = "planet 2"}},
+                "gearbox");
+  EXPECT_EQ(occurrences(text, "=MANIFOLD_SOLID_BREP("), 2);
+  EXPECT_EQ(occurrences(text, "=PRODUCT("), 3);
+  EXPECT_EQ(occurrences(text, "=NEXT_ASSEMBLY_USAGE_OCCURRENCE("), 3);
+  EXPECT_EQ(occurrences(text, "=STYLED_ITEM("), 2);
+  EXPECT_EQ(occurrences(text, "LENGTH_MEASURE(1.E-06)"), 1);
+}
+
+TEST(StepWriter, APlacementOfNoPartIsABug) {
+  EXPECT_THROW(static_cast<void>(step_text({sample_part("sun")}, {{.part = 1, .name = "?"}}, "gearbox")),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace trueflank::io
