@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +17,86 @@ ToothProfile profile_of(const Gear& gear) {
   auto profile = ToothProfile::make(gear);
   EXPECT_TRUE(profile);
   return *profile;
+}
+
+/// Direction in which an edge leaves its start, as its curve runs; chords do for splines.
+Point3 direction_at_start(const Brep& brep, const BrepEdge& edge) {
+  const Point3& start = brep.vertices[edge.start];
+  if (const auto* c = std::get_if<CircleCurve>(&brep.curves[edge.curve]))
+    return c->frame.axis.cross(start - c->frame.origin).normalized();
+  if (const auto* s = std::get_if<SplineCurve>(&brep.curves[edge.curve]))
+    return (s->poles[2] - s->poles[0]).normalized();
+  return std::get<LineCurve>(brep.curves[edge.curve]).direction;
+}
+
+/// Outward normal of a side face where a horizontal edge starts.
+Point3 normal_at_start(const Brep& brep, const BrepFace& face, const BrepEdge& edge) {
+  const Point3& start = brep.vertices[edge.start];
+  const double sense = face.same_sense ? 1.0 : -1.0;
+  const BrepSurface& surface = brep.surfaces[face.surface];
+  if (const auto* plane = std::get_if<PlaneSurface>(&surface)) return sense * plane->frame.axis;
+  if (const auto* cylinder = std::get_if<CylinderSurface>(&surface)) {
+    Point3 radial = start - cylinder->frame.origin;
+    radial.z() = 0.0;
+    return sense * radial.normalized();
+  }
+  return sense * direction_at_start(brep, edge).cross(std::get<ExtrusionSurface>(surface).direction);
+}
+
+/// Twice the area that the vertices of a loop enclose seen from +z; a circle counts as one turn.
+double turning(const Brep& brep, const BrepLoop& loop) {
+  if (loop.size() == 1) return loop[0].forward ? 1.0 : -1.0;
+  double sum = 0.0;
+  for (const OrientedEdge& e : loop) {
+    const BrepEdge& edge = brep.edges[e.edge];
+    const Point3 &a = brep.vertices[edge.start], &b = brep.vertices[edge.end];
+    sum += (e.forward ? 1.0 : -1.0) * (a.x() * b.y() - a.y() * b.x());
+  }
+  return sum;
+}
+
+/// Every loop runs counter-clockwise about the normal that its face claims, and that normal leads
+/// out of the material of the section.
+template <class InMaterial>
+void expect_outward(const std::string& name, const Brep& brep, const InMaterial& in_material) {
+  for (const BrepFace& face : brep.faces) {
+    const auto* plane = std::get_if<PlaneSurface>(&brep.surfaces[face.surface]);
+    if (plane && std::abs(plane->frame.axis.z()) > 0.5) {
+      const double up = plane->frame.axis.z() * (face.same_sense ? 1.0 : -1.0);
+      for (std::size_t i = 0; i < face.loops.size(); ++i)
+        EXPECT_GT(turning(brep, face.loops[i]) * up * (i == 0 ? 1.0 : -1.0), 0.0) << name;
+      continue;
+    }
+    for (const OrientedEdge& e : face.loops.front()) {
+      const BrepEdge& edge = brep.edges[e.edge];
+      const Point3& start = brep.vertices[edge.start];
+      const Point3 along = direction_at_start(brep, edge) * (e.forward ? 1.0 : -1.0);
+      if (std::abs(along.z()) > 0.5) continue;
+      const Point3 normal = normal_at_start(brep, face, edge);
+      // the face lies to the left of the edge: above its lower, below its upper one
+      EXPECT_GT(normal.cross(along).z() * (start.z() > 1e-9 ? -1.0 : 1.0), 0.0) << name;
+      const Point3 inside = start + 1e-2 * direction_at_start(brep, edge);
+      EXPECT_FALSE(in_material(Point2((inside + 5e-3 * normal).head<2>()))) << name;
+      EXPECT_TRUE(in_material(Point2((inside - 5e-3 * normal).head<2>()))) << name;
+    }
+  }
+}
+
+TEST(Brep, NormalsLeadOutOfTheMaterialAndLoopsRunRoundThem) {
+  for (const auto& [name, gear] : test::sample_gears()) {
+    if (gear.normal_module_mm < 0.5) continue;  // the probes are 5 um long
+    const ToothProfile profile = profile_of(gear);
+    const bool ring = gear.kind == GearKind::kInternal;
+    const PartShape part = ring ? test::ring_part(name, profile, 7.5)
+                                : test::gear_part(name, profile, 7.5, {BoreOutline{{.diameter_mm = 2.0}}});
+    const auto brep = brep_of(part);
+    ASSERT_TRUE(brep) << name;
+    const auto teeth = path_polygon(outline_path(ToothedOutline{&profile, 0.0}));
+    const double other_mm = ring ? std::get<CircleOutline>(part.slabs[0].outer).radius_mm : 1.0;
+    expect_outward(name, *brep, [&](const Point2& p) {
+      return contains(teeth, p) != ring && (p.norm() < other_mm) == ring;
+    });
+  }
 }
 
 TEST(Brep, EverySampleGearIsClosed) {
