@@ -170,15 +170,22 @@ double dense_grid(const SearchRequirements& r, const ToothSet& set, int n) {
 
 TEST(SearchOptimise, ReachesTheBestOfADenseGrid) {
   const SearchRequirements r = requirements();
+  int feasible = 0;
   for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81}, {11, 46, 103, 38, 95},
                                     {12, 36, 87, 41, 91}, {18, 39, 96, 43, 99},
                                     {15, 42, 105, 37, 101}}) {
     const ToothSet set = set_of(r, z[0], z[1], z[2], z[3], z[4]);
     const SetResult result = optimise_set(r, set);
-    ASSERT_EQ(result.candidates.size(), 1u);
-    EXPECT_GE(result.candidates[0].forward, dense_grid(r, set, 60) - 2e-4) << z[0] << ' ' << z[1];
+    const double dense = dense_grid(r, set, 60);
+    if (dense > 0.0) {
+      ++feasible;
+      ASSERT_EQ(result.candidates.size(), 1u) << z[0] << ' ' << z[1];
+    }
+    if (result.candidates.empty()) continue;
+    EXPECT_GE(result.candidates[0].forward, dense - 2e-4) << z[0] << ' ' << z[1];
     EXPECT_GE(result.candidates[0].least_margin, 0.0);
   }
+  EXPECT_GE(feasible, 3);
 }
 
 TEST(SearchOptimise, PrototypeTeethReachTheKnownOptimumWithoutInterference) {

@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kFilletPoints = 24;
 constexpr int kFlankPoints = 8;
+constexpr int kGoldenSteps = 14;
+/// Between samples the clearance changes by less than this.
+constexpr double kClose_mm = 0.02;
 
 /// Tip corner of the mate, in the frame of the visited gear.
 struct CornerPath {
@@ -58,21 +61,35 @@ double clearance_at(const CornerPath& path, const Point2& point, int teeth) {
   return radius * (gap - widest);
 }
 
-/// Smallest clearance over a stretch of a curve: the least of the samples, refined by the parabola
-/// through it and its neighbours.
+/// Smallest clearance over a stretch of a curve: sampled, then refined between the neighbours of the
+/// smallest sample where that is close enough to matter.
 double least_over(const CornerPath& path, const Curve& curve, double from, double to, int count,
                   int teeth) {
-  double least = 1e9, before = 1e9, here = 1e9;
+  const auto clearance = [&](double u) {
+    return clearance_at(path, point_at(curve, from + (to - from) * u), teeth);
+  };
+  int nearest = 0;
+  double least = 1e9;
   for (int i = 0; i <= count; ++i) {
-    const double after = clearance_at(path, point_at(curve, from + (to - from) * i / count), teeth);
-    least = std::min(least, after);
-    const double curvature = before - 2.0 * here + after;
-    if (i > 1 && here <= before && here <= after && before < 1e8 && after < 1e8 && curvature > 0.0)
-      least = std::min(least, here - 0.125 * (before - after) * (before - after) / curvature);
-    before = here;
-    here = after;
+    const double here = clearance(static_cast<double>(i) / count);
+    if (here < least) least = here, nearest = i;
   }
-  return least;
+  if (least > kClose_mm) return least;
+  double low = std::max(0, nearest - 1) / static_cast<double>(count);
+  double high = std::min(count, nearest + 1) / static_cast<double>(count);
+  constexpr double kGolden = 0.6180339887498949;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = clearance(left), at_right = clearance(right);
+  for (int i = 0; i < kGoldenSteps; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      at_left = clearance(left = high - kGolden * (high - low));
+    } else {
+      low = left, left = right, at_left = at_right;
+      at_right = clearance(right = low + kGolden * (high - low));
+    }
+  }
+  return std::min({least, at_left, at_right});
 }
 
 /// `beyond_mm`: how far the mate's tip reaches past the tangent point of the base circle, if > 0.
