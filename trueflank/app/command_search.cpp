@@ -60,28 +60,6 @@ Status write_designs(const SearchReport& report, const std::string& folder,
   return {};
 }
 
-/// Runs what the journal does not have yet. Returns all records of the part.
-ResultAll<std::vector<SearchRecord>> run_part(const SearchTask& task, const SearchPart& part,
-                                              const SearchOptions& options) {
-  Journal journal;
-  auto done = Journal::open(task, Journal::path_in(options.folder, part), options.resume, journal);
-  if (!done) return fail_all({done.error()});
-  SearchRunOptions run{.threads = options.threads, .part = part, .done = std::move(*done)};
-  std::vector<SearchRecord> records;
-  {
-    const StopOnInterrupt interrupt;
-    ProgressLine progress(run.done.size(), options.quiet);
-    run.stop = &StopOnInterrupt::flag();
-    run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
-      journal.append(record);
-      progress.show(finished, total, record);
-    };
-    records = trueflank::run_search(task.requirements, task.enumeration, run);
-  }
-  if (auto ok = journal.close(task, records); !ok) return fail_all({ok.error()});
-  return records;
-}
-
 /// All records of the journals in some folders; each set once.
 ResultAll<std::vector<SearchRecord>> merged(const SearchTask& task,
                                             const std::vector<std::string>& folders) {
@@ -153,6 +131,27 @@ ResultAll<SearchTask> prepare_search(const SearchOptions& options) {
   return task;
 }
 
+ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task, const SearchPart& part,
+                                                     const SearchOptions& options) {
+  Journal journal;
+  auto done = Journal::open(task, Journal::path_in(options.folder, part), options.resume, journal);
+  if (!done) return fail_all({done.error()});
+  SearchRunOptions run{.threads = options.threads, .part = part, .done = std::move(*done)};
+  std::vector<SearchRecord> records;
+  {
+    const StopOnInterrupt interrupt;
+    ProgressLine progress(run.done.size(), options.quiet);
+    run.stop = &StopOnInterrupt::flag();
+    run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
+      journal.append(record);
+      progress.show(finished, total, record);
+    };
+    records = trueflank::run_search(task.requirements, task.enumeration, run);
+  }
+  if (auto ok = journal.close(task, records); !ok) return fail_all({ok.error()});
+  return records;
+}
+
 int finish_search(const SearchTask& task, const std::vector<SearchRecord>& records,
                   const SearchOptions& options) {
   const SearchReport report =
@@ -191,7 +190,7 @@ int run_search(const SearchOptions& options) {
   if (!task) return report_errors(task.error());
   if (auto ok = io::create_folder(options.folder); !ok) return report_errors({ok.error()});
   const auto records =
-      options.merge.empty() ? run_part(*task, part, options) : merged(*task, options.merge);
+      options.merge.empty() ? run_search_part(*task, part, options) : merged(*task, options.merge);
   if (!records) return report_errors(records.error());
   if (part.parts == 1) return finish_search(*task, *records, options);
 

@@ -32,6 +32,11 @@ struct SearchTask {
 [[nodiscard]] ResultAll<SearchTask> prepare_search(const SearchOptions& options);
 /// "i/n". Errors: kUsage.
 [[nodiscard]] Result<SearchPart> parse_shard(const std::string& text);
+/// Runs a part, journal in the folder, with progress and Ctrl-C. Returns its records, old and new;
+/// fewer than the part has where it was stopped.
+[[nodiscard]] ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task,
+                                                                   const SearchPart& part,
+                                                                   const SearchOptions& options);
 /// Ranks and judges records, writes design files, search.csv, search.json and search.svg into the
 /// folder, and prints the summary. Returns the exit code: 0; 3 where records are missing (stopped).
 [[nodiscard]] int finish_search(const SearchTask& task, const std::vector<SearchRecord>& records,
