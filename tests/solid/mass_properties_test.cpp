@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/mass_properties.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/train/prototype_design.h"
+#include "trueflank/solid/gear_mesh.h"
+
+namespace trueflank {
+namespace {
+
+/// Moment of a closed mesh about z: over the tetrahedra from the origin, exact for polyhedra.
+double axial_moment_mm5(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double six_volume = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+                              a[2] * (b[0] * c[1] - b[1] * c[0]);
+    for (int k = 0; k < 2; ++k)
+      sum += six_volume / 60.0 * (a[k] * a[k] + b[k] * b[k] + c[k] * c[k] + a[k] * b[k] +
+                                  b[k] * c[k] + c[k] * a[k]);
+  }
+  return sum;
+}
+
+TEST(MassProperties, OfARingOfSteelAreTheClosedForm) {
+  PartShape tube{"tube", {Slab{0.0, 10.0, CircleOutline{Point2::Zero(), 20.0},
+                               {CircleOutline{Point2::Zero(), 15.0}}}}};
+  const MassProperties p = mass_properties(tube, 7850.0);
+  const double mass = kPi * (0.02 * 0.02 - 0.015 * 0.015) * 0.01 * 7850.0;
+  EXPECT_NEAR(p.mass_kg, mass, 1e-5 * mass);
+  EXPECT_NEAR(p.axial_inertia_kg_m2, 0.5 * mass * (0.02 * 0.02 + 0.015 * 0.015), 1e-5 * 1.5e-5);
+}
+
+TEST(MassProperties, OfEveryPartAgreeWithTheIntegralOverItsMesh) {
+  GearboxDesign design = test::prototype(0.46, 1.2, 25.66);
+  design.gears[0].bore = {.diameter_mm = 4.0};
+  design.gears[1].bore = {.diameter_mm = 8.0, .kind = BoreKind::kHex};
+  const auto train = lay_out(design);
+  ASSERT_TRUE(train.has_value());
+  const auto shapes = part_shapes(*train);
+  ASSERT_TRUE(shapes.has_value());
+  for (const PartShape& part : shapes->parts) {
+    const MassProperties p = mass_properties(part, 1000.0);
+    const PartMesh mesh = part_mesh(part, {.tolerance_mm = 1e-4});
+    const double volume = volume_mm3(mesh.mesh);
+    EXPECT_NEAR(p.volume_mm3, volume, 2e-5 * volume) << part.name;
+    const double moment = axial_moment_mm5(mesh.mesh) * 1e-12;
+    EXPECT_NEAR(p.axial_inertia_kg_m2, moment, 3e-5 * moment) << part.name;
+  }
+}
+
+TEST(MassProperties, GoToTheBodiesOfTheTrain) {
+  const auto train = lay_out(test::prototype(0.46, 1.2, 25.66));
+  const auto shapes = part_shapes(*train);
+  ASSERT_TRUE(shapes.has_value());
+  const BodyInertias bodies = body_inertias(*shapes, 7850.0);
+  EXPECT_GT(bodies.ring1_kg_m2, bodies.planet_kg_m2);
+  EXPECT_GT(bodies.planet_kg_m2, bodies.sun_kg_m2);
+  EXPECT_GT(bodies.sun_kg_m2, 0.0);
+  EXPECT_NEAR(bodies.planet_mass_kg, 0.18, 0.03);
+}
+
+}  // namespace
+}  // namespace trueflank
