@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "tests/loop/made_gears.h"
+
+namespace trueflank::test {
+namespace {
+
+/// Largest distance of the posed points from the flanks they were made on [mm].
+double worst_distance(const MadeGear& made, const ScanOptions& options) {
+  const auto geometry = geometry_of(made);
+  const auto scan = scan_of(made, {}, options);
+  const auto pose = loop::fit_pose(geometry, scan);
+  EXPECT_TRUE(pose.has_value());
+  double worst = 0.0;
+  for (const auto& p : scan.points_mm)
+    worst = std::max(worst, std::abs(geometry.nearest_flank((*pose)(p)).distance_mm));
+  return worst;
+}
+
+TEST(Pose, IsFoundExactlyFromPointsWithoutNoise) {
+  for (const MadeGear& made : {spur(12), spur(39), ring(60), helical(30, 20.0)}) {
+    ScanOptions options;
+    options.points = 6000;
+    options.noise_um = 0.0;
+    options.any_pose = true;
+    EXPECT_LT(worst_distance(made, options), 1e-6) << made.teeth;
+  }
+}
+
+TEST(Pose, IsFoundWithHalfTheTeethMissing) {
+  ScanOptions options;
+  options.points = 6000;
+  options.noise_um = 0.0;
+  options.any_pose = true;
+  for (int k = 3; k <= 14; ++k) options.missing_teeth.push_back(k);
+  EXPECT_LT(worst_distance(spur(24), options), 1e-6);
+}
+
+TEST(Pose, IsNotPulledByOutliers) {
+  const MadeGear made = spur(24);
+  ScanOptions options;
+  options.points = 8000;
+  options.noise_um = 2.0;
+  options.outlier_share = 0.1;
+  options.any_pose = true;
+  const auto scan = scan_of(made, {}, options);
+  const auto geometry = geometry_of(made);
+  const auto pose = loop::fit_pose(geometry, scan);
+  ASSERT_TRUE(pose);
+  EXPECT_LT(loop::pose_quality(geometry, scan, *pose).median_mm, 1.8e-3);
+}
+
+TEST(Pose, OfAnotherGearIsRefused) {
+  ScanOptions options;
+  options.points = 4000;
+  options.any_pose = true;
+  loop::MeasuredData data;
+  data.scans.push_back(scan_of(spur(24), {}, options));
+  const auto result = loop::close_loop(geometry_of(spur(31)), "gear", data, {});
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().front().message.find("does not fit"), std::string::npos);
+}
+
+TEST(Pose, NeedsEnoughPoints) {
+  loop::ScanData scan;
+  scan.points_mm = {{1, 2, 3}, {2, 3, 4}};
+  const auto pose = loop::fit_pose(geometry_of(spur(24)), scan);
+  ASSERT_FALSE(pose);
+  EXPECT_EQ(pose.error().code, ErrorCode::kOutOfRange);
+}
+
+}  // namespace
+}  // namespace trueflank::test

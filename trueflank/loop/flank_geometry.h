@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "trueflank/geometry/tooth_profile.h"
+
+// Where a measured point lies on the gear as designed: tooth, flank, roll length, height, and the
+// exact signed distance. Frame: the gear's own; tooth 1 on +x at z = 0, face from 0 to face width.
+namespace trueflank::loop {
+
+enum class Surface { kFlank, kTip, kRoot, kBore, kNone };
+
+/// A place on the surface as designed, with its outward normal.
+struct Place {
+  Surface surface = Surface::kFlank;
+  int tooth = 0;               ///< 1-based, counter-clockwise; 0: none
+  int side = 1;                ///< +1 counter-clockwise flank of its tooth, -1 clockwise
+  double roll_mm = 0.0;        ///< transverse roll length of the flank point
+  double z_mm = 0.0;
+  double radius_mm = 0.0;
+  double polar_rad = 0.0;      ///< of the point
+  double normal_rad = 0.0;     ///< direction of the transverse part of the outward normal
+  double centre_rad = 0.0;     ///< 2 pi (tooth - 1) / z: the tooth's angle at z = 0
+};
+
+/// Place nearest to a measured point, and how far the point lies outside the material there.
+struct PlacedPoint {
+  Place place;
+  double distance_mm = 0.0;  ///< along the normal, + = too much material
+};
+
+/// The surfaces of one gear in closed form.
+/// Source: distances and normals derived in docs/theory/flank-distance.md: involutes of one base
+/// circle are parallel curves, so the distance along the base tangent is exact at any distance.
+class FlankGeometry {
+ public:
+  FlankGeometry(const ToothProfile& profile, double face_width_mm, double bore_radius_mm = 0.0,
+                bool herringbone = false);
+
+  [[nodiscard]] const Gear& gear() const { return gear_; }
+  [[nodiscard]] int teeth() const { return gear_.teeth; }
+  /// +1 external, -1 ring.
+  [[nodiscard]] double sense() const { return sense_; }
+  [[nodiscard]] double base_radius_mm() const { return base_radius_; }
+  [[nodiscard]] double reference_radius_mm() const { return reference_radius_; }
+  [[nodiscard]] double tip_radius_mm() const { return tip_radius_; }
+  [[nodiscard]] double root_radius_mm() const { return root_radius_; }
+  [[nodiscard]] double bore_radius_mm() const { return bore_radius_; }
+  [[nodiscard]] double face_width_mm() const { return face_width_; }
+  [[nodiscard]] double base_helix_rad() const { return base_helix_; }
+  [[nodiscard]] double base_half_angle() const { return half_angle_; }
+  [[nodiscard]] double pressure_angle_rad() const { return pressure_angle_; }
+  [[nodiscard]] double root_form_roll_mm() const { return root_roll_; }
+  [[nodiscard]] double tip_form_roll_mm() const { return tip_roll_; }
+
+  /// Roll length as -1 at the root form circle ... +1 at the tip form circle.
+  [[nodiscard]] double profile_coordinate(double roll_mm) const;
+  /// Height as -1 ... +1 over the face.
+  [[nodiscard]] double face_coordinate(double z_mm) const;
+  /// Rotation of the section at a height against that at z = 0.
+  [[nodiscard]] double twist_rad(double z_mm) const;
+  /// z part of the unit normal of a flank.
+  [[nodiscard]] double normal_z(const Place& place) const;
+
+  [[nodiscard]] double roll_at_radius_mm(double radius_mm) const;
+  [[nodiscard]] Place on_flank(int tooth, int side, double roll_mm, double z_mm) const;
+  [[nodiscard]] Place on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
+                                double z_mm) const;
+  /// Nearest flank of a point, whatever its distance; place.surface is kNone outside the involute
+  /// (with a margin of `margin` of its length at either end).
+  [[nodiscard]] PlacedPoint nearest_flank(const std::array<double, 3>& point_mm,
+                                          double margin = 0.0) const;
+  /// Nearest surface within `reach_mm`: flank, else tip, root or bore, else kNone.
+  [[nodiscard]] PlacedPoint nearest(const std::array<double, 3>& point_mm, double reach_mm) const;
+  /// Roll length at which a ball or pin in a gap touches, and the pressure angle at its centre.
+  struct BallContact {
+    double roll_mm = 0.0, centre_angle_rad = 0.0;
+  };
+  [[nodiscard]] BallContact ball_contact(double diameter_mm) const;
+
+ private:
+  Gear gear_;
+  double sense_, base_radius_, reference_radius_, tip_radius_, root_radius_, bore_radius_;
+  double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;
+  double twist_per_mm_;
+  bool herringbone_;
+};
+
+}  // namespace trueflank::loop

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/loop_result.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace trueflank::loop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nine significant digits: far below any measurement, and the same text for the same result.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == 0.0) return 0.0;
+  const double scale = std::pow(10.0, 8.0 - std::floor(std::log10(std::abs(value))));
+  const double rounded = std::round(value * scale) / scale;
+  return std::isfinite(rounded) ? rounded : value;
+}
+
+Json figures(const ErrorFigures& f, const std::string& unit) {
+  return {{"rms_" + unit, number(f.rms)},
+          {"held_out_rms_" + unit, number(f.held_out_rms)},
+          {"max_" + unit, number(f.max)}};
+}
+
+Json effect_json(const FoundEffect& e, const std::string& unit) {
+  Json parameters = Json::object();
+  for (const Parameter& p : e.parameters)
+    parameters[p.name] = {{"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}};
+  Json json = {{"id", e.id},
+               {"named", e.named},
+               {"description", e.description},
+               {"cause", e.cause},
+               {"correction", e.correction},
+               {"flank", e.flank},
+               {"parameters", parameters},
+               {"explained_fraction", number(e.explained_fraction)},
+               {"held_out_gain_" + unit, number(e.held_out_gain_um)},
+               {"confounded_with", e.confounded_with},
+               {"p_value", number(e.p_value)},
+               {"bic_gain", number(e.bic_gain)},
+               {"correctable", e.correctable}};
+  if (e.terms.empty()) return json;
+  Json terms = Json::array();
+  for (const FreeTerm& t : e.terms)
+    terms.push_back({{"profile_degree", t.profile_degree},
+                     {"face_degree", t.face_degree},
+                     {"order", t.order},
+                     {"flanks", t.opposite_flanks ? "opposite" : "equal"},
+                     {"cos_um", number(t.cos_um)},
+                     {"sin_um", number(t.sin_um)},
+                     {"amplitude_um", number(t.amplitude_um())},
+                     {"ci95_half_um", number(t.error_um)}});
+  json["terms"] = terms;
+  return json;
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, std::abs(value) >= 100.0 ? "%.1f" : "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+double FreeTerm::amplitude_um() const { return std::hypot(cos_um, sin_um); }
+
+const char* to_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoEffect: return "no_effect";
+    case Verdict::kExplained: return "explained";
+    default: return "partly_explained";
+  }
+}
+
+std::string loop_json(const LoopResult& r) {
+  Json effects = Json::array();
+  for (const FoundEffect& effect : r.effects) effects.push_back(effect_json(effect, r.unit));
+  Json json = {{"format", "trueflank-loop"},
+               {"version", 1},
+               {"gear", r.gear},
+               {"data",
+                {{"observations", r.observations},
+                 {"held_out", r.held_out},
+                 {"noise_" + r.unit, number(r.noise)},
+                 {"outliers", r.outliers}}},
+               {"before", figures(r.before, r.unit)},
+               {"after", figures(r.after, r.unit)},
+               {"structure", {{"p_value", number(r.structure_p_value)}}},
+               {"effects", effects},
+               {"structure_left",
+                {{"p_value", number(r.structure_left_p_value)}, {"description", r.structure_left}}},
+               {"verdict", to_text(r.verdict)},
+               {"not_observable", r.not_observable},
+               {"measure_next", r.measure_next},
+               {"notes", r.notes}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string loop_text(const LoopResult& r) {
+  const std::string unit = r.unit == "um" ? "um" : "N m";
+  std::string text = r.gear + ": " + to_text(r.verdict) + "\n";
+  text += "  " + std::to_string(r.observations) + " values, " + std::to_string(r.held_out) +
+          " held out, " + std::to_string(r.outliers) + " outliers; noise " +
+          short_number(r.noise) + " " + unit + "\n";
+  text += "  error before " + short_number(r.before.rms) + " " + unit + " rms (held out " +
+          short_number(r.before.held_out_rms) + "), after " + short_number(r.after.rms) +
+          " (held out " + short_number(r.after.held_out_rms) + ")\n";
+  for (const FoundEffect& e : r.effects) {
+    text += "  " + e.id + (e.flank == "both" ? "" : " (" + e.flank + " flank)") + ": " +
+            e.description + "\n";
+    for (const Parameter& p : e.parameters) {
+      text += "    " + p.name + " = " + short_number(p.value);
+      if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
+      text += "\n";
+    }
+    text += "    explains " + short_number(100.0 * e.explained_fraction) +
+            " % of the variance; without it the held-out error is " +
+            short_number(e.held_out_gain_um) + " " + unit + " larger\n";
+    if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
+    if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
+    if (!e.confounded_with.empty()) {
+      text += "    cannot be told from:";
+      for (const std::string& other : e.confounded_with) text += " " + other;
+      text += "\n";
+    }
+  }
+  text += "  left: " + r.structure_left + " (p = " + short_number(r.structure_left_p_value) + ")\n";
+  for (const std::string& next : r.measure_next) text += "  next: " + next + "\n";
+  for (const std::string& note : r.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+}  // namespace trueflank::loop

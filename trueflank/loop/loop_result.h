@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/effect.h"
+
+// What the loop found out, before it is written anywhere. Used for gears and for whole drives.
+namespace trueflank::loop {
+
+struct Parameter {
+  std::string name;   ///< with its unit, as in loop.json
+  double value = kNaN;
+  double low = kNaN, high = kNaN;  ///< 95 % interval
+};
+
+/// One term of an unnamed effect: Legendre(profile) x Legendre(face) x order around the gear.
+struct FreeTerm {
+  int profile_degree = 0, face_degree = 0, order = 0;
+  bool opposite_flanks = false;
+  double cos_um = 0.0, sin_um = 0.0;  ///< sin 0 for order 0
+  double error_um = 0.0;              ///< half width of the 95 % interval of the amplitude
+  [[nodiscard]] double amplitude_um() const;
+};
+
+struct FoundEffect {
+  std::string id;
+  bool named = true;
+  std::string description, cause, correction;
+  std::string flank = "both";
+  std::vector<Parameter> parameters;
+  std::vector<FreeTerm> terms;  ///< unnamed effects
+  double explained_fraction = 0.0;
+  double held_out_gain_um = kNaN;
+  double p_value = kNaN;
+  double bic_gain = kNaN;
+  std::vector<std::string> confounded_with;
+  bool correctable = true;
+};
+
+enum class Verdict { kNoEffect, kExplained, kPartlyExplained };
+[[nodiscard]] const char* to_text(Verdict verdict);
+
+struct ErrorFigures {
+  double rms = 0.0, held_out_rms = kNaN, max = 0.0;
+};
+
+struct LoopResult {
+  std::string gear;             ///< gear's name, or "drive"
+  std::string unit = "um";      ///< um or nm: ends the keys of the error figures
+  int observations = 0, held_out = 0, outliers = 0;
+  double noise = 0.0;
+  ErrorFigures before, after;
+  std::vector<FoundEffect> effects;
+  double structure_p_value = 1.0;       ///< before anything was chosen
+  double structure_left_p_value = 1.0;
+  std::string structure_left;
+  Verdict verdict = Verdict::kNoEffect;
+  std::vector<std::string> not_observable;  ///< ids of effects these data cannot show
+  std::vector<std::string> measure_next;    ///< what would separate what is confounded
+  std::vector<std::string> notes;
+};
+
+/// loop.json: docs/loop.md. Same result, same bytes.
+[[nodiscard]] std::string loop_json(const LoopResult& result);
+/// What a person reads first.
+[[nodiscard]] std::string loop_text(const LoopResult& result);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "trueflank/loop/read_measurement.h"
+#include "trueflank/loop/text_table.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr double kUndefined = -2147483.0;  // the machine's mark for a missing point, rounded down
+
+/// A numbered header line: label before the first colon after the code, numbers behind it.
+struct Header {
+  double profile_start = kNaN, profile_end = kNaN;  // diameters da, de
+  double helix_start = kNaN, helix_end = kNaN;      // ba, be
+};
+
+/// First number behind the label of a header line.
+double first_value(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t colon = line.rfind(':'); colon != std::string_view::npos;) {
+    split_blanks(line.substr(colon + 1), fields);
+    return fields.empty() ? kNaN : number_in(fields[0]);
+  }
+  return kNaN;
+}
+
+bool mentions(std::string_view line, std::string_view mark) {
+  // "....da  [mm]..:" - the mark stands alone between dots, blanks and brackets.
+  const auto separates = [](char c) { return c == '.' || c == ' ' || c == '[' || c == ':'; };
+  for (std::size_t at = line.find(mark); at != std::string_view::npos; at = line.find(mark, at + 1)) {
+    const std::size_t after = at + mark.size();
+    if (at > 0 && separates(line[at - 1]) && after < line.size() && separates(line[after])) return true;
+  }
+  return false;
+}
+
+void read_header_line(std::string_view line, Header& header) {
+  const std::string low = lowered(line);
+  const bool range = low.find("messbereich") != std::string::npos ||
+                     low.find("meas") != std::string::npos;
+  if (!range) return;
+  if (mentions(line, "da")) header.profile_start = first_value(line);
+  if (mentions(line, "de")) header.profile_end = first_value(line);
+  if (mentions(line, "ba")) header.helix_start = first_value(line);
+  if (mentions(line, "be")) header.helix_end = first_value(line);
+}
+
+struct Block {
+  RecordKind record = RecordKind::kProfile;
+  int tooth = 0, line = 0;
+  Flank flank = Flank::kLeft;
+  double across = kNaN;  // z of a profile, diameter of a helix trace
+  std::vector<double> values;
+};
+
+/// "Profil:  Zahn-Nr.: 12a rechts / 480 Werte  / z= 17.5"
+bool read_block_head(std::string_view line, Block& block) {
+  const std::string low = lowered(line);
+  const bool profile = low.starts_with("profil");
+  if (!profile && !low.starts_with("flankenlinie") && !low.starts_with("lead")) return false;
+  const std::size_t number = low.find_first_of("0123456789");
+  if (number == std::string::npos) return false;
+  block = {};
+  block.record = profile ? RecordKind::kProfile : RecordKind::kHelix;
+  block.tooth = std::atoi(low.c_str() + number);
+  block.flank = low.find("rechts") != std::string::npos || low.find("right") != std::string::npos
+                    ? Flank::kRight
+                    : Flank::kLeft;
+  const std::size_t equals = low.rfind('=');
+  if (equals != std::string::npos) block.across = number_in(trimmed(std::string_view(low).substr(equals + 1)));
+  return true;
+}
+
+/// Values equidistant over the measured range: profiles over roll length, which for lack of the base
+/// circle here is taken by the reader of the rows; the diameter is interpolated in its square.
+void add_rows(const Block& block, const Header& header, InspectionData& data, BadLines& bad) {
+  const bool profile = block.record == RecordKind::kProfile;
+  const double from = profile ? header.profile_start : header.helix_start;
+  const double to = profile ? header.profile_end : header.helix_end;
+  if (std::isnan(from + to) || block.values.size() < 2) {
+    bad.add(block.line, std::isnan(from + to) ? "the header names no measured range (da de, ba be)"
+                                              : "a trace without values");
+    return;
+  }
+  const double last = static_cast<double>(block.values.size() - 1);
+  for (std::size_t i = 0; i < block.values.size(); ++i) {
+    if (block.values[i] < kUndefined || std::isnan(block.values[i])) continue;
+    const double f = static_cast<double>(i) / last;
+    InspectionRow row;
+    row.record = block.record;
+    row.tooth = block.tooth;
+    row.flank = block.flank;
+    row.line = block.line;
+    row.deviation_um = block.values[i];
+    if (profile) {
+      row.diameter_mm = from;
+      row.diameter_to_mm = to;
+      row.fraction = f;
+      row.z_mm = block.across;
+    } else {
+      row.z_mm = from + f * (to - from);
+      row.diameter_mm = block.across;
+    }
+    data.rows.push_back(row);
+  }
+}
+
+}  // namespace
+
+Result<InspectionData> read_mka(const std::string& file, std::string_view text,
+                                std::vector<std::string>& notes) {
+  InspectionData data;
+  data.file = file;
+  BadLines bad(file);
+  Header header;
+  Block block;
+  std::vector<Block> blocks;
+  std::set<std::string> unknown;
+  std::vector<std::string_view> fields;
+  bool in_block = false;
+  int line_number = 0;
+  while (!text.empty()) {
+    const std::string_view line = trimmed(next_line(text));
+    ++line_number;
+    if (line.empty()) continue;
+    if (read_block_head(line, block)) {
+      block.line = line_number;
+      blocks.push_back(block);
+      in_block = true;
+      continue;
+    }
+    split_blanks(line, fields);
+    const bool numbers = std::all_of(fields.begin(), fields.end(),
+                                     [](auto field) { return !std::isnan(number_in(field)); });
+    if (in_block && numbers) {
+      for (const auto field : fields) blocks.back().values.push_back(number_in(field));
+      continue;
+    }
+    in_block = false;
+    read_header_line(line, header);
+    const std::string low = lowered(line);
+    if (low.find("zahnflanke") != std::string::npos || low.starts_with("teilung"))
+      unknown.insert("pitch tables (their sign is not confirmed)");
+    if (low.starts_with("topografie") || low.starts_with("verschr"))
+      unknown.insert("topography and twist blocks");
+  }
+  for (const Block& read : blocks) add_rows(read, header, data, bad);
+  if (data.rows.empty())
+    return fail(bad.error("the MKA file holds no profile or helix trace that could be read"));
+  bad.tell(notes);
+  for (const std::string& what : unknown) notes.push_back(file + ": not used: " + what);
+  return data;
+}
+
+}  // namespace trueflank::loop
