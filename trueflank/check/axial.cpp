@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/axial.h"
 
+#include <algorithm>
+
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/train/carrier.h"
 
 namespace trueflank {
 namespace {
@@ -20,6 +23,40 @@ Reach reach_of(const GearTrain& train, const TrainGear& gear) {
 
 bool same_body(const TrainGear& a, const TrainGear& b) {
   return a.name.starts_with("planet") && b.name.starts_with("planet");
+}
+
+/// Largest of the gaps that keep a gear and a plate apart, along the axis or across it.
+double plate_gap_mm(const GearTrain& train, const TrainGear& gear, const CarrierLayout& carrier,
+                    const HeightRange& plate) {
+  const Reach reach = reach_of(train, gear);
+  const double top = gear.z_lower_mm + gear.face_width_mm;
+  const double axial = std::max(gear.z_lower_mm - plate.upper_mm, plate.lower_mm - top);
+  const double radial = std::max(reach.inner_mm - 0.5 * carrier.outer_diameter_mm,
+                                 0.5 * carrier.opening_diameter_mm - reach.outer_mm);
+  return std::max(axial, radial);
+}
+
+/// All parts are round about the axis or turn with the carrier: what is clear here is clear at every
+/// position.
+Finding judge_carrier(const GearTrain& train, const CarrierLayout& carrier) {
+  Finding finding{.id = "axial", .where = "carrier", .limit = 0.0, .unit = "mm"};
+  for (const TrainGear& gear : train.gears) {
+    for (const bool lower : {true, false}) {
+      const double gap = plate_gap_mm(train, gear, carrier,
+                                      lower ? carrier.lower_plate : carrier.upper_plate);
+      if (gap >= finding.value) continue;  // NaN: the first one
+      finding.value = finding.margin = gap;
+      const std::string which = lower ? "carrier" : "carrier_top";
+      finding.message = which + " and " + gear.name +
+                        (gap > 0.0 ? " clear each other by " + mm_text(gap)
+                                   : " run into each other by " + mm_text(-gap));
+    }
+  }
+  finding.status = finding.value > 0.0 ? CheckStatus::kPass : CheckStatus::kFail;
+  if (finding.status == CheckStatus::kFail)
+    finding.cure = "axial_clearance_mm in [carrier] larger by " + mm_text(-finding.value) +
+                   ", an outer_diameter_mm smaller by twice that, or a larger opening_diameter_mm";
+  return finding;
 }
 
 }  // namespace
@@ -50,7 +87,9 @@ Findings check_axial(const GearTrain& train) {
     finding.status = CheckStatus::kNotApplicable;
     finding.message = "all parts are in one layer, or pass each other";
   }
-  return {finding};
+  Findings findings{finding};
+  if (const auto carrier = carrier_layout(train)) findings.push_back(judge_carrier(train, *carrier));
+  return findings;
 }
 
 }  // namespace trueflank

@@ -42,6 +42,7 @@ class Contradictions {
       }
     }
     check_planet2_bore();
+    if (design_.carrier) check_carrier();
   }
 
  private:
@@ -286,6 +287,43 @@ class Contradictions {
         gear_->cutter->teeth >= gear_->teeth)
       wrong("cutter.teeth", "not fewer than the ring's " + std::to_string(gear_->teeth),
             "fewer than " + std::to_string(gear_->teeth));
+  }
+
+  void check_carrier() {
+    const CarrierDesign& carrier = *design_.carrier;
+    if (kind_known_ && !has_planets(design_.kind)) {
+      const std::string kind = to_text(design_.kind);
+      reading_.contradiction("carrier", "kind \"" + kind + "\" has no planets to carry",
+                             "leave out [carrier]");
+      return;
+    }
+    const bool has_diameter = reading_.has("carrier.bearing_diameter_mm");
+    if (has_diameter != reading_.has("carrier.bearing_width_mm"))
+      reading_.missing(has_diameter ? "carrier.bearing_width_mm" : "carrier.bearing_diameter_mm",
+                       "the seat of a bearing needs both its diameter and its width",
+                       "bearing_diameter_mm and bearing_width_mm, or neither");
+    if (reading_.good("carrier.bearing_width_mm") && reading_.good("carrier.plate_thickness_mm") &&
+        carrier.bearing_width_mm >= carrier.plate_thickness_mm)
+      reading_.contradiction("carrier.bearing_width_mm", "the seat goes through the carrier's plate",
+                             "less than " + mm(carrier.plate_thickness_mm));
+    check_pins(carrier);
+  }
+
+  void check_pins(const CarrierDesign& carrier) {
+    const GearDesign* planet = find_gear(design_, "planet1");
+    if (!planet) planet = find_gear(design_, "planet");
+    if (!planet) return;
+    const std::string bore = planet->name + ".bore_mm";
+    if (!reading_.has(bore)) {
+      if (!reading_.has(planet->name + ".bore_hex_mm"))
+        reading_.missing(bore, "the carrier's pins need a bore in " + planet->name,
+                         "bore_mm in [" + planet->name + "], or no [carrier]");
+    } else if (reading_.good(bore) && reading_.good("carrier.pin_diameter_mm") &&
+               *carrier.pin_diameter_mm >= planet->bore.diameter_mm) {
+      reading_.contradiction("carrier.pin_diameter_mm",
+                             "the pin is not thinner than the planet's bore",
+                             "less than " + mm(planet->bore.diameter_mm));
+    }
   }
 
   const GearboxDesign& design_;

@@ -44,6 +44,7 @@ std::string place_of(std::string_view name) {
   if (in(file_keys())) return "the top of the file";
   if (in(gearbox_keys())) return "[gearbox]";
   if (in(rack_keys())) return "[rack]";
+  if (in(carrier_keys())) return "[carrier]";
   if (in(gear_keys()) || name == "modifications") return "a gear's table";
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
@@ -63,6 +64,7 @@ class DesignReader {
     if (const TomlTable* table = section("rack"))
       read_keys("rack", *table, rack_keys(), file_.design.rack);
     read_gears();
+    read_carrier();
     settle_module();
     report_contradictions(file_.design, kind_known_, reading_);
     if (!reading_.clean()) return fail_all(reading_.errors(file));
@@ -85,7 +87,7 @@ class DesignReader {
 
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {
@@ -159,6 +161,13 @@ class DesignReader {
         reading_.contradiction(
             name, "kind \"" + std::string(to_text(file_.design.kind)) + "\" has no such gear",
             "the gears " + joined(own));
+  }
+
+  void read_carrier() {
+    const TomlTable* table = section("carrier");
+    if (!table) return;
+    read_keys("carrier", *table, carrier_keys(), file_.design.carrier.emplace());
+    report_missing("carrier", carrier_keys(), [](KeyPlace) { return true; });
   }
 
   GearDesign read_gear(const std::string& name, const TomlTable& table) {

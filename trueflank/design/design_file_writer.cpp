@@ -67,6 +67,10 @@ std::string design_file_text(const GearboxDesign& design, std::string_view comme
   text += "\n[rack]\n";
   write_keys(text, rack_keys(), design.rack);
   for (const GearDesign& gear : design.gears) write_gear(text, gear);
+  if (design.carrier) {
+    text += "\n[carrier]\n";
+    write_keys(text, carrier_keys(), *design.carrier);
+  }
   return text;
 }
 

@@ -46,6 +46,9 @@ inline constexpr int kDesignFormat = 1;
 /// `[<gear>.modifications]`.
 [[nodiscard]] const std::vector<DesignKey<ModificationsDesign>>& modification_keys();
 
+/// `[carrier]`.
+[[nodiscard]] const std::vector<DesignKey<CarrierDesign>>& carrier_keys();
+
 /// What a gear is if its `internal` says nothing: rings are internal.
 [[nodiscard]] GearKind usual_kind(const std::string& gear_name);
 /// Whether `internal` is this gear's to say.

@@ -65,6 +65,9 @@ constexpr const char* kRules = R"(
 - `root = "shaper"` and `[<ring>.cutter]` need each other; with an explicit `root = "fillet"` the
   cutter rests.
 - `tip_relief_um` above 0 and `tip_relief_start_diameter_mm` need each other.
+- `[carrier]` needs planets with a round bore that is larger than its pins;
+  `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
+  plate.
 - Bore, bolt and rim keys are compared with the root circle where `shift` is given; where it is
   solved, the checks do that.
 
@@ -130,6 +133,11 @@ std::string design_reference() {
            cutter_keys());
   describe(text, "`[<gear>.modifications]`", "Of any gear; all may be left out.",
            modification_keys());
+  describe(text, "`[carrier]`",
+           "Of kinds with planets; without this table no carrier is built. Two plates, `carrier` "
+           "below the\nplanets and `carrier_top` above them, held by the pins `carrier_pin` on which "
+           "the planets turn.",
+           carrier_keys());
   return text + kRules;
 }
 

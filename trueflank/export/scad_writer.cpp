@@ -270,6 +270,8 @@ struct BodySpeeds {
 BodySpeeds speeds_of(const GearTrain& train, const std::string& body) {
   const MemberSpeeds speeds = member_speeds(train);
   if (body == "sun" || body == "pinion" || body == "gear") return {speeds.sun, 0.0};
+  // the carrier's bodies turn with their places
+  if (body.starts_with("carrier")) return {0.0, speeds.carrier};
   if (body.starts_with("planet")) return {speeds.planet - speeds.carrier, speeds.carrier};
   return {body == "ring2" ? speeds.ring2 : speeds.ring1, 0.0};
 }

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
+#include "trueflank/solid/carrier.h"
 #include "trueflank/solid/outline_loop.h"
 
 namespace trueflank {
@@ -41,6 +42,7 @@ class ShapeBuilder {
       else
         add_single(gear);
     }
+    for (Error& error : add_carrier(train_, shapes_)) errors_.push_back(std::move(error));
     if (!errors_.empty()) return fail_all(std::move(errors_));
     return std::move(shapes_);
   }

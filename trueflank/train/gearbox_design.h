@@ -67,6 +67,21 @@ struct GearDesign {
   bool operator==(const GearDesign&) const = default;
 };
 
+/// Two plates and the pins on which the planets turn.
+struct CarrierDesign {
+  double plate_thickness_mm = 4.0;
+  std::optional<double> pin_diameter_mm = {};  ///< omitted: the planet's bore less pin_clearance_mm
+  double pin_clearance_mm = 0.1;               ///< diametral, planet on pin
+  double pin_hole_clearance_mm = 0.02;         ///< diametral, pin in plate
+  double axial_clearance_mm = 0.3;             ///< planets to plates
+  std::optional<double> outer_diameter_mm = {};
+  std::optional<double> opening_diameter_mm = {};
+  double bearing_diameter_mm = 0.0;  ///< seat in the outer face of either plate; 0: none
+  double bearing_width_mm = 0.0;
+
+  bool operator==(const CarrierDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
@@ -82,6 +97,7 @@ struct GearboxDesign {
   bool herringbone = false;
   BasicRack rack = {};
   std::vector<GearDesign> gears = {};  ///< in the order of gear_names(kind)
+  std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
 
   bool operator==(const GearboxDesign&) const = default;
 };

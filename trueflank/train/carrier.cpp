@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/carrier.h"
+
+#include <algorithm>
+
+namespace trueflank {
+namespace {
+
+/// Material around the pins of a plate without an outer diameter, of the pin's diameter.
+constexpr double kRimOfPins = 0.75;
+
+/// Heights of the planets' bodies.
+HeightRange planet_heights(const GearTrain& train) {
+  HeightRange range{1e300, -1e300};
+  for (const TrainGear& gear : train.gears) {
+    if (!gear.name.starts_with("planet")) continue;
+    range.lower_mm = std::min(range.lower_mm, gear.z_lower_mm);
+    range.upper_mm = std::max(range.upper_mm, gear.z_lower_mm + gear.face_width_mm);
+  }
+  return range;
+}
+
+}  // namespace
+
+std::optional<CarrierLayout> carrier_layout(const GearTrain& train) {
+  const auto& design = train.design.carrier;
+  const GearDesign* planet = find_gear(train.design, "planet");
+  if (!planet) planet = find_gear(train.design, "planet1");
+  if (!design || !planet) return std::nullopt;
+  CarrierLayout layout;
+  layout.pin_diameter_mm =
+      design->pin_diameter_mm.value_or(planet->bore.diameter_mm - design->pin_clearance_mm);
+  layout.pin_hole_diameter_mm = layout.pin_diameter_mm + design->pin_hole_clearance_mm;
+  layout.outer_diameter_mm = design->outer_diameter_mm.value_or(
+      2.0 * train.centre_distance_mm + (1.0 + 2.0 * kRimOfPins) * layout.pin_diameter_mm);
+  const double sun_tip_mm = train.find("sun")->profile.tip_radius_mm();
+  layout.opening_diameter_mm = design->opening_diameter_mm.value_or(
+      2.0 * (sun_tip_mm + design->axial_clearance_mm));
+  layout.seat_diameter_mm = design->bearing_diameter_mm;
+  layout.seat_depth_mm = design->bearing_width_mm;
+  const HeightRange planets = planet_heights(train);
+  const double thickness = design->plate_thickness_mm;
+  layout.lower_plate.upper_mm = planets.lower_mm - design->axial_clearance_mm;
+  layout.lower_plate.lower_mm = layout.lower_plate.upper_mm - thickness;
+  layout.upper_plate.lower_mm = planets.upper_mm + design->axial_clearance_mm;
+  layout.upper_plate.upper_mm = layout.upper_plate.lower_mm + thickness;
+  return layout;
+}
+
+}  // namespace trueflank
