@@ -37,6 +37,16 @@ struct CompareOptions {
 };
 int run_compare(const CompareOptions& options);
 
+struct LoopOptions {
+  std::string design;
+  std::vector<std::string> data;  ///< measured files
+  std::string folder;
+  std::string gear;      ///< empty: the design's only one
+  bool aligned = false;  ///< scans stand in the gear's own frame
+  bool quiet = false;
+};
+int run_loop(const LoopOptions& options);
+
 struct NewOptions {
   std::string name;  ///< of the design, and of its file with .toml
   std::string kind = "3k";

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <vector>
 
@@ -354,13 +355,23 @@ std::string place_text(const MeshPlace& place, const std::string& name1, const s
 }
 
 std::vector<MeshState> mesh_states(const GearTrain& train) {
-  std::vector<MeshState> states;
+  // Meshes do not know of each other: all at once, as many as there are processors.
+  std::vector<std::future<MeshState>> turned;
+  std::vector<std::future<RadialRemoval>> removals;
   for (const TrainMesh& mesh : train.meshes) {
     const GearPair pair = train.pair(mesh);
-    const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-    MeshState state{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
-    if (pair.internal()) state.removal = radial_removal(pair);
-    states.push_back(std::move(state));
+    turned.push_back(std::async(std::launch::async, [pair] {
+      const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
+      return MeshState{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
+    }));
+    removals.push_back(pair.internal()
+                           ? std::async(std::launch::async, [pair] { return radial_removal(pair); })
+                           : std::future<RadialRemoval>());
+  }
+  std::vector<MeshState> states;
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    states.push_back(turned[i].get());
+    if (removals[i].valid()) states.back().removal = removals[i].get();
   }
   return states;
 }
