@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/check/tolerance_analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/check/check_designs.h"
+
+namespace trueflank::test {
+namespace {
+
+ToleranceResult analysed(const GearTrain& train, const ToleranceOptions& options) {
+  auto result = analyse_tolerances(train, options);
+  if (!result) throw std::runtime_error(result.error().message);
+  return *result;
+}
+
+TEST(Tolerance, WithoutErrorsNothingChanges) {
+  const GearTrain train = laid_out(paper_design(0.05));
+  const ToleranceResult result = analysed(train, {.sets = 100});
+  for (const MeshTolerance& mesh : result.meshes)
+    EXPECT_NEAR(mesh.smallest_backlash_mm, 0.05, 1e-9);
+  EXPECT_EQ(result.jam_share, 0.0);
+}
+
+TEST(Tolerance, ThicknessAndCentreDistanceEatTheBacklashAsTheTextbookSays) {
+  GearboxDesign d = pair_design(25, 40, false, 0.1);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  const GearTrain train = laid_out(d);
+  const ToleranceResult thick = analysed(train, {.tooth_thickness_um = 10, .sets = 100});
+  EXPECT_NEAR(thick.meshes[0].smallest_backlash_mm, 0.08, 1e-9);
+  const ToleranceResult near = analysed(train, {.centre_distance_um = 20, .sets = 100});
+  EXPECT_NEAR(near.meshes[0].smallest_backlash_mm, 0.1 - 2.0 * 0.02 * std::tan(kPi / 9.0), 2e-4);
+  const ToleranceResult wobble = analysed(train, {.runout_um = 20, .sets = 100});
+  EXPECT_NEAR(wobble.meshes[0].smallest_backlash_mm, near.meshes[0].smallest_backlash_mm, 1e-9);
+}
+
+TEST(Tolerance, ShareThatJamsIsTheNormalDistributionsTail) {
+  // one error only: thickness of two gears, each with sigma 10 um; sum has sigma 14.1 um
+  GearboxDesign d = pair_design(25, 40, false, 0.02);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  const GearTrain train = laid_out(d);
+  const ToleranceResult result = analysed(train, {.tooth_thickness_um = 30, .sets = 40000});
+  const double expected = 0.5 * std::erfc(20.0 / (10.0 * std::sqrt(2.0)) / std::sqrt(2.0));
+  EXPECT_NEAR(result.jam_share, expected, 0.005);  // 4 standard errors, and the cut tails
+  EXPECT_EQ(only(check_tolerance(train, result), "tolerance", "train").status, CheckStatus::kFail);
+}
+
+TEST(Tolerance, MorePlanetsJamMoreOften) {
+  GearboxDesign d = paper_design(0.03);
+  const ToleranceOptions options{.centre_distance_um = 30, .tooth_thickness_um = 15, .sets = 4000};
+  const double three = analysed(laid_out(d), options).jam_share;
+  d.planets = 1;
+  EXPECT_GT(three, analysed(laid_out(d), options).jam_share);
+}
+
+TEST(Tolerance, TheSameSeedGivesTheSameShare) {
+  const GearTrain train = laid_out(paper_design(0.03));
+  const ToleranceOptions options{.centre_distance_um = 40, .tolerance_class = 8, .sets = 2000};
+  EXPECT_EQ(analysed(train, options).jam_share, analysed(train, options).jam_share);
+}
+
+TEST(Tolerance, OutsideTheStandardsScopeIsAnError) {
+  GearboxDesign d = paper_design(0.05);
+  d.module_mm = 0.4;
+  d.centre_distance_mm = 0.4 * 25.6826;
+  const auto result = analyse_tolerances(laid_out(d), {.tolerance_class = 7});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kOutOfRange);
+  EXPECT_FALSE(analyse_tolerances(laid_out(d), {.tooth_thickness_um = -1}));
+}
+
+TEST(Tolerance, TextIsReadOrRefused) {
+  EXPECT_EQ(parse_tolerance("7")->tolerance_class, 7);
+  const auto o = parse_tolerance("centre_distance_um=20,runout_um=12.5,class=8");
+  ASSERT_TRUE(o);
+  EXPECT_EQ(o->centre_distance_um, 20.0);
+  EXPECT_EQ(o->runout_um, 12.5);
+  for (const char* bad : {"", "seven", "runout=3", "runout_um=", "7.5", "class=7,", "runout_um=nan"})
+    EXPECT_FALSE(parse_tolerance(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace trueflank::test
