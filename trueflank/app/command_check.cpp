@@ -5,13 +5,30 @@
 #include "trueflank/app/html_document.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
+#include "trueflank/check/tolerance_analysis.h"
 
 namespace trueflank::app {
+namespace {
+
+Status add_tolerance(const GearTrain& train, const std::string& text, io::Report& report) {
+  const auto options = parse_tolerance(text);
+  if (!options) return fail(options.error());
+  const auto result = analyse_tolerances(train, *options);
+  if (!result) return fail(result.error());
+  for (Finding& finding : check_tolerance(train, *result))
+    report.findings.push_back(std::move(finding));
+  return {};
+}
+
+}  // namespace
 
 int run_check(const CheckOptions& options) {
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
-  const io::Report report = evaluate(*train);
+  io::Report report = evaluate(*train);
+  if (!options.tolerance.empty())
+    if (auto ok = add_tolerance(*train, options.tolerance, report); !ok)
+      return report_errors({ok.error()});
   // a document on standard output is alone there: scripts read it
   const bool document_on_output = options.json == "-" || options.html == "-";
   if (!options.json.empty())

@@ -13,6 +13,7 @@ struct CheckOptions {
   std::string design;
   std::string json;  ///< file for report.json; "-": standard output; empty: none
   std::string html;
+  std::string tolerance;  ///< see parse_tolerance; empty: no tolerance analysis
   bool quiet = false;
 };
 int run_check(const CheckOptions& options);
