@@ -176,5 +176,56 @@ TEST(StepRead, RingWithBoltHolesIsExact) {
   EXPECT_EQ(surface_types(shape)[GeomAbs_Cylinder], 4 * 90 + 7);
 }
 
+/// A prism whose upper end is turned: its sides are ruled spline surfaces.
+Brep turned_prism(double half_mm, double height_mm, double turn_rad) {
+  Brep brep;
+  std::vector<Point2> corners = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  for (const double z : {0.0, height_mm})
+    for (const Point2& corner : corners) {
+      const Point2 p = half_mm * (z == 0.0 ? corner : rotated(corner, turn_rad));
+      brep.vertices.emplace_back(p.x(), p.y(), z);
+    }
+  const auto add_edge = [&](int from, int to) {
+    const Point3 along = brep.vertices[to] - brep.vertices[from];
+    brep.curves.push_back(LineCurve{brep.vertices[from], along.normalized()});
+    brep.edges.push_back({from, to, static_cast<int>(brep.curves.size()) - 1});
+  };
+  for (int i = 0; i < 4; ++i) add_edge(i, (i + 1) % 4);
+  for (int i = 0; i < 4; ++i) add_edge(4 + i, 4 + (i + 1) % 4);
+  for (int i = 0; i < 4; ++i) add_edge(i, 4 + i);
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    const auto& v = brep.vertices;
+    brep.surfaces.push_back(SplineSurface{.degree_u = 1, .degree_v = 1, .count_v = 2,
+                                          .poles = {v[i], v[4 + i], v[j], v[4 + j]},
+                                          .knots_u = {0, 1}, .knots_v = {0, 1},
+                                          .multiplicities_u = {2, 2}, .multiplicities_v = {2, 2}});
+    brep.faces.push_back({i, true, {{{i, true}, {8 + j, true}, {4 + i, false}, {8 + i, false}}}});
+  }
+  brep.surfaces.push_back(PlaneSurface{{Point3::Zero(), -Point3::UnitZ(), Point3::UnitX()}});
+  brep.faces.push_back({4, true, {{{3, false}, {2, false}, {1, false}, {0, false}}}});
+  brep.surfaces.push_back(PlaneSurface{{{0, 0, height_mm}, Point3::UnitZ(), Point3::UnitX()}});
+  brep.faces.push_back({5, true, {{{4, true}, {5, true}, {6, true}, {7, true}}}});
+  return brep;
+}
+
+TEST(StepRead, SplineSurfacesAreExact) {
+  const double half = 3.0, height = 5.0, turn = 0.4;
+  Brep solid = turned_prism(half, height, turn);
+  ASSERT_TRUE(is_closed(solid));
+  std::istringstream text(io::step_text({.name = "prism", .solid = std::move(solid)}));
+  STEPControl_Reader reader;
+  ASSERT_EQ(reader.ReadStream("prism", text), IFSelect_RetDone);
+  reader.TransferRoots();
+  const TopoDS_Shape shape = reader.OneShape();
+  ASSERT_EQ(shape.ShapeType(), TopAbs_SOLID);
+  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  // corners move on straight lines: a section at t of the height is |1 - t + t e^(i turn)|^2 as large
+  const double exact = 4.0 * half * half * height * (1.0 - (1.0 - std::cos(turn)) / 3.0);
+  EXPECT_NEAR(properties.Mass(), exact, 1e-6 * exact);
+}
+
 }  // namespace
 }  // namespace trueflank

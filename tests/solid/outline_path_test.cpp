@@ -30,8 +30,7 @@ std::vector<Point2> points_of(const OutlinePath& path, int steps) {
       } else if (const auto* arc = std::get_if<PathArc>(&piece.shape)) {
         const PathCircle& c = path.circles[arc->circle];
         const double from = polar_angle_rad(piece.start - c.centre);
-        const double span = wrapped_rad(polar_angle_rad(end - c.centre) - from) -
-                            (arc->counter_clockwise ? 0.0 : kTwoPi);
+        const double span = wrapped_rad(polar_angle_rad(end - c.centre) - from);
         points.push_back(c.centre + c.radius_mm * unit_vector(from + u * span));
       } else {
         points.push_back((1.0 - u) * piece.start + u * end);

@@ -107,11 +107,8 @@ class WallBuilder {
     const auto* arc = std::get_if<PathArc>(&path_.pieces[i].shape);
     const auto add = [&](const std::vector<int>& vertices, const std::vector<int>& circles,
                          double z_mm) -> OrientedEdge {
-      const bool forward = !arc || arc->counter_clockwise;
       const int curve = arc ? circles[static_cast<std::size_t>(arc->circle)] : add_curve(i, z_mm);
-      const int from = vertices[i], to = vertices[next(i)];
-      return {add_to(brep_.edges, forward ? BrepEdge{from, to, curve} : BrepEdge{to, from, curve}),
-              forward};
+      return {add_to(brep_.edges, BrepEdge{vertices[i], vertices[next(i)], curve}), true};
     };
     wall_.lower.push_back(add(lower_vertices_, lower_circles_, z_lower_mm_));
     wall_.upper.push_back(add(upper_vertices_, upper_circles_, z_upper_mm_));
@@ -121,7 +118,7 @@ class WallBuilder {
     BrepFace face;
     if (const auto* arc = std::get_if<PathArc>(&path_.pieces[i].shape)) {
       face.surface = cylinders_[static_cast<std::size_t>(arc->circle)];
-      face.same_sense = arc->counter_clockwise == wall_.outer;
+      face.same_sense = wall_.outer;
     } else if (std::holds_alternative<PathSpline>(path_.pieces[i].shape)) {
       const int curve = brep_.edges[static_cast<std::size_t>(wall_.lower[i].edge)].curve;
       face.surface =

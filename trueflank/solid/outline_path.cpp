@@ -108,7 +108,8 @@ class ToothedPath {
     ToothPiece t;
     t.piece.start = joints_[static_cast<std::size_t>(index)];
     if (const CircularArc* arc = as_arc(source)) {
-      t.piece.shape = PathArc{shared_circle(*arc, source.kind), curve.end > curve.begin};
+      TRUEFLANK_EXPECTS(curve.end > curve.begin);  // no tool rounds a corner the other way
+      t.piece.shape = PathArc{shared_circle(*arc, source.kind)};
       if (arc->centre != Point2::Zero())
         t.own_circle = {arc->centre, arc->radius_mm, 0.5 * (curve.begin + curve.end) + kPi};
     } else if (std::holds_alternative<StraightLine>(curve.shape)) {
@@ -210,7 +211,6 @@ void append_points(const OutlinePath& path, std::size_t index, std::vector<Point
     const double from = polar_angle_rad(piece.start - circle.centre);
     double span = wrapped_rad(polar_angle_rad(end - circle.centre) - from);
     if (path.pieces.size() == 1) span = kTwoPi;
-    if (!arc->counter_clockwise) span -= kTwoPi;
     const int steps = 2 + static_cast<int>(std::abs(span) * std::sqrt(circle.radius_mm / 1e-3));
     for (int i = 1; i < steps; ++i)
       polygon.push_back(circle.centre + circle.radius_mm * unit_vector(from + span * i / steps));

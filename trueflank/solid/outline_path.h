@@ -18,9 +18,9 @@ struct PathCircle {
 };
 
 struct PathSegment {};
+/// Counter-clockwise about its centre.
 struct PathArc {
   int circle = 0;  ///< index into OutlinePath::circles
-  bool counter_clockwise = true;
 };
 struct PathSpline {
   PlaneSpline spline;  ///< runs from this piece's start to the next one's, to the last bit
