@@ -25,6 +25,7 @@
 
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
+#include "trueflank/design/design_file.h"
 #include "trueflank/export/step_writer.h"
 #include "trueflank/geometry/involute.h"
 
@@ -175,6 +176,23 @@ TEST(StepRead, RingWithBoltHolesIsExact) {
   // tip, two flanks, two fillets, root a tooth; rim and bolt holes
   EXPECT_EQ(surface_types(shape)[GeomAbs_Cylinder], 4 * 90 + 7);
 }
+
+class StepExample : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(StepExample, EveryPartIsOneExactSolid) {
+  const auto design =
+      read_design(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + GetParam() + "/design.toml");
+  ASSERT_TRUE(design) << design.error().front().message;
+  const auto train = lay_out(*design);
+  ASSERT_TRUE(train) << train.error().front().message;
+  const auto shapes = part_shapes(*train);
+  ASSERT_TRUE(shapes) << shapes.error().front().message;
+  for (const PartShape& part : shapes->parts) expect_exact_solid(part, read_back(part));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StepExample,
+                         ::testing::Values("bilateral_drive", "pinion_8_undercut", "ring_shaper"),
+                         [](const auto& example) { return example.param; });
 
 /// A prism whose upper end is turned: its sides are ruled spline surfaces.
 Brep turned_prism(double half_mm, double height_mm, double turn_rad) {
