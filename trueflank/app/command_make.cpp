@@ -11,6 +11,7 @@
 #include "trueflank/check/finding.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/export_parts.h"
+#include "trueflank/export/scad_templates.h"
 
 namespace trueflank::app {
 namespace {
@@ -80,6 +81,9 @@ int run_make(const MakeOptions& options) {
     if (!files) return report_errors(files.error());
     report.tolerance_um = options.tolerance_um;
     report.files = std::move(*files);
+    const auto scad = [](const io::ReportedFile& file) { return file.format == "scad"; };
+    if (options.part.empty() && std::any_of(report.files.begin(), report.files.end(), scad))
+      if (auto ok = io::write_scad_templates(folder, *train); !ok) return report_errors({ok.error()});
   }
   if (auto ok = write_report(report, *shapes, folder); !ok) return report_errors({ok.error()});
   if (!options.quiet) {
