@@ -55,24 +55,47 @@ std::vector<Edge> outline_near_mesh(const HalfToothPolyline& half, int teeth, do
   return edges;
 }
 
-/// Does pinion material stand beyond the ring's edge, seen in +x, so that it cannot move in -x?
+/// The edges of the pinion where +x enters it (they run down), by their height above the line of centres.
+class EntryWalls {
+ public:
+  EntryWalls(const std::vector<Edge>& pinion, double bin_mm) : bin_mm_(bin_mm) {
+    for (const Edge& edge : pinion) {
+      if (!(edge.a.y() > edge.b.y()) || edge.a.y() < 0.0) continue;
+      const std::size_t from = bin(std::max(edge.b.y(), 0.0)), to = bin(edge.a.y());
+      if (bins_.size() <= to) bins_.resize(to + 1);
+      for (std::size_t k = from; k <= to; ++k) bins_[k].push_back(edge);
+    }
+  }
+
+  /// Whether a wall stands within `travel_mm` of a point in +x.
+  [[nodiscard]] bool ahead(const Point2& from, double travel_mm) const {
+    if (from.y() < 0.0 || bin(from.y()) >= bins_.size()) return false;
+    for (const Edge& wall : bins_[bin(from.y())]) {
+      if (!(wall.a.y() > from.y() && wall.b.y() <= from.y())) continue;
+      const double u = (from.y() - wall.a.y()) / (wall.b.y() - wall.a.y());
+      const double x = wall.a.x() + u * (wall.b.x() - wall.a.x());
+      if (x > from.x() && x - from.x() < travel_mm) return true;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] std::size_t bin(double y) const { return static_cast<std::size_t>(y / bin_mm_); }
+  double bin_mm_;
+  std::vector<std::vector<Edge>> bins_;
+};
+
+/// Does pinion material stand beyond the ring's edge, seen in +x, so that it cannot move in -x? Looks at
+/// the upper half only: the other is the mirror image of another rotation.
 /// Edges run counter-clockwise; the ring's space is on the left of its edges.
-bool blocked(const std::vector<Edge>& pinion, const std::vector<Edge>& ring, double travel_mm,
+bool blocked(const EntryWalls& pinion, const std::vector<Edge>& ring, double travel_mm,
              double seen_mm) {
   for (const Edge& edge : ring) {
     const Point2 along = edge.b - edge.a;
     const double length = along.norm();
     if (length == 0.0) continue;
     // a little into the space, so that flanks that only touch do not block
-    const Point2 from = edge.a + perpendicular(along) * (seen_mm / length);
-    if (from.y() < 0.0) continue;  // the other half is the mirror image of another rotation
-    for (const Edge& wall : pinion) {
-      // only where +x enters the pinion: its edges run down there
-      if (!(wall.a.y() > from.y() && wall.b.y() <= from.y())) continue;
-      const double u = (from.y() - wall.a.y()) / (wall.b.y() - wall.a.y());
-      const double x = wall.a.x() + u * (wall.b.x() - wall.a.x());
-      if (x > from.x() && x - from.x() < travel_mm) return true;
-    }
+    if (pinion.ahead(edge.a + perpendicular(along) * (seen_mm / length), travel_mm)) return true;
   }
   return false;
 }
@@ -121,7 +144,8 @@ RadialRemoval radial_removal(const GearPair& pair) {
     const auto pinion = outline_near_mesh(half1, z1, turn, reach1, Point2::Zero());
     const auto ring = outline_near_mesh(half2, z2, turn * z1 / z2 + 0.5 * pitch2, reach2,
                                         Point2(-a, 0.0));
-    upper[static_cast<std::size_t>(i)] = blocked(pinion, ring, travel, kSeenOverhang * m);
+    upper[static_cast<std::size_t>(i)] = 
+        blocked(EntryWalls(pinion, 0.1 * m), ring, travel, kSeenOverhang * m);
   }
   int free = 0;
   for (int i = 0; i < kRotations; ++i) {
