@@ -25,7 +25,9 @@ Status add_tolerance(const GearTrain& train, const std::string& text, io::Report
 int run_check(const CheckOptions& options) {
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
-  io::Report report = evaluate(*train);
+  const auto strength = strength_options(options.material, options.materials_file);
+  if (!strength) return report_errors(strength.error());
+  io::Report report = evaluate(*train, *strength);
   if (!options.tolerance.empty())
     if (auto ok = add_tolerance(*train, options.tolerance, report); !ok)
       return report_errors({ok.error()});

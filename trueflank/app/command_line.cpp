@@ -20,6 +20,10 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
   command->add_option("--tolerance", options.tolerance,
                       "what tolerances leave: a class of ISO 1328-1 (7), and/or centre_distance_um=20,"
                       "tooth_thickness_um=10,runout_um=15,pitch_um=5,class=7");
+  command->add_option("--material", options.material,
+                      "of every gear, for torque and inertia (docs/strength.md)");
+  command->add_option("--materials", options.materials_file,
+                      "file with more [material.NAME] tables");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_check(options); });
 }

@@ -14,6 +14,8 @@ struct CheckOptions {
   std::string json;  ///< file for report.json; "-": standard output; empty: none
   std::string html;
   std::string tolerance;  ///< see parse_tolerance; empty: no tolerance analysis
+  std::string material;        ///< of every gear, for strength and inertia; empty: the default
+  std::string materials_file;  ///< more [material.NAME]; empty: none
   bool quiet = false;
 };
 int run_check(const CheckOptions& options);

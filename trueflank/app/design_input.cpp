@@ -3,6 +3,9 @@
 
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file.h"
+#include "trueflank/design/requirements_file.h"
+#include "trueflank/solid/mass_properties.h"
+#include "trueflank/solid/part_shape.h"
 
 namespace trueflank::app {
 
@@ -19,7 +22,7 @@ Errors located_in(const std::string& path, Errors errors) {
   return file ? located(std::move(errors), *file) : std::move(errors);
 }
 
-io::Report evaluate(const GearTrain& train) {
+io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
   io::Report report;
   report.train = &train;
   const std::vector<MeshState> states = mesh_states(train);
@@ -30,7 +33,31 @@ io::Report evaluate(const GearTrain& train) {
          .minimum_clearance_um = um_from_mm(states[i].centred.minimum_clearance_mm()),
          .penetration_um = um_from_mm(states[i].centred.penetration_mm())});
   report.efficiency = efficiency(train);
+  if (train.design.kind == TrainKind::kGear) return report;
+  if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
+  const Material* material = strength_options.materials.find(strength_options.material);
+  const auto shapes = part_shapes(train);  // what does not fit is told where the parts are made
+  if (material && shapes)
+    report.inertia = {material->density_kg_m3,
+                      reflected_inertia(train, report.efficiency,
+                                        body_inertias(*shapes, material->density_kg_m3))};
   return report;
+}
+
+ResultAll<StrengthOptions> strength_options(const std::string& material,
+                                            const std::string& materials_file) {
+  StrengthOptions options;
+  if (!materials_file.empty()) {
+    auto table = read_materials(materials_file);
+    if (!table) return fail_all(table.error());
+    options.materials = std::move(*table);
+  }
+  if (!material.empty()) options.material = material;
+  if (options.materials.find(options.material)) return options;
+  std::string known;
+  for (const Material& m : options.materials.all()) known += (known.empty() ? "" : ", ") + m.name;
+  return fail_all({{.code = ErrorCode::kUsage, .message = "no such material", .key = "--material",
+                    .value = options.material, .remedy = known}});
 }
 
 }  // namespace trueflank::app

@@ -16,6 +16,10 @@ namespace trueflank::app {
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);
 
 /// Every check, sweep and efficiency of a train. The report refers to the train.
-[[nodiscard]] io::Report evaluate(const GearTrain& train);
+[[nodiscard]] io::Report evaluate(const GearTrain& train, const StrengthOptions& strength = {});
+/// Strength options of the command line: every gear of `material` (empty: the default one), from the
+/// built-in table and a file of more (empty: none). Errors: of the file; no such material.
+[[nodiscard]] ResultAll<StrengthOptions> strength_options(const std::string& material,
+                                                          const std::string& materials_file);
 
 }  // namespace trueflank::app

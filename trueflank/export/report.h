@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueflank/check/finding.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/inertia.h"
+#include "trueflank/train/strength.h"
 
 namespace trueflank::io {
 
@@ -29,11 +32,19 @@ struct ReportedFile {
   double volume_mm3 = kNaN;
 };
 
+/// Inertia of the set, of solids of one density.
+struct ReportedInertia {
+  double density_kg_m3 = kNaN;
+  ReflectedInertia reflected;
+};
+
 /// All that a report tells; the same document for check and make.
 struct Report {
   const GearTrain* train = nullptr;  ///< not owned
   Findings findings;
   EfficiencyResult efficiency;
+  std::optional<StrengthResult> strength;  ///< none for a single gear
+  std::optional<ReportedInertia> inertia;
   std::vector<MeshSweep> sweeps;     ///< in the order of the train's meshes; may be empty
   double tolerance_um = kNaN;        ///< NaN for check
   std::vector<ReportedFile> files;   ///< empty for check

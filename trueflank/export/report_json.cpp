@@ -4,6 +4,7 @@
 
 #include "trueflank/export/gear_dimensions.h"
 #include "trueflank/export/report.h"
+#include "trueflank/export/report_drive.h"
 #include "trueflank/geometry/tooth_span.h"
 
 namespace trueflank::io {
@@ -141,11 +142,9 @@ std::string report_json(const Report& report) {
   json["meshes"] = Json::object();
   for (std::size_t i = 0; i < train.meshes.size(); ++i)
     json["meshes"][train.meshes[i].name] = mesh_json(report, i);
-  const EfficiencyResult& efficiency = report.efficiency;
-  json["efficiency"] = {{"friction", efficiency.friction},
-                        {"forward", efficiency.forward},
-                        {"backward", efficiency.backward},
-                        {"self_locking", efficiency.self_locking}};
+  json["efficiency"] = Json::parse(efficiency_json_text(report.efficiency));
+  if (report.strength) json["strength"] = Json::parse(strength_json_text(*report.strength));
+  if (report.inertia) json["inertia"] = Json::parse(inertia_json_text(*report.inertia));
   if (!report.files.empty()) {
     json["tolerance_um"] = report.tolerance_um;
     json["files"] = Json::array();

@@ -43,6 +43,12 @@ std::string heading_text(const Report& report) {
             formatted("%.2f", 100.0 * e.forward) + " %, backward ";
     text += e.self_locking ? "none (self-locking)\n" : formatted("%.2f", 100.0 * e.backward) + " %\n";
   }
+  if (report.strength && !std::isnan(report.strength->output_torque_nm)) {
+    const StrengthResult& s = *report.strength;
+    text += "allowable output torque " + formatted("%.4g", s.output_torque_nm) + " N m, limited by " +
+            s.limiting_mode + " of " + s.limiting_gear + " (" +
+            s.meshes.front().tooth1.material + ")\n";
+  }
   return text + "\n";
 }
 

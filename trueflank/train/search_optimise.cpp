@@ -25,8 +25,12 @@ constexpr double kZoomFactor = 0.4;
 constexpr double kBreachTolerance = 0.05;
 constexpr double kBreachPrice = 3.0;
 constexpr int kSlsqpSteps = 60;
-constexpr int kCobylaSteps = 120;
+constexpr int kSimplexSteps = 150;
 constexpr int kRestoreSteps = 200;
+/// A margin beyond this is as good or bad as can be: far values would spoil an optimiser's models.
+constexpr double kFarMargin = 2.0;
+/// Price of a breach (modules, or shares of a bound) against the merit, for the simplex method.
+constexpr double kSimplexPrice = 5.0;
 /// Step of the one-sided differences, in modules; profiles are solved to 1e-12.
 constexpr double kDifference = 1e-6;
 /// Limits are approached to this (modules), so that rounding leaves a design on the good side.
@@ -90,9 +94,21 @@ class SetOptimiser {
   }
 
   void margins(const State& s, double* out) const {
-    for (std::size_t i = 0; i < kLayer1Limits; ++i) out[i] = s.layer1.margins[i] - offset_[i];
-    for (std::size_t i = 0; i < kLayer2Limits; ++i)
-      out[kLayer1Limits + i] = s.layer2.margins[i] - offset_[kLayer1Limits + i];
+    for (std::size_t i = 0; i < kLimits; ++i) {
+      const double margin =
+          i < kLayer1Limits ? s.layer1.margins[i] : s.layer2.margins[i - kLayer1Limits];
+      out[i] = margin == margin ? std::clamp(margin - offset_[i], -kFarMargin, kFarMargin)
+                                : -kFarMargin;
+    }
+  }
+
+  /// Sum of all breaches; 0 where every limit is kept.
+  double breach(const State& s) const {
+    std::array<double, kLimits> m;
+    margins(s, m.data());
+    double sum = 0.0;
+    for (const double margin : m) sum += std::max(0.0, -margin);
+    return sum;
   }
 
   double least_margin(const State& s) const {
@@ -140,8 +156,8 @@ class SetOptimiser {
   std::optional<FreeShifts> climb(const std::vector<FreeShifts>& starts, SearchObjective objective,
                                   const std::vector<MeritBound>& bounds);
   void slsqp(FreeShifts start, SearchObjective objective);
-  void cobyla(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds,
-              double step);
+  void simplex(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds,
+               double step);
   void remember(const FreeShifts& free, const State& s, double merit_value,
                 const std::vector<double>& bound_margins);
   void set_box(nlopt::opt& opt) const;
@@ -293,17 +309,11 @@ std::vector<FreeShifts> SetOptimiser::grid_starts() {
 
 void SetOptimiser::set_box(nlopt::opt& opt) const {
   const ToothSet& set = model_.set();
-  std::vector<double> low{set.centre_distance_min, r_.shift_min, r_.shift_min};
-  std::vector<double> high{set.centre_distance_max, r_.shift_max, r_.shift_max};
-  if (opt.get_dimension() == 4) {
-    low.push_back(-1e3);
-    high.push_back(1.0);
-  }
-  opt.set_lower_bounds(low);
-  opt.set_upper_bounds(high);
+  opt.set_lower_bounds({set.centre_distance_min, r_.shift_min, r_.shift_min});
+  opt.set_upper_bounds({set.centre_distance_max, r_.shift_max, r_.shift_max});
 }
 
-/// Nothing on the grid keeps all limits: makes the worst margin as large as it gets.
+/// Nothing on the grid keeps all limits: goes to where the breaches are least.
 std::optional<FreeShifts> SetOptimiser::restore() {
   const ToothSet& set = model_.set();
   FreeShifts best;
@@ -324,26 +334,21 @@ std::optional<FreeShifts> SetOptimiser::restore() {
       best_margin = std::min(margin1, margin2), best = {a, x1, x2};
   }
   double least = best_margin;
-  const auto constraints = [&](double* values, const double* v, double*) {
-    const State s = state(free_of(v));
-    margins(s, values);
-    const double now = least_margin(s);
+  const auto value = [&](const double* v, double*) {
+    const State st = state(free_of(v));
+    const double now = least_margin(st);
     if (now > least) least = now, best = free_of(v);
-    for (std::size_t i = 0; i < kLimits; ++i) values[i] = v[3] - values[i];
+    return breach(st);
   };
-  const auto slack = [&](const double* v, double*) { return -v[3]; };
-  nlopt::opt opt(nlopt::LN_COBYLA, 4);
+  auto value_copy = value;
+  nlopt::opt opt(nlopt::LN_SBPLX, 3);
   set_box(opt);
-  auto slack_copy = slack;
-  auto constraints_copy = constraints;
-  opt.set_min_objective(call_objective<decltype(slack_copy)>, &slack_copy);
-  opt.add_inequality_mconstraint(call_constraints<decltype(constraints_copy)>, &constraints_copy,
-                                 std::vector<double>(kLimits, 0.0));
+  opt.set_min_objective(call_objective<decltype(value_copy)>, &value_copy);
   opt.set_maxeval(kRestoreSteps);
-  opt.set_xtol_abs(1e-5);
-  opt.set_initial_step(std::vector<double>{0.05, 0.1, 0.1, 0.1});
-  std::vector<double> x{best.centre_distance, best.ring1_shift, best.ring2_shift,
-                        std::max(-1e3, best_margin)};
+  opt.set_stopval(0.0);
+  opt.set_xtol_abs(1e-6);
+  opt.set_initial_step(std::vector<double>{0.05, 0.1, 0.1});
+  std::vector<double> x{best.centre_distance, best.ring1_shift, best.ring2_shift};
   run_quietly(opt, x);
   if (least >= 0.0) return best;
   std::array<double, kLimits> at_best;
@@ -420,46 +425,29 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective) {
   run_quietly(opt, x);
 }
 
-void SetOptimiser::cobyla(FreeShifts start, SearchObjective objective,
-                          const std::vector<MeritBound>& bounds, double step) {
-  const std::size_t count = kLimits + bounds.size();
-  struct Cached {
-    std::array<double, 3> at{kNaN, kNaN, kNaN};
-    double value = 0.0;
-    std::vector<double> margin;
-  } cached;
-  cached.margin.resize(count);
-  const auto update = [&](const double* v) {
-    if (std::equal(cached.at.begin(), cached.at.end(), v)) return;
-    std::copy(v, v + 3, cached.at.begin());
+void SetOptimiser::simplex(FreeShifts start, SearchObjective objective,
+                           const std::vector<MeritBound>& bounds, double step) {
+  const double at_start = merit(state(start), start, objective);
+  const double scale = std::isfinite(at_start) ? std::max(1.0, std::abs(at_start)) : 1.0;
+  auto value = [&](const double* v, double*) {
     const FreeShifts free = free_of(v);
     const State s = state(free);
-    cached.value = merit(s, free, objective);
-    margins(s, cached.margin.data());
+    const double here = merit(s, free, objective);
+    double price = kSimplexPrice * breach(s);
     std::vector<double> bound_margins;
-    for (std::size_t b = 0; b < bounds.size(); ++b) {
+    for (const MeritBound& bound : bounds) {
       // relative, so that newton metres and efficiencies weigh alike
-      const double scale = std::max(1e-9, std::abs(bounds[b].merit));
-      bound_margins.push_back((merit(s, free, bounds[b].objective) - bounds[b].merit) / scale);
-      cached.margin[kLimits + b] = bound_margins.back();
+      bound_margins.push_back((merit(s, free, bound.objective) - bound.merit) /
+                              std::max(1e-9, std::abs(bound.merit)));
+      price += kSimplexPrice * std::max(0.0, -bound_margins.back());
     }
-    remember(free, s, cached.value, bound_margins);
+    remember(free, s, here, bound_margins);
+    return (std::isfinite(here) ? -here / scale : 0.0) + price;
   };
-  const double scale = std::max(1.0, std::abs(best_ ? best_merit_ : 1.0));
-  auto value = [&](const double* v, double*) {
-    update(v);
-    return std::isfinite(cached.value) ? -cached.value / scale : 0.0;
-  };
-  auto constraints = [&](double* values, const double* v, double*) {
-    update(v);
-    for (std::size_t i = 0; i < count; ++i) values[i] = -cached.margin[i];
-  };
-  nlopt::opt opt(nlopt::LN_COBYLA, 3);
+  nlopt::opt opt(nlopt::LN_SBPLX, 3);
   set_box(opt);
   opt.set_min_objective(call_objective<decltype(value)>, &value);
-  opt.add_inequality_mconstraint(call_constraints<decltype(constraints)>, &constraints,
-                                 std::vector<double>(count, 0.0));
-  opt.set_maxeval(kCobylaSteps);
+  opt.set_maxeval(kSimplexSteps);
   opt.set_xtol_abs(1e-6);
   opt.set_initial_step(step);
   std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
@@ -475,10 +463,10 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
     if (smooth)
       slsqp(start, objective);
     else
-      cobyla(start, objective, bounds, 0.05);
+      simplex(start, objective, bounds, 0.05);
   }
   // the limits have kinks (tip shortening, undercut) at which a line search may stop early
-  if (best_) cobyla(*best_, objective, bounds, smooth ? 0.005 : 0.01);
+  if (best_) simplex(*best_, objective, bounds, smooth ? 0.005 : 0.01);
   if (best_ && smooth && objective == guide()) {
     const Start finest = zoomed({*best_, best_merit_, 0.0}, 0.05, 0.1, 0.0);
     remember(finest.free, state(finest.free), finest.merit, {});

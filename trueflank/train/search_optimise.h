@@ -34,11 +34,12 @@ struct SetResult {
 /// Extra distance kept from each kind of limit, where an exact check found a design too close.
 using LimitReserve = std::array<double, 8>;  // index = Limit
 
-/// Best shifts and centre distance of a tooth set. The starts come from a grid that uses how the
-/// layers decouple at a fixed centre distance; from the best of them SLSQP, then COBYLA (NLopt) go to
-/// the optimum. One objective gives one candidate; several give the optimum of each and, between the
-/// first and each other, compromises.
-/// Guarantees: candidates keep every limit; the same input gives the same candidates.
+/// Best shifts and centre distance of a tooth set. The starts come from grids that use how the layers
+/// decouple at a fixed centre distance; from the best of them SLSQP, then Subplex with a price on
+/// breaches (both NLopt) go to the optimum. One objective gives one candidate; several give the
+/// optimum of each and, between the first and each other, compromises.
+/// Guarantees: candidates keep every limit; the same input gives the same candidates; it ends (COBYLA
+/// would not always: docs/decisions/0060-search-optimiser.md).
 /// Accuracy: within 2e-4 of the best of a dense grid, tested in tests/train/search_optimise_test.cpp.
 [[nodiscard]] SetResult optimise_set(const SearchRequirements& requirements, const ToothSet& set,
                                      const LimitReserve& reserve = {});

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/export/report.h"
+
+// The drive in report.json: efficiency with every member and mesh, strength, inertia. One JSON object
+// each, as text: the JSON library stays in .cpp files.
+namespace trueflank::io {
+
+[[nodiscard]] std::string efficiency_json_text(const EfficiencyResult& efficiency);
+[[nodiscard]] std::string strength_json_text(const StrengthResult& strength);
+[[nodiscard]] std::string inertia_json_text(const ReportedInertia& inertia);
+
+}  // namespace trueflank::io
