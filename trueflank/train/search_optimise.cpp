@@ -155,7 +155,8 @@ class SetOptimiser {
   std::optional<FreeShifts> restore();
   std::optional<FreeShifts> climb(const std::vector<FreeShifts>& starts, SearchObjective objective,
                                   const std::vector<MeritBound>& bounds);
-  void slsqp(FreeShifts start, SearchObjective objective);
+  void slsqp(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds);
+  double bound_margin(const State& s, const FreeShifts& free, const MeritBound& bound);
   void simplex(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds,
                double step);
   void remember(const FreeShifts& free, const State& s, double merit_value,
@@ -368,61 +369,75 @@ void SetOptimiser::remember(const FreeShifts& free, const State& s, double merit
   best_merit_ = merit_value;
 }
 
-void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective) {
+void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
+                         const std::vector<MeritBound>& bounds) {
+  const std::size_t count = kLimits + bounds.size();
+  const double at_start = merit(state(start), start, objective);
+  const double scale = std::isfinite(at_start) ? std::max(1.0, std::abs(at_start)) : 1.0;
   // one point's value and differences serve objective and constraints
-  struct Cached {
-    std::array<double, 3> at{kNaN, kNaN, kNaN};
+  struct Point {
     double value = 0.0;
-    std::array<double, 3> slope{};
-    std::array<double, kLimits> margin{};
-    std::array<std::array<double, 3>, kLimits> margin_slope{};
-  } cached;
+    std::vector<double> margin;
+  };
+  const auto point_of = [&](const State& s, const FreeShifts& free) {
+    Point point{merit(s, free, objective) / scale, std::vector<double>(count)};
+    if (!std::isfinite(point.value)) point.value = -1.0;
+    margins(s, point.margin.data());
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+      point.margin[kLimits + b] = bound_margin(s, free, bounds[b]);
+    return point;
+  };
+  std::array<double, 3> at{kNaN, kNaN, kNaN};
+  Point here;
+  std::array<Point, 3> moved;
   const auto update = [&](const double* v) {
-    if (std::equal(cached.at.begin(), cached.at.end(), v)) return;
-    std::copy(v, v + 3, cached.at.begin());
+    if (std::equal(at.begin(), at.end(), v)) return;
+    std::copy(v, v + 3, at.begin());
     const FreeShifts free = free_of(v);
     const State s = state(free);
-    cached.value = merit(s, free, objective);
-    margins(s, cached.margin.data());
-    remember(free, s, cached.value, {});
+    here = point_of(s, free);
+    remember(free, s, here.value * scale, {here.margin.begin() + kLimits, here.margin.end()});
     for (std::size_t d = 0; d < 3; ++d) {
-      std::array<double, 3> w = cached.at;
+      std::array<double, 3> w = at;
       w[d] += kDifference;
-      const FreeShifts moved = free_of(w.data());
+      const FreeShifts beside = free_of(w.data());
       State t = s;  // a ring's shift moves its own layer only
-      if (d != 2) t.layer1 = model_.layer1(moved.centre_distance, moved.ring1_shift), ++evaluations_;
-      if (d != 1) t.layer2 = model_.layer2(moved.centre_distance, moved.ring2_shift), ++evaluations_;
-      cached.slope[d] = (merit(t, moved, objective) - cached.value) / kDifference;
-      std::array<double, kLimits> margin;
-      margins(t, margin.data());
-      for (std::size_t i = 0; i < kLimits; ++i)
-        cached.margin_slope[i][d] = (margin[i] - cached.margin[i]) / kDifference;
+      if (d != 2) t.layer1 = model_.layer1(beside.centre_distance, beside.ring1_shift), ++evaluations_;
+      if (d != 1) t.layer2 = model_.layer2(beside.centre_distance, beside.ring2_shift), ++evaluations_;
+      moved[d] = point_of(t, beside);
     }
   };
   auto value = [&](const double* v, double* gradient) {
     update(v);
     for (std::size_t d = 0; gradient && d < 3; ++d)
-      gradient[d] = std::isfinite(cached.slope[d]) ? -cached.slope[d] : 0.0;
-    return std::isfinite(cached.value) ? -cached.value : 0.0;
+      gradient[d] = -(moved[d].value - here.value) / kDifference;
+    return -here.value;
   };
   auto constraints = [&](double* values, const double* v, double* gradient) {
     update(v);
-    for (std::size_t i = 0; i < kLimits; ++i) {
-      values[i] = -cached.margin[i];
+    for (std::size_t i = 0; i < count; ++i) {
+      values[i] = -here.margin[i];
       for (std::size_t d = 0; gradient && d < 3; ++d)
-        gradient[3 * i + d] = -cached.margin_slope[i][d];
+        gradient[3 * i + d] = -(moved[d].margin[i] - here.margin[i]) / kDifference;
     }
   };
   nlopt::opt opt(nlopt::LD_SLSQP, 3);
   set_box(opt);
   opt.set_min_objective(call_objective<decltype(value)>, &value);
   opt.add_inequality_mconstraint(call_constraints<decltype(constraints)>, &constraints,
-                                 std::vector<double>(kLimits, 0.0));
+                                 std::vector<double>(count, 0.0));
   opt.set_maxeval(kSlsqpSteps);
   opt.set_xtol_abs(1e-7);
   opt.set_ftol_rel(1e-9);
   std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
   run_quietly(opt, x);
+}
+
+double SetOptimiser::bound_margin(const State& s, const FreeShifts& free, const MeritBound& bound) {
+  // relative, so that newton metres and efficiencies weigh alike
+  const double margin = (merit(s, free, bound.objective) - bound.merit) /
+                        std::max(1e-9, std::abs(bound.merit));
+  return std::isfinite(margin) ? std::clamp(margin, -kFarMargin, kFarMargin) : -kFarMargin;
 }
 
 void SetOptimiser::simplex(FreeShifts start, SearchObjective objective,
@@ -436,9 +451,7 @@ void SetOptimiser::simplex(FreeShifts start, SearchObjective objective,
     double price = kSimplexPrice * breach(s);
     std::vector<double> bound_margins;
     for (const MeritBound& bound : bounds) {
-      // relative, so that newton metres and efficiencies weigh alike
-      bound_margins.push_back((merit(s, free, bound.objective) - bound.merit) /
-                              std::max(1e-9, std::abs(bound.merit)));
+      bound_margins.push_back(bound_margin(s, free, bound));
       price += kSimplexPrice * std::max(0.0, -bound_margins.back());
     }
     remember(free, s, here, bound_margins);
@@ -460,11 +473,11 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
   best_.reset();
   const bool smooth = bounds.empty() && !needs_strength(objective);
   for (const FreeShifts& start : starts) {
-    if (smooth)
-      slsqp(start, objective);
-    else
-      simplex(start, objective, bounds, 0.05);
+    slsqp(start, objective, bounds);
+    if (!smooth) simplex(start, objective, bounds, 0.05);
   }
+  // the limiting tooth may have changed on the way
+  if (best_ && !smooth) slsqp(FreeShifts(*best_), objective, bounds);
   // the limits have kinks (tip shortening, undercut) at which a line search may stop early
   if (best_) simplex(*best_, objective, bounds, smooth ? 0.005 : 0.01);
   if (best_ && smooth && objective == guide()) {
