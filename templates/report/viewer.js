@@ -309,8 +309,8 @@ class Viewer {
   }
   fit() {
     const {width, height} = this.view, aspect = width / height;
-    const grown = this.exploded * (this.explodedTop - this.top);
-    const half = Math.max(this.size * 0.93 + 0.36 * grown, this.size * 1.12 / aspect);
+    const tall = this.top - this.floor + this.exploded * (this.explodedTop - this.top);
+    const half = Math.max(0.73 * this.size + 0.4 * tall, 1.12 * this.size / aspect);
     Object.assign(this.camera, {left: -half * aspect, right: half * aspect, top: half, bottom: -half});
     this.camera.updateProjectionMatrix();
   }
