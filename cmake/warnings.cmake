@@ -6,5 +6,7 @@ target_compile_options(trueflank_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # Designated initialisers leave members out on purpose: their defaults are in the class.
   -Wno-missing-field-initializers
+  # g++ 12 sees overlaps that are none in std::string's operator+ (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # The same numbers on every processor: no fused multiply-add behind our back.
   -ffp-contract=off)

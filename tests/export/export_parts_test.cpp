@@ -56,6 +56,21 @@ TEST(ExportParts, WritesOneFileAPartAndFormatAndTheAssembly) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(ExportParts, KeepsTheToleranceInEveryFileRoundingIncluded) {
+  const ScratchFolder folder;
+  for (const double tolerance_mm : {2e-4, 1e-3, 2e-2}) {
+    const auto files = export_parts({.train = &drive().train, .shapes = &drive().shapes},
+                                    {.folder = folder.path(),
+                                     .formats = {FileFormat::kStl, FileFormat::kGlb, FileFormat::kObj},
+                                     .tolerance_mm = tolerance_mm});
+    ASSERT_TRUE(files) << files.error().front().message;
+    for (const ReportedFile& file : *files) {
+      EXPECT_LE(file.accuracy_um, um_from_mm(tolerance_mm)) << file.path;
+      EXPECT_GT(file.accuracy_um, 0.7 * um_from_mm(tolerance_mm)) << file.path;
+    }
+  }
+}
+
 TEST(ExportParts, MeasuresWhatItWrote) {
   const ScratchFolder folder;
   const auto files = export_parts(
@@ -72,6 +87,23 @@ TEST(ExportParts, MeasuresWhatItWrote) {
       if (drive().shapes.parts[i].name == file.part) expected_mm3 = volume_mm3(drive().meshes[i].mesh);
     EXPECT_NEAR(file.volume_mm3, expected_mm3, 1e-7 * expected_mm3) << file.path;
     EXPECT_GT(file.triangles, 1000U) << file.path;
+    // meshed to 1 um; STL and GLB round to float
+    EXPECT_LT(file.accuracy_um, 1.0 + 0.02) << file.path;
+    EXPECT_GT(file.accuracy_um, 0.9) << file.path;
+  }
+}
+
+// The figure is a measurement: a mesh that is worse than it was meant to be is told.
+TEST(ExportParts, FindsAMeshThatMissesTheTrueSurface) {
+  const ScratchFolder folder;
+  std::vector<PartMesh> meshes = drive().meshes;
+  for (auto& vertex : meshes[2].mesh.vertices) vertex[0] += 0.005;
+  const ExportModel model{&drive().train, &drive().shapes, &meshes};
+  const auto files = export_parts(model, {.folder = folder.path()});
+  ASSERT_TRUE(files);
+  for (const ReportedFile& file : *files) {
+    const bool moved = file.part == "ring1" || file.part == "assembly";
+    EXPECT_NEAR(file.accuracy_um, moved ? 5.5 : 1.0, moved ? 0.6 : 0.1) << file.path;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"
@@ -38,7 +39,7 @@ class DxfText {
   void put(int code, double value) {
     put_code(code);
     const std::size_t begin = text_.size();
-    append_shortest(text_, value);
+    append_shortest(text_, std::round(value * 1e9) * 1e-9);  // a picometre
     // Some readers take a real without a point for an error.
     if (text_.find_first_of(".e", begin) == std::string::npos) text_ += ".0";
     text_ += '\n';

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cmath>
 #include <mutex>
+#include <optional>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/export/atomic_file.h"
@@ -20,6 +23,8 @@
 #include "trueflank/export/stl_writer.h"
 #include "trueflank/export/svg_writer.h"
 #include "trueflank/export/threemf_writer.h"
+#include "trueflank/solid/mesh_accuracy.h"
+#include "trueflank/solid/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
@@ -39,6 +44,51 @@ MeshWriter mesh_writer(FileFormat format) {
 }
 
 constexpr int kAssembly = -1;
+constexpr double kFloatStep = 1.2e-7;    // from one float to the next, of the coordinate itself
+constexpr double kTextStep_mm = 1e-6;    // append_decimal's
+
+double distance_mm(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+/// Farthest that a corner of a scene moved on its way through a file; nothing where the file holds
+/// other triangles. Triangles that collapsed in rounding may be missing.
+std::optional<double> rounding_of(const TriangleMesh& mesh, const Scene& scene) {
+  double farthest_mm = 0.0;
+  std::size_t next = 0;
+  for (const Placement& body : scene.bodies) {
+    const TriangleMesh placed = placed_mesh(*scene.shapes[body.part].mesh, body);
+    for (const auto& t : placed.triangles) {
+      double moved_mm = 0.0, shortest_mm = 1e300, allowed_mm = 2.0 * kTextStep_mm;
+      for (int k = 0; k < 3; ++k) {
+        const auto& corner = placed.vertices[t[k]];
+        allowed_mm = std::max({allowed_mm, kFloatStep * std::abs(corner[0]),
+                               kFloatStep * std::abs(corner[1]), kFloatStep * std::abs(corner[2])});
+        shortest_mm = std::min(shortest_mm, distance_mm(corner, placed.vertices[t[(k + 1) % 3]]));
+        if (next < mesh.triangles.size())
+          moved_mm = std::max(moved_mm, distance_mm(corner, mesh.vertices[mesh.triangles[next][k]]));
+      }
+      if (next < mesh.triangles.size() && moved_mm <= 2.0 * allowed_mm) {
+        farthest_mm = std::max(farthest_mm, moved_mm);
+        ++next;
+      } else if (shortest_mm > 2.0 * allowed_mm) {
+        return std::nullopt;
+      }
+    }
+  }
+  if (next != mesh.triangles.size()) return std::nullopt;
+  return farthest_mm;
+}
+
+double largest_chord_error_mm(const std::vector<Section>& sections) {
+  double largest_mm = 0.0;
+  for (const Section& section : sections)
+    for (const SectionBody& body : section.bodies) {
+      largest_mm = std::max(largest_mm, body.outer.chord_error_mm);
+      for (const Contour& hole : body.holes) largest_mm = std::max(largest_mm, hole.chord_error_mm);
+    }
+  return largest_mm;
+}
 
 struct Job {
   int part = kAssembly;  ///< index into PartShapes::parts
@@ -62,9 +112,11 @@ class Exporter {
     const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
     if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) make_meshes();
     files_.resize(jobs_.size());
+    readings_.resize(jobs_.size());
     if (errors_.empty())
-      run_jobs(jobs_.size(), [&](std::size_t i) { return keep_error(run(jobs_[i], files_[i])); });
+      run_jobs(jobs_.size(), [&](std::size_t i) { return keep_error(run(i)); });
     if (!errors_.empty()) return fail_all(std::move(errors_));
+    add_accuracies();
     return std::move(files_);
   }
 
@@ -96,11 +148,25 @@ class Exporter {
     return false;
   }
 
+  /// The tolerance holds for the files: what rounding to float, or to text, may add is set aside.
+  double mesh_tolerance_mm() const {
+    double reach_mm = 0.0;
+    for (const Placement& body : shapes_.assembly) {
+      const auto& move = body.translation_mm;
+      for (const Slab& slab : shapes_.parts[body.part].slabs)
+        reach_mm = std::max({reach_mm, slab.z_upper_mm + std::abs(move[2]),
+                             extent(slab.outer).outer_radius_mm + std::hypot(move[0], move[1])});
+    }
+    const double rounding_mm = 1.5 * std::max(kTextStep_mm, kFloatStep * reach_mm);
+    return options_.tolerance_mm - std::min(rounding_mm, 0.3 * options_.tolerance_mm);
+  }
+
   void make_meshes() {
+    const double tolerance_mm = mesh_tolerance_mm();
     own_meshes_.resize(shapes_.parts.size());
     run_jobs(own_meshes_.size(), [&](std::size_t i) {
       if (options_.part.empty() || shapes_.parts[i].name == options_.part)
-        own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = options_.tolerance_mm});
+        own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = tolerance_mm});
       return true;
     });
     meshes_ = &own_meshes_;
@@ -121,12 +187,14 @@ class Exporter {
     });
   }
 
-  Status run(const Job& job, ReportedFile& file) {
+  Status run(std::size_t index) {
+    const Job& job = jobs_[index];
+    ReportedFile& file = files_[index];
     file.part = job.part == kAssembly ? "assembly" : shapes_.parts[job.part].name;
     file.format = to_text(job.format);
     file.path = file.part + "." + file.format;
     const std::filesystem::path path = options_.folder / file.path;
-    if (auto status = write(job, path, file); !status) return status;
+    if (auto status = write(index, path); !status) return status;
     std::error_code error;
     file.bytes = std::filesystem::file_size(path, error);
     if (options_.on_written) {
@@ -136,16 +204,20 @@ class Exporter {
     return {};
   }
 
-  Status write(const Job& job, const std::filesystem::path& path, ReportedFile& file) {
+  Status write(std::size_t index, const std::filesystem::path& path) {
+    const Job& job = jobs_[index];
+    ReportedFile& file = files_[index];
     if (const MeshWriter writer = mesh_writer(job.format)) {
-      if (auto status = writer(path, scene_of(job)); !status) return status;
-      return measure(job, path, file);
+      const Scene scene = scene_of(job);
+      if (auto status = writer(path, scene); !status) return status;
+      return read_back(index, path, scene);
     }
     if (job.format == FileFormat::kStep) return write_step(job, path, file);
     if (job.format == FileFormat::kScad) return write_scad_file(job, path);
     const auto sections = job.part == kAssembly
                               ? assembly_sections(shapes_, options_.tolerance_mm)
                               : part_sections(shapes_.parts[job.part], options_.tolerance_mm);
+    file.accuracy_um = um_from_mm(largest_chord_error_mm(sections));
     if (job.format == FileFormat::kDxf) return write_dxf(path, sections);
     return write_svg(path, train_.design.name + ": " + file.part, sections);
   }
@@ -177,13 +249,39 @@ class Exporter {
     return write_file(path, step_text(solids_, shapes_.assembly, train_.design.name));
   }
 
-  /// Reads the file as written and measures it.
-  Status measure(const Job&, const std::filesystem::path& path, ReportedFile& file) const {
+  /// Reads the file from the disk, compares it with what was to be written, and measures the first
+  /// file of each part against the true surface.
+  Status read_back(std::size_t index, const std::filesystem::path& path, const Scene& scene) {
     const auto mesh = read_mesh(path);
     if (!mesh) return fail(mesh.error());
-    file.triangles = mesh->triangles.size();
-    file.volume_mm3 = volume_mm3(*mesh);
+    files_[index].triangles = mesh->triangles.size();
+    files_[index].volume_mm3 = volume_mm3(*mesh);
+    const auto rounding_mm = rounding_of(*mesh, scene);
+    if (!rounding_mm) return fail(file_error("verify", path, EIO));
+    readings_[index].rounding_mm = *rounding_mm;
+    const Job& job = jobs_[index];
+    const bool first = index == 0 || jobs_[index - 1].part != job.part ||
+                       !mesh_writer(jobs_[index - 1].format);
+    if (job.part != kAssembly && first)
+      readings_[index].measured_mm = measure_accuracy(*mesh, shapes_.parts[job.part]).largest_mm();
     return {};
+  }
+
+  /// A file that was not measured is no farther from the true surface than the measured one of its
+  /// part, and the rounding of both.
+  void add_accuracies() {
+    std::vector<double> bounds_mm(shapes_.parts.size(), 0.0);
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      if (!std::isnan(readings_[i].measured_mm))
+        bounds_mm[jobs_[i].part] = readings_[i].measured_mm + readings_[i].rounding_mm;
+    const double largest_mm = *std::max_element(bounds_mm.begin(), bounds_mm.end());
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (!mesh_writer(jobs_[i].format)) continue;
+      const Reading& reading = readings_[i];
+      const double bound_mm = jobs_[i].part == kAssembly ? largest_mm : bounds_mm[jobs_[i].part];
+      files_[i].accuracy_um = um_from_mm(
+          std::isnan(reading.measured_mm) ? bound_mm + reading.rounding_mm : reading.measured_mm);
+    }
   }
 
   const GearTrain& train_;
@@ -193,6 +291,11 @@ class Exporter {
   std::vector<Job> jobs_;
   std::vector<PartMesh> own_meshes_;
   std::vector<StepPart> solids_;
+  struct Reading {
+    double rounding_mm = 0.0;   ///< farthest that a corner moved on its way through the file
+    double measured_mm = kNaN;  ///< against the true surface
+  };
+  std::vector<Reading> readings_;
   std::vector<ReportedFile> files_;
   std::mutex mutex_;
   Errors errors_;

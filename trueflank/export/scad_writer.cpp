@@ -293,12 +293,13 @@ std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
     const std::string& part = shapes.parts[body.part].name;
     const BodySpeeds speeds = speeds_of(train, body.name);
     const auto& move = body.translation_mm;
+    const std::string rotation = degrees(centred_rad(body.rotation_rad));
     const bool upper = move[2] > 0.0;
     const int layer = part.starts_with("planet") ? 1 : upper ? 2 : part.starts_with("sun") ? 3 : 0;
     text += "color(\"" + hex_text(part_colour(part)) + "\") body(\"" + part + "\", " +
             number(speeds.orbit) + ", " +
             list(number(move[0]), number(move[1]), number(move[2])) + ",\n  " +
-            degrees(body.rotation_rad) + " + " + number(speeds.own) + "*angle, " +
+            rotation + " + " + number(speeds.own) + "*angle, " +
             std::to_string(layer) + ") " + part + "();  // " + body.name + "\n";
   }
   return text;

@@ -28,8 +28,8 @@ double edge_bulge(const HalfToothPolyline& half, const ToothProfile& profile, st
 }
 
 /// One tooth, from the clockwise gap's end; see section_polygon.
-std::vector<ContourVertex> tooth_vertices(const ToothProfile& profile, double tolerance_mm) {
-  const HalfToothPolyline half = tessellate(profile, tolerance_mm);
+std::vector<ContourVertex> tooth_vertices(const ToothProfile& profile,
+                                          const HalfToothPolyline& half) {
   const std::size_t edges = half.edges.size();
   std::vector<double> bulges(edges);
   for (std::size_t i = 0; i < edges; ++i) bulges[i] = edge_bulge(half, profile, i);
@@ -54,8 +54,10 @@ std::vector<ContourVertex> tooth_vertices(const ToothProfile& profile, double to
 
 Contour contour(const ToothedOutline& outline, double tolerance_mm) {
   TRUEFLANK_EXPECTS(outline.profile != nullptr);
-  const std::vector<ContourVertex> tooth = tooth_vertices(*outline.profile, tolerance_mm);
+  const HalfToothPolyline half = tessellate(*outline.profile, tolerance_mm);
+  const std::vector<ContourVertex> tooth = tooth_vertices(*outline.profile, half);
   Contour result;
+  result.chord_error_mm = half.chord_error_mm;
   const int teeth = outline.profile->gear().teeth;
   for (int k = 0; k < teeth; ++k)
     for (const ContourVertex& vertex : tooth)
@@ -64,10 +66,10 @@ Contour contour(const ToothedOutline& outline, double tolerance_mm) {
   return result;
 }
 
-Contour contour(const CircleOutline& outline, double) { return {.circle = outline, .vertices = {}}; }
+Contour contour(const CircleOutline& outline, double) { return {.circle = outline}; }
 
 /// Adds an arc's vertices but its last.
-void add_arc(std::vector<ContourVertex>& vertices, const Point2& centre, const Point2& from,
+void add_arc(Contour& contour, const Point2& centre, const Point2& from,
              const Point2& to, double tolerance_mm) {
   const double radius = (from - centre).norm();
   const double begin = polar_angle_rad(from - centre);
@@ -75,21 +77,23 @@ void add_arc(std::vector<ContourVertex>& vertices, const Point2& centre, const P
   const int edges = std::max(
       1, static_cast<int>(std::ceil(circle_segments(radius, tolerance_mm) * angle / kTwoPi)));
   const double bulge = std::tan(0.25 * angle / edges);
+  contour.chord_error_mm =
+      std::max(contour.chord_error_mm, radius * (1.0 - std::cos(0.5 * angle / edges)));
   for (int i = 0; i < edges; ++i)
-    vertices.push_back({i == 0 ? from : Point2(centre + radius * unit_vector(begin + angle * i / edges)),
+    contour.vertices.push_back({i == 0 ? from : Point2(centre + radius * unit_vector(begin + angle * i / edges)),
                         bulge});
 }
 
 Contour contour(const BoreOutline& outline, double tolerance_mm) {
   const OutlinePath path = outline_path(outline);
   if (path.pieces.size() == 1)
-    return {.circle = CircleOutline{path.circles[0].centre, path.circles[0].radius_mm}, .vertices = {}};
+    return {.circle = CircleOutline{path.circles[0].centre, path.circles[0].radius_mm}};
   Contour result;
   for (std::size_t i = 0; i < path.pieces.size(); ++i) {
     const PathPiece& piece = path.pieces[i];
     const Point2& next = path.pieces[(i + 1) % path.pieces.size()].start;
     if (const auto* arc = std::get_if<PathArc>(&piece.shape))
-      add_arc(result.vertices, path.circles[arc->circle].centre, piece.start, next, tolerance_mm);
+      add_arc(result, path.circles[arc->circle].centre, piece.start, next, tolerance_mm);
     else
       result.vertices.push_back({piece.start, 0.0});
   }

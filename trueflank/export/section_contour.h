@@ -21,6 +21,7 @@ struct ContourVertex {
 struct Contour {
   std::optional<CircleOutline> circle;
   std::vector<ContourVertex> vertices;
+  double chord_error_mm = 0.0;  ///< largest distance of chord and outline, arcs left aside
 };
 
 /// The vertices lie on the outline and their chords within the tolerance of it, for readers that know
