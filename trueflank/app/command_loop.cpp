@@ -7,6 +7,7 @@
 #include "trueflank/app/terminal.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/loop/close_loop.h"
+#include "trueflank/loop/loop_html.h"
 
 namespace trueflank::app {
 namespace {
@@ -38,6 +39,8 @@ int run_loop(const LoopOptions& options) {
   if (!closed) return report_errors(closed.error());
   const std::filesystem::path folder(options.folder);
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
+  if (auto ok = io::write_file(folder / "loop.html", loop::loop_html(*closed)); !ok)
+    return report_errors({ok.error()});
   if (auto ok = io::write_file(folder / "loop.json", loop::loop_json(closed->result)); !ok)
     return report_errors({ok.error()});
   if (!options.quiet)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/loop/finite_displacement.h"
 #include "trueflank/loop/found_effects.h"
 #include "trueflank/loop/point_fit.h"
 #include "trueflank/loop/shape_refinement.h"
@@ -14,7 +15,7 @@ namespace {
 class Loop {
  public:
   Loop(const FlankGeometry& geometry, Observations table, const std::string& gear)
-      : geometry_(geometry), table_(std::move(table)) {
+      : geometry_(geometry), measured_(std::move(table)), table_(measured_) {
     result_.gear = gear;
   }
 
@@ -26,14 +27,18 @@ class Loop {
       select();
       // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
       // leaves is taken for another effect.
-      const bool moved = put_refined_shapes_on_the_grid();
-      if (!ban_misnamed() && !moved) break;
+      bool again = put_refined_shapes_on_the_grid();
+      again = ban_misnamed() || again;
+      again = linearise() || again;
+      if (!again) break;
     }
     look_at_single_teeth();
     list_observable();
     report();
     GearLoop done{std::move(result_), geometry_, {}, {}, {}};
-    PointFit(geometry_, table_, patches_, effects_).residuals(done.before_um, done.after_um);
+    std::vector<float> unused;
+    PointFit(geometry_, measured_, patches_, {}).residuals(done.before_um, unused);
+    PointFit(geometry_, table_, patches_, effects_).residuals(unused, done.after_um);
     finish_errors(done);
     done.table = std::move(table_);
     return done;
@@ -63,6 +68,21 @@ class Loop {
       candidates_[discovery_.chosen[i].group].shape = effects_[i].shape;
     }
     return moved;
+  }
+
+  /// True where finite displacements changed the deviations by more than the noise can hide.
+  bool linearise() {
+    const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+      return static_cast<bool>(effect.family->displacement_mm);
+    });
+    if (!body || measured_.points_mm.empty()) return false;
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    const double change = linearise_at(geometry_, fit, measured_, table_);
+    if (!(change > 0.02 * fit.noise_um())) return false;
+    patches_ = make_patches(geometry_, table_);
+    for (const Effect& effect : effects_)
+      if (effect.family->id == "layer_shift") patches_.leave_out_across(effect.shape[0]);
+    return true;
   }
 
   void list_observable() {
@@ -153,7 +173,8 @@ class Loop {
     result_.outliers = table_.outliers;
     result_.noise = fit.noise_um();
     result_.notes = table_.notes;
-    const auto none = fit.errors(std::vector<bool>(effects_.size(), false));
+    const PointFit as_designed(geometry_, measured_, patches_, {});
+    const auto none = as_designed.errors({});
     const auto all = fit.errors(std::vector<bool>(effects_.size(), true));
     result_.before = {none.rms_um, none.held_out_rms_um, 0.0};
     result_.after = {all.rms_um, all.held_out_rms_um, 0.0};
@@ -192,7 +213,8 @@ class Loop {
   }
 
   const FlankGeometry& geometry_;
-  Observations table_;
+  const Observations measured_;  ///< deviations of the gear as designed
+  Observations table_;           ///< about the effects found: exact for finite displacements
   Patches patches_;
   std::vector<Effect> candidates_;
   std::vector<bool> banned_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -48,6 +49,11 @@ struct EffectFamily {
   std::function<void(const FlankGeometry&, const Place&, const std::vector<double>& shape,
                      double* columns)>
       evaluate;
+  /// Effects that move the body: the displacement [mm] of a point [mm] for coefficients in the
+  /// parameters' units; empty where the deviation along the normal says all.
+  std::function<std::array<double, 3>(const FlankGeometry&, const std::array<double, 3>& point,
+                                      const std::vector<double>& shape, const double* coefficients)>
+      displacement_mm;
 };
 
 /// An effect with its shape fixed: what a candidate of the selection is.

@@ -9,6 +9,8 @@ namespace trueflank::loop {
 namespace {
 
 using Shape = std::vector<double>;
+using Point3 = std::array<double, 3>;
+constexpr double kMmPerUm = 1e-3, kPerPercent = 1e-2;
 
 struct Field {
   double x, y;
@@ -47,6 +49,9 @@ EffectFamily eccentricity() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape&, double* c) {
     two_directions(g, p, 1.0, c);
   };
+  f.displacement_mm = [](const FlankGeometry&, const Point3&, const Shape&, const double* b) -> Point3 {
+    return {kMmPerUm * b[0], kMmPerUm * b[1], 0.0};
+  };
   return f;
 }
 
@@ -60,6 +65,11 @@ EffectFamily axis_tilt() {
   f.form = ParameterForm::kWave;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape&, double* c) {
     two_directions(g, p, p.z_mm - 0.5 * g.face_width_mm(), c);
+  };
+  f.displacement_mm = [](const FlankGeometry& g, const Point3& p, const Shape&,
+                         const double* b) -> Point3 {
+    const double z = kMmPerUm * (p[2] - 0.5 * g.face_width_mm());
+    return {z * b[0], z * b[1], 0.0};
   };
   return f;
 }
@@ -81,6 +91,11 @@ EffectFamily layer_shift() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape& shape, double* c) {
     two_directions(g, p, p.z_mm > shape[0] ? 1.0 : 0.0, c);
   };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const Shape& shape,
+                         const double* b) -> Point3 {
+    const double on = p[2] > shape[0] ? kMmPerUm : 0.0;
+    return {on * b[0], on * b[1], 0.0};
+  };
   return f;
 }
 
@@ -95,6 +110,10 @@ EffectFamily scale() {
     constexpr double kUmPerPercent = 10.0;  // of a millimetre
     const Field x = point_of(p);
     c[0] = kUmPerPercent * (normal_part(g, p, x.x, x.y) + g.normal_z(p) * p.z_mm);
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const Shape&, const double* b) -> Point3 {
+    const double s = kPerPercent * b[0];
+    return {s * p[0], s * p[1], s * p[2]};
   };
   return f;
 }
@@ -114,6 +133,10 @@ EffectFamily scale_xy() {
     c[0] = is_tooth_system(p) ? 5.0 * normal_part(g, p, x.x, -x.y) : 0.0;
     c[1] = is_tooth_system(p) ? 5.0 * normal_part(g, p, x.y, x.x) : 0.0;
   };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const Shape&, const double* b) -> Point3 {
+    const double c = 0.5 * kPerPercent * b[0], s = 0.5 * kPerPercent * b[1];
+    return {c * p[0] + s * p[1], s * p[0] - c * p[1], 0.0};
+  };
   return f;
 }
 
@@ -127,6 +150,10 @@ EffectFamily skew() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape&, double* c) {
     const Field x = point_of(p);
     c[0] = is_tooth_system(p) ? 5.0 * normal_part(g, p, x.y, x.x) : 0.0;
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const Shape&, const double* b) -> Point3 {
+    const double s = 0.5 * kPerPercent * b[0];
+    return {s * p[1], s * p[0], 0.0};
   };
   return f;
 }

@@ -55,6 +55,12 @@ EffectFamily lobing() {
     c[0] = radial * std::cos(shape[0] * p.polar_rad);
     c[1] = radial * std::sin(shape[0] * p.polar_rad);
   };
+  f.displacement_mm = [](const FlankGeometry&, const std::array<double, 3>& p, const Shape& shape,
+                         const double* b) -> std::array<double, 3> {
+    const double polar = std::atan2(p[1], p[0]);
+    const double radial = 1e-3 * (b[0] * std::cos(shape[0] * polar) + b[1] * std::sin(shape[0] * polar));
+    return {radial * std::cos(polar), radial * std::sin(polar), 0.0};
+  };
   return f;
 }
 

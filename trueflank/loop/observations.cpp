@@ -130,6 +130,7 @@ class TableBuilder {
       Observation& row = add_row(kind_of(placed.place.surface), um_from_mm(placed.distance_mm),
                                  sigma, source);
       add_place(row, placed.place, 1.0);
+      table.points_mm.push_back(p);
     }
     if (10 * unused > 7 * scan.points_mm.size())
       table.notes.push_back(scan.file + ": " + std::to_string(unused) + " of " +
@@ -319,12 +320,23 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     if (patch.size() < 5 || !spread_of.contains(key[0])) continue;
     const double own = centre_and_spread(patch).second;
     const double limit = 6.0 * std::max({own, spread_of[key[0]], 0.02});
-    for (const std::size_t i : patch)
+    std::size_t far = 0;
+    for (const std::size_t i : patch) {
       out[i] = std::abs(table.rows[i].deviation_um - centre) > limit;
+      far += out[i] ? 1 : 0;
+    }
+    // So many far ones are no accident: a step runs through the patch.
+    if (4 * far > patch.size())
+      for (const std::size_t i : patch) out[i] = false;
   }
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (!out[i]) table.rows[kept++] = table.rows[i];
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (out[i]) continue;
+    if (i < table.points_mm.size()) table.points_mm[points++] = table.points_mm[i];
+    table.rows[kept++] = table.rows[i];
+  }
+  table.points_mm.resize(points);
   table.outliers = static_cast<int>(table.rows.size() - kept);
   table.rows.resize(kept);
 }

@@ -37,6 +37,8 @@ struct WeightedPlace {
 struct Observations {
   std::vector<Observation> rows;
   std::vector<WeightedPlace> places;
+  /// Points of scans in the gear's frame [mm], one for each of the first rows (scans come first).
+  std::vector<std::array<double, 3>> points_mm;
   int traces = 0;
   std::vector<Pose> poses;            ///< of each scan
   std::vector<bool> pose_is_free;     ///< of each scan

@@ -77,6 +77,7 @@ void PointFit::average_zeros() {
 void PointFit::accumulate() {
   const int n = columns_ + 1;
   unit_grams_.assign(patches_.units, Eigen::MatrixXd());
+  unit_kind_.assign(patches_.units, -1);
   unit_sums_.assign(patches_.units, Eigen::VectorXd::Zero(n + 1));
   train_ = all_ = plain_held_ = plain_all_ = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd row(n), part(n);
@@ -95,6 +96,7 @@ void PointFit::accumulate() {
     Eigen::MatrixXd& unit = unit_grams_[patch.unit];
     if (unit.size() == 0) unit = Eigen::MatrixXd::Zero(n, n);
     unit.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
+    unit_kind_[patch.unit] = static_cast<int>(patch.kind);
     unit_sums_[patch.unit].head(n) += w * row;
     unit_sums_[patch.unit][n] += w;
     if (!held) train_.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
@@ -215,8 +217,15 @@ void PointFit::solve() {
   for (const int k : local) {
     // How far the means of the other units scatter, against what their weights promise.
     double scatter = 0.0, count = 0.0;
+    std::set<int> kinds;
+    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+      if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 0.0 &&
+          unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
+          unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
+        kinds.insert(unit_kind_[b]);
     for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
       if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 0.0) continue;
+      if (!kinds.contains(unit_kind_[b])) continue;
       const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
       scatter += sum_b * sum_b / unit_sums_[b][p + 1];
       count += 1.0;

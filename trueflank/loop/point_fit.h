@@ -70,6 +70,7 @@ class PointFit {
   std::vector<Eigen::VectorXd> zero_means_;  ///< per trace, training and held-out apart
   std::vector<Eigen::VectorXd> whole_zero_means_;
   std::vector<Eigen::MatrixXd> unit_grams_;  ///< last row and column: the values
+  std::vector<int> unit_kind_;
   std::vector<Eigen::VectorXd> unit_sums_;   ///< weighted sums of all columns, the weight last
   Eigen::MatrixXd train_, all_, plain_held_, plain_all_;
   Eigen::VectorXd coefficients_;
