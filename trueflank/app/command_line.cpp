@@ -65,6 +65,23 @@ void add_search(CLI::App& program, SearchOptions& options, int& code) {
   command->callback([&] { code = run_search(options); });
 }
 
+void add_loop(CLI::App& program, LoopOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand(
+      "loop", "closes the loop with measured data: which effect does the model lack?");
+  command->add_option("DESIGN", options.design, "design file (TOML)")->required();
+  command->add_option("DATA", options.data,
+                      "measured files: scans (.ply .stl .obj .xyz .csv), inspection and size tables "
+                      "(.csv), MKA, GDE")
+      ->required();
+  command->add_option("--output,-o", options.folder, "folder for loop.json and loop.html")
+      ->required();
+  command->add_option("--gear", options.gear, "the gear that was measured");
+  command->add_flag("--aligned", options.aligned,
+                    "scans stand in the gear's own frame: a displaced tooth system is an effect");
+  command->add_flag("--quiet,-q", options.quiet, "no summary");
+  command->callback([&] { code = run_loop(options); });
+}
+
 void add_new(CLI::App& program, NewOptions& options, int& code) {
   CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
@@ -97,10 +114,12 @@ int run_command_line(int argc, char** argv) {
   MakeOptions make;
   NewOptions fresh;
   SearchOptions search;
+  LoopOptions loop;
   add_check(program, check, code);
   add_make(program, make, code);
   add_new(program, fresh, code);
   add_search(program, search, code);
+  add_loop(program, loop, code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "trueflank/app/commands.h"
+#include "trueflank/app/corrected_parts.h"
 #include "trueflank/app/design_input.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/html_document.h"
@@ -71,11 +72,23 @@ int run_make(const MakeOptions& options) {
   io::Report report = evaluate(*train);
   const std::filesystem::path folder(options.folder);
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
+  std::string told;  // of the correction
   const bool failed = verdict(report.findings) == CheckStatus::kFail;
   if (!failed || options.allow_failing) {
-    auto files = io::export_parts({.train = &*train, .shapes = &*shapes},
+    auto formats = io::parse_formats(options.formats).value();
+    CorrectedParts corrected;
+    if (!options.correct.empty()) {
+      auto made = corrected_parts(*train, *shapes, options.correct, mm_from_um(options.tolerance_um));
+      if (!made) return report_errors(made.error());
+      corrected = std::move(*made);
+      formats = formats_of_corrected(formats, corrected.text);
+      told = corrected.text;
+    }
+    auto files = io::export_parts({.train = &*train,
+                                   .shapes = &*shapes,
+                                   .meshes = options.correct.empty() ? nullptr : &corrected.meshes},
                                   {.folder = folder,
-                                   .formats = io::parse_formats(options.formats).value(),
+                                   .formats = formats,
                                    .tolerance_mm = mm_from_um(options.tolerance_um),
                                    .part = options.part});
     if (!files) return report_errors(files.error());
@@ -91,7 +104,7 @@ int run_make(const MakeOptions& options) {
     if (failed && !options.allow_failing)
       text += "no part was written: a check failed (--allow-failing writes them all the same)\n";
     else
-      text += "written to " + options.folder + "\n";
+      text += told + "written to " + options.folder + "\n";
     if (auto ok = print(text); !ok) return report_errors({ok.error()});
   }
   return failed ? 1 : 0;
