@@ -49,7 +49,7 @@ def complaints(path, volume, options):
     mesh_file = path.with_suffix(".msh")
     run = subprocess.run(
         ["gmsh", "-3", "-format", "msh22", *options, str(path), "-o", str(mesh_file)],
-        capture_output=True, text=True, timeout=120, check=False)
+        capture_output=True, text=True, timeout=300, check=False)
     if run.returncode != 0:
         return ["gmsh: " + run.stdout[-500:] + run.stderr[-500:]]
     meshed, volumes = mesh_volume(mesh_file)
