@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
@@ -109,6 +110,39 @@ TEST(Brep, EverySampleGearIsClosed) {
     EXPECT_TRUE(is_closed(*brep)) << name;
     EXPECT_LE(brep->fit_error_mm, 1e-7) << name;
   }
+}
+
+TEST(Brep, RandomGearsAreClosedAndWithinTheTolerance) {
+  std::mt19937 random(20);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  int made = 0;
+  for (int i = 0; i < 200; ++i) {
+    const bool ring = i % 2 == 0;
+    const int teeth = static_cast<int>(ring ? between(14, 100) : between(5, 100));
+    Gear gear = ring ? test::ring_gear(teeth, 0.0) : test::external_gear(teeth, 0.0);
+    gear.normal_module_mm = std::exp(between(std::log(0.1), std::log(12.0)));
+    gear.rack.pressure_angle_rad = between(0.18, 0.6);
+    gear.rack.addendum = between(0.6, 1.2);
+    gear.rack.dedendum = gear.rack.addendum + between(0.05, 0.5);
+    gear.rack.root_radius = i % 5 == 0 ? 0.0 : between(0.0, 0.6);
+    gear.shift = between(-0.6, 1.2);
+    if (i % 4 == 0) {
+      gear.ring_root = RingRoot::kShaper;
+      gear.cutter = ShaperCutter{static_cast<int>(between(8, 0.8 * teeth)), between(-0.2, 0.5), between(0.0, 0.4)};
+    }
+    gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+    const auto profile = ToothProfile::make(gear);
+    if (!profile) continue;  // there is no such gear
+    ++made;
+    const auto brep = brep_of(ring ? test::ring_part("ring", *profile, 5.0)
+                                   : test::gear_part("gear", *profile, 5.0));
+    ASSERT_TRUE(brep) << i;
+    EXPECT_TRUE(is_closed(*brep)) << i;
+    EXPECT_LE(brep->fit_error_mm, 5e-6) << i;
+  }
+  EXPECT_GT(made, 100);
 }
 
 TEST(Brep, ALostFaceATurnedEdgeOrABrokenLoopIsNotClosed) {
