@@ -61,7 +61,7 @@ double area_of_lower_edges(const TriangleMesh& mesh, double z) {
 
 TEST(GearMesh, RandomPartsAreValidAndTheirFacesCoverTheirSectionsOnce) {
   int made = 0;
-  for (std::uint64_t seed = 0; seed < 250; ++seed) {
+  for (std::uint64_t seed = 0; seed < 160; ++seed) {
     const auto random = test::random_part(seed);
     if (!random) continue;
     SCOPED_TRACE(random->text);
@@ -90,7 +90,7 @@ TEST(GearMesh, RandomPartsAreValidAndTheirFacesCoverTheirSectionsOnce) {
     EXPECT_NEAR(covered / section, 1.0, 1e-11);
     EXPECT_NEAR(validity.volume_mm3 / (section * top), 1.0, 1e-12);
   }
-  EXPECT_GT(made, 200);
+  EXPECT_GT(made, 130);
 }
 
 TEST(GearMesh, ThirtyTwoBitCoordinatesMergeNothingAndLeaveNoTriangleWithoutArea) {
