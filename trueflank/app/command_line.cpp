@@ -65,6 +65,18 @@ void add_search(CLI::App& program, SearchOptions& options, int& code) {
   command->callback([&] { code = run_search(options); });
 }
 
+void add_compare(CLI::App& program, CompareOptions& options, int& code) {
+  CLI::App* command =
+      program.add_subcommand("compare", "are two mesh files the same shape? exit code 1: no");
+  command->add_option("GOLDEN", options.golden, "the mesh that is right")->required();
+  command->add_option("NEW", options.fresh, "the mesh to compare with it")->required();
+  command->add_option("--tolerance-um", options.tolerance_um, "largest distance that counts as same")
+      ->capture_default_str();
+  command->add_option("--json", options.json, "write the figures as JSON here (- is standard output)");
+  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->callback([&] { code = run_compare(options); });
+}
+
 void add_loop(CLI::App& program, LoopOptions& options, int& code) {
   CLI::App* command = program.add_subcommand(
       "loop", "closes the loop with measured data: which effect does the model lack?");
@@ -112,14 +124,16 @@ int run_command_line(int argc, char** argv) {
   int code = 0;
   CheckOptions check;
   MakeOptions make;
+  CompareOptions compare;
   NewOptions fresh;
-  SearchOptions search;
   LoopOptions loop;
+  SearchOptions search;
   add_check(program, check, code);
   add_make(program, make, code);
+  add_compare(program, compare, code);
   add_new(program, fresh, code);
-  add_search(program, search, code);
   add_loop(program, loop, code);
+  add_search(program, search, code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
