@@ -20,6 +20,8 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
   command->add_option("--tolerance", options.tolerance,
                       "what tolerances leave: a class of ISO 1328-1 (7), and/or centre_distance_um=20,"
                       "tooth_thickness_um=10,runout_um=15,pitch_um=5,class=7");
+  command->add_option("--pictures", options.pictures,
+                      "draw each mesh at its worst place, an SVG in this folder");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_check(options); });
 }

@@ -14,6 +14,7 @@ struct CheckOptions {
   std::string json;  ///< file for report.json; "-": standard output; empty: none
   std::string html;
   std::string tolerance;  ///< see parse_tolerance; empty: no tolerance analysis
+  std::string pictures;   ///< folder for an SVG of each mesh at its worst place; empty: none
   bool quiet = false;
 };
 int run_check(const CheckOptions& options);
