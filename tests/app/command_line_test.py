@@ -55,6 +55,24 @@ class Case(unittest.TestCase):
             self.assertTrue(line.startswith("trueflank: "), line)
 
 
+class CheckOptions(Case):
+    def test_tolerances_add_findings(self):
+        result = run("check", self.design(), "--tolerance", "tooth_thickness_um=5", "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        ids = [(c["id"], c["where"]) for c in json.loads(result.stdout)["checks"]]
+        self.assertIn(("tolerance", "pinion-wheel"), ids)
+        self.assertIn(("tolerance", "train"), ids)
+
+    def test_a_wrong_tolerance_is_wrong_usage(self):
+        self.expect_error(run("check", self.design(), "--tolerance", "fine"), 2, "fine")
+
+    def test_pictures_are_drawn_for_every_mesh(self):
+        result = run("check", DESIGN, "--pictures", self.folder / "pictures", "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(p.name for p in (self.folder / "pictures").iterdir()),
+                         ["planet1-ring1.svg", "planet2-ring2.svg", "sun-planet1.svg"])
+
+
 class CommandLine(Case):
     def test_alone_it_tells_a_newcomer_what_to_do(self):
         result = run()

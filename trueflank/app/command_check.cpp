@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+
 #include "trueflank/app/commands.h"
 #include "trueflank/app/design_input.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/html_document.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
+#include "trueflank/check/mesh_picture.h"
 #include "trueflank/check/tolerance_analysis.h"
+#include "trueflank/export/atomic_file.h"
 
 namespace trueflank::app {
 namespace {
@@ -17,6 +21,20 @@ Status add_tolerance(const GearTrain& train, const std::string& text, io::Report
   if (!result) return fail(result.error());
   for (Finding& finding : check_tolerance(train, *result))
     report.findings.push_back(std::move(finding));
+  return {};
+}
+
+Status draw_meshes(const GearTrain& train, const std::string& folder) {
+  if (auto ok = io::create_folder(folder); !ok) return ok;
+  for (const TrainMesh& mesh : train.meshes) {
+    const GearPair pair = train.pair(mesh);
+    const std::string svg = mesh_picture_svg(
+        pair, mesh_clearance(pair),
+        {.name1 = train.gears[static_cast<std::size_t>(mesh.gear1)].name,
+         .name2 = train.gears[static_cast<std::size_t>(mesh.gear2)].name});
+    if (auto ok = io::write_file(std::filesystem::path(folder) / (mesh.name + ".svg"), svg); !ok)
+      return ok;
+  }
   return {};
 }
 
@@ -41,6 +59,8 @@ int run_check(const CheckOptions& options) {
     const std::string page = html_document(report, shapes ? &*shapes : nullptr);
     if (auto ok = write_document(options.html, page); !ok) return report_errors({ok.error()});
   }
+  if (!options.pictures.empty())
+    if (auto ok = draw_meshes(*train, options.pictures); !ok) return report_errors({ok.error()});
   if (!options.quiet && !document_on_output)
     if (auto ok = print(io::report_text(report, standard_output_colour())); !ok)
       return report_errors({ok.error()});

@@ -24,6 +24,8 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
                       "of every gear, for torque and inertia (docs/strength.md)");
   command->add_option("--materials", options.materials_file,
                       "file with more [material.NAME] tables");
+  command->add_option("--pictures", options.pictures,
+                      "draw each mesh at its worst place, an SVG in this folder");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_check(options); });
 }

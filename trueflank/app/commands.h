@@ -16,6 +16,7 @@ struct CheckOptions {
   std::string tolerance;  ///< see parse_tolerance; empty: no tolerance analysis
   std::string material;        ///< of every gear, for strength and inertia; empty: the default
   std::string materials_file;  ///< more [material.NAME]; empty: none
+  std::string pictures;   ///< folder for an SVG of each mesh at its worst place; empty: none
   bool quiet = false;
 };
 int run_check(const CheckOptions& options);

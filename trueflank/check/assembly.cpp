@@ -109,7 +109,7 @@ Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& st
   } else {
     finding.message += " Turned, every mesh of every planet keeps its phase.";
   }
-  finding.message += order_text(train, states);
+  if (finding.status != CheckStatus::kFail) finding.message += order_text(train, states);
   return {finding};
 }
 
