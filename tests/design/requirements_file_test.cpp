@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 namespace trueflank {
 namespace {
 
@@ -99,6 +102,18 @@ TEST(RequirementsFile, EveryKeyHasItsPlaceInTheListOfTables) {
   const auto tables = requirements_tables();
   EXPECT_EQ(tables.size(), 10u);
   for (const RequirementsTable& table : tables) EXPECT_FALSE(table.rules.empty()) << table.name;
+}
+
+TEST(RequirementsFile, ThePageInDocsListsEveryKey) {
+  std::ostringstream page;
+  page << std::ifstream(TRUEFLANK_SOURCE_DIR "/docs/search.md").rdbuf();
+  for (const RequirementsTable& table : requirements_tables())
+    for (const KeyRule& rule : table.rules) {
+      const std::string place = table.name.empty() ? "" : "`[" + table.name + "]` ";
+      EXPECT_NE(page.str().find("| " + place + "`" + rule.name + "` | " + wanted(rule)),
+                std::string::npos)
+          << table.name << "." << rule.name;
+    }
 }
 
 }  // namespace

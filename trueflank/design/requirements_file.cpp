@@ -5,12 +5,16 @@
 #include <filesystem>
 
 #include "trueflank/design/design_file.h"
+#include "trueflank/design/design_name.h"
 #include "trueflank/design/reading.h"
 #include "trueflank/design/requirements_keys.h"
 #include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 namespace {
+
+/// What the search puts behind the name of each design.
+constexpr const char* kRankSuffix = "-000";
 
 class RequirementsReader {
  public:
@@ -30,6 +34,12 @@ class RequirementsReader {
       read_keys(section.name, table, section.keys, r, section.name.empty() ? tables : kNoTables);
     }
     read_materials(r.strength.materials);
+    if (!reading_.has("name")) r.name = design_name_from(r.name);
+    if (!is_design_name(r.name + kRankSuffix))
+      reading_.report({.code = ErrorCode::kOutOfRange,
+                       .message = "no name for designs: empty, too long or not printable",
+                       .key = "name",
+                       .remedy = "one line of 1 to 90 characters"});
     if (reading_.clean())
       for (Error& error : validate(r)) reading_.report(std::move(error));
     if (!reading_.clean()) return fail_all(reading_.errors(file));

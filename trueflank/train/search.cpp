@@ -157,9 +157,10 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
       ++report.feasible;
       continue;
     }
-    SetClass c{"torque", "no shifts carry the output torque asked for", 0};
-    if (record.result.failed_limit >= 0 &&
-        static_cast<std::size_t>(record.result.failed_limit) < kLimits) {
+    SetClass c{"limits", "no shifts found that keep all limits", 0};
+    if (record.result.failed_limit == static_cast<int>(kLimits)) {
+      c = {"torque", "no shifts carry the output torque asked for", 0};
+    } else if (record.result.failed_limit >= 0) {
       const LimitEntry& entry =
           limit_entries()[static_cast<std::size_t>(record.result.failed_limit)];
       c.id = std::string(to_text(entry.limit)) + ":" + entry.where;

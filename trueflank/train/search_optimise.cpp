@@ -473,6 +473,10 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
   best_.reset();
   const bool smooth = bounds.empty() && !needs_strength(objective);
   for (const FreeShifts& start : starts) {
+    const State s = state(start);
+    std::vector<double> bound_margins;
+    for (const MeritBound& bound : bounds) bound_margins.push_back(bound_margin(s, start, bound));
+    remember(start, s, merit(s, start, objective), bound_margins);
     slsqp(start, objective, bounds);
     if (!smooth) simplex(start, objective, bounds, 0.05);
   }

@@ -26,7 +26,7 @@ struct SearchCandidate {
 struct SetResult {
   std::vector<SearchCandidate> candidates;  ///< empty: nothing keeps all limits
   /// Index into limit_entries() of the limit that could be kept least; kLimits: the torque asked for;
-  /// -1 where there is a candidate.
+  /// -1 where there is a candidate, or a start that led to none.
   int failed_limit = -1;
   int evaluations = 0;  ///< of a layer
 };
