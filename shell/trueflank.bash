@@ -23,7 +23,7 @@ _trueflank() {
   if [[ $word == -* ]]; then
     local options="--help --quiet"
     case $command in
-      check) options+=" --json --html --tolerance" ;;
+      check) options+=" --json --html --tolerance --material --materials --pictures" ;;
       make) options+=" -o --output --formats --tolerance-um --part --correct --allow-failing" ;;
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;

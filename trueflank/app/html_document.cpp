@@ -2,15 +2,12 @@
 #include "trueflank/app/html_document.h"
 
 #include "trueflank/export/report_html.h"
-#include "trueflank/train/strength.h"
 
 namespace trueflank::app {
 
 std::string html_document(const io::Report& report, const PartShapes* shapes) {
-  const bool has_meshes = !report.train->meshes.empty();
-  const auto torques = strength(*report.train);
   return io::report_html(
-      report, {.shapes = shapes, .strength = torques && has_meshes ? &*torques : nullptr});
+      report, {.shapes = shapes, .strength = report.strength ? &*report.strength : nullptr});
 }
 
 }  // namespace trueflank::app

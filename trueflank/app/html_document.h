@@ -8,7 +8,7 @@
 
 namespace trueflank::app {
 
-/// report.html of a report, with the allowable torques of the default material.
+/// report.html of a report, with its allowable torques.
 /// shapes: null where the parts cannot be built; the bare toothings are drawn then.
 [[nodiscard]] std::string html_document(const io::Report& report, const PartShapes* shapes);
 

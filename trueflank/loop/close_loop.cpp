@@ -50,6 +50,12 @@ class Loop {
     DiscoveryOptions options;
     options.banned = banned_;
     discovery_ = discover(problem, options);
+    // What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
+    constexpr double kFileRounding_um = 0.01;
+    if (PointFit(geometry_, measured_, patches_, {}).errors({}).rms_um < kFileRounding_um) {
+      discovery_.chosen.clear();
+      discovery_.first_p_value = discovery_.p_left = 1.0;
+    }
     effects_.clear();
     for (const ChosenGroup& chosen : discovery_.chosen) effects_.push_back(candidates_[chosen.group]);
   }
