@@ -214,6 +214,14 @@ class Make(Case):
                              "--allow-failing").returncode, 1)
         self.assertTrue((self.folder / "out" / "pinion.stl").is_file())
 
+    def test_what_is_not_built_is_refused_and_not_left_out(self):
+        helical = PAIR.replace("backlash_mm", "helix_angle_deg = 15.0\nbacklash_mm")
+        relieved = PAIR + "[pinion.modifications]\ncrowning_um = 5\n"
+        for text, key in [(helical, "helix_angle_deg"), (relieved, "pinion.modifications")]:
+            self.expect_error(run("make", self.design(text), "-o", self.folder / "out"), 2, key,
+                              "does not build")
+            self.assertFalse((self.folder / "out").exists())
+
     def test_folder_that_is_a_file_is_three(self):
         (self.folder / "taken").write_text("mine")
         self.expect_error(run("make", DESIGN, "-o", self.folder / "taken"), 3, "taken")

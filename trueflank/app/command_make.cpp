@@ -65,6 +65,8 @@ int run_make(const MakeOptions& options) {
   if (Errors errors = usage_errors(options); !errors.empty()) return report_errors(errors);
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
+  if (Errors errors = not_built(train->design); !errors.empty())
+    return report_errors(located_in(options.design, std::move(errors)));
   const auto shapes = part_shapes(*train);
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);

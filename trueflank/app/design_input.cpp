@@ -22,6 +22,25 @@ Errors located_in(const std::string& path, Errors errors) {
   return file ? located(std::move(errors), *file) : std::move(errors);
 }
 
+Errors not_built(const GearboxDesign& design) {
+  Errors errors;
+  const auto refuse = [&](std::string key, std::string value, std::string remedy) {
+    errors.push_back({.code = ErrorCode::kUnsupported,
+                      .message = "understood, but this version does not build it",
+                      .key = std::move(key),
+                      .value = std::move(value),
+                      .remedy = std::move(remedy)});
+  };
+  if (design.helix_angle_rad != 0.0)
+    refuse("gearbox.helix_angle_deg", std::to_string(deg_from_rad(design.helix_angle_rad)),
+           "0 (check and loop take helical gears)");
+  if (design.herringbone) refuse("gearbox.herringbone", "true", "false");
+  for (const GearDesign& gear : design.gears)
+    if (gear.modifications != ModificationsDesign{})
+      refuse(gear.name + ".modifications", "", "no modifications");
+  return errors;
+}
+
 io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
   io::Report report;
   report.train = &train;

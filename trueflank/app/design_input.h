@@ -15,6 +15,9 @@ namespace trueflank::app {
 /// Errors of later stations with file and line of their keys in the design file.
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);
 
+/// What a design asks for and this version does not build: refused, never left out in silence.
+[[nodiscard]] Errors not_built(const GearboxDesign& design);
+
 /// Every check, sweep and efficiency of a train. The report refers to the train.
 [[nodiscard]] io::Report evaluate(const GearTrain& train, const StrengthOptions& strength = {});
 /// Strength options of the command line: every gear of `material` (empty: the default one), from the
