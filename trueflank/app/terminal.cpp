@@ -15,6 +15,9 @@ namespace {
 
 extern "C" void stop_cleanly(int) {
   io::remove_temporary_files();
+  constexpr std::string_view kMessage = "trueflank: stopped by a signal; no file is half-written\n";
+  [[maybe_unused]] const ssize_t written =
+      ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
   _exit(3);
 }
 
