@@ -56,7 +56,8 @@ def main():
     assert resumed.returncode == 0, resumed.stderr
     wrong = mpi(OUTPUT / "none.toml", "-o", OUTPUT / "ranks")
     assert wrong.returncode == 3, wrong.returncode
-    assert wrong.stderr.count("trueflank: ") == 1, wrong.stderr
+    # one rank speaks for all; the others may say that the launcher stopped them
+    assert wrong.stderr.count("cannot read") == 1, wrong.stderr
     return 0
 
 
