@@ -23,6 +23,7 @@ class Loop {
     patches_ = make_patches(geometry_, table_);
     candidates_ = candidate_effects(geometry_);
     banned_.assign(candidates_.size(), false);
+    ban_waves_that_cannot_be_seen();
     for (int round = 0; round < 5; ++round) {
       select();
       // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
@@ -45,6 +46,17 @@ class Loop {
   }
 
  private:
+  /// A wave over the generating rotation shows along the profile only; in values one a tooth every
+  /// order looks like a lower one.
+  void ban_waves_that_cannot_be_seen() {
+    const bool along_profile =
+        std::any_of(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+          return row.kind == ObservationKind::kScanFlank || row.kind == ObservationKind::kProfile;
+        });
+    for (std::size_t g = 0; !along_profile && g < candidates_.size(); ++g)
+      if (candidates_[g].family->id == "ghost_order") banned_[g] = true;
+  }
+
   void select() {
     const DiscoveryProblem problem = make_problem(geometry_, table_, patches_, candidates_);
     DiscoveryOptions options;

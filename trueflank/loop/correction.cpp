@@ -190,9 +190,17 @@ Point3 Correction::displacement_mm(const Point3& p) const {
   const double radius = std::hypot(p[0], p[1]);
   const double root = geometry_.root_radius_mm(), tip = geometry_.tip_radius_mm();
   const double root_form = std::hypot(geometry_.base_radius_mm(), geometry_.root_form_roll_mm());
-  const bool at_tip = geometry_.sense() * (radius - tip) > -1e-6;
   const double down = root_form == root ? 0.0 : (radius - root_form) / (root - root_form);
-  const double share = at_tip ? 1.0 : std::clamp(down, 0.0, 1.0);
+  const double share = std::clamp(down, 0.0, 1.0);
+  // The tip circle moves whole: what of the flanks stands beyond the new one is brought onto it.
+  const double new_tip = tip - geometry_.sense() * offset;
+  const double beyond = geometry_.sense() * (radius - new_tip);
+  const bool at_tip = geometry_.sense() * (radius - tip) > -2e-3;
+  if (at_tip || beyond > 0.0) {
+    sum[0] += (new_tip - radius) * p[0] / radius;
+    sum[1] += (new_tip - radius) * p[1] / radius;
+    return sum;
+  }
   const double radial = -geometry_.sense() * offset * share;
   sum[0] += radial * p[0] / radius;
   sum[1] += radial * p[1] / radius;
