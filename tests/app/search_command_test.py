@@ -95,7 +95,7 @@ def main():
     message = process.communicate()[1]
     assert process.returncode in (0, 3), process.returncode
     if process.returncode == 3 and "--resume" not in message:
-        # caught before the search listens or while the answer is written: the journal is there all the same
+        # caught while the answer is written: the journal is there all the same
         assert "stopped by a signal" in message, message
     elif process.returncode == 3:
         assert not json.loads((stopped / "search.json").read_text())["complete"]

@@ -133,13 +133,13 @@ ResultAll<SearchTask> prepare_search(const SearchOptions& options) {
 
 ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task, const SearchPart& part,
                                                      const SearchOptions& options) {
+  const StopOnInterrupt interrupt;  // before the journal: from its first line on --resume is offered
   Journal journal;
   auto done = Journal::open(task, Journal::path_in(options.folder, part), options.resume, journal);
   if (!done) return fail_all({done.error()});
   SearchRunOptions run{.threads = options.threads, .part = part, .done = std::move(*done)};
   std::vector<SearchRecord> records;
   {
-    const StopOnInterrupt interrupt;
     ProgressLine progress(run.done.size(), options.quiet);
     run.stop = &StopOnInterrupt::flag();
     run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
