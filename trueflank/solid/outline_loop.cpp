@@ -93,7 +93,9 @@ OutlineExtent extent_of(const BoreOutline& outline) {
 }
 
 bool same(const ToothedOutline& a, const ToothedOutline& b) {
-  return a.profile == b.profile && a.rotation_rad == b.rotation_rad;
+  return a.profile == b.profile && a.rotation_rad == b.rotation_rad &&
+         a.z_lower_mm == b.z_lower_mm && a.twist == b.twist && a.deviation == b.deviation &&
+         a.edge_chamfer_mm == b.edge_chamfer_mm && a.displacement == b.displacement;
 }
 bool same(const CircleOutline& a, const CircleOutline& b) {
   return a.centre == b.centre && a.radius_mm == b.radius_mm;

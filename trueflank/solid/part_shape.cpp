@@ -69,15 +69,25 @@ class ShapeBuilder {
                                 .translation_mm = {centre.x(), centre.y(), z_mm}});
   }
 
+  /// A gear's teeth, standing in a part at a height and turned.
+  static ToothedOutline toothed(const TrainGear& gear, double rotation_rad, double z_lower_mm) {
+    return {.profile = &gear.profile,
+            .rotation_rad = rotation_rad,
+            .z_lower_mm = z_lower_mm,
+            .twist = gear.twist,
+            .deviation = gear.deviation.empty() ? nullptr : &gear.deviation,
+            .edge_chamfer_mm = gear.edge_chamfer_mm};
+  }
+
   /// A gear or ring that is a part of its own.
   void add_single(const TrainGear& gear) {
     Slab slab{.z_lower_mm = 0.0, .z_upper_mm = gear.face_width_mm, .outer = {}, .holes = {}};
     if (is_ring(gear)) {
       slab.outer = CircleOutline{Point2::Zero(), rim_radius_mm(gear)};
-      slab.holes.push_back(ToothedOutline{&gear.profile, 0.0});
+      slab.holes.push_back(toothed(gear, 0.0, 0.0));
       add_bolts(gear, slab.holes);
     } else {
-      slab.outer = ToothedOutline{&gear.profile, 0.0};
+      slab.outer = toothed(gear, 0.0, 0.0);
       add_bore(gear, gear.profile.root_radius_mm(), slab.holes);
     }
     shapes_.parts.push_back({.name = gear.name, .slabs = {std::move(slab)}});
@@ -200,7 +210,7 @@ class ShapeBuilder {
     add_bore(planet1, std::min(root1, root2), bore);
     std::vector<Slab> slabs{{.z_lower_mm = 0.0,
                              .z_upper_mm = width1,
-                             .outer = ToothedOutline{&planet1.profile, 0.0},
+                             .outer = toothed(planet1, 0.0, 0.0),
                              .holes = bore}};
     if (!planet2) return slabs;
     const double z2 = planet2->z_lower_mm - planet1.z_lower_mm;
@@ -208,7 +218,7 @@ class ShapeBuilder {
     else check_stack_without_neck(planet1, *planet2);
     slabs.push_back({.z_lower_mm = z2,
                      .z_upper_mm = z2 + planet2->face_width_mm,
-                     .outer = ToothedOutline{&planet2->profile, offset_rad},
+                     .outer = toothed(*planet2, offset_rad, z2),
                      .holes = bore});
     return slabs;
   }

@@ -8,14 +8,24 @@
 
 #include "trueflank/train/gear_train.h"
 
-// What a part is, before any backend: a stack of prismatic slabs bounded by exact outlines. Mesh,
+// What a part is, before any backend: a stack of slabs bounded by exact outlines, prismatic but for
+// toothed outlines with twist or deviation. Mesh,
 // B-rep, drawings and OpenSCAD are all made from this one description.
 namespace trueflank {
 
 /// All teeth of a gear: outer outline of an external gear, hole of a ring.
 struct ToothedOutline {
   const ToothProfile* profile = nullptr;  ///< not owned; lives in the GearTrain
-  double rotation_rad = 0.0;              ///< of tooth 1 from +x
+  double rotation_rad = 0.0;              ///< of tooth 1 from +x at the gear's lower face
+  double z_lower_mm = 0.0;                ///< the gear's lower face in the part's frame
+  FaceTwist twist = {};
+  const FlankDeviation* deviation = nullptr;  ///< not owned; lives in the GearTrain
+  double edge_chamfer_mm = 0.0;
+  const Displacement* displacement = nullptr;  ///< not owned; in the gear's frame
+
+  [[nodiscard]] Toothing toothing() const {
+    return {profile, twist, deviation, edge_chamfer_mm, displacement};
+  }
 };
 struct CircleOutline {
   Point2 centre = Point2::Zero();
@@ -27,7 +37,7 @@ struct BoreOutline {
 };
 using Outline = std::variant<ToothedOutline, CircleOutline, BoreOutline>;
 
-/// One prismatic layer. Holes do not touch each other or the outer outline.
+/// One layer. Holes do not touch each other or the outer outline.
 struct Slab {
   double z_lower_mm = 0.0, z_upper_mm = 0.0;
   Outline outer;

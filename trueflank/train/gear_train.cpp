@@ -159,7 +159,8 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
     train.gears.push_back({.name = d.name,
                            .profile = std::move(*profile),
                            .shift = gears[i].shift,
-                           .face_width_mm = d.face_width_mm});
+                           .face_width_mm = d.face_width_mm,
+                           .twist = face_twist(gears[i], d.face_width_mm, design.herringbone)});
   }
   if (!errors.empty()) return fail_all(std::move(errors));
 

@@ -8,6 +8,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/tooth_profile.h"
+#include "trueflank/geometry/toothing.h"
 #include "trueflank/train/gearbox_design.h"
 
 // A design laid out: every shift, tip circle and thinning solved, every profile made, every body
@@ -22,6 +23,15 @@ struct TrainGear {
   double face_width_mm = 0.0;
   double z_lower_mm = 0.0;       ///< in the assembly: the lower face; layer 2 lies above layer 1
   int layer = 1;
+  FaceTwist twist = {};             ///< in the gear's own frame
+  FlankDeviation deviation = {};    ///< the design's modifications; empty: none
+  double edge_chamfer_mm = 0.0;
+
+  /// The tooth surface as designed; refers to this gear.
+  [[nodiscard]] Toothing toothing() const {
+    return {.profile = &profile, .twist = twist, .deviation = &deviation,
+            .edge_chamfer_mm = edge_chamfer_mm};
+  }
 };
 
 /// A mesh of the train: gear1 is the inner gear (sun, planet, pinion).
