@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "trueflank/geometry/curve_spline.h"
 #include "trueflank/geometry/tooth_profile.h"
 
 namespace trueflank {
@@ -49,9 +50,8 @@ class GearDistance {
     double from, to;
     int piece;
   };
-  struct Spline {  // cubic Hermite pieces over a uniform parameter
-    std::vector<double> x, y, dx, dy;  // nodes and derivatives per interval
-    double low_x, high_x, low_y, high_y;
+  struct Spline {
+    CurveSpline curve;
     int piece;
   };
   struct Best {
@@ -61,7 +61,6 @@ class GearDistance {
     bool corner = false;
   };
 
-  void add_spline(const Curve& curve, int piece);
   void add_joints(const ToothProfile& profile);
   void measure_arc(const Arc& arc, const Point2& q, Best& best) const;
   void measure_flank(const Flank& flank, double r, double phi, Best& best) const;

@@ -128,6 +128,16 @@ double Sweep::reach_rad() const {
   return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover_.gear().teeth, kPi);
 }
 
+/// How many columns ahead a distance stays above a limit that it exceeds by `above_mm`, where its
+/// point moves by `first_mm` a column at first and by at most `growth_mm` more with every column.
+std::size_t columns_without(double above_mm, double first_mm, double growth_mm) {
+  if (!(above_mm > 0.0)) return 0;
+  // k columns: k first + k^2 growth / 2
+  const double k =
+      (std::sqrt(first_mm * first_mm + 2.0 * growth_mm * above_mm) - first_mm) / growth_mm;
+  return static_cast<std::size_t>(std::clamp(std::floor(k * (1.0 - 1e-9)), 0.0, 1e6));
+}
+
 Sweep::Place Sweep::lowest() const {
   const double m = mover_.gear().normal_module_mm;
   const std::vector<Sample> samples = samples_of(mover_);
@@ -149,23 +159,39 @@ Sweep::Place Sweep::lowest() const {
   double lowest = std::numeric_limits<double>::infinity();
   const double mate_tip = mate_profile_.tip_radius_mm();
   const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
+  // A distance falls by no more than its point moves: columns within which it cannot come down to
+  // what is looked for are passed over, with a value that is surely too high.
+  std::vector<std::size_t> next_column(samples.size(), 0);
   for (std::size_t j = 0; j < columns; ++j) {
     const double angle = -reach + step * static_cast<double>(j);
     const double c = std::cos(angle), s = std::sin(angle);
     const double turn = half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_;
     const double c2 = std::cos(turn), s2 = std::sin(turn);
     for (std::size_t i = 0; i < samples.size(); ++i) {
+      double& value = grid[i * columns + j];
+      if (j < next_column[i]) {
+        value = std::numeric_limits<double>::infinity();
+        continue;
+      }
       const Point2& p = samples[i].point;
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
+      const double from_pitch_point = std::hypot(x + axis_ - pitch_radius, y);
+      const auto pass_over = [&](double distance_mm) {
+        next_column[i] = j + 1 + columns_without(distance_mm - (lowest + kRefineBand * m),
+                                                 step * turning * from_pitch_point,
+                                                 step * step * turning * p.norm());
+      };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
       const double beyond = mate_outward * (std::hypot(x, y) - mate_tip);
       if (beyond > lowest + kRefineBand * m) {
-        grid[i * columns + j] = beyond;
+        value = beyond;
+        pass_over(beyond);
         continue;
       }
       const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y});
-      grid[i * columns + j] = near.distance_mm;
+      value = near.distance_mm;
       lowest = std::min(lowest, near.distance_mm);
+      pass_over(near.distance_mm);
       const std::size_t kind = (static_cast<std::size_t>(samples[i].piece) * mate_pieces +
                                 static_cast<std::size_t>(near.piece)) * 4 +
                                (near.corner ? 2u : 0u) + (near.clockwise_half ? 1u : 0u);

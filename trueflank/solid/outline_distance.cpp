@@ -12,10 +12,8 @@
 namespace trueflank {
 namespace {
 
-/// Nodes of a trochoid's table; between them the direction of travel is interpolated.
+/// Places where a curve's radii are taken.
 constexpr int kNodes = 33;
-/// A step of this share of a trochoid, some 1e-5 mm, bends by less than 1e-9 mm away from the tangent.
-constexpr double kLastStep = 1e-5;
 
 double parameter(const Curve& curve, double share) {
   return curve.begin + share * (curve.end - curve.begin);
@@ -82,40 +80,6 @@ InnerFoot inner_foot(const Involute& c, const Curve& curve, const Point2& p) {
   return OutlineFoot{p + c.sense * distance * perpendicular(e), distance};
 }
 
-/// The distance of a point nearly abreast of a curve's point; what is left of the way to the foot lies
-/// along the tangent.
-OutlineFoot foot_along_tangent(const Curve& curve, double share, const Point2& at,
-                               const Point2& point) {
-  const double ahead = share + (share < 0.5 ? 1e-6 : -1e-6);
-  const Point2 tangent = (point_at(curve, parameter(curve, ahead)) - at) * (ahead - share);
-  const Point2 normal = -perpendicular(tangent).normalized();
-  const double distance = (point - at).dot(normal);
-  return {point - distance * normal, distance};
-}
-
-/// Golden section around the nearest node: for points beyond the centre of curvature, where steps
-/// along the tangent do not settle.
-InnerFoot searched_foot(const Curve& curve, std::size_t node, const Point2& point) {
-  constexpr double kGolden = 0.6180339887498949;
-  double low = std::max(0.0, (static_cast<double>(node) - 1.0) / (kNodes - 1.0));
-  double high = std::min(1.0, (static_cast<double>(node) + 1.0) / (kNodes - 1.0));
-  const auto distance = [&](double share) {
-    return (point_at(curve, parameter(curve, share)) - point).squaredNorm();
-  };
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = distance(a), at_b = distance(b);
-  while (high - low > 1e-9) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a, a = high - kGolden * (high - low), at_a = distance(a);
-    } else {
-      low = a, a = b, at_a = at_b, b = low + kGolden * (high - low), at_b = distance(b);
-    }
-  }
-  const double share = 0.5 * (low + high);
-  if (share < 1e-8 || share > 1.0 - 1e-8) return {};
-  return foot_along_tangent(curve, share, point_at(curve, parameter(curve, share)), point);
-}
-
 Curve line_between(const Point2& from, const Point2& to) {
   const double length = (to - from).norm();
   return {StraightLine{from, (to - from) / length}, 0.0, length};
@@ -158,26 +122,18 @@ void OutlineDistance::add(const Curve& curve) {
   form.start = curve.start_point();
   form.end = curve.end_point();
   form.least_radius_mm = std::numeric_limits<double>::infinity();
-  const bool table = std::holds_alternative<RackTrochoid>(curve.shape) ||
-                     std::holds_alternative<CutterTrochoid>(curve.shape);
+  if (std::holds_alternative<RackTrochoid>(curve.shape) ||
+      std::holds_alternative<CutterTrochoid>(curve.shape))
+    form.spline.emplace(curve);
   for (int i = 0; i < kNodes; ++i) {
     const Point2 node = point_at(curve, parameter(curve, i / (kNodes - 1.0)));
     form.least_radius_mm = std::min(form.least_radius_mm, node.norm());
     form.largest_radius_mm = std::max(form.largest_radius_mm, node.norm());
-    if (table) form.nodes.push_back(node);
   }
   // a curve bulges beyond its samples, a line towards the axis by much more
   const double margin = 0.1 * pieces_.back().length_mm;
   form.least_radius_mm = std::max(0.0, form.least_radius_mm - margin);
   form.largest_radius_mm += margin;
-  const double step = 1e-4 / (kNodes - 1.0);
-  for (int i = 0; table && i < kNodes; ++i) {
-    const double share = i / (kNodes - 1.0);
-    const double before = std::max(0.0, share - step), after = std::min(1.0, share + step);
-    form.derivatives.push_back((point_at(curve, parameter(curve, after)) -
-                                point_at(curve, parameter(curve, before))) /
-                               (after - before));
-  }
   forms_.push_back(std::move(form));
 }
 
@@ -261,41 +217,11 @@ OutlineFoot OutlineDistance::foot_on_piece(std::size_t index, const Point2& poin
     within = inner_foot(*line, curve, point);
   else if (const auto* involute = std::get_if<Involute>(&curve.shape))
     within = inner_foot(*involute, curve, point);
-  else
-    within = foot_on_trochoid(index, point, limit_mm);
+  else if (const auto foot = form.spline->foot(point, limit_mm))
+    within = {foot->point, foot->on_left ? -foot->distance_mm : foot->distance_mm};
   if (within) return *within;
   const bool start = (point - form.start).squaredNorm() < (point - form.end).squaredNorm();
   return start ? signed_foot(form.start, form.start_normal) : signed_foot(form.end, form.end_normal);
-}
-
-std::optional<OutlineFoot> OutlineDistance::foot_on_trochoid(std::size_t index,
-                                                              const Point2& point,
-                                                              double limit_mm) const {
-  const Curve& curve = pieces_[index].curve;
-  const Form& form = forms_[index];
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < form.nodes.size(); ++i)
-    if ((form.nodes[i] - point).squaredNorm() < (form.nodes[nearest] - point).squaredNorm())
-      nearest = i;
-  // nodes lie nowhere farther apart than an eighth of the curve
-  if ((form.nodes[nearest] - point).norm() - pieces_[index].length_mm / 16.0 > limit_mm) return {};
-  double share = static_cast<double>(nearest) / (kNodes - 1.0);
-  Point2 at = Point2::Zero(), derivative = Point2::UnitX();
-  double step = 1.0;
-  for (int i = 0; i < 12 && std::abs(step) > kLastStep; ++i) {
-    const double node = share * (kNodes - 1.0);
-    const auto k = std::min(static_cast<std::size_t>(node), form.nodes.size() - 2);
-    const double part = node - static_cast<double>(k);
-    derivative = (1.0 - part) * form.derivatives[k] + part * form.derivatives[k + 1];
-    at = point_at(curve, parameter(curve, share));
-    step = (point - at).dot(derivative) / derivative.squaredNorm();
-    if (std::abs(step) > kLastStep) share = std::clamp(share + step, 0.0, 1.0);
-  }
-  const double node_distance = (form.nodes[nearest] - point).norm();
-  if (std::abs(step) > kLastStep || (point - at).norm() > node_distance + 1e-12)
-    return searched_foot(curve, nearest, point);
-  if (share <= 0.0 || share >= 1.0) return {};
-  return foot_along_tangent(curve, share, at, point);
 }
 
 }  // namespace trueflank

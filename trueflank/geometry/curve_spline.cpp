@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/geometry/curve_spline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trueflank/geometry/point2.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kSplineError = 1e-9;  // of the curve's size, or mm
+constexpr int kFewestPieces = 24, kMostPieces = 1024;
+constexpr std::size_t kBlock = 16;  // nodes that are passed over at once
+
+/// Value and derivatives of a cubic Hermite piece at s in [0, 1].
+struct Cubic {
+  double p0, d0, c2, c3;
+  Cubic(double a, double b, double da, double db)
+      : p0(a), d0(da), c2(3.0 * (b - a) - 2.0 * da - db), c3(2.0 * (a - b) + da + db) {}
+  [[nodiscard]] double at(double s) const { return p0 + s * (d0 + s * (c2 + s * c3)); }
+  [[nodiscard]] double first(double s) const { return d0 + s * (2.0 * c2 + 3.0 * s * c3); }
+  [[nodiscard]] double second(double s) const { return 2.0 * c2 + 6.0 * s * c3; }
+};
+
+}  // namespace
+
+CurveSpline::CurveSpline(const Curve& curve) {
+  const double span = curve.end - curve.begin;
+  const double scale = (curve.end_point() - curve.start_point()).norm();
+  for (int n = kFewestPieces;; n *= 2) {
+    x_.clear(), y_.clear(), dx_.clear(), dy_.clear();
+    const double step = span / n, h = 1e-3 * step;
+    for (int i = 0; i <= n; ++i) {
+      const double t = curve.begin + step * i;
+      const Point2 p = point_at(curve, t);
+      const Point2 d = (8.0 * (point_at(curve, t + h) - point_at(curve, t - h)) -
+                        (point_at(curve, t + 2.0 * h) - point_at(curve, t - 2.0 * h))) *
+                       (step / (12.0 * h));
+      x_.push_back(p.x());
+      y_.push_back(p.y());
+      dx_.push_back(d.x());
+      dy_.push_back(d.y());
+    }
+    double error = 0.0;
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Cubic x(x_[k], x_[k + 1], dx_[k], dx_[k + 1]);
+      const Cubic y(y_[k], y_[k + 1], dy_[k], dy_[k + 1]);
+      const Point2 exact = point_at(curve, curve.begin + step * (i + 0.5));
+      // only the distance across the curve counts
+      const Point2 along = Point2(x.first(0.5), y.first(0.5)).normalized();
+      error = std::max(error, std::abs(cross(along, exact - Point2(x.at(0.5), y.at(0.5)))));
+    }
+    if (error < kSplineError * std::min(scale, 1.0) || n >= kMostPieces) break;
+  }
+  const auto [low_x, high_x] = std::minmax_element(x_.begin(), x_.end());
+  const auto [low_y, high_y] = std::minmax_element(y_.begin(), y_.end());
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const std::size_t first = i - i % kBlock;
+    block_reach_mm_ =
+        std::max(block_reach_mm_, std::hypot(x_[i] - x_[first], y_[i] - y_[first]));
+  }
+  low_x_ = *low_x, high_x_ = *high_x, low_y_ = *low_y, high_y_ = *high_y;
+}
+
+/// Exact: a block is passed over where none of its nodes can be nearer than the nearest first one.
+std::size_t CurveSpline::nearest_node(const Point2& q) const {
+  const auto square = [&](std::size_t i) {
+    const double dx = x_[i] - q.x(), dy = y_[i] - q.y();
+    return dx * dx + dy * dy;
+  };
+  const std::size_t n = x_.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; i += kBlock) least = std::min(least, square(i));
+  const double reach = std::sqrt(least) + block_reach_mm_;
+  std::size_t node = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first < n; first += kBlock) {
+    if (square(first) > reach * reach) continue;
+    for (std::size_t i = first; i < std::min(first + kBlock, n); ++i)
+      if (const double s = square(i); s < nearest) nearest = s, node = i;
+  }
+  return node;
+}
+
+std::optional<CurveSpline::Foot> CurveSpline::foot(const Point2& q, double limit_mm) const {
+  const double off_x = std::max({low_x_ - q.x(), q.x() - high_x_, 0.0});
+  const double off_y = std::max({low_y_ - q.y(), q.y() - high_y_, 0.0});
+  if (off_x * off_x + off_y * off_y > limit_mm * limit_mm) return std::nullopt;
+  const std::size_t n = x_.size(), node = nearest_node(q);
+  // the distance falls towards the side of the node where the foot lies
+  const double slope = (x_[node] - q.x()) * dx_[node] + (y_[node] - q.y()) * dy_[node];
+  if ((slope < 0.0 && node + 1 == n) || (slope > 0.0 && node == 0)) return std::nullopt;
+  const std::size_t k = slope < 0.0 ? node : std::max<std::size_t>(node, 1) - 1;
+  const Cubic x(x_[k], x_[k + 1], dx_[k], dx_[k + 1]);
+  const Cubic y(y_[k], y_[k + 1], dy_[k], dy_[k + 1]);
+  double low = 0.0, high = 1.0, at = slope < 0.0 ? 0.1 : 0.9;
+  for (int i = 0; i < 20; ++i) {
+    const double ax = x.at(at) - q.x(), ay = y.at(at) - q.y();
+    const double fx = x.first(at), fy = y.first(at);
+    const double g = ax * fx + ay * fy;
+    (g > 0.0 ? high : low) = at;
+    const double bend = fx * fx + fy * fy + ax * x.second(at) + ay * y.second(at);
+    double next = bend > 0.0 ? at - g / bend : 0.5 * (low + high);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const bool done = std::abs(next - at) < 1e-9;
+    at = next;
+    if (done) break;
+  }
+  const Point2 foot(x.at(at), y.at(at));
+  const double distance = (q - foot).norm();
+  if (!(distance < limit_mm)) return std::nullopt;
+  const Point2 along(x.first(at), y.first(at));
+  return Foot{foot, distance, cross(along, q - foot) > 0.0};
+}
+
+}  // namespace trueflank
