@@ -48,7 +48,8 @@ constexpr double kFloatStep = 1.2e-7;    // from one float to the next, of the c
 constexpr double kTextStep_mm = 1e-6;    // append_decimal's
 
 double distance_mm(const std::array<double, 3>& p, const std::array<double, 3>& q) {
-  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+  return std::sqrt(x * x + y * y + z * z);
 }
 
 /// Farthest that a corner of a scene moved on its way through a file; nothing where the file holds
@@ -57,23 +58,29 @@ std::optional<double> rounding_of(const TriangleMesh& mesh, const Scene& scene) 
   double farthest_mm = 0.0;
   std::size_t next = 0;
   for (const Placement& body : scene.bodies) {
-    const TriangleMesh placed = placed_mesh(*scene.shapes[body.part].mesh, body);
-    for (const auto& t : placed.triangles) {
-      double moved_mm = 0.0, shortest_mm = 1e300, allowed_mm = 2.0 * kTextStep_mm;
+    const TriangleMesh& shape = *scene.shapes[body.part].mesh;
+    const PlacementTransform place(body);
+    std::vector<std::array<double, 3>> placed;
+    placed.reserve(shape.vertices.size());
+    for (const auto& vertex : shape.vertices) placed.push_back(place(vertex));
+    for (const auto& t : shape.triangles) {
+      double moved_mm = 0.0, allowed_mm = 2.0 * kTextStep_mm;
       for (int k = 0; k < 3; ++k) {
-        const auto& corner = placed.vertices[t[k]];
+        const auto& corner = placed[t[k]];
         allowed_mm = std::max({allowed_mm, kFloatStep * std::abs(corner[0]),
                                kFloatStep * std::abs(corner[1]), kFloatStep * std::abs(corner[2])});
-        shortest_mm = std::min(shortest_mm, distance_mm(corner, placed.vertices[t[(k + 1) % 3]]));
         if (next < mesh.triangles.size())
           moved_mm = std::max(moved_mm, distance_mm(corner, mesh.vertices[mesh.triangles[next][k]]));
       }
       if (next < mesh.triangles.size() && moved_mm <= 2.0 * allowed_mm) {
         farthest_mm = std::max(farthest_mm, moved_mm);
         ++next;
-      } else if (shortest_mm > 2.0 * allowed_mm) {
-        return std::nullopt;
+        continue;
       }
+      double shortest_mm = 1e300;  // of a side: as short as the rounding, it may have collapsed
+      for (int k = 0; k < 3; ++k)
+        shortest_mm = std::min(shortest_mm, distance_mm(placed[t[k]], placed[t[(k + 1) % 3]]));
+      if (shortest_mm > 2.0 * allowed_mm) return std::nullopt;
     }
   }
   if (next != mesh.triangles.size()) return std::nullopt;

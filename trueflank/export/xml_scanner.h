@@ -30,6 +30,8 @@ class XmlScanner {
   /// False at the end of the text, and where the text is no XML (see is_broken()).
   [[nodiscard]] bool next(Tag& tag);
   [[nodiscard]] bool is_broken() const { return broken_; }
+  /// What is not yet read; a caller that knows what comes may take it from the front.
+  [[nodiscard]] std::string_view& rest() { return rest_; }
 
  private:
   bool stop() {
