@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/app/design_input.h"
 
+#include <future>
+
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/requirements_file.h"
@@ -41,18 +43,13 @@ Errors not_built(const GearboxDesign& design) {
   return errors;
 }
 
-io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
-  io::Report report;
-  report.train = &train;
-  const std::vector<MeshState> states = mesh_states(train);
-  report.findings = check_gearbox(train, states);
-  for (std::size_t i = 0; i < states.size(); ++i)
-    report.sweeps.push_back(
-        {.mesh = train.meshes[i].name,
-         .minimum_clearance_um = um_from_mm(states[i].centred.minimum_clearance_mm()),
-         .penetration_um = um_from_mm(states[i].centred.penetration_mm())});
+namespace {
+
+/// Efficiency, strength and inertia.
+void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
+               io::Report& report) {
   report.efficiency = efficiency(train);
-  if (train.design.kind == TrainKind::kGear) return report;
+  if (train.design.kind == TrainKind::kGear) return;
   if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
   const Material* material = strength_options.materials.find(strength_options.material);
   const auto shapes = part_shapes(train);  // what does not fit is told where the parts are made
@@ -60,6 +57,22 @@ io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_opti
     report.inertia = {material->density_kg_m3,
                       reflected_inertia(train, report.efficiency,
                                         body_inertias(*shapes, material->density_kg_m3))};
+}
+
+}  // namespace
+
+io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
+  io::Report report;
+  report.train = &train;
+  auto turning = std::async(std::launch::async, [&train] { return mesh_states(train); });
+  add_drive(train, strength_options, report);
+  const std::vector<MeshState> states = turning.get();
+  report.findings = check_gearbox(train, states);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    report.sweeps.push_back(
+        {.mesh = train.meshes[i].name,
+         .minimum_clearance_um = um_from_mm(states[i].centred.minimum_clearance_mm()),
+         .penetration_um = um_from_mm(states[i].centred.penetration_mm())});
   return report;
 }
 

@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <malloc.h>
+
 #include <exception>
 #include <iostream>
 
 #include "trueflank/app/command_line.h"
 #include "trueflank/app/terminal.h"
 
+namespace {
+
+/// Files are made in large pieces of memory, one after the other. Handing each back to the system
+/// and asking for the next costs a page fault every 4 kB, a sixth of the time of `make`.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLarge = 1 << 30, kAtOnce = 8 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, kLarge);
+  mallopt(M_TOP_PAD, kAtOnce);
+  mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  keep_freed_memory();
   trueflank::app::install_interrupt_handlers();
   try {
     return trueflank::app::run_command_line(argc, argv);

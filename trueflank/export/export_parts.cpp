@@ -120,8 +120,10 @@ class Exporter {
     if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) make_meshes();
     files_.resize(jobs_.size());
     readings_.resize(jobs_.size());
-    if (errors_.empty())
-      run_jobs(jobs_.size(), [&](std::size_t i) { return keep_error(run(i)); });
+    if (errors_.empty()) {
+      const std::vector<std::size_t> order = largest_first();
+      run_jobs(order.size(), [&](std::size_t i) { return keep_error(run(order[i])); });
+    }
     if (!errors_.empty()) return fail_all(std::move(errors_));
     add_accuracies();
     return std::move(files_);
@@ -146,6 +148,23 @@ class Exporter {
     if (all && shapes_.assembly.size() > 1)
       for (const FileFormat format : options_.formats) jobs_.push_back({kAssembly, format});
     return {};
+  }
+
+  /// Jobs by the triangles of their parts: begun last, a large one would be waited for.
+  [[nodiscard]] std::vector<std::size_t> largest_first() const {
+    const auto size_of_part = [&](int part) {
+      return meshes_ ? (*meshes_)[static_cast<std::size_t>(part)].mesh.triangles.size() : 0;
+    };
+    std::vector<std::size_t> order, size(jobs_.size(), 0);
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      order.push_back(i);
+      if (jobs_[i].part != kAssembly) size[i] = size_of_part(jobs_[i].part);
+      else
+        for (const Placement& body : shapes_.assembly) size[i] += size_of_part(body.part);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    return order;
   }
 
   bool keep_error(Status status) {

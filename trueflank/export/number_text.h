@@ -18,4 +18,12 @@ void append_shortest(std::string& text, float value);
 
 void append_integer(std::string& text, std::int64_t value);
 
+/// @name The same into memory of the caller's, for millions of numbers; the end of the text.
+/// Requires: room for kNumberRoom characters.
+/// @{
+inline constexpr std::size_t kNumberRoom = 32;
+[[nodiscard]] char* put_decimal(char* at, double value);
+[[nodiscard]] char* put_integer(char* at, std::uint32_t value);
+/// @}
+
 }  // namespace trueflank::io

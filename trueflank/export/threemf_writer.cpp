@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/export/threemf_writer.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"
 #include "trueflank/export/xml_text.h"
@@ -43,6 +48,41 @@ void append_materials(std::string& text, const Scene& scene) {
   text += "</basematerials>\n";
 }
 
+/// Vertices in the order in which triangles first use them: those of a wall's lower and upper edge
+/// come in turns, and the second repeats the first one's digits, which halves the packed file.
+struct OrderOfUse {
+  std::vector<std::uint32_t> vertices;  ///< old numbers in the new order
+  std::vector<std::uint32_t> number;    ///< new numbers by the old ones
+
+  explicit OrderOfUse(const TriangleMesh& mesh) {
+    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+    number.assign(mesh.vertices.size(), kUnused);
+    vertices.reserve(mesh.vertices.size());
+    const auto use = [&](std::uint32_t vertex) {
+      if (number[vertex] != kUnused) return;
+      number[vertex] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(vertex);
+    };
+    for (const auto& t : mesh.triangles)
+      for (const std::uint32_t vertex : t) use(vertex);
+  }
+};
+
+/// An empty element with three numbers.
+template <class Number, class Put>
+void append_line(std::string& text, const std::array<std::string_view, 3>& before,
+                 const std::array<Number, 3>& numbers, Put put) {
+  std::array<char, 3 * (16 + kNumberRoom) + 4> line;
+  char* at = line.data();
+  for (std::size_t i = 0; i < 3; ++i) {
+    at = std::copy(before[i].begin(), before[i].end(), at);
+    at = put(at, numbers[i]);
+  }
+  constexpr std::string_view kEnd = "\"/>\n";
+  at = std::copy(kEnd.begin(), kEnd.end(), at);
+  text.append(line.data(), at);
+}
+
 void append_shape(std::string& text, const SceneShape& shape, int index) {
   text += "<object";
   append_attribute(text, "id", kFirstShapeId + index);
@@ -50,25 +90,16 @@ void append_shape(std::string& text, const SceneShape& shape, int index) {
   append_attribute(text, "pid", kMaterialsId);
   append_attribute(text, "pindex", index);
   text += "><mesh><vertices>\n";
-  for (const auto& v : shape.mesh->vertices) {
-    text += "<vertex x=\"";
-    append_decimal(text, v[0]);
-    text += "\" y=\"";
-    append_decimal(text, v[1]);
-    text += "\" z=\"";
-    append_decimal(text, v[2]);
-    text += "\"/>\n";
+  const OrderOfUse order(*shape.mesh);
+  for (const std::uint32_t old : order.vertices) {
+    const auto& v = shape.mesh->vertices[old];
+    append_line(text, {"<vertex x=\"", "\" y=\"", "\" z=\""}, v, put_decimal);
   }
   text += "</vertices><triangles>\n";
-  for (const auto& t : shape.mesh->triangles) {
-    text += "<triangle v1=\"";
-    append_integer(text, t[0]);
-    text += "\" v2=\"";
-    append_integer(text, t[1]);
-    text += "\" v3=\"";
-    append_integer(text, t[2]);
-    text += "\"/>\n";
-  }
+  for (const auto& t : shape.mesh->triangles)
+    append_line(text, {"<triangle v1=\"", "\" v2=\"", "\" v3=\""},
+                std::array{order.number[t[0]], order.number[t[1]], order.number[t[2]]},
+                put_integer);
   text += "</triangles></mesh></object>\n";
 }
 

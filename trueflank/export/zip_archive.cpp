@@ -58,12 +58,12 @@ struct Packed {
 Packed packed(const std::string& content) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), &libdeflate_free_compressor);
-  std::string bytes(content.size(), '\0');
+  // not cleared: the most of it will never be touched
+  const auto bytes = std::make_unique_for_overwrite<char[]>(content.size());
   const std::size_t size = libdeflate_deflate_compress(compressor.get(), content.data(),
-                                                       content.size(), bytes.data(), bytes.size());
+                                                       content.size(), bytes.get(), content.size());
   if (size == 0) return {kStored, content};  // would not become smaller
-  bytes.resize(size);
-  return {kDeflated, std::move(bytes)};
+  return {kDeflated, std::string(bytes.get(), size)};
 }
 
 /// The fields that local and directory header share, from "version needed" to the sizes of names.
