@@ -138,7 +138,14 @@ void Welder::grow() {
 }
 
 void Welder::add_triangle(const std::array<std::array<double, 3>, 3>& corners) {
-  mesh_.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
+  // neighbours follow each other in most files: two corners of three were just there
+  const auto known = [&](const std::array<double, 3>& point) {
+    if (!mesh_.triangles.empty())
+      for (const std::uint32_t v : mesh_.triangles.back())
+        if (mesh_.vertices[v] == point) return v;
+    return vertex(point);
+  };
+  mesh_.triangles.push_back({known(corners[0]), known(corners[1]), known(corners[2])});
 }
 
 TriangleMesh Welder::take() { return std::move(mesh_); }
