@@ -9,10 +9,11 @@
 namespace trueflank {
 namespace {
 
-/// A contact of tool and gear: the point and the tool's outward normal, in the gear's frame.
+/// A contact of tool and gear in the gear's frame before it is turned by `turn_rad`.
 struct Contact {
   Point2 point;
-  Point2 normal;
+  Point2 normal;  ///< of the tool, outwards
+  double turn_rad;
 };
 
 Contact contact_of(const RackTrochoid& c, double t) {
@@ -23,10 +24,8 @@ Contact contact_of(const RackTrochoid& c, double t) {
   const double lateral = depth * cos_t / (c.stretch * sin_t);
   const double rack_travel =
       c.corner_offset_mm + c.stretch * c.corner_radius_mm * cos_t - lateral;
-  const double turn = c.gap_angle_rad - rack_travel / c.pitch_radius_mm;
-  const Point2 contact(c.pitch_radius_mm - depth, -lateral);
-  const Point2 normal = Point2(-c.stretch * sin_t, -cos_t).normalized();
-  return {rotated(contact, turn), rotated(normal, turn)};
+  return {Point2(c.pitch_radius_mm - depth, -lateral), Point2(-c.stretch * sin_t, -cos_t),
+          c.gap_angle_rad - rack_travel / c.pitch_radius_mm};
 }
 
 Contact contact_of(const CutterTrochoid& c, double eta) {
@@ -39,9 +38,19 @@ Contact contact_of(const CutterTrochoid& c, double eta) {
   const Point2 centre = axis + c.corner_centre_radius_mm *
                                    unit_vector(cutter_angle - c.corner_centre_angle_rad);
   const Point2 normal = unit_vector(cutter_angle - eta);
-  const Point2 contact = centre + c.corner_radius_mm * normal;
-  const double turn = c.gap_angle_rad - cutter_angle * c.ratio;
-  return {rotated(contact, turn), rotated(normal, turn)};
+  return {centre + c.corner_radius_mm * normal, normal,
+          c.gap_angle_rad - cutter_angle * c.ratio};
+}
+
+template <class Trochoid>
+Point2 contact_point(const Trochoid& c, double t) {
+  const Contact contact = contact_of(c, t);
+  return rotated(contact.point, contact.turn_rad);
+}
+template <class Trochoid>
+Point2 contact_tangent(const Trochoid& c, double t) {
+  const Contact contact = contact_of(c, t);
+  return perpendicular(rotated(contact.normal.normalized(), contact.turn_rad));
 }
 
 Point2 point_of(const CircularArc& c, double t) { return c.centre + c.radius_mm * unit_vector(t); }
@@ -50,8 +59,8 @@ Point2 point_of(const Involute& c, double xi) {
   const Point2 e = unit_vector(c.base_half_angle_rad + c.sense * xi);
   return c.base_radius_mm * (e - c.sense * xi * perpendicular(e));
 }
-Point2 point_of(const RackTrochoid& c, double t) { return contact_of(c, t).point; }
-Point2 point_of(const CutterTrochoid& c, double t) { return contact_of(c, t).point; }
+Point2 point_of(const RackTrochoid& c, double t) { return contact_point(c, t); }
+Point2 point_of(const CutterTrochoid& c, double t) { return contact_point(c, t); }
 
 // Tangents up to sign; tangent_at orients them by the travel of the point.
 Point2 tangent_of(const CircularArc&, double t) { return perpendicular(unit_vector(t)); }
@@ -59,12 +68,8 @@ Point2 tangent_of(const StraightLine& c, double) { return c.direction.normalized
 Point2 tangent_of(const Involute& c, double xi) {
   return unit_vector(c.base_half_angle_rad + c.sense * xi);
 }
-Point2 tangent_of(const RackTrochoid& c, double t) {
-  return perpendicular(contact_of(c, t).normal);
-}
-Point2 tangent_of(const CutterTrochoid& c, double t) {
-  return perpendicular(contact_of(c, t).normal);
-}
+Point2 tangent_of(const RackTrochoid& c, double t) { return contact_tangent(c, t); }
+Point2 tangent_of(const CutterTrochoid& c, double t) { return contact_tangent(c, t); }
 
 }  // namespace
 

@@ -134,22 +134,23 @@ Status ProfileBuilder::find_undercut(const Curve& fillet, double& fillet_end) {
     const double inv = involute_function(pressure_angle_at_radius_rad(r, r_b));
     return polar_angle_rad(q) - (psi - inv);
   };
-  // dense near the joint, where a slight undercut crosses
-  constexpr int kSteps = 400;
+  // Dense near the joint, where a slight undercut crosses; in finer steps where coarse ones find none.
   const double span = fillet.begin - fillet.end;
-  double last = fillet.end;
-  for (int i = 1; i <= kSteps; ++i) {
-    const double u = static_cast<double>(i) / kSteps;
-    const double t = fillet.end + span * u * u;
-    if (outside(t) < 0.0) {
-      const double cross_t = find_root(outside, last, t);
-      const double r = point_at(fillet, cross_t).norm();
-      if (r < r_b * (1.0 - 1e-12)) break;
-      fillet_end = cross_t;
-      p_.root_form_radius_mm_ = std::max(r, r_b);
-      return {};
+  for (const int steps : {50, 400}) {
+    double last = fillet.end;
+    for (int i = 1; i <= steps; ++i) {
+      const double u = static_cast<double>(i) / steps;
+      const double t = fillet.end + span * u * u;
+      if (outside(t) < 0.0) {
+        const double cross_t = find_root(outside, last, t);
+        const double r = point_at(fillet, cross_t).norm();
+        if (r < r_b * (1.0 - 1e-12)) break;
+        fillet_end = cross_t;
+        p_.root_form_radius_mm_ = std::max(r, r_b);
+        return {};
+      }
+      last = t;
     }
-    last = t;
   }
   // tangent within rounding: the involute starts on the base circle
   p_.root_form_radius_mm_ = std::max(r_b, point_at(fillet, fillet.end).norm());
@@ -216,10 +217,19 @@ Status ProfileBuilder::build_external() {
                                " mm, the tooth ends at " + text(2.0 * p_.tip_radius_mm_) +
                                " mm: no involute is left",
                            "a larger profile shift, more teeth or a larger tip diameter"));
+  // narrowest place of the foot: looked at closely only where it may be none
   double waist = kPi;
-  for (int i = 0; i <= 64; ++i) {
-    const double t = fillet.begin + (fillet.end - fillet.begin) * i / 64.0;
-    waist = std::min(waist, polar_angle_rad(point_at(fillet, t)));
+  for (const int steps : {16, 64}) {
+    double last = polar_angle_rad(point_at(fillet, fillet.begin)), widest_step = 0.0;
+    waist = last;
+    for (int i = 1; i <= steps; ++i) {
+      const double t = fillet.begin + (fillet.end - fillet.begin) * i / steps;
+      const double angle = polar_angle_rad(point_at(fillet, t));
+      waist = std::min(waist, angle);
+      widest_step = std::max(widest_step, std::abs(angle - last));
+      last = angle;
+    }
+    if (waist > widest_step) break;
   }
   if (waist <= 0.0 || root_end <= 0.0)
     return fail(infeasible("shift", g().shift, "the tool cuts the tooth off at its foot",
