@@ -28,7 +28,7 @@ _trueflank() {
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       loop) options+=" -o --output --gear --aligned" ;;
-      compare) options+=" --tolerance-um --json" ;;
+      compare) options+=" --tolerance-um --json --picture" ;;
     esac
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
     return

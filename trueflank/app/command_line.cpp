@@ -75,6 +75,7 @@ void add_compare(CLI::App& program, CompareOptions& options, int& code) {
   command->add_option("--tolerance-um", options.tolerance_um, "largest distance that counts as same")
       ->capture_default_str();
   command->add_option("--json", options.json, "write the figures as JSON here (- is standard output)");
+  command->add_option("--picture", options.picture, "draw the worst place as SVG here");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_compare(options); });
 }

@@ -37,6 +37,7 @@ struct CompareOptions {
   std::string golden, fresh;
   double tolerance_um = 1.0;
   std::string json;
+  std::string picture;  ///< SVG file; empty: none
   bool quiet = false;
 };
 int run_compare(const CompareOptions& options);

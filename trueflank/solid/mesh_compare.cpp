@@ -92,6 +92,7 @@ class Directed {
     }
     result_.bound_mm = std::max(result_.bound_mm, result_.largest_mm);
     result_.rms_mm = area_ > 0.0 ? std::sqrt(weighted_squares_ / area_) : 0.0;
+    result_.share_beyond = area_ > 0.0 ? beyond_ / area_ : 0.0;
     return result_;
   }
 
@@ -122,6 +123,7 @@ class Directed {
     const double area = area_of(polygon);
     area_ += area;
     weighted_squares_ += area * distance_mm * distance_mm;
+    if (distance_mm > tolerance_mm_) beyond_ += area;
     result_.bound_mm = std::max(result_.bound_mm, bound_mm);
   }
 
@@ -199,7 +201,7 @@ class Directed {
   double tolerance_mm_;
   std::vector<Polygon> pending_;
   std::size_t looks_left_ = 0;
-  double area_ = 0.0, weighted_squares_ = 0.0;
+  double area_ = 0.0, weighted_squares_ = 0.0, beyond_ = 0.0;
   SurfaceDistance result_;
 };
 
@@ -241,7 +243,7 @@ MeshComparison compare_meshes(const TriangleMesh& golden, const TriangleMesh& ma
                             .from_new = {}};
   if (golden.triangles.empty() || made.triangles.empty() || !golden_validity.coordinates_finite ||
       !made_validity.coordinates_finite) {
-    const SurfaceDistance endless{kInfinity, kInfinity, kInfinity, {}};
+    const SurfaceDistance endless{kInfinity, kInfinity, kInfinity, 1.0, {}};
     comparison.from_golden = comparison.from_new = endless;
     return comparison;
   }

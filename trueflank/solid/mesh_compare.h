@@ -24,6 +24,7 @@ struct SurfaceDistance {
   double largest_mm = 0.0;  ///< a distance that occurs, at worst_place_mm
   double bound_mm = 0.0;    ///< no point of the surface is farther away
   double rms_mm = 0.0;      ///< over the area
+  double share_beyond = 0.0;  ///< of the area, farther away than the tolerance; a piece counts by its middle
   std::array<double, 3> worst_place_mm{};
 };
 
