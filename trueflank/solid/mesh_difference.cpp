@@ -138,7 +138,7 @@ void find_regions(MeshDifference& d, double tolerance_mm) {
   for (const OutlineRun& run : d.outlines)
     for (const OutlineDeviation& o : run.points) {
       if (golden.loop_at(o.point) != d.teeth->loop) continue;
-      const ToothPlace place = tooth_place(*d.teeth, o.point);
+      const SectionPlace place = section_place(*d.teeth, o.point);
       const auto index = static_cast<std::size_t>(place.region);
       RegionDifference& region = d.regions[index];
       region.least_mm = std::min(region.least_mm, o.deviation_mm);
@@ -172,7 +172,7 @@ MeshDifference mesh_difference(const TriangleMesh& golden, const TriangleMesh& m
     d.worst_deviation_mm = std::copysign(largest, shown->deviation_mm);
     const std::size_t loop = Outlines(d.golden).loop_at(d.worst);
     d.on_teeth = d.teeth && d.teeth->loop == loop;
-    d.place = d.on_teeth ? place_text(*d.teeth, tooth_place(*d.teeth, d.worst))
+    d.place = d.on_teeth ? place_text(*d.teeth, section_place(*d.teeth, d.worst))
                          : round_place(d.golden.loops[loop], d.golden.loops.size());
     if (d.teeth) find_regions(d, options.tolerance_mm);
     return d;

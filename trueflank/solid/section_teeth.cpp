@@ -82,12 +82,12 @@ std::optional<SectionTeeth> find_teeth(const MeshSection& section) {
   return found;
 }
 
-ToothPlace tooth_place(const SectionTeeth& teeth, const Point2& point) {
+SectionPlace section_place(const SectionTeeth& teeth, const Point2& point) {
   const double pitch = kTwoPi / teeth.count;
   const double from_first = polar_angle_rad(point) - teeth.first_centre_rad;
   const double share =
       (point.norm() - teeth.root_radius_mm) / (teeth.tip_radius_mm - teeth.root_radius_mm);
-  ToothPlace place;
+  SectionPlace place;
   const bool root = share < kRootShare;
   const double index = from_first / pitch;
   const auto tooth = static_cast<int>(root ? std::floor(index) : std::round(index));
@@ -113,7 +113,7 @@ const char* to_text(ToothRegion region) {
   return "";
 }
 
-std::string place_text(const SectionTeeth& teeth, const ToothPlace& place) {
+std::string place_text(const SectionTeeth& teeth, const SectionPlace& place) {
   if (place.region == ToothRegion::kRoot)
     return "root between teeth " + std::to_string(place.tooth) + " and " +
            std::to_string(place.tooth % teeth.count + 1);

@@ -26,14 +26,14 @@ enum class ToothRegion { kLeftFlank, kRightFlank, kTip, kRoot };
 /// Where a point of the toothed outline is. Tooth 1 is the one nearest +x in this section, numbers
 /// grow counter-clockwise seen from +z; a root is that after its tooth.
 /// The root region is the lowest 15 % of the height, the tip region the highest 5 %.
-struct ToothPlace {
+struct SectionPlace {
   int tooth = 0;
   ToothRegion region = ToothRegion::kTip;
 };
-[[nodiscard]] ToothPlace tooth_place(const SectionTeeth& teeth, const Point2& point);
+[[nodiscard]] SectionPlace section_place(const SectionTeeth& teeth, const Point2& point);
 
 /// "left flank of tooth 3", "root between teeth 12 and 1".
-[[nodiscard]] std::string place_text(const SectionTeeth& teeth, const ToothPlace& place);
+[[nodiscard]] std::string place_text(const SectionTeeth& teeth, const SectionPlace& place);
 [[nodiscard]] const char* to_text(ToothRegion region);
 
 }  // namespace trueflank
