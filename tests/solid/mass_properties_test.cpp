@@ -56,7 +56,7 @@ TEST(MassProperties, GoToTheBodiesOfTheTrain) {
   const auto train = lay_out(test::prototype(0.46, 1.2, 25.66));
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes.has_value());
-  const BodyInertias bodies = body_inertias(*shapes, 7850.0);
+  const BodyInertias bodies = body_inertias(*shapes, [](const std::string&) { return 7850.0; });
   EXPECT_GT(bodies.ring1_kg_m2, bodies.planet_kg_m2);
   EXPECT_GT(bodies.planet_kg_m2, bodies.sun_kg_m2);
   EXPECT_GT(bodies.sun_kg_m2, 0.0);

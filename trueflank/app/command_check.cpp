@@ -43,8 +43,9 @@ Status draw_meshes(const GearTrain& train, const std::string& folder) {
 int run_check(const CheckOptions& options) {
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
-  const auto strength = strength_options(options.material, options.materials_file);
-  if (!strength) return report_errors(strength.error());
+  const auto strength = strength_options(
+      train->design, {.material = options.material, .file = options.materials_file});
+  if (!strength) return report_errors(located_in(options.design, strength.error()));
   io::Report report = evaluate(*train, *strength);
   if (!options.tolerance.empty())
     if (auto ok = add_tolerance(*train, options.tolerance, report); !ok)

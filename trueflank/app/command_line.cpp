@@ -45,6 +45,8 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->add_option("--part", options.part, "only this part");
   command->add_option("--correct", options.correct,
                       "loop.json: write geometry that cancels the effects found");
+  command->add_option("--materials", options.materials_file,
+                      "file with more [material.NAME] tables");
   command->add_flag("--allow-failing", options.allow_failing,
                     "write the parts though a check failed (the exit code is still 1)");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");

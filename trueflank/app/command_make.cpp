@@ -71,7 +71,9 @@ int run_make(const MakeOptions& options) {
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);
 
-  io::Report report = evaluate(*train);
+  const auto strength = strength_options(train->design, {.material = "", .file = options.materials_file});
+  if (!strength) return report_errors(located_in(options.design, strength.error()));
+  io::Report report = evaluate(*train, *strength);
   const std::filesystem::path folder(options.folder);
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
   std::string told;  // of the correction

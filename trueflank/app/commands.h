@@ -28,6 +28,7 @@ struct MakeOptions {
   double tolerance_um = 1.0;
   std::string part;     ///< empty: all
   std::string correct;  ///< loop.json; empty: none
+  std::string materials_file;  ///< more [material.NAME]; empty: none
   bool allow_failing = false;
   bool quiet = false;
 };

@@ -45,18 +45,30 @@ Errors not_built(const GearboxDesign& design) {
 
 namespace {
 
+/// Of a gear, or of every one that does not set its own. Requires: materials that are in the table.
+const Material& material_of(const StrengthOptions& options, const std::string& gear) {
+  const auto own = options.material_of.find(gear);
+  return *options.materials.find(own == options.material_of.end() ? options.material : own->second);
+}
+
 /// Efficiency, strength and inertia.
 void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
                io::Report& report) {
   report.efficiency = efficiency(train);
   if (train.design.kind == TrainKind::kGear) return;
   if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
-  const Material* material = strength_options.materials.find(strength_options.material);
   const auto shapes = part_shapes(train);  // what does not fit is told where the parts are made
-  if (material && shapes)
-    report.inertia = {material->density_kg_m3,
-                      reflected_inertia(train, report.efficiency,
-                                        body_inertias(*shapes, material->density_kg_m3))};
+  if (!shapes) return;
+  const auto density_of = [&](const std::string& part) {
+    return material_of(strength_options, part.starts_with("planet") && train.find("planet1")
+                                             ? "planet1"
+                                             : part)
+        .density_kg_m3;
+  };
+  report.inertia = {density_of(""),
+                    reflected_inertia(train, report.efficiency, body_inertias(*shapes, density_of),
+                                      {.rotor_kg_m2 = train.design.shafts.rotor_inertia_kg_m2,
+                                       .load_kg_m2 = train.design.shafts.load_inertia_kg_m2})};
 }
 
 }  // namespace
@@ -76,20 +88,41 @@ io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_opti
   return report;
 }
 
-ResultAll<StrengthOptions> strength_options(const std::string& material,
-                                            const std::string& materials_file) {
+ResultAll<StrengthOptions> strength_options(const GearboxDesign& design,
+                                            const MaterialOptions& asked) {
   StrengthOptions options;
-  if (!materials_file.empty()) {
-    auto table = read_materials(materials_file);
+  if (!asked.file.empty()) {
+    auto table = read_materials(asked.file);
     if (!table) return fail_all(table.error());
     options.materials = std::move(*table);
   }
-  if (!material.empty()) options.material = material;
-  if (options.materials.find(options.material)) return options;
   std::string known;
   for (const Material& m : options.materials.all()) known += (known.empty() ? "" : ", ") + m.name;
-  return fail_all({{.code = ErrorCode::kUsage, .message = "no such material", .key = "--material",
-                    .value = options.material, .remedy = known}});
+  Errors errors;
+  const auto take = [&](const std::string& name, const std::string& key, std::string& place) {
+    if (options.materials.find(name)) {
+      place = name;
+      return;
+    }
+    const bool option = key.starts_with("--");
+    errors.push_back({.code = option ? ErrorCode::kUsage : ErrorCode::kOutOfRange,
+                      .message = "no such material",
+                      .key = key,
+                      .value = name,
+                      .remedy = known + "; or --materials FILE with a table [material." + name + "]"});
+  };
+  if (!asked.material.empty()) {
+    take(asked.material, "--material", options.material);
+  } else {
+    if (!design.material.empty()) take(design.material, "gearbox.material", options.material);
+    for (const GearDesign& gear : design.gears)
+      if (!gear.material.empty())
+        take(gear.material, gear.name + ".material", options.material_of[gear.name]);
+    if (const auto planet = options.material_of.find("planet1"); planet != options.material_of.end())
+      options.material_of.try_emplace("planet2", planet->second);
+  }
+  if (!errors.empty()) return fail_all(std::move(errors));
+  return options;
 }
 
 }  // namespace trueflank::app

@@ -20,9 +20,13 @@ namespace trueflank::app {
 
 /// Every check, sweep and efficiency of a train. The report refers to the train.
 [[nodiscard]] io::Report evaluate(const GearTrain& train, const StrengthOptions& strength = {});
-/// Strength options of the command line: every gear of `material` (empty: the default one), from the
-/// built-in table and a file of more (empty: none). Errors: of the file; no such material.
-[[nodiscard]] ResultAll<StrengthOptions> strength_options(const std::string& material,
-                                                          const std::string& materials_file);
+/// What the command line says of materials.
+struct MaterialOptions {
+  std::string material;  ///< of every gear, over what the design says; empty: as the design says
+  std::string file;      ///< with more materials than the built-in table's; empty: none
+};
+/// Materials of a design's gears. Errors: of the file; no such material (the design's with its key).
+[[nodiscard]] ResultAll<StrengthOptions> strength_options(const GearboxDesign& design,
+                                                          const MaterialOptions& options = {});
 
 }  // namespace trueflank::app

@@ -69,4 +69,22 @@ const std::vector<DesignKey<CarrierDesign>>& carrier_keys() {
   return keys;
 }
 
+const std::vector<DesignKey<ShaftsDesign>>& shafts_keys() {
+  using S = ShaftsDesign;
+  static const std::vector<DesignKey<S>> keys{
+      {{.name = "rotor_inertia_kg_m2", .unit = "kg m2", .lower = 0, .upper = 1e6,
+        .by_default = "0", .meaning = "inertia of the motor's rotor and what turns with it, on the "
+                                      "input shaft"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.rotor_inertia_kg_m2 = number(v); },
+       [](const S& s) { return unless_zero(s.rotor_inertia_kg_m2); }},
+      {{.name = "load_inertia_kg_m2", .unit = "kg m2", .lower = 0, .upper = 1e9,
+        .by_default = "0", .meaning = "inertia of the load, on the output shaft"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.load_inertia_kg_m2 = number(v); },
+       [](const S& s) { return unless_zero(s.load_inertia_kg_m2); }},
+  };
+  return keys;
+}
+
 }  // namespace trueflank

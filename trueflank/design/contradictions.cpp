@@ -42,6 +42,7 @@ class Contradictions {
       }
     }
     check_planet2_bore();
+    check_planet2_material();
     if (design_.carrier) check_carrier();
   }
 
@@ -235,6 +236,16 @@ class Contradictions {
         return wrong(bore_key.rule.name,
                      "differs from planet1's bore, which goes through the planet",
                      "the bore given in [planet1] alone");
+  }
+
+  void check_planet2_material() {
+    const GearDesign* planet1 = find_gear(design_, "planet1");
+    const GearDesign* planet2 = find_gear(design_, "planet2");
+    if (!kind_known_ || !planet1 || !planet2 || planet2->material.empty()) return;
+    if (planet2->material == planet1->material) return;
+    gear_ = planet2;
+    wrong("material", "differs from planet1's, and both are one body",
+          "the material given in [planet1] alone");
   }
 
   void check_bolts() {

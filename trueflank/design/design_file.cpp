@@ -45,6 +45,7 @@ std::string place_of(std::string_view name) {
   if (in(gearbox_keys())) return "[gearbox]";
   if (in(rack_keys())) return "[rack]";
   if (in(carrier_keys())) return "[carrier]";
+  if (in(shafts_keys())) return "[shafts]";
   if (in(gear_keys()) || name == "modifications") return "a gear's table";
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
@@ -65,6 +66,8 @@ class DesignReader {
       read_keys("rack", *table, rack_keys(), file_.design.rack);
     read_gears();
     read_carrier();
+    if (const TomlTable* table = section("shafts"))
+      read_keys("shafts", *table, shafts_keys(), file_.design.shafts);
     settle_module();
     report_contradictions(file_.design, kind_known_, reading_);
     if (!reading_.clean()) return fail_all(reading_.errors(file));
@@ -87,7 +90,7 @@ class DesignReader {
 
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {

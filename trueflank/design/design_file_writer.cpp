@@ -71,6 +71,10 @@ std::string design_file_text(const GearboxDesign& design, std::string_view comme
     text += "\n[carrier]\n";
     write_keys(text, carrier_keys(), *design.carrier);
   }
+  if (design.shafts != ShaftsDesign{}) {
+    text += "\n[shafts]\n";
+    write_keys(text, shafts_keys(), design.shafts);
+  }
   return text;
 }
 

@@ -143,6 +143,12 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.helix_angle_rad = rad_from_deg(number(v)); },
        [](const D& d) { return unless(file_deg(d.helix_angle_rad), 0.0); }},
+      {{.name = "material", .type = KeyType::kText, .by_default = "\"scm440-hb280\"",
+        .meaning = "material of every gear that does not set its own, for strength and inertia: "
+                   "docs/strength.md lists them, --materials FILE adds to them"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.material = text(v); },
+       [](const D& d) { return d.material.empty() ? Value() : Value(d.material); }},
       {{.name = "herringbone", .type = KeyType::kFlag, .by_default = "false",
         .meaning = "two halves of opposite hands; needs a helix angle"},
        KeyPlace::kAnywhere,

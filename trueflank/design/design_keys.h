@@ -46,6 +46,8 @@ inline constexpr int kDesignFormat = 1;
 /// `[<gear>.modifications]`.
 [[nodiscard]] const std::vector<DesignKey<ModificationsDesign>>& modification_keys();
 
+/// `[shafts]`.
+[[nodiscard]] const std::vector<DesignKey<ShaftsDesign>>& shafts_keys();
 /// `[carrier]`.
 [[nodiscard]] const std::vector<DesignKey<CarrierDesign>>& carrier_keys();
 

@@ -138,6 +138,10 @@ std::string design_reference() {
            "below the\nplanets and `carrier_top` above them, held by the pins `carrier_pin` on which "
            "the planets turn.",
            carrier_keys());
+  describe(text, "`[shafts]`",
+           "What hangs on the shafts besides, for the inertia that either shaft feels "
+           "([efficiency](efficiency.md)).",
+           shafts_keys());
   return text + kRules;
 }
 

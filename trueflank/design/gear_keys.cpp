@@ -13,6 +13,7 @@ double number(const KeyValue& value) { return std::get<double>(value); }
 int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
 Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
 Value unless_zero(double value) { return value == 0.0 ? Value() : Value(value); }
+const std::string& text(const KeyValue& value) { return std::get<std::string>(value); }
 Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
 
 void set_teeth(G& gear, const KeyValue& value) { gear.teeth = whole(value); }
@@ -45,6 +46,11 @@ std::vector<DesignKey<G>> toothing_keys() {
        KeyPlace::kAnywhere,
        [](G& g, const KeyValue& v) { g.module_mm = number(v); },
        [](const G& g) { return if_given(g.module_mm); }},
+      {{.name = "material", .type = KeyType::kText, .by_default = "the gearbox's",
+        .meaning = "material of this gear; a compound planet is made of planet1's"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { g.material = text(v); },
+       [](const G& g) { return g.material.empty() ? Value() : Value(g.material); }},
       {{.name = "face_width_mm", .unit = "mm", .lower = 0.05, .upper = 2000, .required = true,
         .meaning = "width of the teeth along the axis"},
        KeyPlace::kAnywhere,

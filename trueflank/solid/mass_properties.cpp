@@ -48,11 +48,12 @@ MassProperties mass_properties(const PartShape& shape, double density_kg_m3) {
   return result;
 }
 
-BodyInertias body_inertias(const PartShapes& shapes, double density_kg_m3) {
+BodyInertias body_inertias(const PartShapes& shapes,
+                           const std::function<double(const std::string&)>& density_of) {
   BodyInertias bodies;
   int planet_parts = 0;
   for (const PartShape& part : shapes.parts) {
-    const MassProperties p = mass_properties(part, density_kg_m3);
+    const MassProperties p = mass_properties(part, density_of(part.name));
     if (part.name == "sun" || part.name == "pinion") bodies.sun_kg_m2 = p.axial_inertia_kg_m2;
     if (part.name == "ring1" || part.name == "ring" || part.name == "wheel")
       bodies.ring1_kg_m2 = p.axial_inertia_kg_m2;

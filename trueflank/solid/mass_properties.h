@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "trueflank/solid/part_shape.h"
 #include "trueflank/train/inertia.h"
 
@@ -17,8 +20,9 @@ struct MassProperties {
 /// Accuracy: relative 1e-5, tested against closed forms and the integral over the part's mesh.
 [[nodiscard]] MassProperties mass_properties(const PartShape& shape, double density_kg_m3);
 
-/// Inertias of a train's bodies from its parts, one density for all; the mean where planets differ. A
-/// carrier counts where the parts have one.
-[[nodiscard]] BodyInertias body_inertias(const PartShapes& shapes, double density_kg_m3);
+/// Inertias of a train's bodies from its parts; the mean where planets differ. A carrier counts where
+/// the parts have one. `density_of` tells a part's density [kg/m3] by its name.
+[[nodiscard]] BodyInertias body_inertias(
+    const PartShapes& shapes, const std::function<double(const std::string& part)>& density_of);
 
 }  // namespace trueflank

@@ -63,6 +63,7 @@ struct GearDesign {
   RingRoot root = RingRoot::kFillet;
   std::optional<ShaperCutter> cutter = {};
   ModificationsDesign modifications = {};
+  std::string material = {};  ///< name in the materials table; empty: the gearbox's
 
   bool operator==(const GearDesign&) const = default;
 };
@@ -82,6 +83,14 @@ struct CarrierDesign {
   bool operator==(const CarrierDesign&) const = default;
 };
 
+/// What hangs on the shafts besides the gears.
+struct ShaftsDesign {
+  double rotor_inertia_kg_m2 = 0.0;  ///< of the motor's rotor, on the input
+  double load_inertia_kg_m2 = 0.0;   ///< on the output
+
+  bool operator==(const ShaftsDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
@@ -98,6 +107,8 @@ struct GearboxDesign {
   BasicRack rack = {};
   std::vector<GearDesign> gears = {};  ///< in the order of gear_names(kind)
   std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
+  std::string material = {};  ///< of every gear that does not set its own; empty: the default
+  ShaftsDesign shafts = {};
 
   bool operator==(const GearboxDesign&) const = default;
 };

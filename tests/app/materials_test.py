@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials and shaft inertias of a design file reach strength and inertia of the report."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "materials"
+DESIGN = """format = 1
+name = "two-materials"
+[gearbox]
+kind = "pair"
+module_mm = 2.0
+{gearbox}
+[pinion]
+teeth = 20
+face_width_mm = 20
+{pinion}
+[wheel]
+teeth = 40
+face_width_mm = 20
+{rest}
+"""
+TABLE = """[material.wood]
+bending_limit_mpa = 5
+contact_limit_mpa = 20
+elastic_modulus_mpa = 9000
+poisson_ratio = 0.3
+density_kg_m3 = 700
+"""
+
+
+def check(*options, gearbox="", pinion="", rest=""):
+    path = OUTPUT / "design.toml"
+    path.write_text(DESIGN.format(gearbox=gearbox, pinion=pinion, rest=rest))
+    done = subprocess.run([PROGRAM, "check", path, "-q", "--json", OUTPUT / "report.json", *options],
+                          capture_output=True, text=True)
+    report = json.loads((OUTPUT / "report.json").read_text()) if done.returncode < 2 else None
+    return done, report
+
+
+def teeth(report):
+    mesh = report["strength"]["meshes"]["pinion-wheel"]
+    return mesh["tooth1"]["material"], mesh["tooth2"]["material"]
+
+
+def main():
+    shutil.rmtree(OUTPUT, ignore_errors=True)
+    OUTPUT.mkdir(parents=True)
+    (OUTPUT / "more.toml").write_text(TABLE)
+
+    _, plain = check()
+    assert teeth(plain) == ("scm440-hb280",) * 2
+    _, mixed = check(gearbox='material = "pom"', pinion='material = "brass"')
+    assert teeth(mixed) == ("brass", "pom")
+    assert mixed["strength"]["output_torque_nm"] < 0.5 * plain["strength"]["output_torque_nm"]
+    # the wheel of pom: inertia by the densities 1410 and 7850
+    share = mixed["inertia"]["output_side_kg_m2"] / plain["inertia"]["output_side_kg_m2"]
+    assert abs(share - 1410 / 7850) < 1e-9, share
+    _, wood = check("--materials", OUTPUT / "more.toml", gearbox='material = "wood"')
+    assert teeth(wood) == ("wood", "wood")
+    _, over = check("--material", "brass", pinion='material = "pom"')
+    assert teeth(over) == ("brass", "brass")
+
+    done, _ = check(pinion='material = "unobtainium"')
+    assert done.returncode == 2
+    for word in ("design.toml:10", "pinion.material", "unobtainium", "scm440-hb280"):
+        assert word in done.stderr, (word, done.stderr)
+    done = subprocess.run([PROGRAM, "make", OUTPUT / "design.toml", "-o", OUTPUT / "parts", "-q"],
+                          capture_output=True, text=True)
+    assert done.returncode == 2 and "pinion.material" in done.stderr
+
+    _, loaded = check(rest="[shafts]\nrotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 0.02\n")
+    for key, extra in (("input_side_kg_m2", 1e-3), ("output_side_kg_m2", 0.02)):
+        assert abs(loaded["inertia"][key] - plain["inertia"][key] - extra) < 1e-12, key
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
