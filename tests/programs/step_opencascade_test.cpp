@@ -4,25 +4,7 @@
 // far its flanks are from the involute.
 #include <gtest/gtest.h>
 
-#include <BRepAdaptor_Surface.hxx>
-#include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
-#include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
-#include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPControl_Reader.hxx>
-#include <ShapeAnalysis_Shell.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Shape.hxx>
-#include <cstdlib>
-#include <map>
-#include <sstream>
-
+#include "tests/programs/opencascade_solid.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "trueflank/design/design_file.h"
@@ -32,53 +14,9 @@
 namespace trueflank {
 namespace {
 
-class Silence : public ::testing::Environment {
- public:
-  void SetUp() override { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
-};
-const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new Silence);
+using test::count, test::expect_exact_solid, test::read_back, test::surface_types;
 
-TopoDS_Shape read_back(const PartShape& part) {
-  auto solid = brep_of(part);
-  EXPECT_TRUE(solid) << part.name << ": " << solid.error().message;
-  if (!solid) return {};
-  EXPECT_TRUE(is_closed(*solid)) << part.name;
-  std::istringstream text(io::step_text({.name = part.name, .solid = std::move(*solid)}));
-  STEPControl_Reader reader;
-  EXPECT_EQ(reader.ReadStream(part.name.c_str(), text), IFSelect_RetDone) << part.name;
-  reader.TransferRoots();
-  return reader.OneShape();
-}
-
-int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, kind, map);
-  return map.Extent();
-}
-
-std::map<GeomAbs_SurfaceType, int> surface_types(const TopoDS_Shape& shape) {
-  std::map<GeomAbs_SurfaceType, int> types;
-  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
-    ++types[BRepAdaptor_Surface(TopoDS::Face(it.Current())).GetType()];
-  return types;
-}
-
-/// One closed valid solid, oriented outwards, of the volume that the exact curves give.
-void expect_exact_solid(const PartShape& part, const TopoDS_Shape& shape) {
-  ASSERT_FALSE(shape.IsNull()) << part.name;
-  EXPECT_EQ(shape.ShapeType(), TopAbs_SOLID) << part.name;
-  EXPECT_EQ(count(shape, TopAbs_SOLID), 1) << part.name;
-  EXPECT_EQ(count(shape, TopAbs_SHELL), 1) << part.name;
-  EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid()) << part.name;
-  ShapeAnalysis_Shell shell;
-  shell.LoadShells(shape);
-  EXPECT_FALSE(shell.CheckOrientedShells(shape, true, true)) << part.name << ": bad or free edges";
-  EXPECT_FALSE(shell.HasFreeEdges()) << part.name;
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  const double exact = test::exact_volume_mm3(part);
-  EXPECT_NEAR(properties.Mass(), exact, 1e-6 * exact) << part.name;
-}
+const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new test::SilentOpenCascade);
 
 /// Largest distance of points of the shape's faces from the involutes of an untwisted gear.
 double largest_flank_error_mm(const TopoDS_Shape& shape, const ToothProfile& profile) {

@@ -28,6 +28,19 @@ bool write_part(const std::filesystem::path& folder, std::ostream& list, const P
   return true;
 }
 
+/// Teeth that turn: a helical planet with its bore, a herringbone, a ring.
+bool write_helical(const std::filesystem::path& folder, std::ostream& list) {
+  const auto planet = ToothProfile::make(test::helical_gear(39, 0.3, 0.26));
+  const auto pinion = ToothProfile::make(test::helical_gear(13, 0.2, -0.4));
+  const auto ring = ToothProfile::make(test::helical_ring(60, 0.3, 0.26));
+  if (!planet || !pinion || !ring) return false;
+  const BoreOutline bore{{.diameter_mm = 8.0}};
+  bool ok = write_part(folder, list, test::helical_part("helical planet", *planet, 8.0, false, {bore}));
+  ok &= write_part(folder, list, test::helical_part("herringbone pinion", *pinion, 12.0, true));
+  ok &= write_part(folder, list, test::helical_part("helical ring", *ring, 6.0));
+  return ok;
+}
+
 bool write_all(const std::filesystem::path& folder) {
   std::ofstream list(folder / "samples.tsv");
   bool ok = true;
@@ -49,6 +62,7 @@ bool write_all(const std::filesystem::path& folder) {
                             .keyway_width_mm = 2.0,
                             .keyway_depth_mm = 1.0}};
   ok &= write_part(folder, list, test::gear_part("keyway", *upper, 8.0, {keyway}));
+  ok &= write_helical(folder, list);
   return ok && list.good();
 }
 

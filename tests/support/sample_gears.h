@@ -44,6 +44,23 @@ inline Gear with_root_radius(Gear gear, double root_radius) {
   return gear;
 }
 
+/// Normal module 1; teeth, shift and hand as given.
+inline Gear helical_gear(int teeth, double shift, double helix_rad) {
+  Gear gear;
+  gear.teeth = teeth;
+  gear.shift = shift;
+  gear.helix_angle_rad = helix_rad;
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  return gear;
+}
+
+inline Gear helical_ring(int teeth, double shift, double helix_rad) {
+  Gear gear = ring_gear(teeth, shift);
+  gear.helix_angle_rad = helix_rad;
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  return gear;
+}
+
 inline std::vector<SampleGear> sample_gears() {
   Gear odd_angle = external_gear(24, 0.1, 2.5);
   odd_angle.rack.pressure_angle_rad = 0.25;

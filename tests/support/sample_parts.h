@@ -25,6 +25,30 @@ inline PartShape ring_part(std::string name, const ToothProfile& profile, double
           {Slab{0.0, face_width_mm, CircleOutline{Point2::Zero(), rim_radius_mm}, std::move(more_holes)}}};
 }
 
+/// A gear or ring as above, with the toothing's twist, deviation and so on.
+inline PartShape toothed_part(std::string name, const Toothing& toothing,
+                              std::vector<Outline> more_holes = {}) {
+  const ToothedOutline teeth{.profile = toothing.profile, .twist = toothing.twist,
+                             .deviation = toothing.deviation,
+                             .edge_chamfer_mm = toothing.edge_chamfer_mm,
+                             .displacement = toothing.displacement};
+  const ToothProfile& profile = *toothing.profile;
+  const double width_mm = toothing.twist.face_width_mm;
+  const bool ring = profile.gear().kind == GearKind::kInternal;
+  PartShape part = ring ? ring_part(std::move(name), profile, width_mm, std::move(more_holes))
+                        : gear_part(std::move(name), profile, width_mm, std::move(more_holes));
+  (ring ? part.slabs[0].holes[0] : part.slabs[0].outer) = teeth;
+  return part;
+}
+
+inline PartShape helical_part(std::string name, const ToothProfile& profile, double face_width_mm,
+                              bool herringbone = false, std::vector<Outline> more_holes = {}) {
+  return toothed_part(std::move(name),
+                      {.profile = &profile,
+                       .twist = face_twist(profile.gear(), face_width_mm, herringbone)},
+                      std::move(more_holes));
+}
+
 /// Compound planet with neck, bore and an index mark sunk into the upper face.
 inline PartShape planet_part(const ToothProfile& lower, const ToothProfile& upper) {
   const BoreOutline bore{{.diameter_mm = 8.0}};

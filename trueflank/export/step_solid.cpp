@@ -3,6 +3,8 @@
 // Curves, edges, surfaces and faces of one solid. Points, directions and circles that are the same
 // are one entity: that is a third of the file.
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/export/step_entities.h"
@@ -20,6 +22,9 @@ class SolidWriter {
     out_.put(up_).put(",1.").end();
     curve_ids_.assign(solid_.curves.size(), 0);
     surface_ids_.assign(solid_.surfaces.size(), 0);
+    has_spline_surfaces_ =
+        std::any_of(solid_.surfaces.begin(), solid_.surfaces.end(),
+                    [](const BrepSurface& s) { return std::holds_alternative<SplineSurface>(s); });
     for (const Point3& vertex : solid_.vertices) write_vertex(vertex);
     for (const BrepEdge& edge : solid_.edges) write_edge(edge);
     std::vector<StepId> faces;
@@ -59,6 +64,13 @@ class SolidWriter {
     return solid_.vertices[i] == point ? points_[i] : add_point(out_, point);
   }
 
+  /// The rim of a spline surface is made of its edges' poles: those are not written again.
+  StepId known_point(const Point3& point) {
+    const auto found = known_points_.find(key_of(point));
+    return found == known_points_.end() ? add_point(out_, point) : found->second;
+  }
+  static std::array<double, 3> key_of(const Point3& p) { return {p.x(), p.y(), p.z()}; }
+
   StepId vector_of(const Point3& direction) {
     if (direction == Point3::UnitZ()) return up_vector_;
     const StepId along = add_direction(out_, direction);
@@ -89,6 +101,7 @@ class SolidWriter {
       if (i == 0) poles.push_back(point_at_vertex(pole, edge.start));
       else if (i + 1 == spline.poles.size()) poles.push_back(point_at_vertex(pole, edge.end));
       else poles.push_back(add_point(out_, pole));
+      if (has_spline_surfaces_) known_points_.emplace(key_of(pole), poles.back());
     }
     const StepId id = out_.begin("B_SPLINE_CURVE_WITH_KNOTS('',");
     out_.put_integer(spline.degree).put(",").put(poles).put(",.UNSPECIFIED.,.F.,.F.,");
@@ -138,7 +151,7 @@ class SolidWriter {
 
   StepId write_surface(const SplineSurface& s) {
     std::vector<StepId> poles;
-    for (const Point3& pole : s.poles) poles.push_back(add_point(out_, pole));
+    for (const Point3& pole : s.poles) poles.push_back(known_point(pole));
     const StepId id = out_.begin("B_SPLINE_SURFACE_WITH_KNOTS('',");
     out_.put_integer(s.degree_u).put(",").put_integer(s.degree_v);
     char separator = ',';
@@ -178,6 +191,8 @@ class SolidWriter {
   StepId up_ = 0, up_vector_ = 0, last_placement_ = 0;
   Frame3 last_frame_;
   std::vector<StepId> points_, vertices_, edges_, curve_ids_, surface_ids_;
+  bool has_spline_surfaces_ = false;
+  std::map<std::array<double, 3>, StepId> known_points_;
 };
 
 }  // namespace

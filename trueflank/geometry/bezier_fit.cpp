@@ -3,75 +3,29 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/spline_basis.h"
 
 namespace trueflank {
 namespace {
 
-constexpr int kLowestDegree = 5, kHighestDegree = 8, kSplineDegree = 7;
-constexpr int kMostEqualSpans = 8, kMostSpans = 64;
+constexpr int kLowestDegree = 5, kSplineDegree = 7;
+constexpr int kMostSpans = 64;
 constexpr int kSamplesPerSpan = 40;
 
-/// All knots with their multiplicities written out.
-std::vector<double> flat_knots(const PlaneSpline& s) {
-  std::vector<double> flat;
-  for (std::size_t i = 0; i < s.knots.size(); ++i)
-    flat.insert(flat.end(), static_cast<std::size_t>(s.multiplicities[i]), s.knots[i]);
-  return flat;
-}
+/// Requires: interior knots are simple, as fit_bezier() makes them.
+SplineBasis basis_of(const PlaneSpline& s) { return {s.degree, s.knots}; }
 
-int span_of(const std::vector<double>& flat, int degree, double u) {
-  const auto last = flat.end() - degree - 1;
-  const auto above = std::upper_bound(flat.begin() + degree, last, u);
-  return static_cast<int>(std::min(above, last) - flat.begin()) - 1;
-}
-
-/// The degree + 1 basis functions that do not vanish on a span (Cox, de Boor).
-std::array<double, kHighestDegree + 1> basis(const std::vector<double>& flat, int degree, int span,
-                                             double u) {
-  std::array<double, kHighestDegree + 1> value{};
-  value[0] = 1.0;
-  for (int k = 1; k <= degree; ++k) {
-    double carry = 0.0;
-    for (int j = 0; j < k; ++j) {
-      const double right = flat[static_cast<std::size_t>(span + j + 1)];
-      const double left = flat[static_cast<std::size_t>(span + j + 1 - k)];
-      const double share = value[static_cast<std::size_t>(j)] / (right - left);
-      value[static_cast<std::size_t>(j)] = carry + (right - u) * share;
-      carry = (u - left) * share;
-    }
-    value[static_cast<std::size_t>(k)] = carry;
-  }
-  return value;
-}
-
-Point2 spline_point(const PlaneSpline& s, const std::vector<double>& flat, double u) {
-  const int span = span_of(flat, s.degree, u);
-  const auto weight = basis(flat, s.degree, span, u);
+Point2 spline_point(const PlaneSpline& s, const SplineBasis& basis, double u) {
+  const BasisWeights w = basis.at(u);
   Point2 sum = Point2::Zero();
   for (int j = 0; j <= s.degree; ++j)
-    sum += weight[static_cast<std::size_t>(j)] *
-           s.poles[static_cast<std::size_t>(span - s.degree + j)];
+    sum += w.weight[static_cast<std::size_t>(j)] *
+           s.poles[static_cast<std::size_t>(w.first + j)];
   return sum;
-}
-
-/// Lobatto points for one span (near the best polynomial), Greville points for several (always
-/// solvable).
-std::vector<double> interpolation_places(const std::vector<double>& flat, int degree, int count) {
-  std::vector<double> places(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    double sum = 0.0;
-    for (int j = 1; j <= degree; ++j) sum += flat[static_cast<std::size_t>(i + j)];
-    places[static_cast<std::size_t>(i)] =
-        count == degree + 1 ? 0.5 - 0.5 * std::cos(kPi * i / degree) : sum / degree;
-  }
-  places.front() = 0.0;
-  places.back() = 1.0;
-  return places;
 }
 
 /// gd(v) = atan(sinh v), and its inverse.
@@ -112,34 +66,19 @@ double curve_parameter(const CutterTrochoid& c, double v) {
 Point2 curve_point(const Curve& c, double u) {
   if (u == 0.0) return c.start_point();
   if (u == 1.0) return c.end_point();
-  const double parameter = std::visit(
-      [&](const auto& shape) {
-        const double from = fit_parameter(shape, c.begin), to = fit_parameter(shape, c.end);
-        return curve_parameter(shape, from + u * (to - from));
-      },
-      c.shape);
-  return point_at(c, parameter);
+  return point_at(c, fit_parameter_at(c, u));
 }
 
 /// Interpolates the curve with the given distinct knots.
 PlaneSpline interpolate(const Curve& curve, int degree, std::vector<double> knots) {
-  PlaneSpline s{.degree = degree, .poles = {}, .knots = std::move(knots), .multiplicities = {}};
-  s.multiplicities.assign(s.knots.size(), 1);
-  s.multiplicities.front() = s.multiplicities.back() = degree + 1;
-  const auto flat = flat_knots(s);
-  const int count = static_cast<int>(flat.size()) - degree - 1;
-  const auto places = interpolation_places(flat, degree, count);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  const SplineBasis basis(degree, std::move(knots));
+  PlaneSpline s{.degree = degree, .poles = {}, .knots = basis.knots(),
+                .multiplicities = basis.multiplicities()};
+  const int count = basis.count();
   Eigen::MatrixX2d points(count, 2);
-  for (int i = 0; i < count; ++i) {
-    const double u = places[static_cast<std::size_t>(i)];
-    const int span = span_of(flat, degree, u);
-    const auto weight = basis(flat, degree, span, u);
-    for (int j = 0; j <= degree; ++j)
-      matrix(i, span - degree + j) = weight[static_cast<std::size_t>(j)];
-    points.row(i) = curve_point(curve, u).transpose();
-  }
-  const Eigen::MatrixX2d poles = matrix.partialPivLu().solve(points);
+  for (int i = 0; i < count; ++i)
+    points.row(i) = curve_point(curve, basis.places()[static_cast<std::size_t>(i)]).transpose();
+  const Eigen::MatrixX2d poles = basis.collocation().partialPivLu().solve(points);
   for (int i = 0; i < count; ++i) s.poles.emplace_back(poles.row(i).transpose());
   s.poles.front() = curve_point(curve, 0.0);
   s.poles.back() = curve_point(curve, 1.0);
@@ -148,7 +87,7 @@ PlaneSpline interpolate(const Curve& curve, int degree, std::vector<double> knot
 
 /// Largest error on each span.
 std::vector<double> span_errors(const Curve& curve, const PlaneSpline& s) {
-  const auto flat = flat_knots(s);
+  const SplineBasis basis = basis_of(s);
   std::vector<double> errors;
   for (int i = 0; i < s.spans(); ++i) {
     const double from = s.knots[static_cast<std::size_t>(i)];
@@ -156,35 +95,28 @@ std::vector<double> span_errors(const Curve& curve, const PlaneSpline& s) {
     double worst = 0.0;
     for (int k = 0; k < kSamplesPerSpan; ++k) {
       const double u = from + (to - from) * (k + 0.5) / kSamplesPerSpan;
-      worst = std::max(worst, (spline_point(s, flat, u) - curve_point(curve, u)).norm());
+      worst = std::max(worst, (spline_point(s, basis, u) - curve_point(curve, u)).norm());
     }
     errors.push_back(worst);
   }
   return errors;
 }
 
-std::vector<double> equal_spans(int count) {
-  std::vector<double> knots;
-  for (int i = 0; i <= count; ++i) knots.push_back(static_cast<double>(i) / count);
-  return knots;
-}
-
-/// Halves the spans that miss the tolerance.
-std::vector<double> refined(const std::vector<double>& knots, const std::vector<double>& errors,
-                            double tolerance_mm) {
-  std::vector<double> finer{knots.front()};
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (errors[i] > tolerance_mm) finer.push_back(0.5 * (knots[i] + knots[i + 1]));
-    finer.push_back(knots[i + 1]);
-  }
-  return finer;
-}
-
 }  // namespace
 
 Point2 point_at(const PlaneSpline& spline, double parameter) {
-  TRUEFLANK_EXPECTS(spline.degree >= 1 && spline.degree <= kHighestDegree);
-  return spline_point(spline, flat_knots(spline), parameter);
+  return spline_point(spline, basis_of(spline), parameter);
+}
+
+double fit_parameter_at(const Curve& curve, double share) {
+  if (share == 0.0) return curve.begin;
+  if (share == 1.0) return curve.end;
+  return std::visit(
+      [&](const auto& shape) {
+        const double from = fit_parameter(shape, curve.begin), to = fit_parameter(shape, curve.end);
+        return curve_parameter(shape, from + share * (to - from));
+      },
+      curve.shape);
 }
 
 BezierFit fit_bezier(const Curve& curve, double tolerance_mm) {
@@ -195,7 +127,7 @@ BezierFit fit_bezier(const Curve& curve, double tolerance_mm) {
     if (!(error >= best.error_mm)) best = {std::move(spline), error};
     return best.error_mm <= tolerance_mm;
   };
-  for (int degree = kLowestDegree; degree <= kHighestDegree; ++degree) {
+  for (int degree = kLowestDegree; degree <= kHighestSplineDegree; ++degree) {
     PlaneSpline spline = interpolate(curve, degree, {0.0, 1.0});
     const auto errors = span_errors(curve, spline);
     if (keep(std::move(spline), errors)) return best;
@@ -205,8 +137,7 @@ BezierFit fit_bezier(const Curve& curve, double tolerance_mm) {
     PlaneSpline spline = interpolate(curve, kSplineDegree, knots);
     const auto errors = span_errors(curve, spline);
     if (keep(std::move(spline), errors)) return best;
-    const int spans = static_cast<int>(knots.size()) - 1;
-    knots = spans < kMostEqualSpans ? equal_spans(spans + 1) : refined(knots, errors, tolerance_mm);
+    knots = next_spans(knots, errors, tolerance_mm);
   }
   return best;
 }

@@ -22,6 +22,11 @@ struct PlaneSpline {
 /// Requires: knots.front() <= parameter <= knots.back().
 [[nodiscard]] Point2 point_at(const PlaneSpline& spline, double parameter);
 
+/// The curve's own parameter at a share of the way from begin (0) to end (1), in steps in which the
+/// curve is smoothest: linear in roll angle for an involute, in a stretched angle for a trochoid.
+/// A fit over this share converges fastest.
+[[nodiscard]] double fit_parameter_at(const Curve& curve, double share);
+
 struct BezierFit {
   PlaneSpline spline;     ///< knots run from 0 (the curve's begin) to 1 (its end)
   double error_mm = 0.0;  ///< largest distance of points of equal parameter, both ways a bound

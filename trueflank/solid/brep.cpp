@@ -8,21 +8,13 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/spline_basis.h"
+#include "trueflank/solid/brep_wall.h"
 #include "trueflank/solid/outline_loop.h"
 
 namespace trueflank {
 namespace {
-
-Point3 at_height(const Point2& p, double z_mm) { return {p.x(), p.y(), z_mm}; }
-
-/// An outline from the slab it starts in to the one it ends with.
-struct Wall {
-  const Outline* outline = nullptr;
-  bool outer = true;  ///< bounds the material from outside
-  std::size_t first_slab = 0, last_slab = 0;
-  OutlinePath path;
-  std::vector<OrientedEdge> lower, upper;  ///< along the path
-};
 
 std::vector<Wall> walls_of(const PartShape& part, const PathTolerance& tolerance) {
   std::vector<Wall> walls;
@@ -32,8 +24,8 @@ std::vector<Wall> walls_of(const PartShape& part, const PathTolerance& tolerance
         wall.last_slab = slab;
         return;
       }
-    walls.push_back({.outline = &outline, .outer = outer, .first_slab = slab, .last_slab = slab,
-                     .path = outline_path(outline, tolerance), .lower = {}, .upper = {}});
+    walls.push_back({.outline = &outline, .outer = outer, .first_slab = slab, .last_slab = slab});
+    if (is_prismatic(outline)) walls.back().path = outline_path(outline, tolerance);
   };
   for (std::size_t i = 0; i < part.slabs.size(); ++i) {
     add(part.slabs[i].outer, true, i);
@@ -41,116 +33,6 @@ std::vector<Wall> walls_of(const PartShape& part, const PathTolerance& tolerance
   }
   return walls;
 }
-
-template <class T>
-int add_to(std::vector<T>& list, T item) {
-  list.push_back(std::move(item));
-  return static_cast<int>(list.size()) - 1;
-}
-
-class WallBuilder {
- public:
-  WallBuilder(Brep& brep, Wall& wall, double z_lower_mm, double z_upper_mm)
-      : brep_(brep), wall_(wall), path_(wall.path), z_lower_mm_(z_lower_mm),
-        z_upper_mm_(z_upper_mm) {}
-
-  void build() {
-    brep_.fit_error_mm = std::max(brep_.fit_error_mm, path_.fit_error_mm);
-    add_cylinders();
-    add_uprights();
-    for (std::size_t i = 0; i < path_.pieces.size(); ++i) {
-      add_end_edges(i);
-      add_face(i);
-    }
-  }
-
- private:
-  std::size_t next(std::size_t i) const { return (i + 1) % path_.pieces.size(); }
-
-  void add_cylinders() {
-    for (const PathCircle& c : path_.circles) {
-      const Point3 reference = at_height(unit_vector(c.reference_rad), 0.0);
-      const Frame3 lower{at_height(c.centre, z_lower_mm_), Point3::UnitZ(), reference};
-      const Frame3 upper{at_height(c.centre, z_upper_mm_), Point3::UnitZ(), reference};
-      lower_circles_.push_back(add_to<BrepCurve>(brep_.curves, CircleCurve{lower, c.radius_mm}));
-      upper_circles_.push_back(add_to<BrepCurve>(brep_.curves, CircleCurve{upper, c.radius_mm}));
-      cylinders_.push_back(add_to<BrepSurface>(brep_.surfaces, CylinderSurface{lower, c.radius_mm}));
-    }
-  }
-
-  /// Vertices, and the straight edges that rise from one to the other.
-  void add_uprights() {
-    for (const PathPiece& piece : path_.pieces) {
-      const Point3 low = at_height(piece.start, z_lower_mm_);
-      lower_vertices_.push_back(add_to(brep_.vertices, low));
-      upper_vertices_.push_back(add_to(brep_.vertices, at_height(piece.start, z_upper_mm_)));
-      const int line = add_to<BrepCurve>(brep_.curves, LineCurve{low, Point3::UnitZ()});
-      uprights_.push_back(
-          add_to(brep_.edges, BrepEdge{lower_vertices_.back(), upper_vertices_.back(), line}));
-    }
-  }
-
-  int add_curve(std::size_t i, double z_mm) {
-    const PathPiece& piece = path_.pieces[i];
-    if (const auto* s = std::get_if<PathSpline>(&piece.shape)) {
-      SplineCurve curve{.degree = s->spline.degree, .poles = {}, .knots = s->spline.knots,
-                        .multiplicities = s->spline.multiplicities};
-      for (const Point2& pole : s->spline.poles) curve.poles.push_back(at_height(pole, z_mm));
-      return add_to<BrepCurve>(brep_.curves, std::move(curve));
-    }
-    const Point2 along = path_.pieces[next(i)].start - piece.start;
-    return add_to<BrepCurve>(
-        brep_.curves, LineCurve{at_height(piece.start, z_mm), at_height(along.normalized(), 0.0)});
-  }
-
-  void add_end_edges(std::size_t i) {
-    const auto* arc = std::get_if<PathArc>(&path_.pieces[i].shape);
-    const auto add = [&](const std::vector<int>& vertices, const std::vector<int>& circles,
-                         double z_mm) -> OrientedEdge {
-      const int curve = arc ? circles[static_cast<std::size_t>(arc->circle)] : add_curve(i, z_mm);
-      return {add_to(brep_.edges, BrepEdge{vertices[i], vertices[next(i)], curve}), true};
-    };
-    wall_.lower.push_back(add(lower_vertices_, lower_circles_, z_lower_mm_));
-    wall_.upper.push_back(add(upper_vertices_, upper_circles_, z_upper_mm_));
-  }
-
-  void add_face(std::size_t i) {
-    BrepFace face;
-    if (const auto* arc = std::get_if<PathArc>(&path_.pieces[i].shape)) {
-      face.surface = cylinders_[static_cast<std::size_t>(arc->circle)];
-      face.same_sense = wall_.outer;
-    } else if (std::holds_alternative<PathSpline>(path_.pieces[i].shape)) {
-      const int curve = brep_.edges[static_cast<std::size_t>(wall_.lower[i].edge)].curve;
-      face.surface =
-          add_to<BrepSurface>(brep_.surfaces, ExtrusionSurface{curve, Point3::UnitZ()});
-      face.same_sense = wall_.outer;
-    } else {
-      face.surface = add_to<BrepSurface>(brep_.surfaces, PlaneSurface{side_plane(i)});
-    }
-    const OrientedEdge lower = wall_.lower[i], upper = wall_.upper[i];
-    const OrientedEdge up_here{uprights_[i], true}, up_next{uprights_[next(i)], true};
-    const auto back = [](OrientedEdge e) { return OrientedEdge{e.edge, !e.forward}; };
-    if (wall_.outer)
-      face.loops = {{lower, up_next, back(upper), back(up_here)}};
-    else
-      face.loops = {{up_here, upper, back(up_next), back(lower)}};
-    brep_.faces.push_back(std::move(face));
-  }
-
-  Frame3 side_plane(std::size_t i) const {
-    const Point2 along = (path_.pieces[next(i)].start - path_.pieces[i].start).normalized();
-    const Point2 outward = wall_.outer ? Point2(-perpendicular(along)) : perpendicular(along);
-    return {at_height(path_.pieces[i].start, z_lower_mm_), at_height(outward, 0.0),
-            at_height(along, 0.0)};
-  }
-
-  Brep& brep_;
-  Wall& wall_;
-  const OutlinePath& path_;
-  double z_lower_mm_, z_upper_mm_;
-  std::vector<int> lower_circles_, upper_circles_, cylinders_;
-  std::vector<int> lower_vertices_, upper_vertices_, uprights_;
-};
 
 /// End of a wall at one height, where it bounds a flat face.
 struct WallEnd {
@@ -187,10 +69,43 @@ std::size_t points_within(const WallEnd& inner, const WallEnd& outer) {
       std::count_if(inner.polygon.begin(), inner.polygon.end(), within));
 }
 
-Status find_nesting(std::vector<WallEnd>& ends, const PartShape& part) {
+/// A polygon through the edges of a toothed wall's end; see path_polygon.
+std::vector<Point2> loop_polygon(const Brep& brep, const BrepLoop& loop) {
+  std::vector<Point2> polygon;
+  for (const OrientedEdge& oriented : loop) {
+    const BrepEdge& edge = brep.edges[static_cast<std::size_t>(oriented.edge)];
+    const Point2 start = brep.vertices[static_cast<std::size_t>(edge.start)].head<2>();
+    const Point2 end = brep.vertices[static_cast<std::size_t>(edge.end)].head<2>();
+    const BrepCurve& curve = brep.curves[static_cast<std::size_t>(edge.curve)];
+    polygon.push_back(start);
+    constexpr int kSteps = 32;
+    if (const auto* spline = std::get_if<SplineCurve>(&curve)) {
+      const SplineBasis basis(spline->degree, spline->knots);
+      for (int i = 1; i < kSteps; ++i) {
+        const BasisWeights w = basis.at(static_cast<double>(i) / kSteps);
+        Point3 sum = Point3::Zero();
+        for (int j = 0; j <= spline->degree; ++j)
+          sum += w.weight[static_cast<std::size_t>(j)] *
+                 spline->poles[static_cast<std::size_t>(w.first + j)];
+        polygon.emplace_back(sum.head<2>());
+      }
+    } else {
+      const double radius = start.norm(), from = polar_angle_rad(start);
+      const double span = wrapped_rad(polar_angle_rad(end) - from);
+      for (int i = 1; i < kSteps; ++i)
+        polygon.emplace_back(radius * unit_vector(from + span * i / kSteps));
+    }
+  }
+  return polygon;
+}
+
+Status find_nesting(const Brep& brep, std::vector<WallEnd>& ends, const PartShape& part) {
   for (WallEnd& end : ends) end.extent = extent(*end.wall->outline);
-  const auto make_polygon = [](WallEnd& end) {
-    if (end.polygon.empty()) end.polygon = path_polygon(end.wall->path);
+  const auto make_polygon = [&](WallEnd& end) {
+    if (!end.polygon.empty()) return;
+    end.polygon = is_prismatic(*end.wall->outline)
+                      ? path_polygon(end.wall->path)
+                      : loop_polygon(brep, end.above ? end.wall->lower : end.wall->upper);
   };
   for (WallEnd& inner : ends)
     for (std::size_t k = 0; k < ends.size(); ++k) {
@@ -215,7 +130,7 @@ Status find_nesting(std::vector<WallEnd>& ends, const PartShape& part) {
 /// The flat faces at one height. A point belongs to a face where an odd number of ends contain it
 /// (in one section, not in the other); ends nested evenly deep are outer boundaries.
 Status add_flat_faces(Brep& brep, std::vector<WallEnd> ends, double z_mm, const PartShape& part) {
-  if (auto ok = find_nesting(ends, part); !ok) return ok;
+  if (auto ok = find_nesting(brep, ends, part); !ok) return ok;
   const auto loop_of = [](const WallEnd& end, bool along) {
     BrepLoop loop = end.above ? end.wall->lower : end.wall->upper;
     if (along) return loop;
@@ -252,10 +167,18 @@ Result<Brep> brep_of(const PartShape& part, const PathTolerance& tolerance) {
   }
   Brep brep;
   std::vector<Wall> walls = walls_of(part, tolerance);
-  for (Wall& wall : walls)
-    WallBuilder(brep, wall, part.slabs[wall.first_slab].z_lower_mm,
-                part.slabs[wall.last_slab].z_upper_mm)
-        .build();
+  for (Wall& wall : walls) {
+    const double z_lower_mm = part.slabs[wall.first_slab].z_lower_mm;
+    const double z_upper_mm = part.slabs[wall.last_slab].z_upper_mm;
+    if (is_prismatic(*wall.outline)) {
+      add_prismatic_wall(brep, wall, z_lower_mm, z_upper_mm);
+    } else if (auto ok = add_toothed_wall(brep, wall, z_lower_mm, z_upper_mm, tolerance); !ok) {
+      Error error = ok.error();
+      error.message = "part " + part.name + ": " + error.message;
+      error.key = part.name;
+      return fail(std::move(error));
+    }
+  }
   for (std::size_t level = 0; level <= part.slabs.size(); ++level) {
     std::vector<WallEnd> ends;
     for (const Wall& wall : walls) {

@@ -98,9 +98,13 @@ struct Brep {
 
 /// The exact solid of a part: one face a flank and a fillet side, true cylinders for tip, root, rim,
 /// bores and bolt holes, planes for the ends and for the steps between slabs of different outline.
+/// Where a toothing changes along the face its flanks and fillets are spline surfaces, split where
+/// twist, deviation or chamfer bend; displaced, its lands too.
 /// Frame: the part's own.
 /// Requires: slabs stacked without gaps, each of positive height.
-/// Errors: kUnsupported where outlines of neighbouring slabs cross or touch.
+/// Errors: kUnsupported where outlines of neighbouring slabs cross or touch, where a deviation parts
+/// the flanks of a pointed tooth, where a displacement moves the end faces out of their planes, where
+/// splines of 64 spans stay farther than 1e-5 mm from the true surface.
 /// Guarantees: every edge is used twice, once in each direction; vertices and edges are shared.
 [[nodiscard]] Result<Brep> brep_of(const PartShape& part, const PathTolerance& tolerance = {});
 

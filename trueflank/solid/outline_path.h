@@ -42,6 +42,7 @@ struct OutlinePath {
 struct PathTolerance {
   double flank_mm = 1e-8;   ///< of an involute's spline: 0.00001 um, one Bezier span up to module 10
   double fillet_mm = 1e-7;  ///< of a trochoid's spline
+  double lead_mm = 1e-7;    ///< of splines along the face, where the teeth change along it
   /// Shorter pieces of a half tooth are left out, their neighbours meet: kernels with a resolution of
   /// 1e-5 mm would take them for points.
   double shortest_mm = 5e-6;
