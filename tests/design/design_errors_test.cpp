@@ -244,6 +244,12 @@ TEST(DesignErrors, MissingKeysAndTablesAreNamed) {
            {"tip_relief_start_diameter_mm = 40.5\n", "", kMissing,
             "planet1.modifications.tip_relief_start_diameter_mm", "", "diameter",
             "[planet1.modifications]"},
+           {"tip_relief_um = 8\n", "tip_relief_um = 8\nend_relief_um = 4\n", kMissing,
+            "planet1.modifications.end_relief_length_mm", "", "reaches in",
+            "[planet1.modifications]"},
+           {"tip_relief_um = 8\n", "tip_relief_um = 8\nroot_relief_um = 4\n", kMissing,
+            "planet1.modifications.root_relief_start_diameter_mm", "", "diameter",
+            "[planet1.modifications]"},
            {"bolt_count = 8\n", "", kMissing, "ring1.bolt_count", "", "all of", "[ring1]"}})
     expect_slip(k3k, slip);
   const auto design = read_design_text("format = 1\nname = \"x\"\n", "empty.toml");
@@ -286,7 +292,17 @@ TEST(DesignErrors, ValuesThatContradictEachOtherAreRefused) {
             "planet1.modifications.tip_relief_start_diameter_mm", "40.5", "less than 40 mm",
             "tip_relief_start"},
            {"tip_relief_um = 8\n", "tip_relief_um = 8\nedge_chamfer_mm = 5\n", kAgainst,
-            "planet1.modifications.edge_chamfer_mm", "5", "less than 5 mm", "edge"}})
+            "planet1.modifications.edge_chamfer_mm", "5", "less than 5 mm", "edge"},
+           {"tip_relief_um = 8\n", "tip_relief_um = 8\nend_relief_shape = \"linear\"\n", kAgainst,
+            "planet1.modifications.end_relief_shape", "\"linear\"", "end_relief_um", "end_relief"},
+           {"tip_relief_um = 8\n",
+            "tip_relief_um = 8\nend_relief_um = 4\nend_relief_length_mm = 6\n", kAgainst,
+            "planet1.modifications.end_relief_length_mm", "6", "at most 5 mm", "end_relief_length"},
+           {"herringbone = false", "relief_groove_mm = 2", kAgainst, "gearbox.relief_groove_mm", "2",
+            "herringbone = true", "relief_groove"},
+           {"helix_angle_deg = 0.0\nherringbone = false",
+            "helix_angle_deg = 5.0\nherringbone = true\nrelief_groove_mm = 10", kAgainst,
+            "gearbox.relief_groove_mm", "10", "less than its face width, 10 mm", "relief_groove"}})
     expect_slip(k3k, slip);
   expect_slip(kGear, {"module_mm = 1.0", "module_mm = 1.0\nplanets = 3", kAgainst,
                       "gearbox.planets", "3", "no such key", "planets"});

@@ -36,6 +36,7 @@ class RandomDesigns {
     d.layer_gap_mm = coin() ? real(0.0, 9.0) : 1.0;
     if (coin()) d.helix_angle_rad = rad_from_deg(real(-59.0, 59.0));
     d.herringbone = d.helix_angle_rad != 0.0 && coin();
+    if (d.herringbone && coin()) d.relief_groove_mm = real(0.1, 2.9);
     d.rack = {.pressure_angle_rad = rad_from_deg(real(14.0, 30.0)),
               .addendum = real(0.5, 1.5),
               .dedendum = real(0.5, 1.5),
@@ -60,10 +61,23 @@ class RandomDesigns {
     else if (gear_name != "planet2")
       g.bore = bore();
     if (coin()) {
-      g.modifications = {.crowning_um = real(0.0, 20.0), .edge_chamfer_mm = real(0.0, 1.0)};
+      g.modifications = {.profile_crowning_um = real(0.0, 5.0),
+                         .profile_slope_um = real(-5.0, 5.0),
+                         .crowning_um = real(0.0, 20.0),
+                         .helix_slope_um = real(-9.0, 9.0),
+                         .edge_chamfer_mm = real(0.0, 1.0),
+                         .tip_rounding_mm = real(0.0, 0.2)};
+      if (coin()) {
+        g.modifications.end_relief_um = coin() ? real(0.0, 9.0) : 0.0;
+        g.modifications.end_relief_length_mm = real(0.1, 1.5);
+        if (coin()) g.modifications.end_relief_shape = ReliefShape::kLinear;
+      }
       if (!g.tip_diameter_mm) {
         g.modifications.tip_relief_um = real(1.0, 20.0);
         g.modifications.tip_relief_start_diameter_mm = real(10.0, 100.0);
+        g.modifications.root_relief_um = real(1.0, 20.0);
+        g.modifications.root_relief_start_diameter_mm = real(10.0, 100.0);
+        if (coin()) g.modifications.root_relief_shape = ReliefShape::kLinear;
       }
     }
     return g;

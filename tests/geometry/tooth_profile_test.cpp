@@ -265,5 +265,72 @@ TEST(ToothProfile, RefusesWhatCannotBeMade) {
   EXPECT_EQ(error_of(nan_shift).code, ErrorCode::kOutOfRange);
 }
 
+/// The rounding by what it must be: tangent to tip circle and flank, its radius from both.
+void expect_rounding(Gear gear, double rho) {
+  const auto sharp = ToothProfile::make(gear);
+  gear.tip_rounding_mm = rho;
+  const auto profile = ToothProfile::make(gear);
+  const std::string what = describe(gear) + " rounding " + std::to_string(rho);
+  ASSERT_TRUE(sharp && profile) << what;
+  expect_pieces_join(*profile, what);
+  const auto& pieces = profile->pieces();
+  const auto found = std::find_if(pieces.begin(), pieces.end(), [](const ProfilePiece& p) {
+    return p.kind == PieceKind::kTipRounding;
+  });
+  ASSERT_NE(found, pieces.end()) << what;
+  const auto& arc = std::get<CircularArc>(found->curve.shape);
+  EXPECT_EQ(arc.radius_mm, rho);
+  const double sense = gear.kind == GearKind::kExternal ? 1.0 : -1.0;
+  EXPECT_NEAR(sense * (profile->tip_radius_mm() - arc.centre.norm()), rho, 1e-12) << what;
+  // the sharp tooth's flank, searched for its point nearest to the centre
+  const Curve* flank = nullptr;
+  for (const ProfilePiece& piece : sharp->pieces())
+    if (piece.kind == PieceKind::kInvolute) flank = &piece.curve;
+  const double nearest = testing::smallest(
+      [&](double xi) { return (point_at(*flank, xi) - arc.centre).norm(); },
+      std::min(flank->begin, flank->end), std::max(flank->begin, flank->end));
+  EXPECT_NEAR(nearest, rho, 1e-9) << what;
+  // the involute ends where the arc touches it, without a corner
+  const Point2 joint = found->curve.end_point();
+  EXPECT_NEAR(joint.norm(), profile->tip_form_radius_mm(), 1e-12) << what;
+  const Curve& rest = std::next(found)->curve;
+  EXPECT_NEAR(cross(tangent_at(found->curve, found->curve.end), tangent_at(rest, rest.begin)), 0.0,
+              1e-12)
+      << what;
+  EXPECT_LT(profile->tip_thickness_mm(), sharp->tip_thickness_mm()) << what;
+}
+
+TEST(ToothProfile, TipRoundingIsTangentToTipCircleAndFlank) {
+  expect_rounding(external_gear(24, 0.1), 0.15);
+  expect_rounding(external_gear(13, 0.3), 0.1);
+  expect_rounding(ring_gear(60, 0.2), 0.12);
+  Gear helical = external_gear(31, -0.1);
+  helical.helix_angle_rad = rad_from_deg(-27.0);
+  helical.tip_radius_mm = nominal_tip_radius_mm(helical);
+  expect_rounding(helical, 0.2);
+}
+
+TEST(ToothProfile, TipRoundingFillsTheLandAtMostAndSaysHowMuchFits) {
+  Gear gear = external_gear(24, 0.1);
+  gear.tip_rounding_mm = 0.7;
+  const auto refused = ToothProfile::make(gear);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().key, "modifications.tip_rounding_mm");
+  ASSERT_EQ(refused.error().remedy.rfind("at most ", 0), 0u) << refused.error().remedy;
+  const double most = std::stod(refused.error().remedy.substr(8));
+  gear.tip_rounding_mm = most - 1e-6;
+  const auto largest = ToothProfile::make(gear);
+  ASSERT_TRUE(largest);
+  EXPECT_NEAR(largest->tip_thickness_mm(), 0.0, 1e-4);
+  gear.tip_rounding_mm = most + 1e-5;
+  EXPECT_FALSE(ToothProfile::make(gear));
+  gear = external_gear(9, 1.0);  // pointed
+  gear.tip_rounding_mm = 0.05;
+  EXPECT_FALSE(ToothProfile::make(gear));
+  gear = ring_gear(20, 0.0);  // tip inside the base circle
+  gear.tip_rounding_mm = 0.05;
+  EXPECT_FALSE(ToothProfile::make(gear));
+}
+
 }  // namespace
 }  // namespace trueflank

@@ -61,6 +61,11 @@ inline Gear helical_ring(int teeth, double shift, double helix_rad) {
   return gear;
 }
 
+inline Gear with_tip_rounding(Gear gear, double radius_mm) {
+  gear.tip_rounding_mm = radius_mm;
+  return gear;
+}
+
 inline std::vector<SampleGear> sample_gears() {
   Gear odd_angle = external_gear(24, 0.1, 2.5);
   odd_angle.rack.pressure_angle_rad = 0.25;
@@ -86,6 +91,8 @@ inline std::vector<SampleGear> sample_gears() {
       {"shaped ring", shaped_ring(90, 0.5, {25, 0.0, 0.2})},
       {"shaped ring, sharp cutter", shaped_ring(40, 0.0, {25, 0.0, 0.0})},
       {"shaped ring, full round cutter", shaped_ring(60, 0.0, {25, 0.0, 0.5})},
+      {"rounded tips", with_tip_rounding(external_gear(24, 0.1), 0.15)},
+      {"ring with rounded tips", with_tip_rounding(ring_gear(60, 0.2), 0.12)},
       {"ring trimmed by its cutter", shaped_ring(36, 0.0, {30, 0.0, 0.2})},
   };
 }

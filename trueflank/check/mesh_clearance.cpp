@@ -340,6 +340,7 @@ MeshClearance driving(const GearPair& pair, const PairDistances& d) {
 const char* piece_text(PieceKind kind) {
   switch (kind) {
     case PieceKind::kTip: return "tip circle";
+    case PieceKind::kTipRounding: return "tip rounding";
     case PieceKind::kTrim: return "trimmed tip corner";
     case PieceKind::kRadial: return "radial tip";
     case PieceKind::kInvolute: return "flank";

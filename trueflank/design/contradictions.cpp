@@ -86,10 +86,27 @@ class Contradictions {
         (!reading_.has("gearbox.helix_angle_deg") || reading_.good("gearbox.helix_angle_deg")))
       reading_.contradiction("gearbox.herringbone", "herringbone teeth need a helix angle",
                              "a helix_angle_deg other than 0, or false");
+    check_groove();
     if (reading_.good("gearbox.backlash_mm") && reading_.good("gearbox.module_mm") &&
         design_.backlash_mm > design_.module_mm)
       reading_.contradiction("gearbox.backlash_mm", "more than one module",
                              "at most " + mm(design_.module_mm));
+  }
+
+  void check_groove() {
+    const std::string groove = "gearbox.relief_groove_mm";
+    if (!reading_.good(groove) || design_.relief_groove_mm == 0.0) return;
+    if (!design_.herringbone) {
+      if (!reading_.has("gearbox.herringbone") || reading_.good("gearbox.herringbone"))
+        reading_.contradiction(groove, "a groove between halves, and the teeth are no herringbone",
+                               "herringbone = true, or no such key");
+      return;
+    }
+    for (const GearDesign& gear : design_.gears)
+      if (reading_.good(gear.name + ".face_width_mm") &&
+          design_.relief_groove_mm >= gear.face_width_mm)
+        return reading_.contradiction(groove, "leaves " + gear.name + " no teeth",
+                                      "less than its face width, " + mm(gear.face_width_mm));
   }
 
   [[nodiscard]] std::optional<double> module_mm(const GearDesign& gear) const {
@@ -157,27 +174,46 @@ class Contradictions {
             (gear_->kind == GearKind::kExternal ? "more than " : "less than ") + mm(*root));
   }
 
-  void check_modifications() {
+  /// An amount and the measure that places it need each other.
+  void check_relief(const std::string& amount, const std::string& place, const std::string& shape,
+                    double amount_um, const std::string& remedy) {
     const std::string table = "modifications.";
+    if (good(table + amount) && amount_um > 0.0 && !has(table + place))
+      reading_.missing(key(table + place), "missing, and " + amount + " needs it", remedy);
+    if (good(table + place) && !has(table + amount))
+      wrong(table + place, "without " + amount, amount + " beside it, or neither");
+    if (good(table + shape) && !has(table + amount))
+      wrong(table + shape, "without " + amount, amount + " beside it, or neither");
+  }
+
+  /// A relief starts on the tooth.
+  void check_start(const std::string& name, double start_mm) {
+    const std::string relief_key = "modifications." + name;
+    if (!good(relief_key) || !good("tip_diameter_mm")) return;
+    const double tip = *gear_->tip_diameter_mm;
+    if (gear_->kind == GearKind::kExternal ? start_mm >= tip : start_mm <= tip)
+      wrong(relief_key, "beyond the tip circle",
+            (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + mm(tip));
+  }
+
+  void check_modifications() {
     const ModificationsDesign& m = gear_->modifications;
-    if (good(table + "tip_relief_um") && m.tip_relief_um > 0.0 &&
-        !has(table + "tip_relief_start_diameter_mm"))
-      reading_.missing(key(table + "tip_relief_start_diameter_mm"),
-                       "missing, and tip_relief_um needs it",
-                       "the diameter at which the tip relief starts");
-    if (good(table + "tip_relief_start_diameter_mm") && !has(table + "tip_relief_um"))
-      wrong(table + "tip_relief_start_diameter_mm", "without tip_relief_um",
-            "tip_relief_um beside it, or neither");
-    if (good(table + "tip_relief_start_diameter_mm") && good("tip_diameter_mm")) {
-      const double start = m.tip_relief_start_diameter_mm, tip = *gear_->tip_diameter_mm;
-      if (gear_->kind == GearKind::kExternal ? start >= tip : start <= tip)
-        wrong(table + "tip_relief_start_diameter_mm", "beyond the tip circle",
-              (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + mm(tip));
-    }
-    if (good(table + "edge_chamfer_mm") && good("face_width_mm") &&
-        2.0 * m.edge_chamfer_mm >= gear_->face_width_mm)
-      wrong(table + "edge_chamfer_mm", "leaves nothing of the face width",
+    check_relief("tip_relief_um", "tip_relief_start_diameter_mm", "tip_relief_shape",
+                 m.tip_relief_um, "the diameter at which the tip relief starts");
+    check_relief("root_relief_um", "root_relief_start_diameter_mm", "root_relief_shape",
+                 m.root_relief_um, "the diameter at which the root relief starts");
+    check_relief("end_relief_um", "end_relief_length_mm", "end_relief_shape", m.end_relief_um,
+                 "how far the end relief reaches in from the end faces");
+    check_start("tip_relief_start_diameter_mm", m.tip_relief_start_diameter_mm);
+    check_start("root_relief_start_diameter_mm", m.root_relief_start_diameter_mm);
+    if (!good("face_width_mm")) return;
+    if (good("modifications.edge_chamfer_mm") && 2.0 * m.edge_chamfer_mm >= gear_->face_width_mm)
+      wrong("modifications.edge_chamfer_mm", "leaves nothing of the face width",
             "less than " + mm(0.5 * gear_->face_width_mm));
+    if (good("modifications.end_relief_length_mm") &&
+        2.0 * m.end_relief_length_mm > gear_->face_width_mm)
+      wrong("modifications.end_relief_length_mm", "more than half the face width",
+            "at most " + mm(0.5 * gear_->face_width_mm));
   }
 
   void check_bore_kind() {

@@ -154,6 +154,12 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.herringbone = std::get<bool>(v); },
        [](const D& d) { return d.herringbone ? Value(true) : Value(); }},
+      {{.name = "relief_groove_mm", .unit = "mm", .lower = 0, .upper = 1000, .by_default = "0",
+        .meaning = "herringbone: width of the groove between the halves, at mid face of every gear; "
+                   "less than the face width"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.relief_groove_mm = number(v); },
+       [](const D& d) { return unless(d.relief_groove_mm, 0.0); }},
   };
   return keys;
 }

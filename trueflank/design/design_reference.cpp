@@ -64,7 +64,11 @@ constexpr const char* kRules = R"(
   or through the outer diameter.
 - `root = "shaper"` and `[<ring>.cutter]` need each other; with an explicit `root = "fillet"` the
   cutter rests.
-- `tip_relief_um` above 0 and `tip_relief_start_diameter_mm` need each other.
+- `tip_relief_um` above 0 and `tip_relief_start_diameter_mm` need each other; so do `root_relief_um`
+  and its start, `end_relief_um` and its length. Starts lie on the involute. Modifications add; they
+  may not remove the tip land or lean a flank by more than 0.2
+  ([modifications](theory/modifications.md)).
+- `relief_groove_mm` stands with herringbone teeth only and is less than every face width.
 - `[carrier]` needs planets with a round bore that is larger than its pins;
   `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
   plate.

@@ -197,32 +197,4 @@ const std::vector<DesignKey<ShaperCutter>>& cutter_keys() {
   return keys;
 }
 
-const std::vector<DesignKey<ModificationsDesign>>& modification_keys() {
-  using M = ModificationsDesign;
-  static const std::vector<DesignKey<M>> keys{
-      {{.name = "tip_relief_um", .unit = "um", .lower = 0, .upper = 10000, .by_default = "0",
-        .meaning = "tip relief at the tip, normal to the flank"},
-       KeyPlace::kAnywhere,
-       [](M& m, const KeyValue& v) { m.tip_relief_um = number(v); },
-       [](const M& m) { return unless_zero(m.tip_relief_um); }},
-      {{.name = "tip_relief_start_diameter_mm", .unit = "mm", .lower = 0.01, .upper = 200000,
-        .by_default = "needed with tip_relief_um",
-        .meaning = "diameter at which the tip relief starts"},
-       KeyPlace::kAnywhere,
-       [](M& m, const KeyValue& v) { m.tip_relief_start_diameter_mm = number(v); },
-       [](const M& m) { return unless_zero(m.tip_relief_start_diameter_mm); }},
-      {{.name = "crowning_um", .unit = "um", .lower = 0, .upper = 10000, .by_default = "0",
-        .meaning = "lead crowning: what is removed at both ends of the face"},
-       KeyPlace::kAnywhere,
-       [](M& m, const KeyValue& v) { m.crowning_um = number(v); },
-       [](const M& m) { return unless_zero(m.crowning_um); }},
-      {{.name = "edge_chamfer_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0",
-        .meaning = "chamfer of the edges at both faces; less than half the face width"},
-       KeyPlace::kAnywhere,
-       [](M& m, const KeyValue& v) { m.edge_chamfer_mm = number(v); },
-       [](const M& m) { return unless_zero(m.edge_chamfer_mm); }},
-  };
-  return keys;
-}
-
 }  // namespace trueflank

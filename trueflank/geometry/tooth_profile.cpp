@@ -86,6 +86,15 @@ class ProfileBuilder {
     if (radius * (to - from) < tolerance::kShortestPiece_mm) return;
     add(kind, {CircularArc{Point2::Zero(), radius}, from, to});
   }
+  /// The tip's land, and its rounding into the flank where there is one.
+  void add_tip() {
+    const double r_b = base_radius_mm(g());
+    if (g().tip_rounding_mm == 0.0)
+      return add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0,
+                     tooth_half_angle_rad(g(), std::max(p_.tip_radius_mm_, r_b)));
+    add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0, polar_angle_rad(rounding_.start_point()));
+    add(PieceKind::kTipRounding, rounding_);
+  }
   void add_involute(double from_roll_mm, double to_roll_mm) {
     const double r_b = base_radius_mm(g());
     const int sense = g().kind == GearKind::kExternal ? -1 : 1;
@@ -95,6 +104,7 @@ class ProfileBuilder {
 
   Status build_external();
   Status find_pointed_tip();
+  Status round_tip();
   Status find_undercut(const Curve& fillet, double& fillet_end);
 
   Status build_ring();
@@ -104,7 +114,61 @@ class ProfileBuilder {
   Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
 
   ToothProfile p_;
+  Curve rounding_;  ///< of the tip corner, where there is one
 };
+
+// ---------------------------------------------------------------- tip rounding
+
+/// The arc's centre lies on the involute parallel to the flank, the radius inside the tooth: turned by
+/// rho / r_b, met at the circle r_a - rho (ring: r_a + rho).
+Status ProfileBuilder::round_tip() {
+  const double rho = g().tip_rounding_mm;
+  if (rho == 0.0) return {};
+  constexpr const char* kKey = "modifications.tip_rounding_mm";
+  if (!(rho > 0.0) || !std::isfinite(rho)) return fail(out_of_range(kKey, rho, "0 or more"));
+  const std::string none = "no tip_rounding_mm";
+  if (p_.notes_.pointed || p_.notes_.tip_trimmed || p_.notes_.tip_inside_base) {
+    const std::string why = p_.notes_.pointed ? "the tooth is pointed"
+                            : p_.notes_.tip_trimmed
+                                ? "the cutter trims the tip corner"
+                                : "the tip circle lies inside the base circle";
+    return fail(infeasible(kKey, rho, why + ": there is no corner of tip circle and flank to round",
+                           none + ", or another tip_diameter_mm"));
+  }
+  const double r_b = base_radius_mm(g()), r_a = p_.tip_radius_mm_;
+  const double sense = g().kind == GearKind::kExternal ? 1.0 : -1.0;
+  const auto centre_angle = [&](double radius) {
+    const double inv = involute_function(
+        pressure_angle_at_radius_rad(std::max(r_a - sense * radius, r_b), r_b));
+    return base_half_angle_rad(g()) - radius / r_b - sense * inv;
+  };
+  const auto contact_roll = [&](double radius) {
+    return roll_length_mm(r_a - sense * radius, r_b) + sense * radius;
+  };
+  const double root_roll = roll_length_mm(p_.root_form_radius_mm_, r_b);
+  const auto room = [&](double radius) {  // > 0: it fits
+    if (!(r_a - sense * radius > r_b)) return -1.0;
+    const double flank_left = sense * (contact_roll(radius) - root_roll);
+    return std::min(centre_angle(radius) * r_a, flank_left);
+  };
+  if (!(room(rho) >= 0.0)) {
+    double low = 0.0, high = rho;
+    for (int i = 0; i < 60; ++i) (room(0.5 * (low + high)) >= 0.0 ? low : high) = 0.5 * (low + high);
+    return fail(infeasible(kKey, rho,
+                           "no room for this rounding on a tip land of " +
+                               text(2.0 * r_a * tooth_half_angle_rad(g(), r_a)) + " mm",
+                           "at most " + text(low)));
+  }
+  const double roll = contact_roll(rho), angle = centre_angle(rho);
+  p_.tip_form_radius_mm_ = radius_at(roll);
+  // The flank's normal out of the material is the base tangent, at -+ 90 degrees from its radius.
+  const double normal = g().kind == GearKind::kExternal
+                            ? base_half_angle_rad(g()) - roll / r_b + 0.5 * kPi
+                            : base_half_angle_rad(g()) + roll / r_b + 0.5 * kPi;
+  const double at_tip = g().kind == GearKind::kExternal ? angle : angle + kPi;
+  rounding_ = {CircularArc{(r_a - sense * rho) * unit_vector(angle), rho}, at_tip, normal};
+  return {};
+}
 
 // ---------------------------------------------------------------- external
 
@@ -236,10 +300,10 @@ Status ProfileBuilder::build_external() {
                            "a larger profile shift or more teeth"));
 
   p_.tip_form_radius_mm_ = p_.tip_radius_mm_;
+  if (auto ok = round_tip(); !ok) return ok;
   const double roll_root = roll_length_mm(p_.root_form_radius_mm_, r_b);
-  const double roll_tip = roll_length_mm(p_.tip_radius_mm_, r_b);
-  if (!p_.notes_.pointed)
-    add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0, tooth_half_angle_rad(g(), p_.tip_radius_mm_));
+  const double roll_tip = roll_length_mm(p_.tip_form_radius_mm_, r_b);
+  if (!p_.notes_.pointed) add_tip();
   add_involute(roll_tip, roll_root);
   add(PieceKind::kFillet, fillet);
   add_arc(PieceKind::kRoot, root_radius, root_end, gap_angle());
@@ -296,6 +360,7 @@ Status ProfileBuilder::build_ring() {
                                text(2.0 * p_.root_form_radius_mm_) + " mm, inside its tip circle " +
                                text(2.0 * p_.tip_form_radius_mm_) + " mm: no involute is left",
                            "a smaller root_radius or larger cutter, or a smaller tip diameter"));
+  if (auto ok = round_tip(); !ok) return ok;
   // root pieces (and a trimmed tip) are in pieces_ already, from the tip outwards: put the rest before
   std::vector<ProfilePiece> rest = std::move(p_.pieces_);
   p_.pieces_.clear();
@@ -307,9 +372,7 @@ Status ProfileBuilder::build_ring() {
     p_.pieces_.push_back(*trim);
     rest.erase(trim);
   } else {
-    if (!p_.notes_.pointed)
-      add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0,
-              tooth_half_angle_rad(g(), p_.tip_form_radius_mm_));
+    if (!p_.notes_.pointed) add_tip();
     if (p_.notes_.tip_inside_base)
       add(PieceKind::kRadial,
           {StraightLine{Point2::Zero(), unit_vector(psi)}, p_.tip_radius_mm_, r_b});

@@ -12,6 +12,7 @@ namespace trueflank {
 /// What a piece of the profile is.
 enum class PieceKind {
   kTip,      ///< arc of the tip circle, from the tooth's middle
+  kTipRounding,  ///< arc from the tip circle into the flank, tangent to both
   kTrim,     ///< ring only: tip corner as trimmed by the shaper cutter
   kRadial,   ///< ring only: straight continuation of the flank inside the base circle
   kInvolute,

@@ -109,12 +109,14 @@ HalfPoint half_point(const Toothing& t, const ToothPlace& place, double z_mm) {
 
 }  // namespace
 
-FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone) {
+FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone,
+                     double relief_groove_mm) {
   const double turn = gear.helix_angle_rad == 0.0
                           ? 0.0
                           : std::tan(gear.helix_angle_rad) / reference_radius_mm(gear);
   return {.turn_rad_per_mm = turn, .face_width_mm = face_width_mm,
-          .herringbone = herringbone && turn != 0.0};
+          .herringbone = herringbone && turn != 0.0,
+          .relief_groove_mm = herringbone && turn != 0.0 ? relief_groove_mm : 0.0};
 }
 
 double section_turn_rad(const FaceTwist& twist, double z_mm) {

@@ -17,12 +17,14 @@ struct FaceTwist {
   double turn_rad_per_mm = 0.0;  ///< counter-clockwise with z: right hand
   double face_width_mm = 0.0;
   bool herringbone = false;      ///< turns back above mid face
+  double relief_groove_mm = 0.0;  ///< herringbone: no teeth this far, half on either side of mid face
 
   bool operator==(const FaceTwist&) const = default;
 };
 
 /// tan(beta) / r; gears and rings alike.
-[[nodiscard]] FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone);
+[[nodiscard]] FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone,
+                                   double relief_groove_mm = 0.0);
 /// Turn of the section at a height against that at the lower face.
 [[nodiscard]] double section_turn_rad(const FaceTwist& twist, double z_mm);
 

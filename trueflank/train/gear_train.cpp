@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/train/flank_modifications.h"
 #include "trueflank/train/planet_phase.h"
 #include "trueflank/train/shift_solution.h"
 
@@ -49,6 +50,7 @@ std::vector<Gear> gears_without_tips(const GearboxDesign& design, const ShiftSol
               .helix_angle_rad = helix_of(design, d.name),
               .rack = design.rack,
               .shift = solution.shifts[i],
+              .tip_rounding_mm = d.modifications.tip_rounding_mm,
               .ring_root = d.root,
               .cutter = d.cutter};
     gears.push_back(gear);
@@ -156,11 +158,24 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
       errors.push_back(std::move(error));
       continue;
     }
+    const FaceTwist twist = face_twist(gears[i], d.face_width_mm, design.herringbone,
+                                       design.relief_groove_mm);
+    auto deviation = design_deviation(d.modifications, *profile, twist);
+    if (!deviation) {
+      for (Error& error : deviation.error()) {
+        error.key = d.name + "." + error.key;
+        error.message = d.name + ": " + error.message;
+        errors.push_back(std::move(error));
+      }
+      continue;
+    }
     train.gears.push_back({.name = d.name,
                            .profile = std::move(*profile),
                            .shift = gears[i].shift,
                            .face_width_mm = d.face_width_mm,
-                           .twist = face_twist(gears[i], d.face_width_mm, design.herringbone)});
+                           .twist = twist,
+                           .deviation = std::move(*deviation),
+                           .edge_chamfer_mm = d.modifications.edge_chamfer_mm});
   }
   if (!errors.empty()) return fail_all(std::move(errors));
 

@@ -37,12 +37,27 @@ struct BoltCircleDesign {
   bool operator==(const BoltCircleDesign&) const = default;
 };
 
-/// Flank modifications of one gear (built as a FlankDeviation).
+/// How a relief grows from its start.
+enum class ReliefShape { kParabola, kLinear };
+
+/// Flank modifications of one gear (design_deviation makes a FlankDeviation of them). What is removed
+/// is positive here; slopes are signed.
 struct ModificationsDesign {
   double tip_relief_um = 0.0;
   double tip_relief_start_diameter_mm = 0.0;
+  ReliefShape tip_relief_shape = ReliefShape::kParabola;
+  double root_relief_um = 0.0;
+  double root_relief_start_diameter_mm = 0.0;
+  ReliefShape root_relief_shape = ReliefShape::kParabola;
+  double profile_crowning_um = 0.0;
+  double profile_slope_um = 0.0;  ///< + material towards the tip
   double crowning_um = 0.0;
+  double end_relief_um = 0.0;
+  double end_relief_length_mm = 0.0;
+  ReliefShape end_relief_shape = ReliefShape::kParabola;
+  double helix_slope_um = 0.0;  ///< + the section turns counter-clockwise with z
   double edge_chamfer_mm = 0.0;
+  double tip_rounding_mm = 0.0;  ///< radius in the transverse section; part of the profile
 
   bool operator==(const ModificationsDesign&) const = default;
 };
@@ -104,6 +119,7 @@ struct GearboxDesign {
   double layer_gap_mm = 1.0;
   double helix_angle_rad = 0.0;  ///< of the sun, pinion or gear, right hand positive
   bool herringbone = false;
+  double relief_groove_mm = 0.0;  ///< herringbone: width of the groove between the halves
   BasicRack rack = {};
   std::vector<GearDesign> gears = {};  ///< in the order of gear_names(kind)
   std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
