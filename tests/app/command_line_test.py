@@ -215,12 +215,33 @@ class Make(Case):
         self.assertTrue((self.folder / "out" / "pinion.stl").is_file())
 
     def test_what_is_not_built_is_refused_and_not_left_out(self):
-        helical = PAIR.replace("backlash_mm", "helix_angle_deg = 15.0\nbacklash_mm")
         relieved = PAIR + "[pinion.modifications]\ncrowning_um = 5\n"
-        for text, key in [(helical, "helix_angle_deg"), (relieved, "pinion.modifications")]:
-            self.expect_error(run("make", self.design(text), "-o", self.folder / "out"), 2, key,
-                              "does not build")
-            self.assertFalse((self.folder / "out").exists())
+        self.expect_error(run("make", self.design(relieved), "-o", self.folder / "out"), 2,
+                          "pinion.modifications", "does not build")
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_helical_and_herringbone_pairs_are_written_within_the_tolerance(self):
+        for more in ["", "herringbone = true\n"]:
+            design = self.design(PAIR.replace("backlash_mm", "helix_angle_deg = 15.0\n" + more +
+                                              "backlash_mm"))
+            out = self.folder / f"out{len(more)}"
+            result = run("make", design, "-o", out, "--formats", "stl,3mf", "--tolerance-um", "2")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            files = json.loads((out / "report.json").read_text())["files"]
+            self.assertEqual(len(files), 6)
+            for file in files:
+                self.assertGreater(file["accuracy_um"], 1.0, file)
+                self.assertLessEqual(file["accuracy_um"], 2.0, file)
+
+    def test_formats_that_cannot_hold_helical_teeth_are_refused_by_name(self):
+        design = self.design(PAIR.replace("backlash_mm", "helix_angle_deg = 15.0\nbacklash_mm"))
+        self.expect_error(run("make", design, "-o", self.folder / "out", "--formats", "stl,scad"), 2,
+                          "--formats", "scad", "helical")
+        self.assertFalse((self.folder / "out").exists())
+        result = run("make", design, "-o", self.folder / "out", "--tolerance-um", "20")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("not written: scad", result.stdout)
+        self.assertFalse(list((self.folder / "out").glob("*.scad")))
 
     def test_folder_that_is_a_file_is_three(self):
         (self.folder / "taken").write_text("mine")

@@ -52,6 +52,28 @@ Errors part_errors(const MakeOptions& options, const PartShapes& shapes) {
            .remedy = joined(names)}};
 }
 
+/// Formats that can hold the design. Those that cannot are refused where they were asked for by name,
+/// and told where all were asked for.
+ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
+                                                   const GearboxDesign& design, std::string& told) {
+  const auto asked = io::parse_formats(options.formats).value();
+  const auto missing = formats_not_built(design);
+  std::vector<io::FileFormat> kept;
+  std::vector<std::string> dropped;
+  for (const io::FileFormat format : asked)
+    if (std::find(missing.begin(), missing.end(), format) == missing.end()) kept.push_back(format);
+    else dropped.emplace_back(io::to_text(format));
+  if (dropped.empty()) return kept;
+  if (!options.formats.empty())
+    return fail_all({{.code = ErrorCode::kUnsupported,
+                      .message = "this version does not write helical teeth in this format",
+                      .key = "--formats",
+                      .value = joined(dropped),
+                      .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"}});
+  told += "not written: " + joined(dropped) + " (this version does not write helical teeth there)\n";
+  return kept;
+}
+
 Status write_report(const io::Report& report, const PartShapes& shapes,
                     const std::filesystem::path& folder) {
   if (auto ok = io::write_file(folder / "report.html", html_document(report, &shapes)); !ok)
@@ -71,28 +93,30 @@ int run_make(const MakeOptions& options) {
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);
 
+  std::string told;  // what was left out, and what was corrected
+  auto formats = formats_for(options, train->design, told);
+  if (!formats) return report_errors(formats.error());
+
   const auto strength = strength_options(train->design, {.material = "", .file = options.materials_file});
   if (!strength) return report_errors(located_in(options.design, strength.error()));
   io::Report report = evaluate(*train, *strength);
   const std::filesystem::path folder(options.folder);
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
-  std::string told;  // of the correction
   const bool failed = verdict(report.findings) == CheckStatus::kFail;
   if (!failed || options.allow_failing) {
-    auto formats = io::parse_formats(options.formats).value();
     CorrectedParts corrected;
     if (!options.correct.empty()) {
       auto made = corrected_parts(*train, *shapes, options.correct, mm_from_um(options.tolerance_um));
       if (!made) return report_errors(made.error());
       corrected = std::move(*made);
-      formats = formats_of_corrected(formats, corrected.text);
-      told = corrected.text;
+      formats = formats_of_corrected(*formats, corrected.text);
+      told += corrected.text;
     }
     auto files = io::export_parts({.train = &*train,
                                    .shapes = &*shapes,
                                    .meshes = options.correct.empty() ? nullptr : &corrected.meshes},
                                   {.folder = folder,
-                                   .formats = formats,
+                                   .formats = *formats,
                                    .tolerance_mm = mm_from_um(options.tolerance_um),
                                    .part = options.part});
     if (!files) return report_errors(files.error());

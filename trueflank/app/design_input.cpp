@@ -33,10 +33,6 @@ Errors not_built(const GearboxDesign& design) {
                       .value = std::move(value),
                       .remedy = std::move(remedy)});
   };
-  if (design.helix_angle_rad != 0.0)
-    refuse("gearbox.helix_angle_deg", std::to_string(deg_from_rad(design.helix_angle_rad)),
-           "0 (check and loop take helical gears)");
-  if (design.herringbone) refuse("gearbox.herringbone", "true", "false");
   for (const GearDesign& gear : design.gears)
     if (gear.modifications != ModificationsDesign{})
       refuse(gear.name + ".modifications", "", "no modifications");
@@ -72,6 +68,11 @@ void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
 }
 
 }  // namespace
+
+std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design) {
+  if (design.helix_angle_rad == 0.0) return {};
+  return {io::FileFormat::kScad};
+}
 
 io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
   io::Report report;

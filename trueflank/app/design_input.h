@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "trueflank/base/result.h"
+#include "trueflank/export/export_parts.h"
 #include "trueflank/export/report.h"
 #include "trueflank/train/gear_train.h"
 
@@ -17,6 +19,8 @@ namespace trueflank::app {
 
 /// What a design asks for and this version does not build: refused, never left out in silence.
 [[nodiscard]] Errors not_built(const GearboxDesign& design);
+/// Formats that this version does not write of a design: OpenSCAD of helical teeth.
+[[nodiscard]] std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design);
 
 /// Every check, sweep and efficiency of a train. The report refers to the train.
 [[nodiscard]] io::Report evaluate(const GearTrain& train, const StrengthOptions& strength = {});

@@ -134,33 +134,34 @@ class CapBuilder {
     const int per_tooth = (corners + loop.teeth - 1) / loop.teeth;
     const Ring polygon =
         circle_ring(radius, per_tooth * loop.teeth, polar_angle_rad(points_[ring.vertices[0]]));
-    copy_tooth(loop, ring, polygon, per_tooth, direction);
+    fill_teeth(loop, ring, polygon, per_tooth, direction);
     return polygon;
   }
 
-  void copy_tooth(const OutlineLoop& loop, const Ring& ring, const Ring& polygon, int per_tooth,
+  /// Tooth by tooth; where teeth are alike, all as the first.
+  void fill_teeth(const OutlineLoop& loop, const Ring& ring, const Ring& polygon, int per_tooth,
                   Direction direction) {
     const auto n = static_cast<std::uint32_t>(loop.points_per_tooth);
     const auto m = static_cast<std::uint32_t>(per_tooth);
-    // tooth 1: its points 0 ... n, then the polygon's 0 ... m
-    std::vector<Point2> points;
-    for (std::uint32_t i = 0; i <= n; ++i) points.push_back(points_[ring.vertices[i]]);
-    for (std::uint32_t i = 0; i <= m; ++i)
-      points.push_back(points_[polygon.vertices[i % polygon.vertices.size()]]);
-    Indices boundary;
-    for (std::uint32_t i = 0; i <= n; ++i) boundary.push_back(i);
-    for (std::uint32_t i = 0; i <= m; ++i) boundary.push_back(n + 1 + m - i);
-    if (direction == Direction::kOutwards) std::reverse(boundary.begin(), boundary.end());
-    std::vector<IndexTriangle> tooth = clip_ears(points, boundary);
-    make_delaunay(points, tooth);
-
     const auto all_n = n * static_cast<std::uint32_t>(loop.teeth);
     const auto all_m = m * static_cast<std::uint32_t>(loop.teeth);
+    std::vector<IndexTriangle> tooth;
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(loop.teeth); ++k) {
       const auto copied = [&](std::uint32_t v) {
         return v <= n ? ring.vertices[(k * n + v) % all_n]
                       : polygon.vertices[(k * m + v - n - 1) % all_m];
       };
+      if (k == 0 || !loop.teeth_alike) {
+        // the tooth's points 0 ... n, then the polygon's 0 ... m
+        std::vector<Point2> points;
+        for (std::uint32_t i = 0; i <= n + 1 + m; ++i) points.push_back(points_[copied(i)]);
+        Indices boundary;
+        for (std::uint32_t i = 0; i <= n; ++i) boundary.push_back(i);
+        for (std::uint32_t i = 0; i <= m; ++i) boundary.push_back(n + 1 + m - i);
+        if (direction == Direction::kOutwards) std::reverse(boundary.begin(), boundary.end());
+        tooth = clip_ears(points, boundary);
+        make_delaunay(points, tooth);
+      }
       for (const IndexTriangle& t : tooth)
         triangles_.push_back({copied(t[0]), copied(t[1]), copied(t[2])});
     }

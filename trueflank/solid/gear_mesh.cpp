@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/cap_triangulation.h"
+#include "trueflank/solid/toothing_grid.h"
 
 namespace trueflank {
 namespace {
@@ -34,10 +36,7 @@ class StackMesher {
       sections_.push_back(std::move(section));
     }
     const double tolerance = std::min(options.tolerance_mm, coarsest_mm());
-    for (const Outline* outline : outlines_) {
-      loops_.push_back(outline_loop(*outline, tolerance));
-      result_.chord_error_mm = std::max(result_.chord_error_mm, loops_.back().chord_error_mm);
-    }
+    for (int loop = 0; loop < static_cast<int>(outlines_.size()); ++loop) add_loop(loop, tolerance);
     rows_.assign(loops_.size() * (sections_.size() + 1), kNone);
   }
 
@@ -65,6 +64,42 @@ class StackMesher {
       if (same_outline(*outlines_[i], outline)) return static_cast<int>(i);
     outlines_.push_back(&outline);
     return static_cast<int>(outlines_.size()) - 1;
+  }
+
+  /// A prism's loop is the same at every height; any other toothing has a grid, and its loop at the
+  /// height where it is met first stands for it where only its size is asked for.
+  void add_loop(int loop, double tolerance_mm) {
+    grids_.emplace_back();
+    const auto* toothed = std::get_if<ToothedOutline>(outlines_[at(loop)]);
+    if (toothed == nullptr || is_plain_prism(*toothed)) {
+      loops_.push_back(outline_loop(*outlines_[at(loop)], tolerance_mm));
+    } else {
+      std::vector<double> levels;
+      for (std::size_t s = 0; s < sections_.size(); ++s)
+        if (sections_[s].has(loop))
+          for (const double z : {z_of(s), z_of(s + 1)})
+            if (levels.empty() || z != levels.back() + toothed->z_lower_mm)
+              levels.push_back(z - toothed->z_lower_mm);
+      grids_.back().emplace(*toothed, levels, tolerance_mm);
+      loops_.push_back(loop_at_height(loop, levels.front()));
+      loops_.back().chord_error_mm = grids_.back()->chord_error_mm();
+    }
+    result_.chord_error_mm = std::max(result_.chord_error_mm, loops_.back().chord_error_mm);
+  }
+
+  /// A grid's row as a loop; height in the gear's frame.
+  [[nodiscard]] OutlineLoop loop_at_height(int loop, double z_mm) const {
+    const ToothingGrid& grid = *grids_[at(loop)];
+    std::vector<Point2> points;
+    for (const auto& p : grid.row(z_mm)) points.push_back({p[0], p[1]});
+    OutlineLoop result = loop_through(std::move(points));
+    result.teeth = grid.teeth();
+    result.points_per_tooth = grid.points_per_tooth();
+    result.teeth_alike = grid.teeth_alike();
+    return result;
+  }
+  [[nodiscard]] double height_in_gear(int loop, double z_mm) const {
+    return z_mm - std::get<ToothedOutline>(*outlines_[at(loop)]).z_lower_mm;
   }
 
   [[nodiscard]] double coarsest_mm() const {
@@ -95,9 +130,19 @@ class StackMesher {
     int& first = rows_[at(loop) * (sections_.size() + 1) + level];
     if (first == kNone) {
       first = static_cast<int>(result_.mesh.vertices.size());
-      for (const Point2& p : loops_[at(loop)].points) add_vertex(p, z_of(level));
+      if (grids_[at(loop)])
+        add_row(*grids_[at(loop)], height_in_gear(loop, z_of(level)));
+      else
+        for (const Point2& p : loops_[at(loop)].points) add_vertex(p, z_of(level));
     }
     return static_cast<std::uint32_t>(first);
+  }
+  std::uint32_t add_row(const ToothingGrid& grid, double z_mm) {
+    auto& vertices = result_.mesh.vertices;
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    const auto row = grid.row(z_mm);
+    vertices.insert(vertices.end(), row.begin(), row.end());
+    return first;
   }
   void add_vertex(const Point2& p, double z_mm) {
     result_.mesh.vertices.push_back({p.x(), p.y(), z_mm});
@@ -114,7 +159,53 @@ class StackMesher {
       const std::size_t begin = s;
       while (s < sections_.size() && sections_[s].has(loop) && sections_[s].has_hole(loop) == hole)
         ++s;
-      add_strip(loops_[at(loop)].points.size(), row(loop, begin), row(loop, s), hole);
+      if (grids_[at(loop)])
+        add_grid(loop, begin, s, hole);
+      else
+        add_strip(loops_[at(loop)].points.size(), row(loop, begin), row(loop, s), hole);
+    }
+  }
+
+  /// The wall of a toothing that is no prism, from one interface to another.
+  void add_grid(int loop, std::size_t first_level, std::size_t last_level, bool hole) {
+    const ToothingGrid& grid = *grids_[at(loop)];
+    const auto& heights = grid.heights_mm();
+    std::size_t level = first_level;
+    const auto row_at = [&](double z) {
+      // interfaces are rows of the grid: their vertices are those of the faces
+      if (std::abs(z - height_in_gear(loop, z_of(level))) < 1e-9) return row(loop, level++);
+      return add_row(grid, z);
+    };
+    const auto next = [&](std::size_t j) { return heights[j] - height_in_gear(loop, z_of(first_level)); };
+    std::size_t j = 0;
+    while (next(j) < -1e-9) ++j;
+    std::uint32_t lower = row_at(heights[j]);
+    while (level <= last_level) {
+      const std::uint32_t upper = row_at(heights[j + 1]);
+      add_layer(grid, j, lower, upper, hole);
+      lower = upper;
+      ++j;
+    }
+  }
+
+  void add_layer(const ToothingGrid& grid, std::size_t layer, std::uint32_t lower,
+                 std::uint32_t upper, bool hole) {
+    auto& triangles = result_.mesh.triangles;
+    const auto n = static_cast<std::uint32_t>(grid.points_per_tooth());
+    const auto all = n * static_cast<std::uint32_t>(grid.teeth());
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      if (hole) std::swap(b, c);
+      triangles.push_back({a, b, c});
+    };
+    for (std::uint32_t a = 0; a < all; ++a) {
+      const std::uint32_t b = a + 1 < all ? a + 1 : 0;
+      if (grid.rises(layer, static_cast<int>(a / n), static_cast<int>(a % n))) {
+        add(lower + a, lower + b, upper + b);
+        add(lower + a, upper + b, upper + a);
+      } else {
+        add(lower + a, lower + b, upper + a);
+        add(lower + b, upper + b, upper + a);
+      }
     }
   }
 
@@ -167,14 +258,29 @@ class StackMesher {
     }
   }
 
-  void add_face(const std::vector<int>& boundary, std::size_t level, bool up) {
-    auto [entry, is_new] = caps_.try_emplace(boundary);
-    if (is_new) {
-      std::vector<const OutlineLoop*> holes;
-      for (std::size_t i = 1; i < boundary.size(); ++i) holes.push_back(&loops_[at(boundary[i])]);
-      entry->second = triangulate_cap(loops_[at(boundary[0])], holes);
+  CapTriangulation cap_of(const std::vector<int>& boundary, std::size_t level) {
+    const bool turned = std::any_of(boundary.begin(), boundary.end(),
+                                    [&](int loop) { return grids_[at(loop)].has_value(); });
+    if (!turned) {  // the same at every height
+      auto [entry, is_new] = caps_.try_emplace(boundary);
+      if (is_new) {
+        std::vector<const OutlineLoop*> holes;
+        for (std::size_t i = 1; i < boundary.size(); ++i) holes.push_back(&loops_[at(boundary[i])]);
+        entry->second = triangulate_cap(loops_[at(boundary[0])], holes);
+      }
+      return entry->second;
     }
-    const CapTriangulation& cap = entry->second;
+    std::vector<OutlineLoop> loops;
+    for (int loop : boundary)
+      loops.push_back(grids_[at(loop)] ? loop_at_height(loop, height_in_gear(loop, z_of(level)))
+                                       : loops_[at(loop)]);
+    std::vector<const OutlineLoop*> holes;
+    for (std::size_t i = 1; i < loops.size(); ++i) holes.push_back(&loops[i]);
+    return triangulate_cap(loops[0], holes);
+  }
+
+  void add_face(const std::vector<int>& boundary, std::size_t level, bool up) {
+    const CapTriangulation cap = cap_of(boundary, level);
     std::vector<std::uint32_t> vertex;  // of the cap's numbers
     for (int loop : boundary) {
       const std::uint32_t first = row(loop, level);
@@ -196,6 +302,7 @@ class StackMesher {
   std::vector<const Outline*> outlines_;
   std::vector<Section> sections_;
   std::vector<OutlineLoop> loops_;
+  std::vector<std::optional<ToothingGrid>> grids_;  ///< of toothings that are no prisms
   std::vector<int> rows_;
   std::map<std::vector<int>, CapTriangulation> caps_;
   PartMesh result_;

@@ -11,11 +11,11 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/outline_distance.h"
+#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/toothing_distance.h"
 
 namespace trueflank {
 namespace {
-
-using Point3 = Eigen::Vector3d;
 
 /// Sine of the angle up to which a facet counts as plane face or as wall.
 constexpr double kSteep = 0.05;
@@ -24,6 +24,12 @@ constexpr double kLongChord = 0.01;
 /// Samples of a true curve for each chord that the error found would need.
 constexpr double kSamplesPerChord = 2.0;
 constexpr int kLeastSamples = 5, kMostSamples = 4000;
+/// Heights, as shares of a slab, at which a mesh is cut whose sections differ: in no simple ratio.
+constexpr std::array kCutShares = {0.013, 0.171, 0.337, 0.523, 0.689, 0.854, 0.987};
+/// At each of these heights one sample in so many of the true curve is looked at, at the next the next.
+constexpr std::size_t kSampleStride = 3;
+/// Edges on a twisted wall longer than this part of its radius are looked at in three places.
+constexpr double kLongEdge = 0.05;
 
 struct Segment {
   Point2 a, b;
@@ -99,7 +105,8 @@ class SegmentFan {
 struct Wall {
   OutlineDistance curves;
   bool hole = false;
-  std::vector<Segment> cut = {};
+  std::optional<ToothingDistance> toothing = {};  ///< of teeth that are no prism
+  std::vector<std::vector<Segment>> cuts = {};    ///< one a height of the slab's
   double error_mm = 0.0;  ///< largest found from the facets' side
   Point2 error_foot = Point2::Zero();  ///< where on the curve
 };
@@ -107,8 +114,16 @@ struct Wall {
 struct SlabWalls {
   double z_lower_mm = 0.0, z_upper_mm = 0.0;
   std::vector<Wall> walls;
-  [[nodiscard]] double z_middle_mm() const { return 0.5 * (z_lower_mm + z_upper_mm); }
+  bool prismatic = true;
+  std::vector<double> cut_heights_mm = {};
 };
+
+Wall wall_of(const Outline& outline, bool hole) {
+  Wall wall{.curves = OutlineDistance(outline), .hole = hole};
+  const auto* toothed = std::get_if<ToothedOutline>(&outline);
+  if (toothed != nullptr && !is_plain_prism(*toothed)) wall.toothing.emplace(*toothed);
+  return wall;
+}
 
 struct NearestWall {
   std::size_t wall = 0;
@@ -122,9 +137,15 @@ class Measurement {
     TRUEFLANK_EXPECTS(!shape.slabs.empty());
     for (const Slab& slab : shape.slabs) {
       SlabWalls walls{slab.z_lower_mm, slab.z_upper_mm, {}};
-      walls.walls.push_back({.curves = OutlineDistance(slab.outer), .hole = false});
-      for (const Outline& hole : slab.holes)
-        walls.walls.push_back({.curves = OutlineDistance(hole), .hole = true});
+      walls.walls.push_back(wall_of(slab.outer, false));
+      for (const Outline& hole : slab.holes) walls.walls.push_back(wall_of(hole, true));
+      for (const Wall& wall : walls.walls) walls.prismatic = walls.prismatic && !wall.toothing;
+      if (walls.prismatic)
+        walls.cut_heights_mm = {0.5 * (slab.z_lower_mm + slab.z_upper_mm)};
+      else
+        for (const double share : kCutShares)
+          walls.cut_heights_mm.push_back(std::lerp(slab.z_lower_mm, slab.z_upper_mm, share));
+      for (Wall& wall : walls.walls) wall.cuts.resize(walls.cut_heights_mm.size());
       planes_mm_.push_back(slab.z_lower_mm);
       slabs_.push_back(std::move(walls));
     }
@@ -153,19 +174,33 @@ class Measurement {
     while (s + 1 < slabs_.size() && z_mm > slabs_[s].z_upper_mm) ++s;
     return s;
   }
-  [[nodiscard]] double plane_distance_mm(double z_mm) const {
+  [[nodiscard]] double plane_distance_mm(const Point3& p) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (double plane : planes_mm_) nearest = std::min(nearest, std::abs(z_mm - plane));
+    for (double plane : planes_mm_) nearest = std::min(nearest, std::abs(p.z() - plane));
+    if (nearest == 0.0) return nearest;
+    // the edge of a face goes with displaced teeth
+    for (const Wall& wall : slabs_[slab_at(p.z())].walls)
+      if (wall.toothing)
+        for (double plane : planes_mm_)
+          nearest = std::min(nearest, std::abs(wall.toothing->undisplaced_z_mm(p) - plane));
     return nearest;
   }
   [[nodiscard]] double outside_stack_mm(double z_mm) const {
     return std::max({0.0, planes_mm_.front() - z_mm, z_mm - planes_mm_.back()});
   }
 
-  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point2& p) {
+  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point3& point) {
+    const Point2 p = point.head<2>();
     NearestWall nearest{.wall = 0, .excess_mm = std::numeric_limits<double>::infinity()};
     for (std::size_t w = 0; w < slab.walls.size(); ++w) {
       const Wall& wall = slab.walls[w];
+      if (wall.toothing) {
+        if (wall.toothing->lower_bound_mm(point) >= std::abs(nearest.excess_mm)) continue;
+        const double distance = wall.toothing->distance_mm(point);
+        if (std::abs(distance) < std::abs(nearest.excess_mm))
+          nearest = {w, wall.hole ? -distance : distance, p};
+        continue;
+      }
       if (wall.curves.lower_bound_mm(p) >= std::abs(nearest.excess_mm)) continue;
       const OutlineFoot foot = wall.curves.foot(p);
       if (std::abs(foot.distance_mm) < std::abs(nearest.excess_mm))
@@ -179,17 +214,46 @@ class Measurement {
     const Point3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     const double length = normal.norm();
     if (!(length > 0.0)) return;
+    const std::size_t slab = slab_at((corner[0].z() + corner[1].z() + corner[2].z()) / 3.0);
     if (std::hypot(normal.x(), normal.y()) <= kSteep * length) {
-      for (const Point3& p : corner) facet_is_off(plane_distance_mm(p.z()), p);
+      for (const Point3& p : corner) facet_is_off(plane_distance_mm(p), p);
       return;
     }
-    const std::size_t slab = slab_at((corner[0].z() + corner[1].z() + corner[2].z()) / 3.0);
+    if (!slabs_[slab].prismatic) {
+      const Point3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
+      last_wall_ = measure_on_wall(slab, middle);
+      if (slabs_[slab].walls[last_wall_].toothing) {
+        const std::size_t wall = last_wall_;
+        measure_twisted_facet(t, corner, slab);
+        last_wall_ = wall;
+        cut_triangle(corner, slab);
+        return;
+      }
+    }
     if (std::abs(normal.z()) <= kSteep * length) {
       measure_wall_facet(t, corner, slab);
       cut_triangle(corner, slab);
     } else {
       measure_slanting_facet(corner, slab);
       cut_triangle(corner, slabs_.size());
+    }
+  }
+
+  /// A facet of teeth that are no prism: corners, and places along the edges. An edge has two facets:
+  /// it is looked at with the one that runs it upwards in the order of its coordinates.
+  void measure_twisted_facet(const std::array<std::uint32_t, 3>& t,
+                             const std::array<Point3, 3>& corner, std::size_t slab) {
+    const auto stamp = static_cast<std::int32_t>(slab);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (measured_[t[i]] != stamp) measure_on_wall(slab, corner[i]);
+      measured_[t[i]] = stamp;
+      const Point3 &from = corner[i], &to = corner[(i + 1) % 3];
+      if (!std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end())) continue;
+      const bool is_long = (to - from).squaredNorm() >
+                           std::pow(kLongEdge, 2) * from.head<2>().squaredNorm();
+      const int parts = is_long ? 4 : 2;
+      for (int k = 1; k < parts; ++k)
+        measure_on_wall(slab, from + (to - from) * (static_cast<double>(k) / parts));
     }
   }
 
@@ -227,7 +291,7 @@ class Measurement {
 
   /// Returns the wall the point belongs to.
   std::size_t measure_on_wall(std::size_t slab, const Point3& p) {
-    const NearestWall nearest = nearest_wall(slabs_[slab], p.head<2>());
+    const NearestWall nearest = nearest_wall(slabs_[slab], p);
     Wall& wall = slabs_[slab].walls[nearest.wall];
     if (std::abs(nearest.excess_mm) > wall.error_mm) {
       wall.error_mm = std::abs(nearest.excess_mm);
@@ -246,33 +310,36 @@ class Measurement {
       for (int j = 0; i + j <= kSteps; ++j) {
         const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
         const Point3 p = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
-        const double excess = nearest_wall(slabs_[slab], p.head<2>()).excess_mm;
-        facet_is_off(std::min(plane_distance_mm(p.z()),
+        const double excess = nearest_wall(slabs_[slab], p).excess_mm;
+        facet_is_off(std::min(plane_distance_mm(p),
                               std::hypot(excess, outside_stack_mm(p.z()))), p);
       }
   }
 
-  /// Keeps where a facet crosses the middle heights of slabs. In its own slab a wall facet has just
-  /// been measured.
+  /// Keeps where a facet crosses the heights at which slabs are cut. In its own slab a wall facet has
+  /// just been measured.
   void cut_triangle(const std::array<Point3, 3>& corner, std::size_t measured_slab) {
-    for (std::size_t s = 0; s < slabs_.size(); ++s) {
-      SlabWalls& slab = slabs_[s];
-      const double z = slab.z_middle_mm();
-      std::array<Point2, 2> ends;
-      std::size_t count = 0;
-      for (std::size_t e = 0; e < 3; ++e) {
-        const Point3 &a = corner[e], &b = corner[(e + 1) % 3];
-        if ((a.z() < z) == (b.z() < z)) continue;
-        ends[count++] = (a + (b - a) * ((z - a.z()) / (b.z() - a.z()))).head<2>();
+    const double lower = std::min({corner[0].z(), corner[1].z(), corner[2].z()});
+    const double upper = std::max({corner[0].z(), corner[1].z(), corner[2].z()});
+    for (std::size_t s = 0; s < slabs_.size(); ++s)
+      for (std::size_t k = 0; k < slabs_[s].cut_heights_mm.size(); ++k) {
+        const double z = slabs_[s].cut_heights_mm[k];
+        if (z < lower || z > upper) continue;
+        std::array<Point2, 2> ends;
+        std::size_t count = 0;
+        for (std::size_t e = 0; e < 3; ++e) {
+          const Point3 &a = corner[e], &b = corner[(e + 1) % 3];
+          if ((a.z() < z) == (b.z() < z)) continue;
+          ends[count++] = (a + (b - a) * ((z - a.z()) / (b.z() - a.z()))).head<2>();
+        }
+        if (count != 2) continue;
+        std::size_t wall = last_wall_;
+        if (s != measured_slab) {
+          const Point2 middle = 0.5 * (ends[0] + ends[1]);
+          wall = measure_on_wall(s, {middle.x(), middle.y(), z});
+        }
+        slabs_[s].walls[wall].cuts[k].push_back({ends[0], ends[1]});
       }
-      if (count != 2) continue;
-      std::size_t wall = last_wall_;
-      if (s != measured_slab) {
-        const Point2 middle = 0.5 * (ends[0] + ends[1]);
-        wall = measure_on_wall(s, {middle.x(), middle.y(), z});
-      }
-      slab.walls[wall].cut.push_back({ends[0], ends[1]});
-    }
   }
 
   // ------------------------------------------------------------ from the surface to the facets
@@ -283,36 +350,59 @@ class Measurement {
     int copy = 0;
   };
 
-  void measure_curves(const SlabWalls& slab, Wall& wall) {
-    if (wall.cut.empty()) {  // the wall is missing: whatever else is there is far away
-      std::vector<Segment> all;
-      for (const Wall& other : slab.walls) all.insert(all.end(), other.cut.begin(), other.cut.end());
-      if (all.empty()) {
-        surface_is_off(std::numeric_limits<double>::infinity(), Point2::Zero(), slab);
-        return;
-      }
-      wall.cut = std::move(all);
+  /// The true curves of a wall at a height, and the mesh's cut there.
+  struct TrueCurves {
+    const Wall& wall;
+    const SegmentFan& fan;
+    double z_mm;
+    [[nodiscard]] Point2 place(std::size_t piece, double parameter, int copy) const {
+      if (wall.toothing) return wall.toothing->point_at_height(piece, parameter, copy, z_mm);
+      return wall.curves.to_outline(point_at(wall.curves.pieces()[piece].curve, parameter), copy);
     }
-    const SegmentFan fan(std::move(wall.cut), wall.curves.centre());
-    Worst worst;
-    const auto& pieces = wall.curves.pieces();
-    for (std::size_t i = 0; i < pieces.size(); ++i) sample(fan, wall, i, worst);
-    refine(fan, wall, worst);
-    const Point2 place = wall.curves.to_outline(
-        point_at(pieces[worst.piece].curve, worst.parameter), worst.copy);
-    surface_is_off(worst.distance_mm, place, slab);
-    surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, slab);
-    wall.cut.clear();
+    /// Square to the surface; where even the distance within the plane is less than `least_mm`, that.
+    [[nodiscard]] double distance_mm(std::size_t piece, double parameter, int copy,
+                                     double least_mm) const {
+      const double within = fan.distance_mm(place(piece, parameter, copy));
+      if (!wall.toothing || within <= least_mm) return within;
+      return within * wall.toothing->slope_share(piece, parameter, copy, z_mm);
+    }
+  };
+
+  void measure_curves(const SlabWalls& slab, Wall& wall) {
+    for (std::size_t k = 0; k < wall.cuts.size(); ++k) measure_curves_at(slab, wall, k);
   }
 
-  void surface_is_off(double distance_mm, const Point2& place, const SlabWalls& slab) {
+  void measure_curves_at(const SlabWalls& slab, Wall& wall, std::size_t height) {
+    std::vector<Segment>& cut = wall.cuts[height];
+    const double z_mm = slab.cut_heights_mm[height];
+    if (cut.empty()) {  // the wall is missing: whatever else is there is far away
+      for (const Wall& other : slab.walls)
+        cut.insert(cut.end(), other.cuts[height].begin(), other.cuts[height].end());
+      if (cut.empty()) {
+        surface_is_off(std::numeric_limits<double>::infinity(), Point2::Zero(), z_mm);
+        return;
+      }
+    }
+    const SegmentFan fan(std::move(cut), wall.curves.centre());
+    const TrueCurves curves{wall, fan, z_mm};
+    Worst worst;
+    for (std::size_t i = 0; i < wall.curves.pieces().size(); ++i) sample(curves, height, i, worst);
+    refine(curves, worst);
+    surface_is_off(worst.distance_mm, curves.place(worst.piece, worst.parameter, worst.copy), z_mm);
+    if (!wall.toothing)
+      surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, z_mm);
+    wall.cuts[height].clear();
+  }
+
+  void surface_is_off(double distance_mm, const Point2& place, double z_mm) {
     if (!(distance_mm > result_.surface_to_facets_mm)) return;
     if (distance_mm > result_.largest_mm())
-      result_.worst_place_mm = {place.x(), place.y(), slab.z_middle_mm()};
+      result_.worst_place_mm = {place.x(), place.y(), z_mm};
     result_.surface_to_facets_mm = distance_mm;
   }
 
-  static void sample(const SegmentFan& fan, const Wall& wall, std::size_t index, Worst& worst) {
+  static void sample(const TrueCurves& curves, std::size_t height, std::size_t index, Worst& worst) {
+    const Wall& wall = curves.wall;
     const OutlineDistance::Piece& piece = wall.curves.pieces()[index];
     // a curve of length s that turns by t needs sqrt(s t / (8 error)) chords, spread at their best
     const double error = std::max(wall.error_mm, 1e-6);
@@ -324,7 +414,11 @@ class Measurement {
       const double parameter = piece.curve.begin + span * i / samples;
       const Point2 on_piece = point_at(piece.curve, parameter);
       for (int copy = 0; copy < wall.curves.copies(); ++copy) {
-        const double distance = fan.distance_mm(wall.curves.to_outline(on_piece, copy));
+        if (wall.toothing && (static_cast<std::size_t>(i + copy) + height) % kSampleStride != 0)
+          continue;
+        const double distance = wall.toothing
+                                    ? curves.distance_mm(index, parameter, copy, worst.distance_mm)
+                                    : curves.fan.distance_mm(wall.curves.to_outline(on_piece, copy));
         if (distance > worst.distance_mm)
           worst = {distance, parameter, span / samples, index, copy};
       }
@@ -332,14 +426,13 @@ class Measurement {
   }
 
   /// Climbs to the largest distance next to the worst sample.
-  static void refine(const SegmentFan& fan, const Wall& wall, Worst& worst) {
-    const Curve& curve = wall.curves.pieces()[worst.piece].curve;
+  static void refine(const TrueCurves& curves, Worst& worst) {
+    const Curve& curve = curves.wall.curves.pieces()[worst.piece].curve;
     const double low = std::min(curve.begin, curve.end), high = std::max(curve.begin, curve.end);
     for (double step = 0.5 * worst.step; std::abs(step) > 0.01 * std::abs(worst.step); step *= 0.5)
       for (double sign : {-1.0, 1.0}) {
         const double at = std::clamp(worst.parameter + sign * step, low, high);
-        const double distance =
-            fan.distance_mm(wall.curves.to_outline(point_at(curve, at), worst.copy));
+        const double distance = curves.distance_mm(worst.piece, at, worst.copy, worst.distance_mm);
         if (distance <= worst.distance_mm) continue;
         worst.distance_mm = distance;
         worst.parameter = at;

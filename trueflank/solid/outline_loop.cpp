@@ -6,6 +6,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/geometry/polyline.h"
+#include "trueflank/solid/toothing_grid.h"
 
 namespace trueflank {
 namespace {
@@ -38,6 +39,7 @@ void set_radii(OutlineLoop& loop) {
 }
 
 OutlineLoop loop_of(const ToothedOutline& outline, double tolerance_mm, int) {
+  if (!has_profile_section(outline)) return toothed_section(outline, tolerance_mm);
   SectionPolygon section = section_polygon(*outline.profile, tolerance_mm, outline.rotation_rad);
   OutlineLoop loop;
   loop.points = std::move(section.points);
@@ -104,6 +106,15 @@ bool same(const BoreOutline& a, const BoreOutline& b) { return a.bore == b.bore;
 
 }  // namespace
 
+bool has_profile_section(const ToothedOutline& outline) {
+  const Toothing toothing = outline.toothing();
+  return !toothing.has_deviation() && toothing.displacement == nullptr;
+}
+
+bool is_plain_prism(const ToothedOutline& outline) {
+  return has_profile_section(outline) && outline.toothing().prismatic();
+}
+
 OutlineExtent extent(const Outline& outline) {
   return std::visit([](const auto& o) { return extent_of(o); }, outline);
 }
@@ -169,6 +180,13 @@ OutlineLoop outline_loop(const Outline& outline, double tolerance_mm, int least_
   TRUEFLANK_EXPECTS(tolerance_mm > 0.0);
   OutlineLoop loop = std::visit(
       [&](const auto& o) { return loop_of(o, tolerance_mm, least_segments); }, outline);
+  set_radii(loop);
+  return loop;
+}
+
+OutlineLoop loop_through(std::vector<Point2> points) {
+  OutlineLoop loop;
+  loop.points = std::move(points);
   set_radii(loop);
   return loop;
 }

@@ -13,12 +13,18 @@ struct OutlineLoop {
   std::vector<Point2> points;
   int teeth = 0;             ///< 0: no teeth
   int points_per_tooth = 0;  ///< tooth k owns points [k n, (k + 1) n), see SectionPolygon
+  bool teeth_alike = true;   ///< teeth are turned copies of the first
   double chord_error_mm = 0.0;
   /// The polygon lies between these circles about `centre`, and is star-shaped seen from there
   /// unless it has teeth.
   Point2 centre = Point2::Zero();
   double inner_radius_mm = 0.0, outer_radius_mm = 0.0;
 };
+
+/// Whether the section away from the end faces is the profile itself: no deviation, no displacement.
+[[nodiscard]] bool has_profile_section(const ToothedOutline& outline);
+/// Whether every section is the profile itself, not turned: no twist and no chamfer either.
+[[nodiscard]] bool is_plain_prism(const ToothedOutline& outline);
 
 /// Circles about the outline's centre between which it lies (the true curve, not a polygon).
 struct OutlineExtent {
@@ -42,10 +48,14 @@ struct BoreEdge {
 /// Requires: diameter > 0 and a variant that part_shapes() accepts.
 [[nodiscard]] std::vector<BoreEdge> bore_edges(const BoreDesign& bore);
 
+/// A toothing with a deviation: its section at mid face; a twisted one: as it stands at the lower face.
 /// Requires: tolerance_mm > 0.
 /// Guarantees: distance polygon to outline and outline to polygon <= chord_error_mm <= tolerance, with
 /// the fewest vertices on each smooth piece, but `least_segments` at least on a whole circle.
 [[nodiscard]] OutlineLoop outline_loop(const Outline& outline, double tolerance_mm,
                                        int least_segments = 8);
+
+/// The loop about the origin through points that are known, with its radii.
+[[nodiscard]] OutlineLoop loop_through(std::vector<Point2> points);
 
 }  // namespace trueflank

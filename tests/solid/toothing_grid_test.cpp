@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/toothing_grid.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/solid/random_toothing.h"
+#include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/mesh_accuracy.h"
+#include "trueflank/solid/mesh_validity.h"
+#include "trueflank/solid/triangle_tree.h"
+
+namespace trueflank {
+namespace {
+
+using test::RandomNumbers;
+using test::RandomToothing;
+using test::ToothingKinds;
+
+constexpr std::array kKinds = {ToothingKinds{}, ToothingKinds{.deviation = true},
+                               ToothingKinds{.displacement = true}, ToothingKinds{.chamfer = true},
+                               ToothingKinds{true, true, true}};
+
+/// Facets of the toothing: steep, and with all corners on its walls.
+std::vector<std::array<Point3, 3>> wall_facets(const TriangleMesh& mesh, RandomToothing& random) {
+  const ToothProfile& profile = *random.outline().profile;
+  const double low = std::min(profile.root_radius_mm(), profile.tip_radius_mm());
+  const double high = std::max(profile.root_radius_mm(), profile.tip_radius_mm());
+  const double margin = 0.05 * profile.gear().normal_module_mm;
+  std::vector<std::array<Point3, 3>> facets;
+  for (const auto& t : mesh.triangles) {
+    std::array<Point3, 3> c;
+    bool toothed = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      c[i] = Point3(mesh.vertices[t[i]].data());
+      const double r = c[i].head<2>().norm();
+      toothed = toothed && r > low - margin && r < high + margin;
+    }
+    const Point3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    if (toothed && normal.head<2>().norm() > 0.1 * normal.norm()) facets.push_back(c);
+  }
+  return facets;
+}
+
+class RandomToothings : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(RandomToothings, AreClosedAndKeepTheToleranceBothWays) {
+  const ToothingKinds kinds = kKinds[GetParam()];
+  int made = 0, worst_within = 0;
+  for (std::uint64_t seed = 100 * GetParam(); made < 8; ++seed) {
+    auto random = test::random_toothing(seed, kinds);
+    if (!random) continue;
+    SCOPED_TRACE(random->text);
+    ++made;
+    const PartMesh result = part_mesh(random->part, {.tolerance_mm = random->tolerance_mm});
+    EXPECT_LE(result.chord_error_mm, random->tolerance_mm);
+    const MeshValidity validity = mesh_validity(result.mesh);
+    EXPECT_TRUE(validity.valid());
+    EXPECT_EQ(validity.components, 1U);
+    EXPECT_EQ(validity.unused_vertices, 0U);
+
+    const Toothing toothing = random->outline().toothing();
+    RandomNumbers numbers(seed);
+    const auto facets = wall_facets(result.mesh, *random);
+    ASSERT_FALSE(facets.empty());
+    double off_surface = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      const auto& c = facets[static_cast<std::size_t>(numbers.between(0.0, 1.0) * static_cast<double>(facets.size()))];
+      double u = numbers.between(0.0, 1.0), v = numbers.between(0.0, 1.0);
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      if (i % 2 == 0) v = 0.0, u = 0.5;
+      off_surface = std::max(off_surface, test::searched_distance_mm(
+                                              toothing, c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0])));
+    }
+    EXPECT_LE(off_surface, random->tolerance_mm);
+    worst_within += off_surface > 0.4 * random->tolerance_mm;
+
+    const TriangleTree tree(result.mesh);
+    double off_facets = 0.0;
+    const auto& pieces = toothing.profile->pieces();
+    for (int i = 0; i < 1000; ++i) {
+      const auto piece = static_cast<std::size_t>(numbers.between(0.0, 1.0) * static_cast<double>(pieces.size()));
+      const Curve& curve = pieces[piece].curve;
+      const auto p = surface_point(
+          toothing, {static_cast<int>(numbers.between(0.0, toothing.profile->gear().teeth)),
+                     numbers.chance(0.5) ? 1 : -1, piece, numbers.between(curve.begin, curve.end)},
+          numbers.between(0.0, toothing.twist.face_width_mm));
+      off_facets = std::max(off_facets, tree.nearest(Point3(p.data())).distance_mm);
+    }
+    EXPECT_LE(off_facets, random->tolerance_mm);
+
+    const Accuracy accuracy = measure_accuracy(result.mesh, random->part);
+    // a chamfer's corner with the tip is judged by the nearer of two walls, a bound only
+    EXPECT_LE(accuracy.largest_mm(), random->tolerance_mm * (kinds.chamfer ? 1.7 : 1.02));
+    EXPECT_GE(accuracy.facets_to_surface_mm, off_surface * 0.94 - 1e-7);
+  }
+  EXPECT_GT(worst_within, made / 2);  // no finer than asked for
+}
+INSTANTIATE_TEST_SUITE_P(PlainDeviatedDisplacedChamferedAll, RandomToothings,
+                         testing::Range<std::size_t>(0, kKinds.size()));
+
+}  // namespace
+}  // namespace trueflank

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/toothing_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/involute.h"
+
+namespace trueflank {
+namespace {
+
+/// Nodes of the table that gives the share of the flank's turn at a circle of the fillet.
+constexpr int kFilletNodes = 129;
+/// Nearer than this a point lies on the surface, and the direction of its distance is rounding.
+constexpr double kOnSurface_mm = 1e-9;
+/// Step in height for slopes.
+constexpr double kHeightStep_mm = 1e-5;
+/// Step along a curve for its tangent, of its length.
+constexpr double kParameterStep = 1e-5;
+
+OutlineDistance design_section(const ToothedOutline& outline) {
+  return OutlineDistance(ToothedOutline{.profile = outline.profile, .twist = {}});
+}
+
+}  // namespace
+
+ToothingDistance::ToothingDistance(const ToothedOutline& outline)
+    : outline_(outline),
+      toothing_(outline.toothing()),
+      unchamfered_(toothing_),
+      section_(design_section(outline)) {
+  unchamfered_.edge_chamfer_mm = 0.0;
+  deviates_ = toothing_.has_deviation() || toothing_.edge_chamfer_mm > 0.0;
+  const auto& pieces = outline.profile->pieces();
+  while (pieces[flank_].kind != PieceKind::kInvolute) ++flank_;
+  if (pieces.front().kind == PieceKind::kTip)
+    tip_half_angle_rad_ = polar_angle_rad(pieces.front().curve.end_point());
+  low_roll_ = std::min(pieces[flank_].curve.begin, pieces[flank_].curve.end);
+  high_roll_ = std::max(pieces[flank_].curve.begin, pieces[flank_].curve.end);
+  for (const ProfilePiece& piece : pieces) {
+    if (piece.kind != PieceKind::kFillet) continue;
+    for (int i = 0; i < kFilletNodes; ++i) {
+      const double t = static_cast<double>(i) / (kFilletNodes - 1);
+      fillet_radii_mm_.push_back(point_at(piece.curve, std::lerp(piece.curve.begin, piece.curve.end, t)).norm());
+      fillet_fades_.push_back(1.0 - t * t * (3.0 - 2.0 * t));  // as the surface is defined
+    }
+  }
+  if (toothing_.displacement == nullptr) return;
+  const double radius = outline.profile->tip_radius_mm();
+  for (int k = 0; k < 16; ++k)
+    for (const double z : {0.0, 0.5 * toothing_.twist.face_width_mm, toothing_.twist.face_width_mm}) {
+      const Point2 p = radius * unit_vector(kTwoPi * k / 16);
+      const auto d = (*toothing_.displacement)({p.x(), p.y(), z});
+      largest_displacement_mm_ = std::max(largest_displacement_mm_, std::hypot(d[0], d[1], d[2]));
+    }
+}
+
+Point3 ToothingDistance::in_gear(const Point3& point) const {
+  const Point2 turned = outline_.rotation_rad == 0.0
+                            ? Point2(point.head<2>())
+                            : rotated(point.head<2>(), -outline_.rotation_rad);
+  return {turned.x(), turned.y(), point.z() - outline_.z_lower_mm};
+}
+
+Point3 ToothingDistance::undisplaced(const Point3& in_gear) const {
+  if (toothing_.displacement == nullptr) return in_gear;
+  Point3 origin = in_gear;
+  for (int i = 0; i < 3; ++i) {
+    const auto d = (*toothing_.displacement)({origin.x(), origin.y(), origin.z()});
+    origin = in_gear - Point3(d.data());
+  }
+  return origin;
+}
+
+double ToothingDistance::undisplaced_z_mm(const Point3& point) const {
+  return undisplaced(in_gear(point)).z() + outline_.z_lower_mm;
+}
+
+double ToothingDistance::lower_bound_mm(const Point3& point) const {
+  // a deviation turns points about the axis: their radii stay
+  const double bound = section_.lower_bound_mm(point.head<2>()) - toothing_.edge_chamfer_mm -
+                       2.0 * largest_displacement_mm_;
+  const Gear& gear = outline_.profile->gear();
+  const double slope = toothing_.twist.turn_rad_per_mm *
+                       std::max(base_radius_mm(gear), outline_.profile->root_radius_mm());
+  return std::max(0.0, bound) / std::sqrt(1.0 + slope * slope);
+}
+
+double ToothingDistance::chamfer_depth_mm(double z_mm) const {
+  const double from_end = std::min(z_mm, toothing_.twist.face_width_mm - z_mm);
+  return std::max(0.0, toothing_.edge_chamfer_mm - std::max(0.0, from_end));
+}
+
+double ToothingDistance::turn_of_circle_rad(int tooth, int side, double radius_mm,
+                                            double z_mm) const {
+  const double r_b = base_radius_mm(outline_.profile->gear());
+  const double roll = std::clamp(roll_length_mm(radius_mm, r_b) / r_b, low_roll_, high_roll_);
+  double fade = 1.0;
+  const double to_root = fillet_radii_mm_.empty() ? 0.0 : fillet_radii_mm_.back() - fillet_radii_mm_.front();
+  const double into = fillet_radii_mm_.empty() ? -1.0 : (radius_mm - fillet_radii_mm_.front()) * to_root;
+  if (into > 0.0) {
+    const bool falls = to_root < 0.0;
+    const auto node = std::partition_point(
+        fillet_radii_mm_.begin(), fillet_radii_mm_.end(),
+        [&](double r) { return falls ? r > radius_mm : r < radius_mm; });
+    if (node == fillet_radii_mm_.end()) return 0.0;
+    const auto i = static_cast<std::size_t>(node - fillet_radii_mm_.begin());
+    const double before = fillet_radii_mm_[i - 1], step = fillet_radii_mm_[i] - before;
+    const double share = step != 0.0 ? (radius_mm - before) / step : 0.0;
+    fade = std::lerp(fillet_fades_[i - 1], fillet_fades_[i], share);
+  }
+  const double turn = toothing_.has_deviation()
+                          ? deviation_turn_rad(unchamfered_, {tooth, side, flank_, roll}, z_mm)
+                          : 0.0;
+  return fade * (turn - chamfer_depth_mm(z_mm) / r_b);
+}
+
+ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turned_back,
+                                                             double z_mm) const {
+  // turning, a section moves square to itself by the lever of the foot about the axis
+  const auto foot_of = [&](const Point2& point) {
+    const OutlineFoot foot = section_.foot(point);
+    if (std::abs(foot.distance_mm) < kOnSurface_mm) return SectionFoot{foot.distance_mm, 0.0};
+    return SectionFoot{foot.distance_mm,
+                       cross(foot.point, point - foot.point) / foot.distance_mm};
+  };
+  if (!deviates_) return foot_of(turned_back);
+  const int teeth = outline_.profile->gear().teeth;
+  const double pitch = kTwoPi / teeth;
+  const double angle = polar_angle_rad(turned_back);
+  const double away = std::round(wrapped_rad(angle) / pitch);
+  const int tooth = static_cast<int>(away) % teeth;
+  const int side = centred_rad(angle - away * pitch) < 0.0 ? -1 : 1;
+  const double radius = turned_back.norm();
+  double turn = turn_of_circle_rad(tooth, side, radius, z_mm);
+  // the tip's land is scaled in its angle, so that its end meets the flank
+  const double from_middle = std::abs(centred_rad(angle - away * pitch));
+  if (from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
+  const SectionFoot foot = foot_of(rotated(turned_back, -side * turn));
+  const double depth = chamfer_depth_mm(z_mm);
+  if (depth == 0.0 || flank_ != 1) return foot;  // trimmed and radial tips keep their height
+  const bool external = outline_.profile->gear().kind == GearKind::kExternal;
+  const double lowered = outline_.profile->tip_radius_mm() + (external ? -depth : depth);
+  const double over_tip = radius - lowered;
+  const bool at_tip = external ? over_tip > foot.distance_mm : over_tip < foot.distance_mm;
+  return at_tip ? SectionFoot{over_tip, 0.0} : foot;
+}
+
+double ToothingDistance::distance_mm(const Point3& point) const {
+  const Point3 p = undisplaced(in_gear(point));
+  const double turn_rate = toothing_.twist.turn_rad_per_mm;
+  const auto section_at = [&](double z) {
+    const double turn = section_turn_rad(toothing_.twist, z);
+    return section_foot(turn == 0.0 ? Point2(p.head<2>()) : rotated(p.head<2>(), -turn), z);
+  };
+  const SectionFoot foot = section_at(p.z());
+  double slope = turn_rate * foot.lever_mm;
+  if (chamfer_depth_mm(p.z()) > 0.0)  // as steep as the twist, and in any direction to it
+    slope = (section_at(p.z() + kHeightStep_mm).distance_mm -
+             section_at(p.z() - kHeightStep_mm).distance_mm) / (2.0 * kHeightStep_mm);
+  return slope == 0.0 ? foot.distance_mm : foot.distance_mm / std::sqrt(1.0 + slope * slope);
+}
+
+Point2 ToothingDistance::point_at_height(std::size_t piece, double parameter, int copy,
+                                         double z_mm) const {
+  const ToothPlace place{copy / 2, copy % 2 == 0 ? 1 : -1, piece, parameter};
+  const double goal = z_mm - outline_.z_lower_mm;
+  auto p = surface_point(toothing_, place, goal);
+  if (toothing_.displacement != nullptr)
+    for (int i = 0; i < 2; ++i) p = surface_point(toothing_, place, goal - (p[2] - goal));
+  return rotated({p[0], p[1]}, outline_.rotation_rad);
+}
+
+double ToothingDistance::slope_share(std::size_t piece, double parameter, int copy,
+                                     double z_mm) const {
+  const Curve& curve = outline_.profile->pieces()[piece].curve;
+  const double step = kParameterStep * (curve.end - curve.begin);
+  const bool at_end = (parameter + step - curve.begin) * (parameter + step - curve.end) > 0.0;
+  const auto at = [&](double t, double z) { return point_at_height(piece, t, copy, z); };
+  const Point2 here = at(parameter, z_mm);
+  const Point2 along = (at(at_end ? parameter - step : parameter + step, z_mm) - here).normalized();
+  const double height = z_mm - outline_.z_lower_mm;
+  const double up = height + kHeightStep_mm > toothing_.twist.face_width_mm ? -kHeightStep_mm
+                                                                            : kHeightStep_mm;
+  const double slope = cross(along, at(parameter, z_mm + up) - here) / up;
+  return 1.0 / std::sqrt(1.0 + slope * slope);
+}
+
+}  // namespace trueflank
