@@ -88,7 +88,7 @@ void add_loop(CLI::App& program, LoopOptions& options, int& code) {
   command->add_option("DESIGN", options.design, "design file (TOML)")->required();
   command->add_option("DATA", options.data,
                       "measured files: scans (.ply .stl .obj .xyz .csv), inspection and size tables "
-                      "(.csv), MKA, GDE")
+                      "(.csv), MKA, GDE; or bench tables (.csv) of the whole drive")
       ->required();
   command->add_option("--output,-o", options.folder, "folder for loop.json and loop.html")
       ->required();

@@ -6,7 +6,9 @@
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/export/atomic_file.h"
+#include "trueflank/loop/close_drive_loop.h"
 #include "trueflank/loop/close_loop.h"
+#include "trueflank/loop/drive_html.h"
 #include "trueflank/loop/loop_html.h"
 
 namespace trueflank::app {
@@ -27,25 +29,61 @@ Result<std::string> measured_gear(const GearTrain& train, const std::string& ask
                .remedy = names});
 }
 
+int write_results(const LoopOptions& options, const std::string& html,
+                  const loop::LoopResult& result) {
+  const std::filesystem::path folder(options.folder);
+  if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
+  if (auto ok = io::write_file(folder / "loop.html", html); !ok) return report_errors({ok.error()});
+  if (auto ok = io::write_file(folder / "loop.json", loop::loop_json(result)); !ok)
+    return report_errors({ok.error()});
+  if (!options.quiet)
+    if (auto ok = print(loop::loop_text(result)); !ok) return report_errors({ok.error()});
+  return 0;
+}
+
+/// Bench files are of the whole drive, all others of one gear: not both in one run.
+Result<bool> all_are_bench_files(const LoopOptions& options) {
+  std::string other;
+  std::size_t bench = 0;
+  for (const std::string& file : options.data) {
+    if (loop::is_bench_file(file)) ++bench;
+    else other = file;
+  }
+  if (bench == 0) return false;
+  if (bench < options.data.size())
+    return fail({.code = ErrorCode::kUsage,
+                 .message = "bench files are of the whole drive, and this file is of a gear",
+                 .remedy = "bench files in one run, a gear's files in another",
+                 .file = other});
+  if (!options.gear.empty())
+    return fail({.code = ErrorCode::kUsage,
+                 .message = "bench files are of the whole drive",
+                 .key = "--gear",
+                 .value = options.gear,
+                 .remedy = "no --gear with bench files"});
+  return true;
+}
+
+int run_drive_loop(const GearTrain& train, const LoopOptions& options) {
+  const auto closed = loop::close_drive_loop(train, options.data);
+  if (!closed) return report_errors(closed.error());
+  return write_results(options, loop::drive_html(*closed), closed->result);
+}
+
 }  // namespace
 
 int run_loop(const LoopOptions& options) {
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
+  const auto bench = all_are_bench_files(options);
+  if (!bench) return report_errors({bench.error()});
+  if (*bench) return run_drive_loop(*train, options);
   const auto gear = measured_gear(*train, options.gear);
   if (!gear) return report_errors({gear.error()});
   const auto closed =
       loop::close_loop(*train, *gear, options.data, {.aligned = options.aligned});
   if (!closed) return report_errors(closed.error());
-  const std::filesystem::path folder(options.folder);
-  if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
-  if (auto ok = io::write_file(folder / "loop.html", loop::loop_html(*closed)); !ok)
-    return report_errors({ok.error()});
-  if (auto ok = io::write_file(folder / "loop.json", loop::loop_json(closed->result)); !ok)
-    return report_errors({ok.error()});
-  if (!options.quiet)
-    if (auto ok = print(loop::loop_text(closed->result)); !ok) return report_errors({ok.error()});
-  return 0;
+  return write_results(options, loop::loop_html(*closed), closed->result);
 }
 
 }  // namespace trueflank::app

@@ -19,9 +19,44 @@ Json number(double value) {
 }
 
 Json figures(const ErrorFigures& f, const std::string& unit) {
-  return {{"rms_" + unit, number(f.rms)},
-          {"held_out_rms_" + unit, number(f.held_out_rms)},
-          {"max_" + unit, number(f.max)}};
+  Json json = {{"rms_" + unit, number(f.rms)},
+               {"held_out_rms_" + unit, number(f.held_out_rms)},
+               {"max_" + unit, number(f.max)}};
+  if (unit != "nm") return json;
+  json["rms_points"] = number(f.rms_points);
+  json["held_out_rms_points"] = number(f.held_out_rms_points);
+  return json;
+}
+
+Json drive_terms_json(const std::vector<DriveTerm>& terms) {
+  Json json = Json::array();
+  for (const DriveTerm& t : terms)
+    json.push_back({{"load_degree", t.load_degree},
+                    {"speed_degree", t.speed_degree},
+                    {"temperature_degree", t.temperature_degree},
+                    {"order", number(t.order)},
+                    {"directions", t.opposite_directions ? "opposite" : "equal"},
+                    {"cos_nm", number(t.cos_nm)},
+                    {"sin_nm", number(t.sin_nm)},
+                    {"amplitude_nm", number(t.amplitude_nm())},
+                    {"ci95_half_nm", number(t.error_nm)}});
+  return json;
+}
+
+Json possible_json(const std::vector<PossibleExplanation>& possible) {
+  Json json = Json::array();
+  for (const PossibleExplanation& p : possible) {
+    Json parameters = Json::object();
+    for (const Parameter& q : p.parameters) parameters[q.name] = number(q.value);
+    json.push_back({{"id", p.id},
+                    {"parameters", parameters},
+                    {"load_nm", number(p.load_nm)},
+                    {"explains", p.explains},
+                    {"left_points", number(p.left_points)},
+                    {"left_nm", number(p.left_nm)},
+                    {"text", p.text}});
+  }
+  return json;
 }
 
 Json effect_json(const FoundEffect& e, const std::string& unit) {
@@ -41,6 +76,8 @@ Json effect_json(const FoundEffect& e, const std::string& unit) {
                {"p_value", number(e.p_value)},
                {"bic_gain", number(e.bic_gain)},
                {"correctable", e.correctable}};
+  if (!e.side.empty()) json["side"] = e.side;
+  if (!e.drive_terms.empty()) json["terms"] = drive_terms_json(e.drive_terms);
   if (e.terms.empty()) return json;
   Json terms = Json::array();
   for (const FreeTerm& t : e.terms)
@@ -66,6 +103,7 @@ std::string short_number(double value) {
 }  // namespace
 
 double FreeTerm::amplitude_um() const { return std::hypot(cos_um, sin_um); }
+double DriveTerm::amplitude_nm() const { return std::hypot(cos_nm, sin_nm); }
 
 const char* to_text(Verdict verdict) {
   switch (verdict) {
@@ -96,6 +134,7 @@ std::string loop_json(const LoopResult& r) {
                {"not_observable", r.not_observable},
                {"measure_next", r.measure_next},
                {"notes", r.notes}};
+  if (!r.possible.empty()) json["possible"] = possible_json(r.possible);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -108,6 +147,11 @@ std::string loop_text(const LoopResult& r) {
   text += "  error before " + short_number(r.before.rms) + " " + unit + " rms (held out " +
           short_number(r.before.held_out_rms) + "), after " + short_number(r.after.rms) +
           " (held out " + short_number(r.after.held_out_rms) + ")\n";
+  if (std::isfinite(r.before.rms_points))
+    text += "  in points of efficiency before " + short_number(r.before.rms_points) + " (held out " +
+            short_number(r.before.held_out_rms_points) + "), after " +
+            short_number(r.after.rms_points) + " (held out " +
+            short_number(r.after.held_out_rms_points) + ")\n";
   for (const FoundEffect& e : r.effects) {
     text += "  " + e.id + (e.flank == "both" ? "" : " (" + e.flank + " flank)") + ": " +
             e.description + "\n";
@@ -116,7 +160,7 @@ std::string loop_text(const LoopResult& r) {
       if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
       text += "\n";
     }
-    text += "    explains " + short_number(100.0 * e.explained_fraction) +
+    if (std::isfinite(e.explained_fraction)) text += "    explains " + short_number(100.0 * e.explained_fraction) +
             " % of the variance; without it the held-out error is " +
             short_number(e.held_out_gain_um) + " " + unit + " larger\n";
     if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
@@ -128,6 +172,7 @@ std::string loop_text(const LoopResult& r) {
     }
   }
   text += "  left: " + r.structure_left + " (p = " + short_number(r.structure_left_p_value) + ")\n";
+  for (const PossibleExplanation& p : r.possible) text += "  possible: " + p.text + "\n";
   for (const std::string& next : r.measure_next) text += "  next: " + next + "\n";
   for (const std::string& note : r.notes) text += "  note: " + note + "\n";
   return text;

@@ -25,6 +25,17 @@ struct FreeTerm {
   [[nodiscard]] double amplitude_um() const;
 };
 
+/// One term of a drive's unnamed effect: loss torque at the input, Legendre(load) x Legendre(speed) x
+/// Legendre(temperature), or a wave over the input's angle.
+struct DriveTerm {
+  int load_degree = 0, speed_degree = 0, temperature_degree = 0;
+  double order = 0.0;  ///< per turn of the input
+  bool opposite_directions = false;
+  double cos_nm = 0.0, sin_nm = 0.0;  ///< sin 0 for order 0
+  double error_nm = 0.0;              ///< half width of the 95 % interval of the amplitude
+  [[nodiscard]] double amplitude_nm() const;
+};
+
 struct FoundEffect {
   std::string id;
   bool named = true;
@@ -32,6 +43,8 @@ struct FoundEffect {
   std::string flank = "both";
   std::vector<Parameter> parameters;
   std::vector<FreeTerm> terms;  ///< unnamed effects
+  std::vector<DriveTerm> drive_terms;  ///< unnamed effects of a drive
+  std::string side;                    ///< of a sensor effect: input or output; else empty
   double explained_fraction = 0.0;
   double held_out_gain_um = kNaN;
   double p_value = kNaN;
@@ -45,6 +58,18 @@ enum class Verdict { kNoEffect, kExplained, kPartlyExplained };
 
 struct ErrorFigures {
   double rms = 0.0, held_out_rms = kNaN, max = 0.0;
+  double rms_points = kNaN, held_out_rms_points = kNaN;  ///< drives: points of efficiency
+};
+
+/// What one effect would have to be to explain a few numbers that cannot single any out.
+struct PossibleExplanation {
+  std::string id;
+  std::vector<Parameter> parameters;  ///< without intervals: as many equations as unknowns, or fewer
+  double load_nm = kNaN;              ///< output torque at which it would; NaN: at any
+  std::vector<std::string> explains;  ///< names of the quantities it then meets
+  double left_points = kNaN;          ///< rms of the efficiencies it leaves
+  double left_nm = kNaN;              ///< of the starting torque
+  std::string text;
 };
 
 struct LoopResult {
@@ -61,6 +86,7 @@ struct LoopResult {
   std::vector<std::string> not_observable;  ///< ids of effects these data cannot show
   std::vector<std::string> measure_next;    ///< what would separate what is confounded
   std::vector<std::string> notes;
+  std::vector<PossibleExplanation> possible;  ///< of single numbers of a drive
 };
 
 /// loop.json: docs/loop.md. Same result, same bytes.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/contract.h"
 #include "trueflank/train/efficiency_sliding.h"
 
 namespace trueflank {
@@ -108,10 +109,14 @@ EfficiencyResult efficiency(const GearTrain& train, const EfficiencyOptions& opt
   EfficiencyResult result;
   result.friction = options.friction.value_or(train.design.friction);
   if (train.design.kind == TrainKind::kGear) return result;
+  TRUEFLANK_EXPECTS(options.mesh_friction.empty() ||
+                    options.mesh_friction.size() == train.meshes.size());
   BalanceTrain balance = balance_of(train);
   for (std::size_t k = 0; k < train.meshes.size(); ++k) {
     SlidingEfficiency sliding;
-    MeshEfficiency mesh = mesh_efficiency(train, train.meshes[k], result.friction, sliding);
+    const double friction =
+        options.mesh_friction.empty() ? result.friction : options.mesh_friction[k];
+    MeshEfficiency mesh = mesh_efficiency(train, train.meshes[k], friction, sliding);
     const bool exact = options.model == LossModel::kPathIntegral;
     balance.meshes[k].efficiency_driving1 = exact ? sliding.gear1_driving : mesh.by_contact_ratios;
     balance.meshes[k].efficiency_driving2 = exact ? sliding.gear2_driving : mesh.by_contact_ratios;

@@ -19,7 +19,8 @@ enum class LossModel {
 
 struct EfficiencyOptions {
   LossModel model = LossModel::kContactRatios;
-  std::optional<double> friction;  ///< instead of the design's
+  std::optional<double> friction = {};  ///< instead of the design's
+  std::vector<double> mesh_friction = {};  ///< of each mesh, instead of `friction`; empty: all alike
 };
 
 /// Basic efficiency of one mesh, 1 - mu pi (1/z1 +- 1/z2) (e1^2 + e2^2 - e1 - e2 + 1) / cos beta_b,

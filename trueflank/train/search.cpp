@@ -91,7 +91,7 @@ class Judging {
     State& state = states_[ranked.set_index];
     if (found.verdict.failed.empty()) {
       const EfficiencyResult exact =
-          trueflank::efficiency(*train, {.model = LossModel::kPathIntegral, .friction = {}});
+          trueflank::efficiency(*train, {.model = LossModel::kPathIntegral});
       found.exact_forward = exact.forward;
       found.exact_backward = exact.backward;
       found.tightened = *std::max_element(state.reserve.begin(), state.reserve.end());

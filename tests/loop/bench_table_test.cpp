@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/loop/sample_bench.h"
+
+namespace trueflank::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A clean bench file's lines, the header first.
+std::vector<std::string> clean_lines() {
+  const std::string text = bench_file(paper_train(), {}, {});
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+/// One row with its torques times factors.
+std::string scaled(const std::string& line, double input, double output) {
+  char direction[20];
+  double rpm = 0, in = 0, out = 0;
+  std::sscanf(line.c_str(), "%19[^,],%lf,%lf,%lf", direction, &rpm, &in, &out);
+  char text[120];
+  std::snprintf(text, sizeof text, "%s,%g,%.9g,%.9g", direction, rpm, in * input, out * output);
+  return text;
+}
+template <class Change>
+std::string changed(const Change& change) {
+  std::vector<std::string> lines = clean_lines();
+  for (std::size_t i = 1; i < lines.size(); ++i) lines[i] = change(lines[i], i);
+  return joined(lines);
+}
+Error first_error(const std::string& text) {
+  const auto closed = close_bench_text(text);
+  EXPECT_FALSE(closed);
+  return closed ? Error{} : closed.error().front();
+}
+
+TEST(BenchFile, AnotherUnitInTheHeaderIsRefusedByName) {
+  std::vector<std::string> lines = clean_lines();
+  lines[0] = "direction,input_speed_rpm,input_torque_mnm,output_torque_nm";
+  const Error error = first_error(joined(lines));
+  EXPECT_EQ(error.key, "input_torque_mnm");
+  EXPECT_EQ(error.line, 1);
+  EXPECT_THAT(error.remedy, HasSubstr("input_torque_nm"));
+}
+
+TEST(BenchFile, AUnitInAFieldIsRefused) {
+  std::vector<std::string> lines = clean_lines();
+  lines[7] = "forward,900,120 mNm,10.1";
+  const Error error = first_error(joined(lines));
+  EXPECT_EQ(error.line, 8);
+  EXPECT_THAT(error.message, HasSubstr("unit"));
+}
+
+TEST(BenchFile, MilliNewtonMetresInAColumnAreRefused) {
+  const Error error =
+      first_error(changed([](const std::string& l, std::size_t) { return scaled(l, 1000.0, 1.0); }));
+  EXPECT_THAT(error.message, HasSubstr("another unit"));
+  EXPECT_EQ(error.file, "bench.csv");
+}
+
+TEST(BenchFile, MixedUnitsAreRefusedAndTheLineNamed) {
+  std::vector<std::string> lines = clean_lines();
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < lines.size() && at == 0; ++i) {
+    double in = 0.0;
+    double rpm = 0.0;
+    std::sscanf(lines[i].c_str(), "forward,%lf,%lf", &rpm, &in);
+    if (in > 0.15) at = i;
+  }
+  ASSERT_GT(at, 0u);
+  lines[at] = scaled(lines[at], 1000.0, 1.0);
+  const Error error = first_error(joined(lines));
+  EXPECT_THAT(error.message, HasSubstr("mixed units"));
+  EXPECT_EQ(error.line, static_cast<int>(at) + 1);
+}
+
+TEST(BenchFile, SignsThatChangeInsideADirectionAreRefused) {
+  const Error error = first_error(changed([](const std::string& l, std::size_t i) {
+    return i % 7 == 0 ? scaled(l, 1.0, -1.0) : l;
+  }));
+  EXPECT_THAT(error.message, HasSubstr("changes its sign"));
+  EXPECT_EQ(error.key, "output_torque_nm");
+}
+
+TEST(BenchFile, ASensorsMinusIsTakenAsItsConventionAndTold) {
+  const auto closed = close_bench_text(
+      changed([](const std::string& l, std::size_t) { return scaled(l, 1.0, -1.0); }));
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect);
+  EXPECT_THAT(loop::loop_text(closed->result), HasSubstr("sign convention"));
+}
+
+TEST(BenchFile, SwappedColumnsAreNamedAndPutRight) {
+  const auto closed = close_bench_text(changed([](const std::string& l, std::size_t) {
+    char direction[20], rpm[20], in[20], out[20];
+    std::sscanf(l.c_str(), "%19[^,],%19[^,],%19[^,],%19s", direction, rpm, in, out);
+    return std::string(direction) + "," + rpm + "," + out + "," + in;
+  }));
+  ASSERT_TRUE(closed);
+  ASSERT_FALSE(closed->result.effects.empty());
+  EXPECT_EQ(closed->result.effects.front().id, "swapped_side");
+  EXPECT_EQ(closed->result.effects.size(), 1u);
+}
+
+TEST(BenchFile, SwappedDirectionsAreNamedAndPutRight) {
+  const auto closed = close_bench_text(changed([](const std::string& l, std::size_t) {
+    return l.starts_with("forward") ? "backward" + l.substr(7) : "forward" + l.substr(8);
+  }));
+  ASSERT_TRUE(closed);
+  ASSERT_EQ(closed->result.effects.size(), 1u) << loop::loop_text(closed->result);
+  EXPECT_EQ(closed->result.effects.front().id, "swapped_side");
+  EXPECT_THAT(closed->result.effects.front().description, HasSubstr("forward and backward"));
+}
+
+TEST(BenchFile, BadRowsAreLeftOutAndTold) {
+  std::vector<std::string> lines = clean_lines();
+  lines[3] = "sideways,100,0.1,8";
+  lines[5] = "forward,100,,8";
+  const auto closed = close_bench_text(joined(lines));
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(closed->result.observations, static_cast<int>(lines.size()) - 3);
+  const std::string text = loop::loop_text(closed->result);
+  EXPECT_THAT(text, HasSubstr("bench.csv:4: left out: direction \"sideways\""));
+  EXPECT_THAT(text, HasSubstr("bench.csv:6: left out"));
+}
+
+TEST(BenchFile, OutliersAreLeftOutByFileAndLine) {
+  std::vector<std::string> lines = clean_lines();
+  lines[20] = scaled(lines[20], lines[20].starts_with("backward") ? 1.3 : 1.0,
+                     lines[20].starts_with("forward") ? 1.3 : 1.0);
+  lines[20] = scaled(lines[20], 1.0, 1.0);
+  const auto closed = close_bench_text(joined(lines));
+  ASSERT_TRUE(closed);
+  const std::string text = loop::loop_text(closed->result);
+  EXPECT_EQ(closed->result.outliers, 1) << lines[20] << "\n" << text;
+  EXPECT_THAT(text, HasSubstr("bench.csv:21: outlier"));
+  EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect);
+}
+
+TEST(BenchFile, EfficienciesInPerCentAreRefused) {
+  const Error error = first_error("quantity,value\nforward_efficiency,89.0\n");
+  EXPECT_THAT(error.message, HasSubstr("per cent"));
+  EXPECT_EQ(error.line, 2);
+}
+
+TEST(BenchFile, TooFewRowsAreRefused) {
+  std::vector<std::string> lines = clean_lines();
+  lines.resize(6);
+  EXPECT_THAT(first_error(joined(lines)).message, HasSubstr("5 usable rows"));
+}
+
+TEST(BenchFile, ASingleGearHasNoBench) {
+  GearTrain gear = bench_train();
+  gear.design.kind = TrainKind::kGear;
+  const auto model = loop::drive_model(gear);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().key, "gearbox.kind");
+}
+
+}  // namespace
+}  // namespace trueflank::test

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/loop/sample_bench.h"
+#include "trueflank/loop/drive_html.h"
+
+namespace trueflank::test {
+namespace {
+
+using loop::Verdict;
+
+struct HiddenCase {
+  std::string id;
+  HiddenDrive drive;
+  std::vector<std::pair<std::string, double>> truth;  ///< parameter, value
+  BenchPlan plan = {};
+};
+void PrintTo(const HiddenCase& c, std::ostream* out) { *out << c.id; }
+
+HiddenDrive losing(std::function<double(const BenchMoment&)> loss) {
+  HiddenDrive drive;
+  drive.loss_nm = std::move(loss);
+  return drive;
+}
+HiddenDrive rubbing(std::function<double(const BenchMoment&, int)> friction) {
+  HiddenDrive drive;
+  drive.friction = std::move(friction);
+  return drive;
+}
+BenchPlan warming() {
+  BenchPlan plan;
+  plan.low_celsius = 20.0;
+  plan.high_celsius = 60.0;
+  return plan;
+}
+BenchPlan turning() {
+  BenchPlan plan;
+  plan.angles = true;
+  plan.turns_between = 3.7;
+  return plan;
+}
+
+std::vector<HiddenCase> hidden_cases() {
+  std::vector<HiddenCase> cases{
+      {"friction_coefficient", rubbing([](auto&, int) { return 0.13; }), {{"value", 0.13}}},
+      {"drag_torque", losing([](auto&) { return 0.003; }), {{"torque_nm", 0.003}}},
+      {"viscous_drag", losing([](auto& m) { return 2e-6 * m.rpm; }), {{"nm_per_rpm", 2e-6}}},
+      {"bearing_friction", losing([](auto& m) { return 0.003 * std::pow(m.rpm / 1000.0, 2.0 / 3.0); }),
+       {{"nm_at_1000_rpm", 0.003}}},
+      {"stribeck_friction",
+       losing([](auto& m) { return 0.008 * std::exp(-std::pow(m.rpm / 300.0, 2)); }),
+       {{"torque_nm", 0.008}, {"speed_rpm", 300}}},
+      {"load_dependent_friction", rubbing([](auto& m, int) { return 0.1 + 0.04 * m.load_share; }),
+       {{"value", 0.04}}},
+      {"temperature_viscosity",
+       losing([](auto& m) { return 3e-6 * m.rpm * std::exp(-0.03 * (m.celsius - 40.0)); }),
+       {{"per_c", 0.03}}, warming()},
+      {"angle_periodic_friction",
+       losing([](auto& m) { return 0.002 * std::cos(2.0 * M_PI * m.input_turns * 12.0 / 102.0 - 0.5); }),
+       {{"order", 12.0 / 102.0}, {"amplitude_nm", 0.002}, {"phase_deg", 28.65}}, turning()},
+  };
+  HiddenDrive scale, offset;
+  scale.output_reads = 1.05;
+  offset.input_zero_nm = 0.002;
+  cases.push_back({"torque_scale", scale, {{"factor", 1.05}}});
+  cases.push_back({"torque_offset", offset, {{"offset_nm", 0.002}}});
+  return cases;
+}
+
+class HiddenEffect : public testing::TestWithParam<HiddenCase> {};
+
+TEST_P(HiddenEffect, IsFoundNamedAndRight) {
+  const HiddenCase& c = GetParam();
+  const auto closed = close_hidden(c.drive, c.plan);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  const loop::FoundEffect* effect = found(r, c.id);
+  ASSERT_NE(effect, nullptr) << loop::loop_text(r);
+  EXPECT_EQ(r.effects.size(), 1u) << loop::loop_text(r);
+  EXPECT_EQ(r.verdict, Verdict::kExplained);
+  for (const auto& [name, value] : c.truth) {
+    const loop::Parameter* p = parameter(*effect, name);
+    ASSERT_NE(p, nullptr) << name;
+    // Twice the 95 % interval: one case in 17 000 by chance.
+    EXPECT_LE(std::abs(p->value - value), 1.0 * (p->high - p->low) + 1e-9) << loop::loop_text(r);
+  }
+  EXPECT_LT(r.after.held_out_rms, 0.6 * r.before.held_out_rms);
+  EXPECT_NEAR(r.after.held_out_rms, r.noise, 0.35 * r.noise);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drive, HiddenEffect, testing::ValuesIn(hidden_cases()),
+                         [](const auto& given) { return given.param.id; });
+
+TEST(DriveLoop, GeneratorAndModelAgreeWithoutHiddenEffects) {
+  const loop::DriveEfficiency e = bench_model().at(0.1);
+  EXPECT_NEAR(e.forward, paper_train().forward({0.1, 0.1, 0.1}), 1e-12);
+  EXPECT_NEAR(e.backward, paper_train().backward({0.1, 0.1, 0.1}), 1e-12);
+  EXPECT_NEAR(bench_model().ratio, paper_train().ratio(), 1e-9);
+}
+
+TEST(DriveLoop, SaysNoEffectWhereNoneIs) {
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    BenchPlan plan;
+    plan.seed = 100 + seed;
+    const auto closed = close_hidden({}, plan);
+    ASSERT_TRUE(closed);
+    alarms += closed->result.verdict != Verdict::kNoEffect;
+  }
+  // At the rate of 2 % four of twelve come once in 14 000 trials.
+  EXPECT_LT(alarms, 4);
+}
+
+TEST(DriveLoop, TwoEffectsAreFoundTogether) {
+  HiddenDrive drive = rubbing([](auto&, int) { return 0.13; });
+  drive.loss_nm = [](auto& m) { return 0.002 + 2e-6 * m.rpm; };
+  const auto closed = close_hidden(drive);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  for (const char* id : {"friction_coefficient", "drag_torque", "viscous_drag"})
+    EXPECT_NE(found(r, id), nullptr) << id << "\n" << loop::loop_text(r);
+  EXPECT_EQ(r.effects.size(), 3u) << loop::loop_text(r);
+}
+
+TEST(DriveLoop, EfficiencyAboveOneIsNeverCalledFriction) {
+  HiddenDrive drive;
+  drive.output_reads = 1.15;
+  const auto closed = close_hidden(drive);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  EXPECT_EQ(r.verdict, Verdict::kPartlyExplained);
+  ASSERT_NE(found(r, "torque_scale"), nullptr) << loop::loop_text(r);
+  EXPECT_NEAR(parameter(*found(r, "torque_scale"), "factor")->value, 1.15, 0.01);
+  EXPECT_TRUE(cannot_tell(*found(r, "torque_scale"), "friction_coefficient"));
+  for (const loop::FoundEffect& effect : r.effects)
+    EXPECT_THAT((std::vector<std::string>{"torque_scale", "torque_offset"}), testing::Contains(effect.id));
+  ASSERT_FALSE(r.measure_next.empty());
+  EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("without the gearbox"));
+}
+
+TEST(DriveLoop, OneDirectionCannotTellScaleFromFrictionAndTheOtherCan) {
+  HiddenDrive drive;
+  drive.output_reads = 1.05;
+  BenchPlan forward;
+  forward.backward = false;
+  const auto one = close_hidden(drive, forward);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->result.effects.size(), 1u) << loop::loop_text(one->result);
+  EXPECT_EQ(one->result.effects[0].id, "friction_coefficient");
+  EXPECT_TRUE(cannot_tell(one->result.effects[0], "torque_scale"));
+  const auto both = close_hidden(drive);
+  ASSERT_TRUE(both);
+  ASSERT_NE(found(both->result, "torque_scale"), nullptr) << loop::loop_text(both->result);
+  EXPECT_FALSE(cannot_tell(*found(both->result, "torque_scale"), "drag_torque"));
+}
+
+TEST(DriveLoop, FrictionOfADirectionCannotBeToldFromAScale) {
+  const HiddenDrive drive = rubbing([](auto& m, int) { return m.forward ? 0.08 : 0.12; });
+  const auto closed = close_hidden(drive);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  const loop::FoundEffect* effect = found(r, "direction_dependent_friction");
+  const bool by_direction = effect != nullptr;
+  if (!by_direction) effect = found(r, "torque_scale");
+  ASSERT_NE(effect, nullptr) << loop::loop_text(r);
+  EXPECT_TRUE(cannot_tell(*effect, by_direction ? "torque_scale" : "direction_dependent_friction"));
+  EXPECT_THAT(loop::loop_text(r), testing::HasSubstr("a lever and weights"));
+}
+
+TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
+  const HiddenDrive drive = losing([](auto&) { return 0.004; });
+  BenchPlan one_load;
+  one_load.output_nm = {10};
+  one_load.repeats = 6;
+  const auto one = close_hidden(drive, one_load);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->result.effects.size(), 1u) << loop::loop_text(one->result);
+  const loop::FoundEffect& effect = one->result.effects[0];
+  EXPECT_TRUE(effect.id == "drag_torque" ? cannot_tell(effect, "friction_coefficient")
+                                         : cannot_tell(effect, "drag_torque"))
+      << loop::loop_text(one->result);
+  EXPECT_THAT(loop::loop_text(one->result), testing::HasSubstr("a sweep of the load"));
+  const auto sweep = close_hidden(drive);
+  ASSERT_TRUE(sweep);
+  ASSERT_EQ(sweep->result.effects.size(), 1u);
+  EXPECT_EQ(sweep->result.effects[0].id, "drag_torque");
+  EXPECT_FALSE(cannot_tell(sweep->result.effects[0], "friction_coefficient"));
+}
+
+TEST(DriveLoop, ThreeNumbersNameNoEffectButWhatEachWouldHaveToBe) {
+  const auto closed = loop::close_drive_loop(
+      bench_train(), {TRUEFLANK_SOURCE_DIR "/examples/bilateral_drive/measured.csv"});
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  EXPECT_EQ(r.verdict, Verdict::kPartlyExplained);
+  EXPECT_TRUE(r.effects.empty());
+  EXPECT_NEAR(r.before.rms, 0.02, 1e-12);
+  std::map<std::string, const loop::PossibleExplanation*> by_id;
+  for (const auto& p : r.possible) by_id[p.id] = &p;
+  ASSERT_TRUE(by_id.contains("friction_coefficient"));
+  EXPECT_TRUE(by_id["friction_coefficient"]->explains.empty());
+  EXPECT_GT(by_id["friction_coefficient"]->left_points, 1.0);
+  ASSERT_TRUE(by_id.contains("drag_torque"));
+  // T0 = 0.020 eta_b / G, and the load at which T0 G / load is what the backward efficiency lacks.
+  const double eta = bench_model().at(0.1).backward;
+  EXPECT_NEAR(by_id["drag_torque"]->parameters[0].value, 0.020 * eta / 96.2419, 1e-8);
+  EXPECT_NEAR(by_id["drag_torque"]->load_nm, 0.020 * eta / (eta - 0.853), 1e-4);
+  for (const char* id : {"torque_scale", "direction_dependent_friction", "torque_offset"})
+    EXPECT_TRUE(by_id.contains(id)) << id;
+  EXPECT_THAT(r.structure_left, testing::HasSubstr("single out no effect"));
+  EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("load sweep"));
+}
+
+TEST(DriveLoop, JsonAndPageSpeakNewtonMetres) {
+  const auto closed = close_hidden(losing([](auto&) { return 0.003; }));
+  ASSERT_TRUE(closed);
+  const std::string json = loop::loop_json(closed->result);
+  for (const char* key : {"\"noise_nm\"", "\"held_out_rms_nm\"", "\"rms_points\"", "\"held_out_gain_nm\"",
+                          "\"torque_nm\"", "\"gear\": \"drive\""})
+    EXPECT_THAT(json, testing::HasSubstr(key));
+  const std::string page = loop::drive_html(*closed);
+  for (const char* word : {"measured", "model before", "model after", "residual after", "backward"})
+    EXPECT_THAT(page, testing::HasSubstr(word));
+  EXPECT_EQ(loop::loop_json(close_hidden(losing([](auto&) { return 0.003; }))->result), json);
+}
+
+}  // namespace
+}  // namespace trueflank::test
