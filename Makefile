@@ -21,7 +21,7 @@ demo: all
 
 test:
 	@$(DEPENDENCIES) build test
-	@cmake --preset release -DTRUEFLANK_BUILD_TESTS=ON
+	@cmake --preset release -DTRUEFLANK_BUILD_TESTS=ON -DTRUEFLANK_BUILD_PYTHON=ON
 	@cmake --build build -j $(JOBS)
 	@cd build && ctest --output-on-failure -j $(JOBS)
 

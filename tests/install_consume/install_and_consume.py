@@ -12,6 +12,7 @@ arguments = argparse.ArgumentParser()
 arguments.add_argument("--cmake", required=True)
 arguments.add_argument("--compiler", required=True)
 arguments.add_argument("--flags", default="")
+arguments.add_argument("--python-dir", default="", help="below the prefix; empty: not built")
 arguments = arguments.parse_args()
 
 here = pathlib.Path(__file__).parent
@@ -33,8 +34,28 @@ run(arguments.cmake, "-G", "Ninja", "-S", here / "consumer", "-B", build, "-DCMA
 run(arguments.cmake, "--build", build)
 run(build / "consumer")
 
+# the project of examples, as its first lines say
+examples = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "examples"
+build_examples = output / "build_examples"
+run(arguments.cmake, "-G", "Ninja", "-S", examples / "cpp", "-B", build_examples,
+    f"-DCMAKE_CXX_COMPILER={arguments.compiler}", f"-DCMAKE_CXX_FLAGS={arguments.flags}",
+    f"-DCMAKE_PREFIX_PATH={prefix}")
+run(arguments.cmake, "--build", build_examples)
+run(build_examples / "check_gearbox", examples / "bilateral_drive/design.toml")
+for example in ("one_gear", "write_step", "search", "close_loop"):
+    subprocess.run([build_examples / example], check=True, cwd=build_examples)
+
 installed = {p.relative_to(prefix).parts[0] for p in prefix.rglob("*")}
 if not installed <= {"bin", "include", "lib", "share"}:
     sys.exit(f"unexpected folders installed: {installed}")
 if (prefix / "include").exists() and {p.name for p in (prefix / "include").iterdir()} != {"trueflank"}:
     sys.exit("only include/trueflank belongs into include/")
+
+# the Python package, from where the documentation says it is, and nothing of the build folder
+if arguments.python_dir:
+    environment = {**os.environ, "PYTHONPATH": str(prefix / arguments.python_dir)}
+    subprocess.run([sys.executable, "-B", "-c",
+                    "import pathlib, trueflank\n"
+                    f"assert str(pathlib.Path(trueflank.__file__)).startswith({str(prefix)!r})\n"
+                    "assert trueflank.read_text(trueflank.new_design('pair')).report()['verdict'] != 'fail'"],
+                   check=True, env=environment)

@@ -19,9 +19,8 @@
 #include "trueflank/export/atomic_file.h"
 
 namespace trueflank::app {
-namespace {
 
-DesignVerdict judged(const GearTrain& train) {
+DesignVerdict judged_by_checks(const GearTrain& train) {
   DesignVerdict verdict;
   const auto add = [](std::vector<std::string>& ids, const std::string& id) {
     if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
@@ -32,6 +31,8 @@ DesignVerdict judged(const GearTrain& train) {
   }
   return verdict;
 }
+
+namespace {
 
 /// Design files of an earlier search in this folder: they would stand beside the new ones.
 void remove_old_designs(const std::string& folder) {
@@ -155,7 +156,7 @@ ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task, con
 int finish_search(const SearchTask& task, const std::vector<SearchRecord>& records,
                   const SearchOptions& options) {
   const SearchReport report =
-      conclude_search(task.requirements, task.enumeration, records, judged);
+      conclude_search(task.requirements, task.enumeration, records, judged_by_checks);
   const std::filesystem::path folder(options.folder);
   remove_old_designs(options.folder);
   if (auto ok = write_designs(report, options.folder, task.requirements.name); !ok)

@@ -30,6 +30,8 @@ struct SearchTask {
 };
 /// Reads requirements (and materials) and enumerates.
 [[nodiscard]] ResultAll<SearchTask> prepare_search(const SearchOptions& options);
+/// What every check says of a design: the judge of a search.
+[[nodiscard]] DesignVerdict judged_by_checks(const GearTrain& train);
 /// "i/n". Errors: kUsage.
 [[nodiscard]] Result<SearchPart> parse_shard(const std::string& text);
 /// Runs a part, journal in the folder, with progress and Ctrl-C. Returns its records, old and new;
