@@ -214,11 +214,39 @@ class Make(Case):
                              "--allow-failing").returncode, 1)
         self.assertTrue((self.folder / "out" / "pinion.stl").is_file())
 
-    def test_what_is_not_built_is_refused_and_not_left_out(self):
-        relieved = PAIR + "[pinion.modifications]\ncrowning_um = 5\n"
-        self.expect_error(run("make", self.design(relieved), "-o", self.folder / "out"), 2,
-                          "pinion.modifications", "does not build")
-        self.assertFalse((self.folder / "out").exists())
+    def test_modified_teeth_keep_the_tolerance_and_differ_from_the_design(self):
+        out = self.folder / "out"
+        text = PAIR + "[pinion.modifications]\ncrowning_um = 20\nedge_chamfer_mm = 0.2\n"
+        result = run("make", self.design(text), "-o", out, "--formats", "stl")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        plain = self.folder / "plain"
+        self.assertEqual(run("make", self.design(PAIR), "-o", plain, "--formats", "stl").returncode, 0)
+        files, before = ({f["part"]: f for f in json.loads((d / "report.json").read_text())["files"]}
+                         for d in (out, plain))
+        self.assertLessEqual(files["pinion"]["accuracy_um"], 1.0)
+        self.assertLess(files["pinion"]["volume_mm3"], before["pinion"]["volume_mm3"] - 1.0)
+        self.assertEqual(files["wheel"], before["wheel"])
+
+    def test_correction_displaces_the_toothing_within_the_tolerance(self):
+        design = self.design(PAIR)
+        loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [
+            {"id": "eccentricity", "flank": "both",
+             "parameters": {"amplitude_um": {"value": 40}, "phase_deg": {"value": 30}}},
+            {"id": "crowning", "flank": "both", "parameters": {"amount_um": {"value": 15}}}]}
+        (self.folder / "loop.json").write_text(json.dumps(loop))
+        out = self.folder / "out"
+        result = run("make", design, "-o", out, "--formats", "stl", "--correct",
+                     self.folder / "loop.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("corrected on pinion: eccentricity", result.stdout)
+        for file in json.loads((out / "report.json").read_text())["files"]:
+            self.assertLessEqual(file["accuracy_um"], 1.0, file)
+        plain = self.folder / "plain"
+        self.assertEqual(run("make", design, "-o", plain, "--formats", "stl").returncode, 0)
+        compared = run("compare", plain / "pinion.stl", out / "pinion.stl", "--tolerance-um", "30")
+        self.assertEqual(compared.returncode, 1, compared.stdout)
+        compared = run("compare", plain / "pinion.stl", out / "pinion.stl", "--tolerance-um", "60")
+        self.assertEqual(compared.returncode, 0, compared.stdout)
 
     def test_helical_and_herringbone_pairs_are_written_within_the_tolerance(self):
         for more in ["", "herringbone = true\n"]:

@@ -8,9 +8,10 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 
-#include "tests/solid/random_part.h"
+#include "tests/solid/random_toothing.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/solid/gear_mesh.h"
 #include "trueflank/solid/mesh_validity.h"
@@ -81,6 +82,22 @@ TEST(MeshExact, RandomPartsBoundSolidsAlsoIn32Bits) {
     SCOPED_TRACE(random->text);
     const TriangleMesh mesh =
         part_mesh(random->part, {.tolerance_mm = std::max(random->tolerance_mm, 1e-3)}).mesh;
+    expect_boundary_of_a_solid(mesh);
+    expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
+    ++made;
+  }
+}
+
+TEST(MeshExact, TwistedModifiedAndDisplacedTeethBoundSolidsAlsoIn32Bits) {
+  constexpr std::array kKinds = {test::ToothingKinds{}, test::ToothingKinds{.deviation = true},
+                                 test::ToothingKinds{true, true, true}};
+  int made = 0;
+  for (std::uint64_t seed = 9000; made < 9; ++seed) {
+    const auto random = test::random_toothing(seed, kKinds[seed % kKinds.size()]);
+    if (!random || random->train->gears[0].profile.gear().teeth > 40) continue;
+    SCOPED_TRACE(random->text);
+    const TriangleMesh mesh =
+        part_mesh(random->part, {.tolerance_mm = 4.0 * random->tolerance_mm}).mesh;
     expect_boundary_of_a_solid(mesh);
     expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
     ++made;

@@ -8,6 +8,7 @@
 #include "tests/train/prototype_design.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/mesh_accuracy.h"
 #include "trueflank/solid/mesh_validity.h"
 #include "trueflank/solid/outline_loop.h"
 
@@ -266,6 +267,29 @@ TEST(BoreEdges, FormAClosedOutlineWhoseFlatsAndKeywayFacePlusX) {
         EXPECT_NEAR(along_x, 4.0, 1e-14);
         break;
     }
+  }
+}
+
+TEST(PartShapeGroove, PartsTheHalvesOfAHerringboneBelowTheRoots) {
+  for (const bool ring : {false, true}) {
+    GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {39});
+    design.helix_angle_rad = rad_from_deg(25.0);
+    design.herringbone = true;
+    design.relief_groove_mm = 1.5;
+    if (ring) design.gears[0].kind = GearKind::kInternal;
+    const auto train = lay_out(design);
+    ASSERT_TRUE(train);
+    const auto shapes = part_shapes(*train);
+    ASSERT_TRUE(shapes);
+    const auto& slabs = shapes->parts[0].slabs;
+    ASSERT_EQ(slabs.size(), 3U);
+    EXPECT_DOUBLE_EQ(slabs[1].z_upper_mm - slabs[1].z_lower_mm, 1.5);
+    const double root = train->gears[0].profile.root_radius_mm();
+    const double floor = std::get<CircleOutline>(ring ? slabs[1].holes[0] : slabs[1].outer).radius_mm;
+    EXPECT_DOUBLE_EQ(floor, ring ? root + 0.1 : root - 0.1);
+    const PartMesh made = part_mesh(shapes->parts[0]);
+    EXPECT_TRUE(mesh_validity(made.mesh).valid());
+    EXPECT_LE(measure_accuracy(made.mesh, shapes->parts[0]).largest_mm(), 1e-3);
   }
 }
 

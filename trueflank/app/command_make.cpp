@@ -66,11 +66,11 @@ ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
   if (dropped.empty()) return kept;
   if (!options.formats.empty())
     return fail_all({{.code = ErrorCode::kUnsupported,
-                      .message = "this version does not write helical teeth in this format",
+                      .message = "this version does not write helical or modified teeth in this format",
                       .key = "--formats",
                       .value = joined(dropped),
-                      .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"}});
-  told += "not written: " + joined(dropped) + " (this version does not write helical teeth there)\n";
+                      .remedy = "the formats of meshes: stl, 3mf, obj, ply, glb"}});
+  told += "not written: " + joined(dropped) + " (this version does not write helical or modified teeth there)\n";
   return kept;
 }
 
@@ -87,8 +87,6 @@ int run_make(const MakeOptions& options) {
   if (Errors errors = usage_errors(options); !errors.empty()) return report_errors(errors);
   const auto train = read_train(options.design);
   if (!train) return report_errors(train.error());
-  if (Errors errors = not_built(train->design); !errors.empty())
-    return report_errors(located_in(options.design, std::move(errors)));
   const auto shapes = part_shapes(*train);
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);
@@ -109,12 +107,12 @@ int run_make(const MakeOptions& options) {
       auto made = corrected_parts(*train, *shapes, options.correct, mm_from_um(options.tolerance_um));
       if (!made) return report_errors(made.error());
       corrected = std::move(*made);
-      formats = formats_of_corrected(*formats, corrected.text);
+      formats = formats_of_corrected(*formats, corrected);
       told += corrected.text;
     }
     auto files = io::export_parts({.train = &*train,
-                                   .shapes = &*shapes,
-                                   .meshes = options.correct.empty() ? nullptr : &corrected.meshes},
+                                   .shapes = options.correct.empty() ? &*shapes : &corrected.shapes,
+                                   .meshes = corrected.meshes.empty() ? nullptr : &corrected.meshes},
                                   {.folder = folder,
                                    .formats = *formats,
                                    .tolerance_mm = mm_from_um(options.tolerance_um),

@@ -2,6 +2,7 @@
 #include "trueflank/app/corrected_parts.h"
 
 #include <cmath>
+#include <set>
 
 #include "trueflank/loop/correction.h"
 #include "trueflank/loop/text_table.h"
@@ -9,25 +10,18 @@
 namespace trueflank::app {
 namespace {
 
-/// Where a gear's teeth stand in a part: the slab's lower face and the turn of tooth 1.
-struct Toothing {
-  std::size_t part = 0;
-  double z_lower_mm = 0.0, rotation_rad = 0.0;
-};
-
-std::vector<Toothing> toothings_of(const PartShapes& shapes, const ToothProfile& profile) {
-  std::vector<Toothing> found;
+/// Calls `visit(part's number, toothing)` for every outline of a gear's teeth.
+template <class Visit>
+void for_toothings(PartShapes& shapes, const ToothProfile& profile, const Visit& visit) {
   for (std::size_t i = 0; i < shapes.parts.size(); ++i)
-    for (const Slab& slab : shapes.parts[i].slabs) {
-      const auto look = [&](const Outline& outline) {
-        const auto* toothed = std::get_if<ToothedOutline>(&outline);
-        if (toothed != nullptr && toothed->profile == &profile)
-          found.push_back({i, slab.z_lower_mm, toothed->rotation_rad});
+    for (Slab& slab : shapes.parts[i].slabs) {
+      const auto look = [&](Outline& outline) {
+        auto* toothed = std::get_if<ToothedOutline>(&outline);
+        if (toothed != nullptr && toothed->profile == &profile) visit(i, *toothed);
       };
       look(slab.outer);
-      for (const Outline& hole : slab.holes) look(hole);
+      for (Outline& hole : slab.holes) look(hole);
     }
-  return found;
 }
 
 void turn(TriangleMesh& mesh, double angle_rad) {
@@ -59,14 +53,25 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
                                      train.design.herringbone);
   const auto correction = loop::Correction::make(*text, geometry);
   if (!correction) return fail_all(located(correction.error(), loop_json_file));
-  CorrectedParts result;
-  for (const PartShape& part : shapes.parts)
-    result.meshes.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
-  for (const Toothing& toothing : toothings_of(shapes, gear->profile)) {
-    TriangleMesh& mesh = result.meshes[toothing.part].mesh;
-    if (toothing.rotation_rad != 0.0) turn(mesh, -toothing.rotation_rad);
-    mesh = correction->apply(mesh, toothing.z_lower_mm);
-    if (toothing.rotation_rad != 0.0) turn(mesh, toothing.rotation_rad);
+  CorrectedParts result{.shapes = shapes, .meshes = {}, .displacement = nullptr, .text = {}};
+  if (correction->moves_whole_part()) {
+    for (const PartShape& part : shapes.parts)
+      result.meshes.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
+    std::set<std::size_t> done;  // a groove parts the teeth of one gear
+    for_toothings(result.shapes, gear->profile, [&](std::size_t part, const ToothedOutline& teeth) {
+      if (!done.insert(part).second) return;
+      TriangleMesh& mesh = result.meshes[part].mesh;
+      if (teeth.rotation_rad != 0.0) turn(mesh, -teeth.rotation_rad);
+      mesh = correction->apply(mesh, teeth.z_lower_mm);
+      if (teeth.rotation_rad != 0.0) turn(mesh, teeth.rotation_rad);
+    });
+  } else if (!correction->empty()) {
+    const auto held = std::make_shared<const loop::Correction>(*correction);
+    result.displacement = std::make_shared<const Displacement>(
+        [held](const std::array<double, 3>& point) { return held->displacement_mm(point); });
+    for_toothings(result.shapes, gear->profile, [&](std::size_t, ToothedOutline& teeth) {
+      teeth.displacement = result.displacement.get();
+    });
   }
   for (const std::string& id : correction->corrected())
     result.text += "corrected on " + *name + ": " + id + "\n";
@@ -77,18 +82,21 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
 }
 
 std::vector<io::FileFormat> formats_of_corrected(const std::vector<io::FileFormat>& formats,
-                                                 std::string& text) {
+                                                 CorrectedParts& corrected) {
+  const bool only_meshes = !corrected.meshes.empty();
   std::vector<io::FileFormat> kept;
   std::string dropped;
   for (const io::FileFormat format : formats) {
     const bool mesh = format == io::FileFormat::kStl || format == io::FileFormat::k3mf ||
                       format == io::FileFormat::kObj || format == io::FileFormat::kPly ||
                       format == io::FileFormat::kGlb;
-    if (mesh) kept.push_back(format);
+    const bool exact = format == io::FileFormat::kStep && !only_meshes;
+    if (mesh || exact) kept.push_back(format);
     else dropped += std::string(dropped.empty() ? "" : ", ") + io::to_text(format);
   }
   if (!dropped.empty())
-    text += "not written: " + dropped + " (a correction goes into meshes only)\n";
+    corrected.text += "not written: " + dropped + " (a correction goes into meshes" +
+                      (only_meshes ? " only" : " and STEP only") + ")\n";
   return kept;
 }
 

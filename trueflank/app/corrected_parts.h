@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,12 @@
 
 namespace trueflank::app {
 
-/// Meshes of all parts, the measured gear's toothing corrected by a loop.json.
+/// All parts, the measured gear's toothing corrected by a loop.json. The correction displaces the
+/// toothing; bore and rim stay. Where it is one of the whole part (a scale), finished meshes are moved.
 struct CorrectedParts {
-  std::vector<PartMesh> meshes;
+  PartShapes shapes;
+  std::vector<PartMesh> meshes;  ///< of a scale; else empty
+  std::shared_ptr<const Displacement> displacement;  ///< that the shapes refer to
   std::string text;  ///< what was corrected, what was left and why: lines for a person
 };
 
@@ -22,8 +26,9 @@ struct CorrectedParts {
                                                         const std::string& loop_json_file,
                                                         double tolerance_mm);
 
-/// The formats that can carry a correction: meshes. What was asked for beside them is told in `text`.
+/// The formats that can carry a correction: meshes and, unless it is of the whole part, STEP. What was
+/// asked for beside them is told in its text.
 [[nodiscard]] std::vector<io::FileFormat> formats_of_corrected(
-    const std::vector<io::FileFormat>& formats, std::string& text);
+    const std::vector<io::FileFormat>& formats, CorrectedParts& corrected);
 
 }  // namespace trueflank::app

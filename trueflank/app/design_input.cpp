@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/app/design_input.h"
 
+#include <algorithm>
 #include <future>
 
 #include "trueflank/check/check_gearbox.h"
@@ -8,6 +9,7 @@
 #include "trueflank/design/requirements_file.h"
 #include "trueflank/solid/mass_properties.h"
 #include "trueflank/solid/part_shape.h"
+#include "trueflank/train/flank_modifications.h"
 
 namespace trueflank::app {
 
@@ -22,21 +24,6 @@ ResultAll<GearTrain> read_train(const std::string& path) {
 Errors located_in(const std::string& path, Errors errors) {
   const auto file = read_design_file(path);
   return file ? located(std::move(errors), *file) : std::move(errors);
-}
-
-Errors not_built(const GearboxDesign& design) {
-  Errors errors;
-  const auto refuse = [&](std::string key, std::string value, std::string remedy) {
-    errors.push_back({.code = ErrorCode::kUnsupported,
-                      .message = "understood, but this version does not build it",
-                      .key = std::move(key),
-                      .value = std::move(value),
-                      .remedy = std::move(remedy)});
-  };
-  for (const GearDesign& gear : design.gears)
-    if (gear.modifications != ModificationsDesign{})
-      refuse(gear.name + ".modifications", "", "no modifications");
-  return errors;
 }
 
 namespace {
@@ -70,8 +57,13 @@ void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
 }  // namespace
 
 std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design) {
-  if (design.helix_angle_rad == 0.0) return {};
-  return {io::FileFormat::kScad};
+  const bool modified = std::any_of(design.gears.begin(), design.gears.end(), [](const GearDesign& gear) {
+    return deviates(gear.modifications) || gear.modifications.edge_chamfer_mm > 0.0;
+  });
+  using io::FileFormat;
+  if (modified) return {FileFormat::kStep, FileFormat::kDxf, FileFormat::kSvg, FileFormat::kScad};
+  if (design.helix_angle_rad != 0.0) return {FileFormat::kScad};
+  return {};
 }
 
 io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {

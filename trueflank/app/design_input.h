@@ -17,9 +17,8 @@ namespace trueflank::app {
 /// Errors of later stations with file and line of their keys in the design file.
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);
 
-/// What a design asks for and this version does not build: refused, never left out in silence.
-[[nodiscard]] Errors not_built(const GearboxDesign& design);
-/// Formats that this version does not write of a design: OpenSCAD of helical teeth.
+/// Formats that this version does not write of a design: OpenSCAD of helical teeth, and all
+/// but meshes of modified ones.
 [[nodiscard]] std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design);
 
 /// Every check, sweep and efficiency of a train. The report refers to the train.

@@ -215,6 +215,11 @@ bool Correction::bends_over_the_face() const {
   });
 }
 
+bool Correction::moves_whole_part() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part& p) { return p.effect.family->id == "scale"; });
+}
+
 TriangleMesh Correction::apply(const TriangleMesh& mesh, double z_lower_mm) const {
   const double b = geometry_.face_width_mm();
   TriangleMesh result = mesh;
@@ -229,8 +234,7 @@ TriangleMesh Correction::apply(const TriangleMesh& mesh, double z_lower_mm) cons
     result = sliced(mesh, heights);
   }
   // Of the body only the ring of the teeth moves; a scale is of the whole part.
-  const bool whole = std::any_of(parts_.begin(), parts_.end(),
-                                 [](const Part& p) { return p.effect.family->id == "scale"; });
+  const bool whole = moves_whole_part();
   const double root = geometry_.root_radius_mm(), margin = 1e-3;
   for (auto& vertex : result.vertices) {
     const double radius = std::hypot(vertex[0], vertex[1]);

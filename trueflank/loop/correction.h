@@ -34,6 +34,8 @@ class Correction {
   /// correction bends over the face. Guarantees: closed where the mesh was closed.
   [[nodiscard]] TriangleMesh apply(const TriangleMesh& mesh, double z_lower_mm) const;
 
+  /// Whether bore and rim are corrected, too: a scale. Then apply() is the only way.
+  [[nodiscard]] bool moves_whole_part() const;
   [[nodiscard]] bool empty() const { return parts_.empty(); }
   [[nodiscard]] const std::vector<std::string>& corrected() const { return corrected_; }
   /// What stays, and why: one sentence each.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/solid/mass_properties.h"
 
+#include <algorithm>
+#include <array>
+
 #include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/toothing_grid.h"
 
 namespace trueflank {
 namespace {
@@ -14,9 +18,14 @@ struct SectionMoments {
   double polar_mm4 = 0.0;  ///< second moment of area about the part's axis
 };
 
-/// Green's theorem over the polygon of an outline.
-SectionMoments moments(const Outline& outline) {
-  const OutlineLoop loop = outline_loop(outline, kChordError_mm);
+/// Bands between two breaks of a section that changes over the face, and the places of Gauss's rule in
+/// each: exact for polynomials of the fifth degree, crowning and reliefs of the second.
+constexpr int kBands = 4;
+constexpr std::array<double, 3> kGaussPlaces = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr std::array<double, 3> kGaussWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+/// Green's theorem over a polygon.
+SectionMoments moments(const OutlineLoop& loop) {
   SectionMoments sum;
   for (std::size_t i = 0; i < loop.points.size(); ++i) {
     const Point2 &p = loop.points[i], &q = loop.points[(i + 1) % loop.points.size()];
@@ -27,21 +36,61 @@ SectionMoments moments(const Outline& outline) {
   return sum;
 }
 
+/// Whether a toothing's section, but for its turn, is the same at every height.
+bool is_uniform(const ToothedOutline& outline) {
+  return outline.edge_chamfer_mm == 0.0 && outline.displacement == nullptr &&
+         !(outline.toothing().has_deviation() && outline.deviation->varies_along_face);
+}
+
+/// Moments of an outline's section integrated over a slab's height: area to volume. A twist turns
+/// sections and changes neither (Cavalieri).
+SectionMoments integrated(const Outline& outline, double z_lower_mm, double z_upper_mm) {
+  SectionMoments sum;
+  const auto add = [&](const SectionMoments& section, double height_mm) {
+    sum.area_mm2 += section.area_mm2 * height_mm;
+    sum.polar_mm4 += section.polar_mm4 * height_mm;
+  };
+  const auto* toothed = std::get_if<ToothedOutline>(&outline);
+  if (toothed == nullptr || is_uniform(*toothed)) {
+    add(moments(outline_loop(outline, kChordError_mm)), z_upper_mm - z_lower_mm);
+    return sum;
+  }
+  const double lower = z_lower_mm - toothed->z_lower_mm, upper = z_upper_mm - toothed->z_lower_mm;
+  const double face = toothed->twist.face_width_mm;
+  std::vector<double> breaks{lower, upper};
+  const auto add_break = [&](double z) {
+    if (z > lower && z < upper) breaks.push_back(z);
+  };
+  for (const double z : {toothed->edge_chamfer_mm, 0.5 * face, face - toothed->edge_chamfer_mm})
+    add_break(z);
+  if (toothed->toothing().has_deviation())
+    for (const double z : toothed->deviation->z_breaks_mm) add_break(z);
+  std::sort(breaks.begin(), breaks.end());
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    for (int band = 0; band < kBands; ++band) {
+      const double height = (breaks[i + 1] - breaks[i]) / kBands;
+      for (std::size_t k = 0; k < kGaussPlaces.size(); ++k)
+        add(moments(toothed_section(*toothed, breaks[i] + height * (band + kGaussPlaces[k]),
+                                    kChordError_mm)),
+            kGaussWeights[k] * height);
+    }
+  return sum;
+}
+
 }  // namespace
 
 MassProperties mass_properties(const PartShape& shape, double density_kg_m3) {
   MassProperties result;
   double moment_mm5 = 0.0;
   for (const Slab& slab : shape.slabs) {
-    SectionMoments section = moments(slab.outer);
+    SectionMoments solid = integrated(slab.outer, slab.z_lower_mm, slab.z_upper_mm);
     for (const Outline& hole : slab.holes) {
-      const SectionMoments empty = moments(hole);
-      section.area_mm2 -= empty.area_mm2;
-      section.polar_mm4 -= empty.polar_mm4;
+      const SectionMoments empty = integrated(hole, slab.z_lower_mm, slab.z_upper_mm);
+      solid.area_mm2 -= empty.area_mm2;
+      solid.polar_mm4 -= empty.polar_mm4;
     }
-    const double height_mm = slab.z_upper_mm - slab.z_lower_mm;
-    result.volume_mm3 += section.area_mm2 * height_mm;
-    moment_mm5 += section.polar_mm4 * height_mm;
+    result.volume_mm3 += solid.area_mm2;
+    moment_mm5 += solid.polar_mm4;
   }
   result.mass_kg = result.volume_mm3 * 1e-9 * density_kg_m3;
   result.axial_inertia_kg_m2 = moment_mm5 * 1e-15 * density_kg_m3;

@@ -39,7 +39,7 @@ void set_radii(OutlineLoop& loop) {
 }
 
 OutlineLoop loop_of(const ToothedOutline& outline, double tolerance_mm, int) {
-  if (!has_profile_section(outline)) return toothed_section(outline, tolerance_mm);
+  if (!has_profile_section(outline)) return toothed_section(outline, 0.5 * outline.twist.face_width_mm, tolerance_mm);
   SectionPolygon section = section_polygon(*outline.profile, tolerance_mm, outline.rotation_rad);
   OutlineLoop loop;
   loop.points = std::move(section.points);

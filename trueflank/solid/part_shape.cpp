@@ -20,6 +20,8 @@ constexpr double kRim = 2.5;
 constexpr double kLeastRim_mm = 2.0;
 /// The neck of a compound planet stays this part of the module inside the smaller root circle.
 constexpr double kNeckInset = 0.25;
+/// The groove between the halves of a herringbone is cut this part of the module deeper than the roots.
+constexpr double kGrooveInset = 0.1;
 /// A layer gap below this is no gap that can be made.
 constexpr double kLeastGap_mm = 0.01;
 
@@ -90,12 +92,35 @@ class ShapeBuilder {
       slab.outer = toothed(gear, 0.0, 0.0);
       add_bore(gear, gear.profile.root_radius_mm(), slab.holes);
     }
-    shapes_.parts.push_back({.name = gear.name, .slabs = {std::move(slab)}});
+    shapes_.parts.push_back({.name = gear.name, .slabs = with_groove(gear, std::move(slab))});
     const bool wheel = gear.name == "wheel";
     const double rotation = gear.name == "ring2"                    ? train_.phases.ring2_rotation_rad
                             : wheel || gear.name.starts_with("ring") ? train_.phases.ring1_rotation_rad
                                                                      : train_.phases.sun_rotation_rad;
     place(gear.name, rotation, wheel ? wheel_centre_mm(train_) : Point2::Zero(), gear.z_lower_mm);
+  }
+
+  /// A gear's slab, parted by the groove between the halves of a herringbone where it has one.
+  std::vector<Slab> with_groove(const TrainGear& gear, Slab whole) {
+    const double width = gear.twist.relief_groove_mm;
+    if (!(width > 0.0)) return {std::move(whole)};
+    const double middle = 0.5 * (whole.z_lower_mm + whole.z_upper_mm);
+    Slab lower = whole, groove = whole, upper = whole;
+    lower.z_upper_mm = groove.z_lower_mm = middle - 0.5 * width;
+    groove.z_upper_mm = upper.z_lower_mm = middle + 0.5 * width;
+    const double root = gear.profile.root_radius_mm(), inset = kGrooveInset * module_mm(gear);
+    if (is_ring(gear)) {
+      double room = extent(whole.outer).inner_radius_mm - root;
+      for (std::size_t i = 1; i < whole.holes.size(); ++i) {  // bolts stand outside the teeth
+        const OutlineExtent bolt = extent(whole.holes[i]);
+        room = std::min(room, bolt.centre.norm() - bolt.outer_radius_mm - root);
+      }
+      groove.holes[0] = CircleOutline{Point2::Zero(), root + std::min(inset, 0.5 * room)};
+    } else {
+      const double room = root - largest_radius_mm(design_of(gear.name == "planet2" ? *train_.find("planet1") : gear).bore);
+      groove.outer = CircleOutline{Point2::Zero(), root - std::min(inset, 0.5 * room)};
+    }
+    return {std::move(lower), std::move(groove), std::move(upper)};
   }
 
   // -------------------------------------------------------------- bores, rims, bolts
@@ -208,18 +233,19 @@ class ShapeBuilder {
     const double width1 = planet1.face_width_mm;
     std::vector<Outline> bore;
     add_bore(planet1, std::min(root1, root2), bore);
-    std::vector<Slab> slabs{{.z_lower_mm = 0.0,
-                             .z_upper_mm = width1,
-                             .outer = toothed(planet1, 0.0, 0.0),
-                             .holes = bore}};
+    std::vector<Slab> slabs = with_groove(planet1, {.z_lower_mm = 0.0,
+                                                    .z_upper_mm = width1,
+                                                    .outer = toothed(planet1, 0.0, 0.0),
+                                                    .holes = bore});
     if (!planet2) return slabs;
     const double z2 = planet2->z_lower_mm - planet1.z_lower_mm;
     if (z2 != width1) add_neck(planet1, *planet2, z2 - width1, slabs);
     else check_stack_without_neck(planet1, *planet2);
-    slabs.push_back({.z_lower_mm = z2,
-                     .z_upper_mm = z2 + planet2->face_width_mm,
-                     .outer = toothed(*planet2, offset_rad, z2),
-                     .holes = bore});
+    for (Slab& slab : with_groove(*planet2, {.z_lower_mm = z2,
+                                             .z_upper_mm = z2 + planet2->face_width_mm,
+                                             .outer = toothed(*planet2, offset_rad, z2),
+                                             .holes = bore}))
+      slabs.push_back(std::move(slab));
     return slabs;
   }
 

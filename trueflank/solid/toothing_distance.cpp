@@ -14,8 +14,10 @@ namespace {
 constexpr int kFilletNodes = 129;
 /// Nearer than this a point lies on the surface, and the direction of its distance is rounding.
 constexpr double kOnSurface_mm = 1e-9;
-/// Step in height for slopes.
-constexpr double kHeightStep_mm = 1e-5;
+/// Step for slopes in space.
+constexpr double kStep_mm = 1e-5;
+/// A distance within a plane rises by 1; where two walls meet, its slope is between theirs.
+constexpr double kLeastSlope = 0.7;
 /// Step along a curve for its tangent, of its length.
 constexpr double kParameterStep = 1e-5;
 
@@ -150,15 +152,22 @@ ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turne
 double ToothingDistance::distance_mm(const Point3& point) const {
   const Point3 p = undisplaced(in_gear(point));
   const double turn_rate = toothing_.twist.turn_rad_per_mm;
-  const auto section_at = [&](double z) {
-    const double turn = section_turn_rad(toothing_.twist, z);
-    return section_foot(turn == 0.0 ? Point2(p.head<2>()) : rotated(p.head<2>(), -turn), z);
+  const auto section_at = [&](const Point3& place) {
+    const double turn = section_turn_rad(toothing_.twist, place.z());
+    return section_foot(turn == 0.0 ? Point2(place.head<2>()) : rotated(place.head<2>(), -turn),
+                        place.z());
   };
-  const SectionFoot foot = section_at(p.z());
-  double slope = turn_rate * foot.lever_mm;
-  if (chamfer_depth_mm(p.z()) > 0.0)  // as steep as the twist, and in any direction to it
-    slope = (section_at(p.z() + kHeightStep_mm).distance_mm -
-             section_at(p.z() - kHeightStep_mm).distance_mm) / (2.0 * kHeightStep_mm);
+  const SectionFoot foot = section_at(p);
+  if (chamfer_depth_mm(p.z()) > 0.0) {
+    // a chamfer turns circles so differently that the way back stretches: by its slopes in space
+    Point3 slopes;
+    for (int k = 0; k < 3; ++k) {
+      const Point3 step = kStep_mm * Point3::Unit(k);
+      slopes[k] = (section_at(p + step).distance_mm - section_at(p - step).distance_mm) / (2.0 * kStep_mm);
+    }
+    return foot.distance_mm / std::max(slopes.norm(), kLeastSlope);
+  }
+  const double slope = turn_rate * foot.lever_mm;
   return slope == 0.0 ? foot.distance_mm : foot.distance_mm / std::sqrt(1.0 + slope * slope);
 }
 
@@ -181,8 +190,8 @@ double ToothingDistance::slope_share(std::size_t piece, double parameter, int co
   const Point2 here = at(parameter, z_mm);
   const Point2 along = (at(at_end ? parameter - step : parameter + step, z_mm) - here).normalized();
   const double height = z_mm - outline_.z_lower_mm;
-  const double up = height + kHeightStep_mm > toothing_.twist.face_width_mm ? -kHeightStep_mm
-                                                                            : kHeightStep_mm;
+  const double up = height + kStep_mm > toothing_.twist.face_width_mm ? -kStep_mm
+                                                                            : kStep_mm;
   const double slope = cross(along, at(parameter, z_mm + up) - here) / up;
   return 1.0 / std::sqrt(1.0 + slope * slope);
 }

@@ -24,6 +24,8 @@ constexpr double kAim = 0.985;
 constexpr int kRounds = 8;
 /// Teeth looked at while columns and rows are found, where all differ; facets are cut on all.
 constexpr int kSomeTeeth = 6;
+/// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no end.
+constexpr double kShortest = 3.0;
 /// A break nearer to a vertex than this share of the tolerance is that vertex.
 constexpr double kSameVertex = 0.25;
 
@@ -166,8 +168,12 @@ void ToothingGrid::place_columns() {
 bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tolerance_mm) {
   std::vector<HalfEdge> split;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const int parts = error_mm[i] > tolerance_mm ? parts_for(error_mm[i], tolerance_mm) : 1;
     const HalfEdge& e = edges_[i];
+    const Curve& curve = toothing_.profile->pieces()[e.piece].curve;
+    const bool is_short =
+        (point_at(curve, e.to) - point_at(curve, e.from)).norm() < kShortest * tolerance_mm;
+    const int parts =
+        error_mm[i] > tolerance_mm && !is_short ? parts_for(error_mm[i], tolerance_mm) : 1;
     const auto part_end = [&](int k) { return k == parts ? e.to : e.from + (e.to - e.from) * k / parts; };
     for (int k = 0; k < parts; ++k) split.push_back({e.piece, part_end(k), part_end(k + 1)});
   }
@@ -256,7 +262,8 @@ void ToothingGrid::refine_layers(double tolerance_mm) {
     for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
       const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
       const double error = layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
-      const int parts = error > tolerance_mm ? parts_for(error, tolerance_mm) : 1;
+      const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
+      const int parts = split ? parts_for(error, tolerance_mm) : 1;
       for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
       heights.push_back(upper);
     }
@@ -335,7 +342,8 @@ void ToothingGrid::add_where_charged(double tolerance_mm) {
   std::vector<double> heights{heights_mm_.front()};
   for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
     const double z0 = heights_mm_[j], z1 = heights_mm_[j + 1], error = layer_error_mm_[j];
-    const int parts = error > tolerance_mm ? parts_for(error, tolerance_mm) : 1;
+    const bool split = error > tolerance_mm && z1 - z0 > kShortest * tolerance_mm;
+    const int parts = split ? parts_for(error, tolerance_mm) : 1;
     for (int k = 1; k < parts; ++k) heights.push_back(z0 + (z1 - z0) * k / parts);
     heights.push_back(z1);
   }
@@ -374,13 +382,12 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   return result;
 }
 
-OutlineLoop toothed_section(const ToothedOutline& outline, double tolerance_mm) {
-  ToothedOutline flat = outline;  // its section at mid face, all over the face
+OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm, double tolerance_mm) {
+  ToothedOutline flat = outline;
   flat.twist.turn_rad_per_mm = 0.0;
-  const double middle = 0.5 * outline.twist.face_width_mm;
-  const ToothingGrid grid(flat, {middle}, tolerance_mm);
+  const ToothingGrid grid(flat, {z_mm}, tolerance_mm);
   OutlineLoop loop;
-  for (const auto& p : grid.row(middle)) loop.points.push_back({p[0], p[1]});
+  for (const auto& p : grid.row(z_mm)) loop.points.push_back({p[0], p[1]});
   loop.teeth = grid.teeth();
   loop.points_per_tooth = grid.points_per_tooth();
   loop.teeth_alike = grid.teeth_alike();

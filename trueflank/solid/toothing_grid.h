@@ -91,7 +91,9 @@ class ToothingGrid {
   double section_error_mm_ = 0.0, facet_error_mm_ = 0.0;
 };
 
-/// The toothing's section at mid face, its deviation included, not turned by the twist.
-[[nodiscard]] OutlineLoop toothed_section(const ToothedOutline& outline, double tolerance_mm);
+/// The toothing's section at a height in the gear's frame, its deviation included, not turned by the
+/// twist.
+[[nodiscard]] OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm,
+                                          double tolerance_mm);
 
 }  // namespace trueflank
