@@ -18,6 +18,9 @@ SAMPLES = {
     "sharp rack, undercut.step": FINE,
     "pointed teeth.step": ["-clmax", "0.8", "-clcurv", "8"],
     "ring, tip inside the base circle.step": ["-clmax", "1"],
+    "helical planet.step": [],
+    "herringbone pinion.step": ["-clmax", "1"],
+    "chamfered herringbone.step": ["-clmax", "1"],
 }
 TETRAHEDRON = 4
 

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
+#include "tests/support/flank_distance.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "trueflank/export/step_writer.h"
@@ -16,7 +18,8 @@
 namespace trueflank {
 namespace {
 
-bool write_part(const std::filesystem::path& folder, std::ostream& list, const PartShape& part) {
+bool write_part(const std::filesystem::path& folder, std::ostream& list, const PartShape& part,
+                std::optional<double> volume_mm3 = std::nullopt) {
   auto solid = brep_of(part);
   if (!solid) {
     std::cerr << solid.error().message << '\n';
@@ -24,11 +27,12 @@ bool write_part(const std::filesystem::path& folder, std::ostream& list, const P
   }
   std::ofstream(folder / (part.name + ".step"))
       << io::step_text({.name = part.name, .solid = std::move(*solid)});
-  list << part.name << ".step\t" << std::setprecision(17) << test::exact_volume_mm3(part) << '\n';
+  list << part.name << ".step\t" << std::setprecision(17) << volume_mm3.value_or(test::exact_volume_mm3(part)) << '\n';
   return true;
 }
 
-/// Teeth that turn: a helical planet with its bore, a herringbone, a ring.
+/// Teeth that turn: a helical planet with its bore, a herringbone, a ring; modified, chamfered and
+/// displaced ones.
 bool write_helical(const std::filesystem::path& folder, std::ostream& list) {
   const auto planet = ToothProfile::make(test::helical_gear(39, 0.3, 0.26));
   const auto pinion = ToothProfile::make(test::helical_gear(13, 0.2, -0.4));
@@ -38,6 +42,26 @@ bool write_helical(const std::filesystem::path& folder, std::ostream& list) {
   bool ok = write_part(folder, list, test::helical_part("helical planet", *planet, 8.0, false, {bore}));
   ok &= write_part(folder, list, test::helical_part("herringbone pinion", *pinion, 12.0, true));
   ok &= write_part(folder, list, test::helical_part("helical ring", *ring, 6.0));
+  const double middle_mm =
+      0.5 * (planet->tip_form_roll_length_mm() + planet->root_form_roll_length_mm());
+  const FlankDeviation field = test::sample_modifications(planet->gear(), 8.0, middle_mm);
+  const Toothing modified{.profile = &*planet, .twist = face_twist(planet->gear(), 8.0, false),
+                          .deviation = &field};
+  ok &= write_part(folder, list, test::toothed_part("modified planet", modified),
+                   test::toothing_volume_mm3(modified, field.z_breaks_mm));
+  const Toothing chamfered{.profile = &*pinion, .twist = face_twist(pinion->gear(), 9.0, true),
+                           .edge_chamfer_mm = 0.15};
+  ok &= write_part(folder, list, test::toothed_part("chamfered herringbone", chamfered),
+                   test::toothing_volume_mm3(chamfered, {0.15, 4.5, 8.85}));
+  const Displacement bent = [](const std::array<double, 3>& p) -> std::array<double, 3> {
+    return {0.01 * std::sin(0.3 * p[1] + 0.1 * p[2]), 0.0, 0.0};  // keeps areas
+  };
+  ok &= write_part(folder, list,
+                   test::toothed_part("displaced planet",
+                                      {.profile = &*planet,
+                                       .twist = face_twist(planet->gear(), 8.0, false),
+                                       .displacement = &bent}),
+                   8.0 * test::area_mm2(ToothedOutline{.profile = &*planet}));
   return ok;
 }
 

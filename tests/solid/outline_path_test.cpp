@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/flank_distance.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 
@@ -74,6 +75,47 @@ TEST(OutlinePath, FollowsTheProfileRoundAllTeeth) {
       EXPECT_LE(distance_mm(local, half), 1e-5) << name;  // most of it the search's own chords
     }
     EXPECT_NEAR(turned, kTwoPi, pitch) << name << ": once round, counter-clockwise";
+  }
+}
+
+TEST(OutlinePath, AModifiedFlankIsSplitAtItsBendAndFollowsTheField) {
+  for (const bool ring : {false, true}) {
+    const Gear gear = ring ? test::ring_gear(40, 0.3) : test::external_gear(21, 0.2);
+    const ToothProfile profile = profile_of(gear);
+    const double start =
+        0.5 * (profile.tip_form_roll_length_mm() + profile.root_form_roll_length_mm());
+    const FlankDeviation relief = test::sample_modifications(gear, 9.0, start);
+    const ToothedOutline outline{.profile = &profile, .rotation_rad = 0.4,
+                                 .twist = {.face_width_mm = 9.0}, .deviation = &relief};
+    const OutlinePath path = outline_path(outline);
+    EXPECT_LE(path.fit_error_mm, 1e-7);
+    // tip, root (not the ring's: a full round), and on either side a fillet and a flank of two pieces
+    EXPECT_EQ(path.pieces.size(), gear.teeth * (ring ? 7U : 8U));
+    const double lower = std::min(profile.tip_form_radius_mm(), profile.root_form_radius_mm()) + 1e-3;
+    const double upper = std::max(profile.tip_form_radius_mm(), profile.root_form_radius_mm()) - 1e-3;
+    int on_flanks = 0;
+    for (const Point2& p : points_of(path, 9)) {
+      if (p.norm() < lower || p.norm() > upper) continue;
+      ++on_flanks;
+      const Point2 own = rotated(p, -0.4);
+      EXPECT_LE(test::flank_error_mm(outline.toothing(), {own.x(), own.y(), 4.5}, relief.deviation_mm),
+                2e-8);
+    }
+    EXPECT_GT(on_flanks, gear.teeth * 30);
+  }
+}
+
+TEST(OutlinePath, AHelicalSectionIsTheTransverseOneTurnedAsAtMidFace) {
+  const Gear gear = test::helical_gear(21, 0.2, 0.3);
+  const ToothProfile profile = profile_of(gear);
+  const ToothedOutline straight{.profile = &profile, .rotation_rad = 0.1};
+  for (const bool herringbone : {false, true}) {
+    ToothedOutline twisted = straight;
+    twisted.twist = face_twist(gear, 7.0, herringbone);
+    const auto a = points_of(outline_path(straight), 5), b = points_of(outline_path(twisted), 5);
+    ASSERT_EQ(a.size(), b.size());
+    const double turn = 3.5 * std::tan(0.3) / reference_radius_mm(gear);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((rotated(a[i], turn) - b[i]).norm(), 1e-12);
   }
 }
 

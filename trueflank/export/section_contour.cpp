@@ -8,7 +8,9 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
+#include "trueflank/geometry/spline_basis.h"
 #include "trueflank/solid/outline_path.h"
+#include "trueflank/solid/toothing_path.h"
 
 namespace trueflank::io {
 namespace {
@@ -52,8 +54,42 @@ std::vector<ContourVertex> tooth_vertices(const ToothProfile& profile,
   return tooth;
 }
 
+/// Adds a spline's vertices but its last: as many equal steps as keep its chords within the tolerance.
+void add_spline(Contour& contour, const PlaneSpline& spline, double tolerance_mm) {
+  constexpr int kProbes = 8, kMostSteps = 1 << 16;
+  const SplineBasis basis(spline.degree, spline.knots);
+  const auto point = [&](double u) { return point_at(spline, basis, u); };
+  const auto error_of = [&](int steps) {
+    double worst = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      const Point2 a = point(1.0 * i / steps);
+      const Point2 chord = point((i + 1.0) / steps) - a;
+      for (int k = 1; k < kProbes; ++k)
+        worst = std::max(worst, std::abs(cross(point((i + 1.0 * k / kProbes) / steps) - a,
+                                               chord.normalized())));
+    }
+    return worst;
+  };
+  int steps = 1;
+  double error = error_of(steps);
+  while (error > tolerance_mm && steps < kMostSteps) {  // errors fall with the square of the steps
+    steps = std::max(steps + 1, static_cast<int>(0.9 * steps * std::sqrt(error / tolerance_mm)));
+    error = error_of(steps);
+  }
+  contour.chord_error_mm = std::max(contour.chord_error_mm, error);
+  for (int i = 0; i < steps; ++i) {
+    const Point2 a = point(1.0 * i / steps), b = point((i + 1.0) / steps);
+    contour.vertices.push_back({a, bulge_through(a, point((i + 0.5) / steps), b)});
+  }
+}
+
+Contour contour_of_path(const OutlinePath& path, double tolerance_mm);
+
 Contour contour(const ToothedOutline& outline, double tolerance_mm) {
   TRUEFLANK_EXPECTS(outline.profile != nullptr);
+  if (!is_plain(outline.toothing())) return contour_of_path(outline_path(outline), tolerance_mm);
+  const double rotation_rad = outline.rotation_rad +
+                              section_turn_rad(outline.twist, 0.5 * outline.twist.face_width_mm);
   const HalfToothPolyline half = tessellate(*outline.profile, tolerance_mm);
   const std::vector<ContourVertex> tooth = tooth_vertices(*outline.profile, half);
   Contour result;
@@ -62,7 +98,7 @@ Contour contour(const ToothedOutline& outline, double tolerance_mm) {
   for (int k = 0; k < teeth; ++k)
     for (const ContourVertex& vertex : tooth)
       result.vertices.push_back(
-          {rotated(vertex.point, outline.rotation_rad + kTwoPi * k / teeth), vertex.bulge});
+          {rotated(vertex.point, rotation_rad + kTwoPi * k / teeth), vertex.bulge});
   return result;
 }
 
@@ -84,8 +120,7 @@ void add_arc(Contour& contour, const Point2& centre, const Point2& from,
                         bulge});
 }
 
-Contour contour(const BoreOutline& outline, double tolerance_mm) {
-  const OutlinePath path = outline_path(outline);
+Contour contour_of_path(const OutlinePath& path, double tolerance_mm) {
   if (path.pieces.size() == 1)
     return {.circle = CircleOutline{path.circles[0].centre, path.circles[0].radius_mm}};
   Contour result;
@@ -94,10 +129,16 @@ Contour contour(const BoreOutline& outline, double tolerance_mm) {
     const Point2& next = path.pieces[(i + 1) % path.pieces.size()].start;
     if (const auto* arc = std::get_if<PathArc>(&piece.shape))
       add_arc(result, path.circles[arc->circle].centre, piece.start, next, tolerance_mm);
+    else if (const auto* s = std::get_if<PathSpline>(&piece.shape))
+      add_spline(result, s->spline, tolerance_mm);
     else
       result.vertices.push_back({piece.start, 0.0});
   }
   return result;
+}
+
+Contour contour(const BoreOutline& outline, double tolerance_mm) {
+  return contour_of_path(outline_path(outline), tolerance_mm);
 }
 
 SectionBody section_body(const Slab& slab, const std::string& name, const std::string& part,

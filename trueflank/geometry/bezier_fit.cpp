@@ -7,7 +7,6 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
-#include "trueflank/geometry/spline_basis.h"
 
 namespace trueflank {
 namespace {
@@ -18,15 +17,6 @@ constexpr int kSamplesPerSpan = 40;
 
 /// Requires: interior knots are simple, as fit_bezier() makes them.
 SplineBasis basis_of(const PlaneSpline& s) { return {s.degree, s.knots}; }
-
-Point2 spline_point(const PlaneSpline& s, const SplineBasis& basis, double u) {
-  const BasisWeights w = basis.at(u);
-  Point2 sum = Point2::Zero();
-  for (int j = 0; j <= s.degree; ++j)
-    sum += w.weight[static_cast<std::size_t>(j)] *
-           s.poles[static_cast<std::size_t>(w.first + j)];
-  return sum;
-}
 
 /// gd(v) = atan(sinh v), and its inverse.
 double gudermannian(double v) { return std::atan(std::sinh(v)); }
@@ -95,7 +85,7 @@ std::vector<double> span_errors(const Curve& curve, const PlaneSpline& s) {
     double worst = 0.0;
     for (int k = 0; k < kSamplesPerSpan; ++k) {
       const double u = from + (to - from) * (k + 0.5) / kSamplesPerSpan;
-      worst = std::max(worst, (spline_point(s, basis, u) - curve_point(curve, u)).norm());
+      worst = std::max(worst, (point_at(s, basis, u) - curve_point(curve, u)).norm());
     }
     errors.push_back(worst);
   }
@@ -104,8 +94,17 @@ std::vector<double> span_errors(const Curve& curve, const PlaneSpline& s) {
 
 }  // namespace
 
+Point2 point_at(const PlaneSpline& s, const SplineBasis& basis, double u) {
+  const BasisWeights w = basis.at(u);
+  Point2 sum = Point2::Zero();
+  for (int j = 0; j <= s.degree; ++j)
+    sum += w.weight[static_cast<std::size_t>(j)] *
+           s.poles[static_cast<std::size_t>(w.first + j)];
+  return sum;
+}
+
 Point2 point_at(const PlaneSpline& spline, double parameter) {
-  return spline_point(spline, basis_of(spline), parameter);
+  return point_at(spline, basis_of(spline), parameter);
 }
 
 double fit_parameter_at(const Curve& curve, double share) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trueflank/geometry/curve.h"
+#include "trueflank/geometry/spline_basis.h"
 
 // Polynomial splines that stand for a profile's curves where a format knows no involute.
 namespace trueflank {
@@ -21,6 +22,8 @@ struct PlaneSpline {
 
 /// Requires: knots.front() <= parameter <= knots.back().
 [[nodiscard]] Point2 point_at(const PlaneSpline& spline, double parameter);
+/// The same for many points: with the basis of the spline's degree and knots.
+[[nodiscard]] Point2 point_at(const PlaneSpline& spline, const SplineBasis& basis, double parameter);
 
 /// The curve's own parameter at a share of the way from begin (0) to end (1), in steps in which the
 /// curve is smoothest: linear in roll angle for an involute, in a stretched angle for a trochoid.

@@ -170,9 +170,10 @@ Result<Brep> brep_of(const PartShape& part, const PathTolerance& tolerance) {
   for (Wall& wall : walls) {
     const double z_lower_mm = part.slabs[wall.first_slab].z_lower_mm;
     const double z_upper_mm = part.slabs[wall.last_slab].z_upper_mm;
-    if (is_prismatic(*wall.outline)) {
-      add_prismatic_wall(brep, wall, z_lower_mm, z_upper_mm);
-    } else if (auto ok = add_toothed_wall(brep, wall, z_lower_mm, z_upper_mm, tolerance); !ok) {
+    auto ok = check_wall(wall, tolerance);
+    if (ok && is_prismatic(*wall.outline)) add_prismatic_wall(brep, wall, z_lower_mm, z_upper_mm);
+    else if (ok) ok = add_toothed_wall(brep, wall, z_lower_mm, z_upper_mm, tolerance);
+    if (!ok) {
       Error error = ok.error();
       error.message = "part " + part.name + ": " + error.message;
       error.key = part.name;

@@ -17,7 +17,6 @@
 namespace trueflank {
 namespace {
 
-constexpr double kContract_mm = 1e-5;
 /// A band lower than this is no band; the heights that bound it are taken for one.
 constexpr double kLowestBand_mm = 1e-4;
 /// How far a displacement may move the ends out of their planes.
@@ -25,13 +24,6 @@ constexpr double kFlat_mm = 1e-9;
 /// Fits that miss what they were asked by more than this are asked for a quarter.
 constexpr double kWorseThanAsked = 3.0;
 constexpr int kTightenings = 3;
-
-Error too_rough(double error_mm) {
-  return {.code = ErrorCode::kUnsupported,
-          .message = "the tooth surface bends more than splines of 64 spans follow: " +
-                     std::to_string(um_from_mm(error_mm)) + " um off",
-          .remedy = "a mesh format, or a smoother deviation"};
-}
 
 class ToothedWallBuilder {
  public:
@@ -53,7 +45,7 @@ class ToothedWallBuilder {
       error_mm = patches_error_mm();
       if (error_mm <= kWorseThanAsked * coarsest_mm()) break;
     }
-    if (!(error_mm <= kContract_mm)) return fail(too_rough(error_mm));
+    if (!(error_mm <= kSurfaceContract_mm)) return fail(too_rough(error_mm));
     brep_.fit_error_mm = std::max(brep_.fit_error_mm, error_mm);
     add_vertices();
     add_risers();
@@ -386,10 +378,9 @@ Status check_ends(const ToothColumns& columns) {
 Status add_toothed_wall(Brep& brep, Wall& wall, double z_lower_mm, double z_upper_mm,
                         const PathTolerance& tolerance) {
   const auto& outline = std::get<ToothedOutline>(*wall.outline);
-  const auto columns = ToothColumns::make(outline.toothing(), tolerance.shortest_mm);
-  if (!columns) return fail(columns.error());
-  if (auto ok = check_ends(*columns); !ok) return ok;
-  return ToothedWallBuilder(brep, wall, *columns, tolerance).build(z_lower_mm, z_upper_mm);
+  const ToothColumns columns(outline.toothing(), tolerance.shortest_mm);
+  if (auto ok = check_ends(columns); !ok) return ok;
+  return ToothedWallBuilder(brep, wall, columns, tolerance).build(z_lower_mm, z_upper_mm);
 }
 
 }  // namespace trueflank

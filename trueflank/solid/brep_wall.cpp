@@ -2,6 +2,11 @@
 #include "trueflank/solid/brep_wall.h"
 
 #include <algorithm>
+#include <string>
+
+#include "trueflank/base/units.h"
+#include "trueflank/solid/tooth_columns.h"
+#include "trueflank/solid/toothing_path.h"
 
 namespace trueflank {
 namespace {
@@ -111,6 +116,21 @@ class WallBuilder {
 bool is_prismatic(const Outline& outline) {
   const auto* toothed = std::get_if<ToothedOutline>(&outline);
   return toothed == nullptr || toothed->toothing().prismatic();
+}
+
+Error too_rough(double error_mm) {
+  return {.code = ErrorCode::kUnsupported,
+          .message = "the tooth surface bends more than splines of 64 spans follow: " +
+                     std::to_string(um_from_mm(error_mm)) + " um off",
+          .remedy = "a mesh format, or a smoother deviation"};
+}
+
+Status check_wall(const Wall& wall, const PathTolerance& tolerance) {
+  const auto* toothed = std::get_if<ToothedOutline>(wall.outline);
+  if (toothed == nullptr || is_plain(toothed->toothing())) return {};
+  if (auto ok = ToothColumns(toothed->toothing(), tolerance.shortest_mm).check(); !ok) return ok;
+  if (!(wall.path.fit_error_mm <= kSurfaceContract_mm)) return fail(too_rough(wall.path.fit_error_mm));
+  return {};
 }
 
 void add_prismatic_wall(Brep& brep, Wall& wall, double z_lower_mm, double z_upper_mm) {

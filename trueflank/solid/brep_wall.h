@@ -21,6 +21,10 @@ struct Wall {
 /// Whether a wall has the same section all the way up.
 [[nodiscard]] bool is_prismatic(const Outline& outline);
 
+/// Whether the outline's toothing bounds a solid. Errors: kUnsupported, see ToothColumns::check(); a
+/// prismatic wall with a deviation that its path does not follow within the contract of 1e-5 mm.
+[[nodiscard]] Status check_wall(const Wall& wall, const PathTolerance& tolerance);
+
 /// Adds the faces of a wall between two heights, and sets its edges there.
 /// Requires: the wall has its path. Straight walls: extruded splines, cylinders, planes.
 void add_prismatic_wall(Brep& brep, Wall& wall, double z_lower_mm, double z_upper_mm);
@@ -28,10 +32,16 @@ void add_prismatic_wall(Brep& brep, Wall& wall, double z_lower_mm, double z_uppe
 /// As above, of a toothing that changes along the face: spline surfaces for flanks, fillets and
 /// whatever is displaced, true cylinders for tip and root lands. One face a column of the toothing
 /// and a band between heights where twist, deviation or chamfer bend.
-/// Errors: kUnsupported, see ToothColumns; where a displacement moves the ends out of their planes;
-/// where the splines do not come within the contract of 1e-5 mm.
+/// Requires: check_wall().
+/// Errors: kUnsupported where a displacement moves the ends out of their planes; where the splines do
+/// not come within the contract.
 [[nodiscard]] Status add_toothed_wall(Brep& brep, Wall& wall, double z_lower_mm, double z_upper_mm,
                                       const PathTolerance& tolerance);
+
+/// What every surface of a toothing is promised to come within.
+constexpr double kSurfaceContract_mm = 1e-5;
+/// Why a surface or section is refused that splines come only this near to.
+[[nodiscard]] Error too_rough(double error_mm);
 
 template <class T>
 int add_to(std::vector<T>& list, T item) {

@@ -9,6 +9,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/toothing_path.h"
 
 namespace trueflank {
 namespace {
@@ -174,7 +175,10 @@ class ToothedPath {
 
 OutlinePath path_of(const ToothedOutline& outline, const PathTolerance& tolerance) {
   TRUEFLANK_EXPECTS(outline.profile != nullptr);
-  return ToothedPath(outline, tolerance).build();
+  if (!is_plain(outline.toothing())) return toothing_path(outline, tolerance);
+  ToothedOutline at_mid_face = outline;
+  at_mid_face.rotation_rad += section_turn_rad(outline.twist, 0.5 * outline.twist.face_width_mm);
+  return ToothedPath(at_mid_face, tolerance).build();
 }
 
 OutlinePath path_of(const CircleOutline& outline, const PathTolerance&) {

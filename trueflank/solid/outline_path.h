@@ -49,7 +49,9 @@ struct PathTolerance {
 };
 
 /// Tip, root and fillet arcs of a ring are single arcs across the middle of tooth and gap; every flank
-/// and every fillet side is one spline.
+/// and every fillet side is one spline. A toothing that changes along the face: its section at mid
+/// face, turned by its twist there; deviated flanks are split where the deviation bends, and a ring's
+/// fillet arcs are splines then.
 /// Accuracy: fit_error_mm, tested against the profile's own curves in tests/solid/outline_path_test.cpp.
 [[nodiscard]] OutlinePath outline_path(const Outline& outline, const PathTolerance& tolerance = {});
 

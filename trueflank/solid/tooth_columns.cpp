@@ -29,12 +29,10 @@ double distance_mm(const std::array<double, 3>& a, const std::array<double, 3>& 
 
 }  // namespace
 
-Result<ToothColumns> ToothColumns::make(const Toothing& toothing, double shortest_mm) {
+ToothColumns::ToothColumns(const Toothing& toothing, double shortest_mm)
+    : toothing_(toothing), shortest_mm_(shortest_mm) {
   TRUEFLANK_EXPECTS(toothing.profile != nullptr);
-  ToothColumns columns(toothing);
-  columns.add_columns(shortest_mm);
-  if (auto ok = columns.check(shortest_mm); !ok) return fail(ok.error());
-  return columns;
+  add_columns();
 }
 
 bool ToothColumns::teeth_alike() const {
@@ -42,7 +40,7 @@ bool ToothColumns::teeth_alike() const {
          !(toothing_.has_deviation() && toothing_.deviation->varies_by_tooth);
 }
 
-void ToothColumns::add_columns(double shortest_mm) {
+void ToothColumns::add_columns() {
   const auto& pieces = toothing_.profile->pieces();
   const auto length = [](const ProfilePiece& p) {
     return (p.curve.end_point() - p.curve.start_point()).norm();
@@ -51,13 +49,13 @@ void ToothColumns::add_columns(double shortest_mm) {
   bool tip = false, root = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].kind == PieceKind::kInvolute) flank_ = i;
-    if (length(pieces[i]) < shortest_mm) continue;
+    if (length(pieces[i]) < shortest_mm_) continue;
     if (pieces[i].kind == PieceKind::kTip) tip = true;
     if (pieces[i].kind == PieceKind::kRoot) root = true;
     if (is_land(pieces[i])) continue;
     for (const int side : {1, -1}) {
       const std::vector<int> breaks =
-          i == flank_ && pieces[i].kind == PieceKind::kInvolute ? breaks_within(side, shortest_mm)
+          i == flank_ && pieces[i].kind == PieceKind::kInvolute ? breaks_within(side)
                                                                 : std::vector<int>{};
       auto& half = side > 0 ? left : right;
       int upper = -1;
@@ -75,12 +73,12 @@ void ToothColumns::add_columns(double shortest_mm) {
 }
 
 /// Breaks of the deviation that lie on the flank, from the tip down.
-std::vector<int> ToothColumns::breaks_within(int side, double shortest_mm) const {
+std::vector<int> ToothColumns::breaks_within(int side) const {
   if (!toothing_.has_deviation()) return {};
   const Curve& curve = toothing_.profile->pieces()[flank_].curve;
   const double r_b = base_radius_mm(toothing_.profile->gear());
   const double z_middle = 0.5 * toothing_.twist.face_width_mm;
-  const double narrowest = std::max(shortest_mm, kNarrowestStrip_mm);
+  const double narrowest = std::max(shortest_mm_, kNarrowestStrip_mm);
   std::vector<std::pair<double, int>> found;  // way from the tip [mm]
   const auto way = [&](double roll) {
     return 0.5 * r_b * std::abs(roll * roll - curve.begin * curve.begin);
@@ -192,7 +190,7 @@ std::array<double, 3> ToothColumns::joint(int tooth, std::size_t column, double 
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
 }
 
-Status ToothColumns::check(double shortest_mm) const {
+Status ToothColumns::check() const {
   const auto refuse = [](std::string message, std::string remedy) {
     return fail({.code = ErrorCode::kUnsupported, .message = std::move(message),
                  .remedy = std::move(remedy)});
@@ -205,12 +203,12 @@ Status ToothColumns::check(double shortest_mm) const {
         const std::size_t before = (i == 0 ? columns_.size() : i) - 1;
         const int tooth_before = i == 0 ? (tooth + teeth() - 1) % teeth() : tooth;
         const double gap = distance_mm(point(tooth_before, before, 1.0, z), point(tooth, i, 0.0, z));
-        if (gap > 2.0 * shortest_mm)
+        if (gap > 2.0 * shortest_mm_)
           return refuse("the deviation parts flanks that meet in a pointed tooth or a closed gap",
                         "a smaller tip diameter, so that the teeth have a tip land");
         if (columns_[i].kind == ToothColumn::Kind::kHalf) continue;
         const auto [from, to] = land_corners_rad(tooth, columns_[i], z);
-        if ((to - from) * land_radius_mm(i, z) < shortest_mm)
+        if ((to - from) * land_radius_mm(i, z) < shortest_mm_)
           return refuse("the deviation leaves no tip land",
                         "a smaller tip diameter, or less material on the flanks at the tip");
       }

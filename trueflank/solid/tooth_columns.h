@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "trueflank/base/result.h"
@@ -26,10 +27,13 @@ struct ToothColumn {
 class ToothColumns {
  public:
   /// Pieces of a half tooth shorter than `shortest_mm` are left out, see PathTolerance.
+  /// Requires: the toothing's profile, deviation and displacement outlive the columns.
+  ToothColumns(const Toothing& toothing, double shortest_mm);
+
+  /// Whether the columns bound a solid.
   /// Errors: kUnsupported where a tooth that is pointed (or a gap that is closed) gets flanks that no
   /// longer meet, or where a deviation leaves no tip land.
-  /// Requires: the toothing's profile, deviation and displacement outlive the columns.
-  [[nodiscard]] static Result<ToothColumns> make(const Toothing& toothing, double shortest_mm);
+  [[nodiscard]] Status check() const;
 
   [[nodiscard]] const std::vector<ToothColumn>& columns() const { return columns_; }  ///< of a tooth
   [[nodiscard]] int teeth() const { return toothing_.profile->gear().teeth; }
@@ -46,10 +50,8 @@ class ToothColumns {
   [[nodiscard]] double land_radius_mm(std::size_t column, double z_mm) const;
 
  private:
-  explicit ToothColumns(const Toothing& toothing) : toothing_(toothing) {}
-  void add_columns(double shortest_mm);
-  [[nodiscard]] std::vector<int> breaks_within(int side, double shortest_mm) const;
-  [[nodiscard]] Status check(double shortest_mm) const;
+  void add_columns();
+  [[nodiscard]] std::vector<int> breaks_within(int side) const;
   [[nodiscard]] double break_parameter(int tooth, int side, int index, double z_mm) const;
   [[nodiscard]] ToothPlace place(int tooth, const ToothColumn& column, double u, double z_mm) const;
   [[nodiscard]] std::array<double, 2> land_corners_rad(int tooth, const ToothColumn& column,
@@ -58,6 +60,7 @@ class ToothColumns {
                                                   double z_mm) const;
 
   Toothing toothing_;
+  double shortest_mm_ = 0.0;
   std::size_t flank_ = 0;  ///< the involute, of ToothProfile::pieces()
   std::vector<ToothColumn> columns_;
 };
