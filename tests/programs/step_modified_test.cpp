@@ -90,6 +90,16 @@ TEST(StepModified, AReliefThatIsTheSameOverTheFaceIsExtruded) {
   EXPECT_EQ(test::surface_types(shape)[GeomAbs_SurfaceOfExtrusion], 25 * 6);
 }
 
+TEST(StepModified, RoundedTipsAreExact) {
+  for (const double helix : {0.0, 0.26})
+    for (Gear gear : {test::helical_gear(17, 0.1, helix), test::helical_ring(40, 0.3, helix)}) {
+      gear.tip_rounding_mm = 0.12;
+      const ToothProfile profile = profile_of(gear);
+      const PartShape part = test::helical_part("rounded", profile, 6.0);
+      expect_exact_solid(part, read_back(part));
+    }
+}
+
 TEST(StepModified, EdgeChamfersAndAHerringboneTogether) {
   const Gear gear = test::helical_gear(17, 0.2, 0.3);
   const ToothProfile profile = profile_of(gear);

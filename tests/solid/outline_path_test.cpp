@@ -132,6 +132,21 @@ TEST(OutlinePath, AreaIsThatOfTheExactCurves) {
   }
 }
 
+TEST(OutlinePath, RoundedTipsFollowTheirArcs) {
+  for (Gear gear : {test::external_gear(20, 0.1), test::ring_gear(45, 0.3)}) {
+    gear.tip_rounding_mm = 0.12;
+    const ToothProfile profile = profile_of(gear);
+    const ToothedOutline outline{&profile, 0.0};
+    const OutlinePath path = outline_path(outline);
+    EXPECT_LE(path.fit_error_mm, 1e-7);
+    double area = 0.0;
+    const std::vector<Point2> points = points_of(path, 200);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      area += 0.5 * cross(points[i], points[(i + 1) % points.size()]);
+    EXPECT_NEAR(area, test::area_mm2(outline), 1e-6 * area);
+  }
+}
+
 TEST(OutlinePath, AFullRoundRingRootIsOneArc) {
   const ToothProfile round = profile_of(test::with_root_radius(test::ring_gear(60, 0.0), 1.0));
   const ToothProfile sharp = profile_of(test::with_root_radius(test::ring_gear(60, 0.0), 0.0));

@@ -30,7 +30,10 @@ PlaneSpline mirrored_backwards(PlaneSpline s) {
   return s;
 }
 
+/// An arc that runs counter-clockwise. The rounding of a ring's tip runs the other way round its
+/// centre, seen along the outline: a spline.
 const CircularArc* as_arc(const ProfilePiece& piece) {
+  if (piece.curve.end < piece.curve.begin) return nullptr;
   return std::get_if<CircularArc>(&piece.curve.shape);
 }
 
@@ -109,7 +112,6 @@ class ToothedPath {
     ToothPiece t;
     t.piece.start = joints_[static_cast<std::size_t>(index)];
     if (const CircularArc* arc = as_arc(source)) {
-      TRUEFLANK_EXPECTS(curve.end > curve.begin);  // no tool rounds a corner the other way
       t.piece.shape = PathArc{shared_circle(*arc, source.kind)};
       if (arc->centre != Point2::Zero())
         t.own_circle = {arc->centre, arc->radius_mm, 0.5 * (curve.begin + curve.end) + kPi};
