@@ -78,12 +78,14 @@ class CommandLine(Case):
         result = run()
         self.assertEqual(result.returncode, 0)
         self.assertIn("trueflank new", result.stdout)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
 
     def test_help_everywhere_and_version(self):
         for command in [[], ["check"], ["make"], ["compare"], ["search"], ["loop"], ["new"]]:
             result = run(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
             self.assertIn("Usage", result.stdout)
+            self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, command)
         self.assertRegex(run("--version").stdout, r"^trueflank \d+\.\d+\.\d+\n$")
 
     def test_wrong_usage_is_two(self):

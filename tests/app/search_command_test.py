@@ -29,7 +29,7 @@ planet2_max = 34
 [search]
 results = 3
 """
-RESULTS = ["design-001.toml", "search.csv", "search.json", "search.svg", "search.journal"]
+RESULTS = ["design-001.toml", "search.csv", "search.json", "search.svg", "search.html", "search.journal"]
 
 
 def run(*arguments, code=0):

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <sstream>
 
 #include "trueflank/app/command_search.h"
 #include "trueflank/app/commands.h"
@@ -106,17 +107,35 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   command->callback([&] { code = run_new(options); });
 }
 
+/// Lines of help broken at 80 columns; what follows stands under the descriptions.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 80, kDescription = 30;
+  std::string result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    while (line.size() > kColumns) {
+      auto end = line.rfind(' ', kColumns);
+      if (end == std::string::npos || end <= kDescription) end = line.rfind(',', kColumns - 1) + 1;
+      if (end <= kDescription) break;
+      result += line.substr(0, end) + "\n";
+      line = std::string(kDescription, ' ') + line.substr(end + (line[end] == ' ' ? 1 : 0));
+    }
+    result += line + "\n";
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string welcome_text() {
-  return "trueflank turns a gearbox design into exact gears, and learns from measured ones.\n"
+  return "trueflank turns a gearbox design into exact gears and learns from measured ones\n"
          "\n"
-         "  trueflank new mydrive --kind 3k         write a commented design file to start from\n"
+         "  trueflank new mydrive --kind 3k         a commented design file to start from\n"
          "  trueflank check mydrive.toml            will it fit, turn and last?\n"
          "  trueflank make mydrive.toml -o parts    STL, 3MF, STEP and more, with a report\n"
          "  trueflank search needs.toml -o designs  find tooth numbers and profile shifts\n"
          "  trueflank loop mydrive.toml scan.stl --gear sun -o loop\n"
-         "                                          what the made part tells about its process\n"
+         "                                          what the made part tells\n"
          "  trueflank compare golden.stl new.stl    same shape? for continuous integration\n"
          "\n"
          "trueflank COMMAND --help tells more.\n";
@@ -142,7 +161,10 @@ int run_command_line(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return program.exit(asked);
+    std::ostringstream text;
+    const int asked_code = program.exit(asked, text, std::cerr);
+    if (auto ok = print(wrapped(text.str())); !ok) return report_errors({ok.error()});
+    return asked_code;
   } catch (const CLI::ParseError& error) {
     std::cerr << error_text({.code = ErrorCode::kUsage,
                              .message = error.what(),

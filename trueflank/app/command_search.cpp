@@ -163,7 +163,8 @@ int finish_search(const SearchTask& task, const std::vector<SearchRecord>& recor
     return report_errors({ok.error()});
   const std::pair<const char*, std::string> files[] = {{"search.csv", search_csv(task, report)},
                                                        {"search.json", search_json(task, report)},
-                                                       {"search.svg", search_svg(task, report)}};
+                                                       {"search.svg", search_svg(task, report)},
+                                                       {"search.html", search_html(task, report)}};
   for (const auto& [name, text] : files)
     if (auto ok = io::write_file(folder / name, text); !ok) return report_errors({ok.error()});
   if (!options.quiet)

@@ -39,8 +39,8 @@ struct SearchTask {
 [[nodiscard]] ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task,
                                                                    const SearchPart& part,
                                                                    const SearchOptions& options);
-/// Ranks and judges records, writes design files, search.csv, search.json and search.svg into the
-/// folder, and prints the summary. Returns the exit code: 0; 3 where records are missing (stopped).
+/// Ranks and judges records, writes design files, search.csv, search.json, search.svg and search.html into
+/// the folder, and prints the summary. Returns the exit code: 0; 3 where records are missing (stopped).
 [[nodiscard]] int finish_search(const SearchTask& task, const std::vector<SearchRecord>& records,
                                 const SearchOptions& options);
 /// @}

@@ -17,6 +17,9 @@ namespace trueflank::app {
 [[nodiscard]] std::string search_json(const SearchTask& task, const SearchReport& report);
 /// All candidates and the designs: first objective over the ratio, or over the second objective.
 [[nodiscard]] std::string search_svg(const SearchTask& task, const SearchReport& report);
+/// One offline page: plot with hover and links to the design files, sortable table, what fell and why.
+/// It holds search_json() whole and the first 4000 rows of search_csv().
+[[nodiscard]] std::string search_html(const SearchTask& task, const SearchReport& report);
 /// What the program prints.
 [[nodiscard]] std::string search_summary(const SearchReport& report);
 

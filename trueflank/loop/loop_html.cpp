@@ -1,177 +1,201 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/loop_html.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "trueflank/export/xml_text.h"
 #include "trueflank/loop/iso_1328.h"
+#include "trueflank/loop/loop_charts.h"
 
 namespace trueflank::loop {
 namespace {
 
-constexpr int kParts = FlankResiduals::kParts;
+/// The house's colours and type, as in report.html.
+constexpr const char* kStyle = R"(
+:root{--paper:#f6f7f9;--card:#fff;--ink:#16202c;--soft:#5a6675;--line:#dde2e8;--accent:#0b5cad;--accent-soft:#e3eefa;
+--pass:#1b7f4b;--pass-soft:#e2f4ea;--warn:#96600a;--warn-soft:#fdf1d8;--none:#6b7683;--none-soft:#eceff2;color-scheme:light dark;
+--shadow:0 1px 2px rgb(15 25 40/7%),0 4px 16px rgb(15 25 40/5%)}
+@media(prefers-color-scheme:dark){:root{--paper:#10151b;--card:#181f27;--ink:#e6ebf1;--soft:#9aa7b5;--line:#2b3540;--accent:#79b4f0;
+--accent-soft:#1a2c40;--pass:#68c993;--pass-soft:#16301f;--warn:#e8b45a;--warn-soft:#33270f;--none:#97a3b0;--none-soft:#242d36;--shadow:none}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+main{max-width:75rem;margin:0 auto;padding:0 1.25rem 3rem}
+.brand{margin:0;padding:.55rem 0;font-weight:700;color:var(--accent)}
+h1{margin:1.2rem 0 .6rem;font-size:clamp(1.6rem,4.5vw,2.4rem);line-height:1.15;letter-spacing:-.015em;overflow-wrap:anywhere}
+h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;font-size:1.15rem}
+.verdict{display:inline-block;margin:0;padding:.45rem .9rem;border-radius:10px;font-weight:600}
+.explained{color:var(--pass);background:var(--pass-soft)}.partly_explained{color:var(--warn);background:var(--warn-soft)}
+.no_effect{color:var(--none);background:var(--none-soft)}
+.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.8rem;margin:1.25rem 0 0}
+.cards>div,.card,figure{background:var(--card);border:1px solid var(--line);border-radius:12px;box-shadow:var(--shadow)}
+.cards>div{padding:.8rem 1rem}.cards dt{color:var(--soft);font-size:.85rem}
+.cards dd{margin:.1rem 0 0;font-size:1.5rem;font-weight:650;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
+.cards small{font-size:.85rem;font-weight:500;color:var(--soft);margin-left:.3em;letter-spacing:0}
+.card{padding:1rem 1.2rem;margin:0 0 .9rem}.card p{margin:.4rem 0}.id{color:var(--soft);font-weight:500;font-size:.9rem;margin-left:.5em}
+.share{height:.5rem;border-radius:9px;background:var(--none-soft);overflow:hidden;max-width:24rem}.share i{display:block;height:100%;background:var(--accent)}
+.note{color:var(--soft);font-size:.92rem;max-width:50rem}
+.two{display:grid;grid-template-columns:1fr 1fr;gap:.8rem}figure{margin:0;padding:.7rem .8rem}figcaption{font-size:.9rem;color:var(--soft)}
+figcaption b{color:var(--ink)}svg{display:block;width:100%;height:auto}svg text{fill:var(--soft);font-size:12px}
+.grid{stroke:var(--line);fill:none}.zero{stroke:var(--soft);fill:none;stroke-width:.7;opacity:.6}
+.t{stroke:var(--accent);fill:none;stroke-width:1.1}.b{fill:var(--accent)}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.95rem}td,th{padding:.3rem .8rem .3rem 0;text-align:left}
+th{color:var(--soft);font-weight:600}td+td,th+th{text-align:right}.scroll{overflow-x:auto}
+pre{white-space:pre-wrap;font-size:.85rem;background:var(--card);border:1px solid var(--line);border-radius:12px;padding:1rem}
+summary{cursor:pointer;color:var(--accent)}
+@media(max-width:46rem){main{padding:0 .8rem 2rem}.two{grid-template-columns:1fr}svg text{font-size:15px}}
+@media print{body{background:#fff}figure,.card{break-inside:avoid;box-shadow:none}details{display:none}}
+)";
+
+std::string escaped(const std::string& text) { return io::xml_escaped(text); }
 
 std::string number(double value, const char* format = "%.2f") {
+  if (std::isnan(value)) return "–";
   char text[40];
   std::snprintf(text, sizeof text, format, value == 0.0 ? 0.0 : value);
   return text;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '&') result += "&amp;";
-    else result += c;
+std::string joined(const std::vector<std::string>& words, const char* between = ", ") {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+/// "tooth_thickness" as words.
+std::string words(std::string id) {
+  for (char& c : id)
+    if (c == '_') c = ' ';
+  return id;
+}
+
+std::string verdict_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoEffect: return "Nothing beyond the measurement's own noise";
+    case Verdict::kExplained: return "Explained: what is left is the measurement's own noise";
+    case Verdict::kPartlyExplained: return "Partly explained: structure is left";
   }
-  return result;
+  return "";
 }
 
-/// One number that all charts before and after share, so that they can be compared by eye.
-double scale_of(const ResidualGrid& before) {
-  std::vector<double> sizes;
-  for (const auto& tooth : before.teeth)
-    for (const auto& flank : tooth)
-      for (int i = 0; i < kParts; ++i)
-        for (const double value : {flank.profile[i], flank.helix[i]})
-          if (!std::isnan(value)) sizes.push_back(std::abs(value));
-  if (sizes.empty()) return 1.0;
-  std::sort(sizes.begin(), sizes.end());
-  return std::max(1e-6, sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))]);
+std::string figure_cards(const LoopResult& r) {
+  const auto card = [&](const char* name, double value, const std::string& small, const char* format = "%.3g") {
+    return std::string("<div><dt>") + name + "</dt><dd>" + number(value, format) + "<small>" + small + "</small></dd></div>";
+  };
+  const std::string unit = r.unit == "um" ? "µm rms" : "N m rms";
+  return "<dl class='cards'>" + card("error before", r.before.rms, unit) + card("error after", r.after.rms, unit) +
+         card("held out, before", r.before.held_out_rms, unit) + card("held out, after", r.after.held_out_rms, unit) +
+         card("noise of the measurement", r.noise, r.unit == "um" ? "µm" : "N m") +
+         card("observations", r.observations, std::to_string(r.held_out) + " held out, " + std::to_string(r.outliers) + " outliers", "%.0f") +
+         "</dl>";
 }
 
-/// All teeth side by side, as inspection sheets show them: deviation to the right, course upwards.
-std::string trace_chart(const ResidualGrid& grid, int side, bool profile, double scale) {
-  const int width = 900, height = 110;
-  const double step = static_cast<double>(width) / static_cast<double>(grid.teeth.size());
-  std::string svg = "<svg viewBox='0 0 900 110'>";
-  for (std::size_t k = 0; k < grid.teeth.size(); ++k) {
-    const double middle = (static_cast<double>(k) + 0.5) * step;
-    svg += "<path class='z' d='M" + number(middle) + " 5V105'/>";
-    std::string path;
-    const auto& trace = profile ? grid.teeth[k][side].profile : grid.teeth[k][side].helix;
-    for (int i = 0; i < kParts; ++i) {
-      if (std::isnan(trace[i])) continue;
-      path += (path.empty() ? "M" : "L") + number(middle + 0.45 * step * trace[i] / scale) + " " +
-              number(height - 5 - 100.0 * (i + 0.5) / kParts);
-    }
-    if (!path.empty()) svg += "<path class='t' d='" + path + "'/>";
+std::string effect_card(const FoundEffect& e) {
+  std::string html = "<div class='card'><h3>" + escaped(e.named ? words(e.id) : "unnamed structure") + "<span class='id'>" +
+                     (e.flank == "both" ? "both flanks" : escaped(e.flank) + " flanks") + "</span></h3><p>" +
+                     escaped(e.description) + "</p>";
+  if (!e.parameters.empty()) {
+    html += "<div class='scroll'><table><tr><th>parameter</th><th>value</th><th>95 % interval</th></tr>";
+    for (const Parameter& p : e.parameters)
+      html += "<tr><td>" + escaped(p.name) + "</td><td>" + number(p.value, "%.4g") + "</td><td>" +
+              number(p.low, "%.4g") + " … " + number(p.high, "%.4g") + "</td></tr>";
+    html += "</table></div>";
   }
-  return svg + "</svg>";
+  const double percent = 100.0 * e.explained_fraction;
+  html += "<p>Explains " + number(percent, "%.1f") + " % of the variance.</p><div class='share'><i style='width:" +
+          number(std::isnan(percent) ? 0.0 : std::fmin(100.0, std::fmax(0.0, percent)), "%.1f") + "%'></i></div>";
+  if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
+  if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
+  if (!e.confounded_with.empty())
+    html += "<p class='note'>These data cannot tell it from " + escaped(joined(e.confounded_with)) + ".</p>";
+  return html + "</div>";
 }
 
-std::string pitch_chart(const ResidualGrid& grid, int side, double scale) {
-  const double step = 900.0 / static_cast<double>(grid.teeth.size());
-  std::string svg = "<svg viewBox='0 0 900 110'><path class='z' d='M0 55H900'/>";
-  for (std::size_t k = 0; k < grid.teeth.size(); ++k) {
-    const double value = grid.teeth[k][side].index;
-    if (std::isnan(value)) continue;
-    const double bar = std::clamp(50.0 * value / scale, -54.0, 54.0);
-    svg += "<rect class='b' x='" + number((static_cast<double>(k) + 0.15) * step) + "' y='" +
-           number(bar > 0.0 ? 55.0 - bar : 55.0) + "' width='" + number(0.7 * step) + "' height='" +
-           number(std::abs(bar)) + "'/>";
+std::string what_is_left(const LoopResult& r) {
+  std::string html = "<h2>What is left</h2><p>" + escaped(r.structure_left) +
+                     (std::isnan(r.structure_left_p_value) ? "" : " (p = " + number(r.structure_left_p_value, "%.2g") + ")") + "</p>";
+  const auto list = [&](const char* title, const std::vector<std::string>& items) {
+    if (!items.empty()) html += std::string("<p><b>") + title + "</b> " + escaped(joined(items, "; ")) + "</p>";
+  };
+  list("Measure next:", r.measure_next);
+  list("These data cannot show:", r.not_observable);
+  list("Notes:", r.notes);
+  return html;
+}
+
+std::string charts(const GearLoop& closed) {
+  struct Section {
+    ChartKind kind;
+    const char *title, *lead;
+  };
+  constexpr Section kSections[] = {
+      {ChartKind::kProfile, "Profiles", "Each tooth's mean trace from root to tip"},
+      {ChartKind::kHelix, "Helices", "Each tooth's mean trace from the lower to the upper face"},
+      {ChartKind::kIndex, "Place of every flank", "Index deviation [µm] by tooth"},
+      {ChartKind::kOrders, "Orders around the gear", "Amplitude [µm] of the flanks' places by order"},
+      {ChartKind::kTopography, "Topography", "Mean of all teeth [µm]: root to tip over the face"}};
+  const ResidualGrid before = residual_grid(closed, false), after = residual_grid(closed, true);
+  const GearKind gear = closed.geometry.gear().kind;
+  std::string html, missing;
+  for (const Section& section : kSections) {
+    const double scale = chart_scale_um(section.kind, before);
+    if (std::isnan(scale)) {
+      missing += (missing.empty() ? "" : ", ") + std::string(section.title);
+      continue;
+    }
+    const bool traces = section.kind == ChartKind::kProfile || section.kind == ChartKind::kHelix;
+    html += std::string("<h2>") + section.title + "</h2><p class='note'>" + section.lead +
+            (traces ? "; a tooth's column is " + number(2.0 * scale / 0.9, "%.3g") + " µm wide, too much material to the right"
+                    : "") +
+            ". One scale before and after.</p><div class='two'>";
+    for (const Flank flank : {Flank::kLeft, Flank::kRight})
+      for (const ResidualGrid* grid : {&before, &after})
+        html += std::string("<figure><figcaption><b>") + (grid == &before ? "before" : "after") + "</b>, " +
+                (flank == Flank::kLeft ? "left" : "right") + " flanks</figcaption>" +
+                chart_svg(section.kind, *grid, flank_side(flank, gear) > 0 ? 1 : 0, scale) + "</figure>";
+    html += "</div>";
   }
-  return svg + "</svg>";
-}
-
-std::string topography_chart(const ResidualGrid& grid, int side, double scale) {
-  std::string svg = "<svg viewBox='0 0 240 240'>";
-  for (int u = 0; u < kParts; ++u)
-    for (int v = 0; v < kParts; ++v) {
-      const double value = grid.topography[side][u][v];
-      if (std::isnan(value)) continue;
-      const double t = std::clamp(value / scale, -1.0, 1.0);
-      const int fade = static_cast<int>(255.0 * (1.0 - std::abs(t)));
-      const std::string other = std::to_string(fade);
-      svg += "<rect x='" + std::to_string(10 * v) + "' y='" + std::to_string(230 - 10 * u) +
-             "' width='10' height='10' fill='rgb(" +
-             (t > 0.0 ? "255," + other + "," + other : other + "," + other + ",255") + ")'/>";
-    }
-  return svg + "</svg>";
-}
-
-/// Amplitude of each order around the gear of the flanks' places.
-std::string spectrum_chart(const ResidualGrid& grid, int side, double scale) {
-  const int z = static_cast<int>(grid.teeth.size()), most = z / 2;
-  std::string svg = "<svg viewBox='0 0 900 110'>";
-  for (int n = 1; n <= most; ++n) {
-    double c = 0.0, s = 0.0, count = 0.0;
-    for (int k = 0; k < z; ++k) {
-      const double value = grid.teeth[k][side].index;
-      if (std::isnan(value)) continue;
-      c += value * std::cos(kTwoPi * n * k / z);
-      s += value * std::sin(kTwoPi * n * k / z);
-      count += 1.0;
-    }
-    if (count < 1.0) continue;
-    const double bar = std::min(105.0, 100.0 * 2.0 * std::hypot(c, s) / count / scale);
-    const double step = 900.0 / most;
-    svg += "<rect class='b' x='" + number((n - 0.85) * step) + "' y='" + number(108.0 - bar) +
-           "' width='" + number(0.7 * step) + "' height='" + number(bar) + "'><title>order " +
-           std::to_string(n) + ": " + number(bar * scale / 100.0) + " um</title></rect>";
-  }
-  return svg + "</svg>";
-}
-
-template <class Chart>
-void add_section(std::string& page, const char* title, const ResidualGrid& before,
-                 const ResidualGrid& after, const FlankGeometry& g, const Chart& chart) {
-  page += std::string("<h2>") + title + "</h2><div class='two'>";
-  for (const ResidualGrid* grid : {&before, &after})
-    for (const Flank flank : {Flank::kLeft, Flank::kRight}) {
-      const int side = flank_side(flank, g.gear().kind) > 0 ? 1 : 0;
-      page += std::string("<figure><figcaption>") + (grid == &before ? "before" : "after") + ", " +
-              (flank == Flank::kLeft ? "left" : "right") + "</figcaption>" + chart(*grid, side) +
-              "</figure>";
-    }
-  page += "</div>";
+  if (!missing.empty()) html += "<p class='note'>Not in these data: " + missing + ".</p>";
+  return html;
 }
 
 std::string iso_table(const GearLoop& closed) {
   const Iso1328 iso = iso_1328(closed);
-  std::string html = "<h2>ISO 1328-1</h2><p>" + iso.note +
-                     "</p><table><tr><th></th><th>um</th><th>class</th></tr>";
+  std::string rows;
   for (const Iso1328Row& row : iso.rows) {
     if (std::isnan(row.value_um)) continue;
-    const std::string name = row.accuracy_class == 0    ? "-"
+    const std::string name = row.accuracy_class == 0    ? "–"
                              : row.accuracy_class == 12 ? "over 11"
                                                         : std::to_string(row.accuracy_class);
-    html += "<tr><td>" + row.symbol + "</td><td>" + number(row.value_um, "%.1f") + "</td><td>" +
-            name + "</td></tr>";
+    rows += "<tr><td>" + row.symbol + "</td><td>" + number(row.value_um, "%.1f") + "</td><td>" + name + "</td></tr>";
   }
-  return html + "</table>";
+  if (rows.empty()) return {};
+  return "<h2>ISO 1328-1, as measured</h2><p class='note'>" + escaped(iso.note) +
+         "</p><table><tr><th></th><th>µm</th><th>class</th></tr>" + rows + "</table>";
+}
+
+/// For the inside of a script element: nothing there may look like its end.
+std::string script_text(std::string text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  return text;
 }
 
 }  // namespace
 
 std::string loop_html(const GearLoop& closed) {
-  const ResidualGrid before = residual_grid(closed, false), after = residual_grid(closed, true);
-  const double scale = scale_of(before);
+  const LoopResult& r = closed.result;
   std::string page =
-      "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Trueflank loop: " +
-      escaped(closed.result.gear) +
-      "</title><style>body{font:15px sans-serif;max-width:70em;margin:2em auto;padding:0 1em}"
-      "svg{width:100%;background:#fafafa;border:1px solid #ddd}.z{stroke:#ccc;fill:none}"
-      ".t{stroke:#06c;fill:none;stroke-width:.8}.b{fill:#06c}figure{margin:0}"
-      ".two{display:grid;grid-template-columns:1fr 1fr;gap:.6em}pre{white-space:pre-wrap}"
-      "td,th{padding:0 .8em;text-align:right}</style></head><body><h1>What the measured " +
-      escaped(closed.result.gear) + " tells</h1><pre>" + escaped(loop_text(closed.result)) +
-      "</pre><p>Charts: + is too much material; full scale " + number(scale, "%.3g") +
-      " um before and after alike.</p>";
-  const FlankGeometry& g = closed.geometry;
-  add_section(page, "Profile of every tooth (root below, tip above)", before, after, g,
-              [&](const auto& grid, int side) { return trace_chart(grid, side, true, scale); });
-  add_section(page, "Helix of every tooth (bottom below)", before, after, g,
-              [&](const auto& grid, int side) { return trace_chart(grid, side, false, scale); });
-  add_section(page, "Place of every flank (index)", before, after, g,
-              [&](const auto& grid, int side) { return pitch_chart(grid, side, scale); });
-  add_section(page, "Topography, mean of all teeth (height to the right, tip above)", before, after, g,
-              [&](const auto& grid, int side) { return topography_chart(grid, side, scale); });
-  add_section(page, "Orders around the gear", before, after, g,
-              [&](const auto& grid, int side) { return spectrum_chart(grid, side, scale); });
-  return page + iso_table(closed) + "</body></html>\n";
+      "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
+      escaped(r.gear) + " – Trueflank loop</title><style>" + kStyle +
+      "</style></head><body><main><p class='brand'>Trueflank</p><h1>What the measured " + escaped(r.gear) +
+      " tells</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + figure_cards(r);
+  page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
+  for (const FoundEffect& effect : r.effects) page += effect_card(effect);
+  page += what_is_left(r) + charts(closed) + iso_table(closed);
+  page += "<h2>The same as text</h2><details><summary>what the program printed</summary><pre>" + escaped(loop_text(r)) +
+          "</pre></details><script type='application/json' id='loop-data'>" + script_text(loop_json(r)) + "</script>";
+  return page + "</main></body></html>\n";
 }
 
 }  // namespace trueflank::loop

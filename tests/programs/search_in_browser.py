@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""search.html in a real browser: silent, offline, the search's numbers, hover, sorting, links, phone."""
+import csv
+import json
+import os
+import subprocess
+import unittest
+
+from browser import Browser, pixels
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = os.environ["TRUEFLANK_TEST_OUTPUT"]
+NEEDS = """format = 1
+name = "around <96>"
+[gearbox]
+kind = "3k"
+[ratio]
+min = 90
+max = 100
+[teeth]
+sun_min = 12
+sun_max = 12
+planet1_min = 36
+planet1_max = 40
+ring1_min = 84
+ring1_max = 96
+planet2_max = 34
+[search]
+objectives = "forward, size"
+results = 4
+"""
+
+
+class SearchInBrowser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        os.makedirs(OUTPUT, exist_ok=True)
+        needs = os.path.join(OUTPUT, "needs.toml")
+        with open(needs, "w", encoding="utf-8") as file:
+            file.write(NEEDS)
+        cls.folder = os.path.join(OUTPUT, "found")
+        subprocess.run([PROGRAM, "search", needs, "-o", cls.folder, "-q"], check=True)
+        with open(os.path.join(cls.folder, "search.json"), encoding="utf-8") as file:
+            cls.search = json.load(file)
+        with open(os.path.join(cls.folder, "search.csv"), encoding="utf-8") as file:
+            cls.rows = list(csv.DictReader(file))
+        cls.page = os.path.join(cls.folder, "search.html")
+
+    def test_shows_the_search(self):
+        self.assertGreater(len(self.rows), 10)
+        with Browser() as browser:
+            browser.open(self.page)
+            self.assertEqual(browser.run("JSON.parse(document.getElementById('search-data').textContent)"), self.search)
+            self.assertIn("around <96>", browser.run("document.querySelector('h1').textContent"))
+            self.assertEqual(browser.run("document.querySelectorAll('#plot circle:not(.at)').length"), len(self.rows))
+            files = [d["file"] for d in self.search["designs"]]
+            links = browser.run("[...document.querySelectorAll('#plot a')].map(a => a.getAttribute('href'))")
+            self.assertEqual(sorted(links), sorted(files))
+            table = browser.run("[...document.querySelectorAll('#table tbody tr')].map(r => [...r.children].map(c => c.textContent))")
+            self.assertEqual(len(table), min(500, len(self.rows)))
+            for cells, row in zip(table, self.rows):
+                self.assertEqual(cells[0], row["rank"])
+                self.assertEqual(cells[1], "/".join(row[k] for k in ("sun", "planet1", "ring1", "planet2", "ring2")))
+                self.assertEqual(cells[3], f"{100 * float(row['forward']):.2f} %")
+                self.assertEqual(cells[-1], row["file"])
+            browser.picture(os.path.join(OUTPUT, "desktop.png"), whole=True)
+            # sorting: by ratio, both ways, by mouse and by keyboard
+            values = "[...document.querySelectorAll('#table tbody tr')].map(r => parseFloat(r.children[2].textContent))"
+            browser.run("document.querySelectorAll('#table th button')[2].click()")
+            up = browser.run(values)
+            self.assertEqual(up, sorted(up))
+            browser.run("document.querySelectorAll('#table th button')[2].focus()")
+            browser.press("Enter")
+            down = browser.run(values)
+            self.assertEqual(down, sorted(down, reverse=True))
+            self.assertEqual(browser.run("document.querySelectorAll('#table th')[2].getAttribute('aria-sort')"), "descending")
+            # hover: the tip tells the design under the pointer
+            place = browser.run("(() => { const c = document.querySelector('#plot a circle'); c.scrollIntoView({block: 'center'});"
+                                " const r = c.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()")
+            browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=place[0], y=place[1])
+            browser.wait("!document.getElementById('tip').hidden")
+            self.assertRegex(browser.run("document.getElementById('tip').textContent"), r"click opens design-\d+\.toml")
+            browser.picture(os.path.join(OUTPUT, "hover.png"))
+            # other axes, and the written designs alone
+            browser.run("(() => { const x = document.getElementById('x'); x.value = 'outer_diameter_mm'; x.dispatchEvent(new Event('change'));"
+                        " document.getElementById('only').click(); })()")
+            self.assertEqual(browser.run("document.querySelectorAll('#plot circle:not(.at)').length"), len(files))
+            self.assertEqual(browser.run("document.querySelectorAll('#table tbody tr').length"), len(files))
+            self.assertEqual(browser.problems, [])
+            self.assertTrue(all(url.startswith("file://") for url in browser.requests), browser.requests)
+
+    def test_a_click_opens_the_design_file(self):
+        with Browser() as browser:
+            browser.open(self.page)
+            place = browser.run("(() => { const c = [...document.querySelectorAll('#plot a circle')].at(-1); c.scrollIntoView({block: 'center'});"
+                                " const r = c.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()")
+            target = browser.run("[...document.querySelectorAll('#plot a')].at(-1).getAttribute('href')")
+            for kind in ("mousePressed", "mouseReleased"):
+                browser.call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], button="left", clickCount=1)
+            # a .toml is shown or saved, as the browser likes: that it is asked for is what the page does
+            opened = any(browser.run("new Promise(done => setTimeout(() => done(location.href), 50))").endswith(target)
+                         or any(url.endswith(target) for url in browser.requests) for _ in range(60))
+            self.assertTrue(opened, browser.requests)
+
+    def test_fits_a_phone_and_the_dark(self):
+        with Browser() as browser:
+            browser.size(360, 740, scale=2, mobile=True)
+            browser.open(self.page)
+            self.assertLessEqual(browser.run("document.documentElement.scrollWidth"), 360)
+            browser.picture(os.path.join(OUTPUT, "phone.png"), whole=True)
+            browser.media(prefers_color_scheme="dark")
+            dark = pixels(browser.picture())
+            self.assertLess(sum(dark[2][2]), 150)
+            self.assertEqual(browser.problems, [])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
