@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bindings.h"
@@ -141,8 +142,20 @@ py::dict efficiency_dict(const Gearbox& self, std::optional<double> friction, co
   return dict;
 }
 
+/// Refuses what the program refuses: formats that cannot hold this design's teeth.
+void require_format(const Gearbox& self, io::FileFormat format) {
+  const auto missing = app::formats_not_built(self.train().design);
+  if (std::find(missing.begin(), missing.end(), format) != missing.end())
+    throw Failure({.code = ErrorCode::kUnsupported,
+                   .message = "this version does not write helical or modified teeth in this format",
+                   .key = "formats",
+                   .value = io::to_text(format),
+                   .remedy = "the formats of meshes: stl, 3mf, obj, ply, glb"});
+}
+
 std::string step(const Gearbox& self, const std::string& part) {
   py::gil_scoped_release unlocked;
+  require_format(self, io::FileFormat::kStep);
   const auto stepped = [](const PartShape& shape) {
     const io::Colour colour = io::part_colour(shape.name);
     return io::StepPart{.name = shape.name,
@@ -163,6 +176,7 @@ py::list export_files(const Gearbox& self, const py::object& folder, const std::
   {
     py::gil_scoped_release unlocked;
     const auto wanted = value_or_throw(io::parse_formats(formats));
+    for (const io::FileFormat format : wanted) require_format(self, format);
     auto written = io::export_parts({.train = &self.train(), .shapes = &self.shapes()},
                                     {.folder = path, .formats = wanted, .tolerance_mm = tolerance_mm, .part = part});
     if (!written) throw self.failure(written.error());
@@ -200,12 +214,7 @@ std::shared_ptr<Gearbox> Gearbox::of(ResultAll<DesignFile> file) {
 }
 
 const PartShapes& Gearbox::shapes() const {
-  std::call_once(made_, [this] {
-    if (Errors errors = app::not_built(train_->design); !errors.empty())
-      shapes_ = fail_all(std::move(errors));
-    else
-      shapes_ = part_shapes(*train_);
-  });
+  std::call_once(made_, [this] { shapes_ = part_shapes(*train_); });
   if (!*shapes_) throw failure(shapes_->error());
   return **shapes_;
 }

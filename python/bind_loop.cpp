@@ -35,14 +35,19 @@ py::array_t<float> residuals(const std::vector<float>& values) {
 py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, double tolerance_um) {
   const std::string file = path_text(loop_json);
   const double tolerance_mm = checked_tolerance_mm(tolerance_um);
-  app::CorrectedParts corrected;
+  std::vector<PartMesh> made;
   {
     py::gil_scoped_release unlocked;
-    corrected = value_or_throw(app::corrected_parts(self.train(), self.shapes(), file, tolerance_mm));
+    app::CorrectedParts corrected =
+        value_or_throw(app::corrected_parts(self.train(), self.shapes(), file, tolerance_mm));
+    made = std::move(corrected.meshes);
+    if (made.empty())
+      for (const PartShape& part : corrected.shapes.parts)
+        made.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
   }
   py::dict meshes;
-  for (std::size_t i = 0; i < corrected.meshes.size(); ++i)
-    meshes[py::str(self.shapes().parts[i].name)] = Mesh{.mesh = std::move(corrected.meshes[i].mesh)};
+  for (std::size_t i = 0; i < made.size(); ++i)
+    meshes[py::str(self.shapes().parts[i].name)] = Mesh{.mesh = std::move(made[i].mesh)};
   return meshes;
 }
 
