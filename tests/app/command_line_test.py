@@ -263,10 +263,10 @@ class Make(Case):
                 self.assertGreater(file["accuracy_um"], 1.0, file)
                 self.assertLessEqual(file["accuracy_um"], 2.0, file)
 
-    def test_formats_that_cannot_hold_helical_teeth_are_refused_by_name(self):
-        design = self.design(PAIR.replace("backlash_mm", "helix_angle_deg = 15.0\nbacklash_mm"))
+    def test_formats_that_cannot_hold_modified_flanks_are_refused_by_name(self):
+        design = self.design(PAIR + "[pinion.modifications]\ncrowning_um = 20\n")
         self.expect_error(run("make", design, "-o", self.folder / "out", "--formats", "stl,scad"), 2,
-                          "--formats", "scad", "helical")
+                          "--formats", "scad", "modified flanks")
         self.assertFalse((self.folder / "out").exists())
         result = run("make", design, "-o", self.folder / "out", "--tolerance-um", "20")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -66,11 +66,11 @@ ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
   if (dropped.empty()) return kept;
   if (!options.formats.empty())
     return fail_all({{.code = ErrorCode::kUnsupported,
-                      .message = "this version does not write helical or modified teeth in this format",
+                      .message = "an OpenSCAD file cannot carry modified flanks",
                       .key = "--formats",
                       .value = joined(dropped),
-                      .remedy = "the formats of meshes: stl, 3mf, obj, ply, glb"}});
-  told += "not written: " + joined(dropped) + " (this version does not write helical or modified teeth there)\n";
+                      .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"}});
+  told += "not written: " + joined(dropped) + " (an OpenSCAD file cannot carry modified flanks)\n";
   return kept;
 }
 

@@ -90,13 +90,14 @@ std::vector<io::FileFormat> formats_of_corrected(const std::vector<io::FileForma
     const bool mesh = format == io::FileFormat::kStl || format == io::FileFormat::k3mf ||
                       format == io::FileFormat::kObj || format == io::FileFormat::kPly ||
                       format == io::FileFormat::kGlb;
-    const bool exact = format == io::FileFormat::kStep && !only_meshes;
-    if (mesh || exact) kept.push_back(format);
+    const bool curves = format != io::FileFormat::kScad && !only_meshes;
+    if (mesh || curves) kept.push_back(format);
     else dropped += std::string(dropped.empty() ? "" : ", ") + io::to_text(format);
   }
   if (!dropped.empty())
-    corrected.text += "not written: " + dropped + " (a correction goes into meshes" +
-                      (only_meshes ? " only" : " and STEP only") + ")\n";
+    corrected.text += "not written: " + dropped +
+                      (only_meshes ? " (a scale of the part goes into meshes only)\n"
+                                   : " (an OpenSCAD file cannot carry a correction)\n");
   return kept;
 }
 

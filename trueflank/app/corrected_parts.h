@@ -26,8 +26,8 @@ struct CorrectedParts {
                                                         const std::string& loop_json_file,
                                                         double tolerance_mm);
 
-/// The formats that can carry a correction: meshes and, unless it is of the whole part, STEP. What was
-/// asked for beside them is told in its text.
+/// The formats that can carry a correction: all but OpenSCAD; meshes only, where it is of the whole
+/// part. What was asked for beside them is told in its text.
 [[nodiscard]] std::vector<io::FileFormat> formats_of_corrected(
     const std::vector<io::FileFormat>& formats, CorrectedParts& corrected);
 

@@ -60,9 +60,7 @@ std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design) {
   const bool modified = std::any_of(design.gears.begin(), design.gears.end(), [](const GearDesign& gear) {
     return deviates(gear.modifications) || gear.modifications.edge_chamfer_mm > 0.0;
   });
-  using io::FileFormat;
-  if (modified) return {FileFormat::kStep, FileFormat::kDxf, FileFormat::kSvg, FileFormat::kScad};
-  if (design.helix_angle_rad != 0.0) return {FileFormat::kScad};
+  if (modified) return {io::FileFormat::kScad};
   return {};
 }
 

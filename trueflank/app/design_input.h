@@ -17,8 +17,7 @@ namespace trueflank::app {
 /// Errors of later stations with file and line of their keys in the design file.
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);
 
-/// Formats that this version does not write of a design: OpenSCAD of helical teeth, and all
-/// but meshes of modified ones.
+/// Formats that this version does not write of a design: OpenSCAD of modified flanks.
 [[nodiscard]] std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design);
 
 /// Every check, sweep and efficiency of a train. The report refers to the train.

@@ -98,6 +98,16 @@ function reversed(list, yes = true) = yes ? [for (i = [len(list) - 1:-1:0]) list
 function wall(lower, upper, n, inwards = false) =
   [for (i = [0:n - 1])
      reversed([lower + i, upper + i, upper + (i + 1)%n, lower + (i + 1)%n], inwards)];
+// between two rows of a loop of which the upper is turned: each quadrilateral is cut along the diagonal
+// that runs with the turn where the loop bulges, against it where it is hollow
+function turned_wall(loop, lower, upper, turn, inwards = false) =
+  let (n = len(loop))
+  [for (i = [0:n - 1])
+     let (j = (i + 1)%n, k = (i + 2)%n, d = loop[j] - loop[i], e = loop[k] - loop[j],
+          bulges = d[0]*e[1] - d[1]*e[0] >= 0, rises = (turn < 0) == bulges)
+     for (f = rises ? [[lower + i, upper + i, upper + j], [lower + i, upper + j, lower + j]]
+                    : [[lower + i, upper + i, lower + j], [upper + i, upper + j, lower + j]])
+       reversed(f, inwards)];
 function nearest(loop, p) =
   let (off = [for (q = loop) abs(atan2(p[0]*q[1] - p[1]*q[0], p[0]*q[0] + p[1]*q[1]))],
        least = min(off))
@@ -111,21 +121,58 @@ function annulus(outer, outer_first, step, inner, inner_first, up) =
           count = (to - near[s] + m)%m)
      reversed(concat([for (j = [cuts[s]:end]) outer_first + j%n],
                      [for (j = [0:count]) inner_first + (to - j + m)%m]), up)];
-// slabs [height, outline, points a tooth], bottom to top, each inside or around its neighbours; with a
-// bore through all of them, or none ([])
+// the same with a polygon for every `step` points of the inner loop
+function annulus_by_inner(outer, outer_first, inner, inner_first, step, up) =
+  let (n = len(outer), m = len(inner), cuts = [for (k = [0:step:m - 1]) k],
+       near = [for (k = cuts) nearest(outer, inner[k])])
+  [for (s = [0:len(cuts) - 1])
+     let (end = s + 1 < len(cuts) ? cuts[s + 1] : m, to = near[(s + 1)%len(cuts)],
+          count = (to - near[s] + n)%n)
+     reversed(concat([for (j = [cuts[s]:end]) inner_first + j%m],
+                     [for (j = [0:count]) outer_first + (to - j + n)%n]), !up)];
+
+// rows of a slab: [share of the height, turn]. `rate`: degrees a millimetre, to the left up to the share
+// `apex` of the height, back above it
+function part_rows(height, start, rate, from, to, apex, radius, tolerance) =
+  let (n = to <= from ? 0 :
+         max(1, ceil(abs(rate)*height*(to - from)/(2*acos(max(0, 1 - tolerance/radius))))))
+  [for (i = [0:1:n - 1]) let (u = from + (to - from)*(i + 1)/n)
+     [u, start + rate*height*(u <= apex ? u : 2*apex - u)]];
+function rows(height, start, rate, apex, radius, tolerance) =
+  concat([[0, start]], part_rows(height, start, rate, 0, min(1, apex), apex, radius, tolerance),
+         part_rows(height, start, rate, max(0, apex), 1, apex, radius, tolerance));
+straight = [[0, 0], [1, 0]];
+function rows_of(slab) = len(slab) > 3 ? slab[3] : straight;
+
+// walls of slabs [height, outline, points a tooth, rows] and where their rows begin
+function slab_loops(slabs) =
+  [for (s = slabs) for (r = rows_of(s)) r[1] == 0 ? s[1] : [for (p = s[1]) turned(p, r[1])]];
+function slab_heights(slabs) =
+  [for (i = [0:len(slabs) - 1]) for (r = rows_of(slabs[i])) heights_before(slabs, i) + r[0]*slabs[i][0]];
+function rows_before(slabs, i) = i == 0 ? 0 : rows_before(slabs, i - 1) + len(rows_of(slabs[i - 1]));
+function slab_walls(slabs, first, inwards = false) =
+  [for (i = [0:len(slabs) - 1])
+     let (b = rows_before(slabs, i), r = rows_of(slabs[i]))
+     for (k = [0:len(r) - 2])
+       for (f = r[k][1] == r[k + 1][1]
+                ? wall(first[b + k], first[b + k + 1], len(slabs[i][1]), inwards)
+                : turned_wall(slabs[i][1], first[b + k], first[b + k + 1], r[k + 1][1] - r[k][1], inwards)) f];
+
+// slabs [height, outline, points a tooth, rows], bottom to top, each inside or around its neighbours; with
+// a bore through all of them, or none ([])
 module stack(slabs, bore = []) {
   n = len(slabs);
   through = len(bore) > 0;
-  loops = concat([for (s = slabs) for (u = [0, 1]) s[1]], through ? [bore, bore] : []);
-  z = concat([for (i = [0:n - 1]) for (u = [0, 1]) heights_before(slabs, i + u)],
-             [0, heights_before(slabs, n)]);
+  loops = concat(slab_loops(slabs), through ? [bore, bore] : []);
+  z = concat(slab_heights(slabs), [0, heights_before(slabs, n)]);
   first = [for (i = [0:len(loops)]) lengths_before(loops, i)];
-  walls = [for (i = [0:n - 1]) for (f = wall(first[2*i], first[2*i + 1], len(slabs[i][1]))) f];
+  walls = slab_walls(slabs, first);
   steps = n < 2 ? [] : [for (i = [0:n - 2])
-    let (a = 2*i + 1, b = a + 1, up = largest_radius(loops[a]) > largest_radius(loops[b]),
+    let (b = rows_before(slabs, i + 1), a = b - 1,
+         up = largest_radius(loops[a]) > largest_radius(loops[b]),
          o = up ? a : b, q = up ? b : a)
     for (f = annulus(loops[o], first[o], slabs[up ? i : i + 1][2], loops[q], first[q], up)) f];
-  t = 2*n - 1;  // the uppermost outer loop; the bore's follow it
+  t = rows_before(slabs, n) - 1;  // the uppermost outer loop; the bore's follow it
   ends = through
     ? concat(wall(first[t + 1], first[t + 2], len(bore), true),
              annulus(loops[0], first[0], slabs[0][2], bore, first[t + 1], false),
@@ -134,6 +181,25 @@ module stack(slabs, bore = []) {
        [for (i = [len(loops[t]) - 1:-1:0]) first[t] + i]];
   polyhedron([for (i = [0:len(loops) - 1]) for (p = loops[i]) [p[0], p[1], z[i]]],
              concat(walls, steps, ends), convexity = 10);
+}
+
+// a ring: slabs [height, hole, points a tooth, rows] within a rim
+module ring(rim, slabs) {
+  n = len(slabs);
+  loops = concat(slab_loops(slabs), [rim, rim]);
+  z = concat(slab_heights(slabs), [0, heights_before(slabs, n)]);
+  first = [for (i = [0:len(loops)]) lengths_before(loops, i)];
+  t = rows_before(slabs, n) - 1;
+  steps = n < 2 ? [] : [for (i = [0:n - 2])
+    let (b = rows_before(slabs, i + 1), a = b - 1,
+         up = largest_radius(loops[a]) < largest_radius(loops[b]),
+         q = up ? a : b, o = up ? b : a)
+    for (f = annulus_by_inner(loops[o], first[o], loops[q], first[q], slabs[up ? i : i + 1][2], up)) f];
+  polyhedron([for (i = [0:len(loops) - 1]) for (p = loops[i]) [p[0], p[1], z[i]]],
+             concat(slab_walls(slabs, first, true), wall(first[t + 1], first[t + 2], len(rim)), steps,
+                    annulus_by_inner(rim, first[t + 1], loops[0], first[0], slabs[0][2], false),
+                    annulus_by_inner(rim, first[t + 2], loops[t], first[t], slabs[n - 1][2], true)),
+             convexity = 10);
 }
 )";
 }

@@ -71,7 +71,7 @@ class PartText {
 
   std::string build(const std::string& design_name) {
     for (const Slab& slab : part_.slabs) add_slab(slab);
-    const bool stacked = slabs_.size() > 1 && is_nested();
+    const bool stacked = (slabs_.size() > 1 || is_twisted(part_.slabs.front().outer)) && is_nested();
     std::string text = "// " + part_.name + " of " + one_line(design_name) +
                        ", written by Trueflank. Millimetres and degrees.\n"
                        "// The part's axis is z, its lowest face at z = 0, tooth 1 on +x. Elsewhere:\n"
@@ -87,7 +87,10 @@ class PartText {
     text += "module " + part_.name + "_section() section(" + slabs_.front().outer + ", " +
             slabs_.front().holes + ");\n";
     text += "module " + part_.name + "()";
-    text += stacked ? stack_text() : slabs_.size() == 1 ? prism_text(0, "0") : union_text();
+    text += stacked             ? stack_text()
+            : is_twisted_ring() ? ring_text()
+            : slabs_.size() == 1 ? prism_text(0, "0")
+                                 : union_text();
     text += scad_library();
     return text;
   }
@@ -95,7 +98,28 @@ class PartText {
  private:
   struct SlabText {
     std::string height, outer, points_per_tooth, holes;
+    std::string rows;  ///< of the twisted teeth; empty: straight
+    std::vector<std::string> hole_names, hole_points;
   };
+
+  static bool is_twisted(const Outline& outline) {
+    const auto* toothed = std::get_if<ToothedOutline>(&outline);
+    return toothed != nullptr && toothed->twist.turn_rad_per_mm != 0.0;
+  }
+
+  /// Rows of a slab's twisted teeth: turn at its lower face, rate, and the share of the height above
+  /// which a herringbone turns back.
+  static std::string rows_text(const Outline& outline, const Slab& slab, const std::string& height,
+                               const std::string& name) {
+    if (!is_twisted(outline)) return {};
+    const auto& toothed = std::get<ToothedOutline>(outline);
+    const FaceTwist& twist = toothed.twist;
+    const double lower = slab.z_lower_mm - toothed.z_lower_mm, width = slab.z_upper_mm - slab.z_lower_mm;
+    const double apex = !twist.herringbone ? 1.0 : (0.5 * twist.face_width_mm - lower) / width;
+    return "rows(" + height + ", " + degrees(section_turn_rad(twist, lower)) + ", " +
+           degrees(twist.turn_rad_per_mm) + ", " + number(std::clamp(apex, 0.0, 1.0)) +
+           ", largest_radius(" + name + "), tolerance)";
+  }
 
   void add_size(const std::string& name, double value_mm, const char* comment) {
     sizes_ += std::string("// ") + comment + "\n" + name + " = " + short_number(value_mm) + ";\n";
@@ -118,9 +142,13 @@ class PartText {
              toothed ? "height of the toothed section" : "height of the neck between the teeth");
     text.outer = outline_name(slab.outer);
     text.points_per_tooth = points_per_tooth(slab.outer, text.outer);
+    text.rows = rows_text(slab.outer, slab, text.height, text.outer);
     text.holes = "concat([]";
     for (const Outline& hole : slab.holes) {
       const std::string name = outline_name(hole);
+      if (text.rows.empty()) text.rows = rows_text(hole, slab, text.height, name);
+      text.hole_names.push_back(name);
+      text.hole_points.push_back(points_per_tooth(hole, name));
       // a bore that its user sets to 0 is left out
       text.holes += ", len(" + name + ") > 0 ? [" + name + "] : []";
     }
@@ -226,8 +254,46 @@ class PartText {
     return true;
   }
 
+  /// A ring whose teeth are twisted; every slab's first hole is its teeth, or its groove.
+  [[nodiscard]] bool is_twisted_ring() const {
+    return std::any_of(part_.slabs.begin(), part_.slabs.end(),
+                       [](const Slab& s) { return !s.holes.empty() && is_twisted(s.holes.front()); });
+  }
+  std::string ring_text() const {
+    std::string rings = "ring(" + slabs_.front().outer + ", [";
+    for (const SlabText& slab : slabs_)
+      rings += (rings.ends_with('[') ? "" : ",\n  ") +
+               (slab.rows.empty()
+                    ? list(slab.height, slab.hole_names.front(), slab.hole_points.front())
+                    : list(slab.height, slab.hole_names.front(), slab.hole_points.front(), slab.rows));
+    rings += "]);\n";
+    const auto& names = slabs_.front().hole_names;
+    if (names.size() == 1) return " " + rings;
+    std::string height, bolts;
+    for (const SlabText& slab : slabs_) height += (height.empty() ? "" : " + ") + slab.height;
+    for (std::size_t i = 1; i < names.size(); ++i) bolts += (bolts.empty() ? "" : ", ") + names[i];
+    return " difference() {\n  " + rings + "  for (hole = [" + bolts + "]) if (len(hole) > 0)\n" +
+           "    translate([0, 0, -1]) prism(" + height + " + 2, hole);\n}\n";
+  }
+
+  /// A slab of twisted teeth with holes beside the bore: these are drilled.
+  std::string drilled_text(std::size_t i, const std::string& move) const {
+    const SlabText& slab = slabs_[i];
+    std::string bore = "[]", drilled;
+    for (std::size_t h = 0; h < slab.hole_names.size(); ++h)
+      if (std::holds_alternative<BoreOutline>(part_.slabs[i].holes[h])) bore = slab.hole_names[h];
+      else drilled += (drilled.empty() ? "" : ", ") + slab.hole_names[h];
+    const std::string body =
+        "stack([" + list(slab.height, slab.outer, slab.points_per_tooth, slab.rows) + "], " + bore + ");";
+    if (drilled.empty()) return move + " " + body + "\n";
+    return move + " difference() {\n    " + body + "\n    for (hole = [" + drilled +
+           "]) translate([0, 0, -1]) prism(" + slab.height + " + 2, hole);\n  }\n";
+  }
+
   std::string prism_text(std::size_t i, const std::string& below) const {
     const SlabText& slab = slabs_[i];
+    if (is_twisted(part_.slabs[i].outer))
+      return drilled_text(i, below == "0" ? "" : " translate([0, 0, " + below + "])");
     const std::string move = below == "0" ? "" : " translate([0, 0, " + below + "])";
     return move + " prism(" + slab.height + ", " + slab.outer + ", " + slab.holes + ");\n";
   }
@@ -243,7 +309,8 @@ class PartText {
     std::string text = " stack([";
     for (const SlabText& slab : slabs_)
       text += (text.ends_with('[') ? "" : ",\n  ") +
-              list(slab.height, slab.outer, slab.points_per_tooth);
+              (slab.rows.empty() ? list(slab.height, slab.outer, slab.points_per_tooth)
+                                 : list(slab.height, slab.outer, slab.points_per_tooth, slab.rows));
     const auto& holes = part_.slabs.front().holes;
     return text + "]" + (holes.empty() ? "" : ", " + outlines_name(holes.front())) + ");\n";
   }
