@@ -147,10 +147,10 @@ void require_format(const Gearbox& self, io::FileFormat format) {
   const auto missing = app::formats_not_built(self.train().design);
   if (std::find(missing.begin(), missing.end(), format) != missing.end())
     throw Failure({.code = ErrorCode::kUnsupported,
-                   .message = "this version does not write helical or modified teeth in this format",
+                   .message = "an OpenSCAD file cannot carry modified flanks",
                    .key = "formats",
                    .value = io::to_text(format),
-                   .remedy = "the formats of meshes: stl, 3mf, obj, ply, glb"});
+                   .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"});
 }
 
 std::string step(const Gearbox& self, const std::string& part) {

@@ -12,6 +12,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/solid/outline_distance.h"
 #include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/segment_fan.h"
 #include "trueflank/solid/toothing_distance.h"
 
 namespace trueflank {
@@ -30,76 +31,6 @@ constexpr std::array kCutShares = {0.013, 0.171, 0.337, 0.523, 0.689, 0.854, 0.9
 constexpr std::size_t kSampleStride = 3;
 /// Edges on a twisted wall longer than this part of its radius are looked at in three places.
 constexpr double kLongEdge = 0.05;
-
-struct Segment {
-  Point2 a, b;
-};
-
-double distance_to(const Segment& s, const Point2& p) {
-  const Point2 along = s.b - s.a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - s.a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (s.a + t * along - p).norm();
-}
-
-/// Segments of a cut found by their direction seen from the outline's centre.
-class SegmentFan {
- public:
-  SegmentFan(std::vector<Segment> segments, const Point2& centre)
-      : segments_(std::move(segments)), centre_(centre) {
-    bins_ = std::max<std::size_t>(1, segments_.size() / 4);
-    std::vector<std::pair<std::size_t, std::size_t>> ranges;  // first bin, count
-    begin_.assign(bins_ + 1, 0);
-    for (const Segment& s : segments_) {
-      const double a = direction(s.a), turn = centred_rad(direction(s.b) - a);
-      const std::size_t first = bin_of(turn < 0.0 ? a + turn : a);
-      const std::size_t last = bin_of(turn < 0.0 ? a : a + turn);
-      const std::size_t count = std::min(bins_, (last + bins_ - first) % bins_ + 1);
-      ranges.emplace_back(first, count);
-      for (std::size_t k = 0; k < count; ++k) ++begin_[(first + k) % bins_ + 1];
-    }
-    for (std::size_t i = 0; i < bins_; ++i) begin_[i + 1] += begin_[i];
-    members_.resize(begin_.back());
-    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t s = 0; s < segments_.size(); ++s)
-      for (std::size_t k = 0; k < ranges[s].second; ++k)
-        members_[next[(ranges[s].first + k) % bins_]++] = s;
-  }
-
-  [[nodiscard]] bool empty() const { return segments_.empty(); }
-
-  [[nodiscard]] double distance_mm(const Point2& p) const {
-    double best = std::numeric_limits<double>::infinity();
-    const double angle = direction(p), radius = (p - centre_).norm();
-    const double width = kTwoPi / static_cast<double>(bins_);
-    const std::size_t home = bin_of(angle);
-    const double into = wrapped_rad(angle) - static_cast<double>(home) * width;
-    for (std::size_t away = 0; 2 * away <= bins_; ++away) {
-      visit((home + away) % bins_, p, best);
-      if (away > 0) visit((home + bins_ - away) % bins_, p, best);
-      // nothing beyond the bins visited is nearer than their bounding rays
-      const double clear = static_cast<double>(away) * width + std::min(into, width - into);
-      if (best <= radius * std::sin(std::min(clear, 0.5 * kPi))) break;
-    }
-    return best;
-  }
-
- private:
-  [[nodiscard]] double direction(const Point2& p) const { return polar_angle_rad(p - centre_); }
-  [[nodiscard]] std::size_t bin_of(double angle) const {
-    const auto bin = static_cast<std::size_t>(wrapped_rad(angle) / kTwoPi * static_cast<double>(bins_));
-    return std::min(bin, bins_ - 1);
-  }
-  void visit(std::size_t bin, const Point2& p, double& best) const {
-    for (std::size_t i = begin_[bin]; i < begin_[bin + 1]; ++i)
-      best = std::min(best, distance_to(segments_[members_[i]], p));
-  }
-
-  std::vector<Segment> segments_;
-  Point2 centre_;
-  std::size_t bins_ = 1;
-  std::vector<std::size_t> begin_, members_;
-};
 
 /// An outline of a slab: its curves and the cut's segments that lie on it.
 struct Wall {
