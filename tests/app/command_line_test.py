@@ -229,6 +229,18 @@ class Make(Case):
         self.assertLess(files["pinion"]["volume_mm3"], before["pinion"]["volume_mm3"] - 1.0)
         self.assertEqual(files["wheel"], before["wheel"])
 
+    def test_modified_and_grooved_teeth_are_exact_in_step_and_in_drawings(self):
+        text = PAIR.replace("backlash_mm", "helix_angle_deg = 20.0\nherringbone = true\n"
+                            "relief_groove_mm = 1.0\nbacklash_mm")
+        text += "[pinion.modifications]\ncrowning_um = 20\nedge_chamfer_mm = 0.2\n"
+        out = self.folder / "out"
+        result = run("make", self.design(text), "-o", out, "--formats", "step,dxf,svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        files = json.loads((out / "report.json").read_text())["files"]
+        for file in files:
+            self.assertLessEqual(file["accuracy_um"], 0.01 if file["format"] == "step" else 1.0, file)
+        self.assertIn("B_SPLINE_SURFACE_WITH_KNOTS", (out / "pinion.step").read_text())
+
     def test_correction_displaces_the_toothing_within_the_tolerance(self):
         design = self.design(PAIR)
         loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [

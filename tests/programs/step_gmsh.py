@@ -19,7 +19,7 @@ SAMPLES = {
     "pointed teeth.step": ["-clmax", "0.8", "-clcurv", "8"],
     "ring, tip inside the base circle.step": ["-clmax", "1"],
     "helical planet.step": [],
-    "herringbone pinion.step": ["-clmax", "1"],
+    "herringbone pinion.step": ["-clmax", "0.5"],
     "chamfered herringbone.step": ["-clmax", "1"],
 }
 TETRAHEDRON = 4

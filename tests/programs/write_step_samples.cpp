@@ -43,11 +43,11 @@ bool write_helical(const std::filesystem::path& folder, std::ostream& list) {
   ok &= write_part(folder, list, test::helical_part("herringbone pinion", *pinion, 12.0, true));
   ok &= write_part(folder, list, test::helical_part("helical ring", *ring, 6.0));
   const double middle_mm =
-      0.5 * (planet->tip_form_roll_length_mm() + planet->root_form_roll_length_mm());
-  const FlankDeviation field = test::sample_modifications(planet->gear(), 8.0, middle_mm);
-  const Toothing modified{.profile = &*planet, .twist = face_twist(planet->gear(), 8.0, false),
+      0.5 * (pinion->tip_form_roll_length_mm() + pinion->root_form_roll_length_mm());
+  const FlankDeviation field = test::sample_modifications(pinion->gear(), 8.0, middle_mm);
+  const Toothing modified{.profile = &*pinion, .twist = face_twist(pinion->gear(), 8.0, false),
                           .deviation = &field};
-  ok &= write_part(folder, list, test::toothed_part("modified planet", modified),
+  ok &= write_part(folder, list, test::toothed_part("modified pinion", modified),
                    test::toothing_volume_mm3(modified, field.z_breaks_mm));
   const Toothing chamfered{.profile = &*pinion, .twist = face_twist(pinion->gear(), 9.0, true),
                            .edge_chamfer_mm = 0.15};
@@ -57,11 +57,11 @@ bool write_helical(const std::filesystem::path& folder, std::ostream& list) {
     return {0.01 * std::sin(0.3 * p[1] + 0.1 * p[2]), 0.0, 0.0};  // keeps areas
   };
   ok &= write_part(folder, list,
-                   test::toothed_part("displaced planet",
-                                      {.profile = &*planet,
-                                       .twist = face_twist(planet->gear(), 8.0, false),
+                   test::toothed_part("displaced pinion",
+                                      {.profile = &*pinion,
+                                       .twist = face_twist(pinion->gear(), 8.0, false),
                                        .displacement = &bent}),
-                   8.0 * test::area_mm2(ToothedOutline{.profile = &*planet}));
+                   8.0 * test::area_mm2(ToothedOutline{.profile = &*pinion}));
   return ok;
 }
 

@@ -124,6 +124,8 @@ Contour contour_of_path(const OutlinePath& path, double tolerance_mm) {
   if (path.pieces.size() == 1)
     return {.circle = CircleOutline{path.circles[0].centre, path.circles[0].radius_mm}};
   Contour result;
+  // the path's own distance from the outline counts, too
+  tolerance_mm = std::max(tolerance_mm - path.fit_error_mm, 0.5 * tolerance_mm);
   for (std::size_t i = 0; i < path.pieces.size(); ++i) {
     const PathPiece& piece = path.pieces[i];
     const Point2& next = path.pieces[(i + 1) % path.pieces.size()].start;
@@ -134,6 +136,7 @@ Contour contour_of_path(const OutlinePath& path, double tolerance_mm) {
     else
       result.vertices.push_back({piece.start, 0.0});
   }
+  result.chord_error_mm += path.fit_error_mm;
   return result;
 }
 
