@@ -215,6 +215,13 @@ class Viewer {
     this.top = Math.max(...all.map((b) => b.hi));
     this.explodedTop = Math.max(...all.map((b) => b.hi + b.lift));
     this.size = Math.max(...all.map((b) => b.r));
+    // what turns about the axis is looked at there; a pair between its gears
+    this.middle = [0, 0];
+    if (this.bodies.some((b) => b.radius > 0) && this.bodies.every((b) => b.orbit === 0)) {
+      const ends = [0, 1].map((k) => [Math.min(...this.bodies.map((b) => b.at[k] - size(b))), Math.max(...this.bodies.map((b) => b.at[k] + size(b)))]);
+      this.middle = ends.map(([low, high]) => (low + high) / 2);
+      this.size = Math.max(...ends.map(([low, high]) => (high - low) / 2));
+    }
   }
   explodeGroup(body) { return model.parts[body.part].name.replace(/_\d+$/, ''); }
 
@@ -228,8 +235,9 @@ class Viewer {
   }
   home() {
     this.camera.zoom = 1;
-    this.camera.position.set(0.55 * this.size, -this.size, 0.95 * this.size);
-    this.controls.target.set(0, 0, 0);
+    const [x, y] = this.middle;
+    this.camera.position.set(x + 0.55 * this.size, y - this.size, 0.95 * this.size);
+    this.controls.target.set(x, y, 0);
     this.camera.updateProjectionMatrix();
     this.controls.update();
   }

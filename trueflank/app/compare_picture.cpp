@@ -17,6 +17,7 @@ constexpr double kWidth = 1200, kHeight = 560, kPanel = 370, kPanelTop = 84, kGa
 constexpr std::array<const char*, 7> kColours = {"#08519c", "#3182bd", "#7fb3d8", "#9a9a9a",
                                                  "#f4a582", "#e0603a", "#a50f15"};
 constexpr double kExaggeratedShare = 0.12;  ///< of the panel, for the largest deviation
+constexpr double kPiece = 12.0;             ///< of an edge with one colour [px]
 constexpr double kZoom = 8.0;               ///< the closest view is as many deviations wide
 
 std::string number(const char* format, double value) {
@@ -121,11 +122,16 @@ std::string coloured_outline(const MeshDifference& d, const View& view, double f
     for (std::size_t i = 0; i < run.points.size(); ++i) {
       const OutlineDeviation &here = run.points[i], &next = run.points[(i + 1) % run.points.size()];
       if (!view.shows(here.point, 0.3) && !view.shows(next.point, 0.3)) continue;
-      // an edge bears the lesser of its ends' deviations, else it would look worse than it is
-      const double deviation =
-          std::abs(here.deviation_mm) < std::abs(next.deviation_mm) ? here.deviation_mm : next.deviation_mm;
-      paths[colour_of(deviation, full_mm)] +=
-          "M" + point_text(view.at(here.point)) + "L" + point_text(view.at(next.point));
+      // from point to point the colour follows the deviation
+      const Point2 edge = next.point - here.point;
+      const int pieces = std::clamp(static_cast<int>(edge.norm() * view.scale() / kPiece), 1, 40);
+      for (int k = 0; k < pieces; ++k) {
+        const double middle = (k + 0.5) / pieces;
+        const double deviation = here.deviation_mm + (next.deviation_mm - here.deviation_mm) * middle;
+        paths[colour_of(deviation, full_mm)] +=
+            "M" + point_text(view.at(here.point + edge * (static_cast<double>(k) / pieces))) + "L" +
+            point_text(view.at(here.point + edge * ((k + 1.0) / pieces)));
+      }
     }
   }
   std::string text;
