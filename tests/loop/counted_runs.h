@@ -71,7 +71,8 @@ struct Coverage {
   }
 };
 
-/// Eccentricity (scans) or a pitch wave (traces) with a sloping profile, found again and again.
+/// Eccentricity with a sloping profile (scans), or a pitch wave with crowning (traces, where a sloping
+/// profile is also a scale), found again and again.
 inline Coverage count_coverage(DataKind kind, double correlation, int runs, unsigned first_seed = 1) {
   Coverage count;
   const MadeGear gear = small_gear();
@@ -79,7 +80,9 @@ inline Coverage count_coverage(DataKind kind, double correlation, int runs, unsi
   const double slope = scan ? 12.0 : 3.0, wave = scan ? 8.0 : 3.0, phase = 50.0;
   const std::vector<Process> processes = {
       scan ? off_centre(wave, phase) : indexed(2, wave, phase),
-      grown([=](auto&, const FlankSpot& s, auto&) { return 0.5 * slope * s.u; })};
+      grown([=](auto&, const FlankSpot& s, auto&) {
+        return scan ? 0.5 * slope * s.u : -slope * s.v * s.v;
+      })};
   const auto take = [&](const loop::FoundEffect& effect, const std::string& name, double truth) {
     const auto& p = parameter(effect, name);
     ++count.intervals[name];
@@ -89,14 +92,14 @@ inline Coverage count_coverage(DataKind kind, double correlation, int runs, unsi
     const auto result = run_on(gear, processes, kind, correlation, first_seed + i);
     ++count.runs;
     const auto* first = find(result, scan ? "eccentricity" : "pitch_wave");
-    const auto* second = find(result, "pressure_angle_error");
+    const auto* second = find(result, scan ? "pressure_angle_error" : "crowning");
     if (first == nullptr || second == nullptr) {
       ++count.missed;
       continue;
     }
     take(*first, "amplitude_um", wave);
     take(*first, "phase_deg", phase);
-    take(*second, "slope_um", slope);
+    take(*second, scan ? "slope_um" : "amount_um", slope);
   }
   return count;
 }

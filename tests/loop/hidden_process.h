@@ -148,6 +148,11 @@ inline loop::ScanData scan_of(const MadeGear& g, const std::vector<Process>& pro
       }
     }
   }
+  // The bore was made in another clamping: no process moves it.
+  for (int i = 0; o.bore && i < o.points / 8; ++i) {
+    const double a = M_PI * uniform(random), r = o.bore_mm + 1e-3 * o.noise_um * normal(random);
+    scan.points_mm.push_back({r * std::cos(a), r * std::sin(a), 0.5 * g.face_mm * (1.0 + uniform(random))});
+  }
   if (o.any_pose) {
     // Some turn about a slanted axis and some way off.
     const double a = 1.1, b = 0.6, c = 2.3;

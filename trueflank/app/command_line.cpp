@@ -89,11 +89,14 @@ void add_loop(CLI::App& program, LoopOptions& options, int& code) {
   command->add_option("DESIGN", options.design, "design file (TOML)")->required();
   command->add_option("DATA", options.data,
                       "measured files: scans (.ply .stl .obj .xyz .csv), inspection and size tables "
-                      "(.csv), MKA, GDE; or bench tables (.csv) of the whole drive")
+                      "(.csv), MKA, GDE, PART=FILE where they are of several parts; or bench tables "
+                      "(.csv) of the whole drive")
       ->required();
   command->add_option("--output,-o", options.folder, "folder for loop.json and loop.html")
       ->required();
   command->add_option("--gear", options.gear, "the gear that was measured");
+  command->add_option("--effects", options.effects,
+                      "effects of your own to look for, beside the library's (TOML, docs/loop.md)");
   command->add_flag("--aligned", options.aligned,
                     "scans stand in the gear's own frame: a displaced tooth system is an effect");
   command->add_flag("--quiet,-q", options.quiet, "no summary");

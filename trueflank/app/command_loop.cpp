@@ -3,6 +3,7 @@
 
 #include "trueflank/app/commands.h"
 #include "trueflank/app/design_input.h"
+#include "trueflank/app/effects_file.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/export/atomic_file.h"
@@ -80,8 +81,14 @@ int run_loop(const LoopOptions& options) {
   if (*bench) return run_drive_loop(*train, options);
   const auto gear = measured_gear(*train, options.gear);
   if (!gear) return report_errors({gear.error()});
-  const auto closed =
-      loop::close_loop(*train, *gear, options.data, {.aligned = options.aligned});
+  loop::DeclaredFamilies declared;
+  if (!options.effects.empty()) {
+    const auto read = read_effects_file(options.effects);
+    if (!read) return report_errors(read.error());
+    declared = *read;
+  }
+  const auto closed = loop::close_loop(*train, *gear, options.data,
+                                       {.aligned = options.aligned, .declared = declared});
   if (!closed) return report_errors(closed.error());
   return write_results(options, loop::loop_html(*closed), closed->result);
 }

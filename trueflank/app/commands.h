@@ -45,7 +45,8 @@ int run_compare(const CompareOptions& options);
 
 struct LoopOptions {
   std::string design;
-  std::vector<std::string> data;  ///< measured files
+  std::vector<std::string> data;  ///< measured files, or PART=FILE
+  std::string effects;            ///< file of effects to add to the library; empty: none
   std::string folder;
   std::string gear;      ///< empty: the design's only one
   bool aligned = false;  ///< scans stand in the gear's own frame

@@ -10,6 +10,7 @@ namespace trueflank::loop {
 
 struct LoopOptions {
   bool aligned = false;  ///< scans stand in the gear's own frame
+  DeclaredFamilies declared = nullptr;  ///< effects the user adds to the library
 };
 
 /// Everything the charts need beside the result.
@@ -20,7 +21,11 @@ struct GearLoop {
   std::vector<float> before_um, after_um;  ///< residual of each row of the table
 };
 
+/// Fills in the largest errors from the residuals of the table.
+void find_largest_errors(GearLoop& done);
+
 /// Closes the loop of one gear: residual, structure, effects, uncertainty, verdict.
+/// Where the files are of several parts (MeasuredData), what repeats is told from what does not.
 /// Time and memory grow linearly with the points: figures in docs/loop.md.
 /// Errors: all files' together, with file and line; data that are not of this gear.
 [[nodiscard]] ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_name,

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
+#include "trueflank/loop/declared_effect.h"
 #include "trueflank/loop/mesh_slicing.h"
 
 namespace trueflank::loop {
@@ -59,6 +60,22 @@ bool read_parameters(const Json& json, const EffectFamily& family, std::vector<d
          std::none_of(coefficients.begin(), coefficients.end(), bad);
 }
 
+/// A user's effect carries its formulas in loop.json, so that the correction needs no other file.
+Result<EffectFamily> declared_family_of(const Json& item) {
+  DeclaredEffect declared{.id = item["id"], .correctable = item.value("correctable", true)};
+  declared.correction = item.value("correction", "");
+  const Json& form = item["form"];
+  if (!form.is_object()) return fail(broken("an effect without its formulas", "effects." + declared.id));
+  for (const auto& [name, formula] : form.items()) {
+    if (!formula.is_string())
+      return fail(broken("an effect without its formulas", "effects." + declared.id + ".form"));
+    declared.columns.emplace_back(name, formula.get<std::string>());
+  }
+  auto family = declared_family(declared);
+  if (!family) return fail(family.error().front());
+  return std::move(*family);
+}
+
 }  // namespace
 
 Result<std::string> Correction::gear_of(std::string_view loop_json) {
@@ -80,7 +97,18 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
     if (!item.is_object() || !item.contains("id") || !item["id"].is_string())
       return fail(broken("an effect without id", "effects"));
     const std::string id = item["id"];
+    if (!item.value("repeatable", true)) {
+      result.left_.push_back(id + ": one-off, on part " + item.value("part", std::string("?")) +
+                             " only; what does not repeat is not corrected");
+      continue;
+    }
     const EffectFamily* family = find_family(id);
+    if (family == nullptr && item.contains("form")) {
+      auto declared = declared_family_of(item);
+      if (!declared) return fail(declared.error());
+      result.declared_.push_back(std::make_shared<const EffectFamily>(std::move(*declared)));
+      family = result.declared_.back().get();
+    }
     if (family == nullptr)
       return fail({.code = ErrorCode::kUnknownKey,
                    .message = "an effect nobody knows",
@@ -97,10 +125,11 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
           return term.is_object() && term.contains(key) && term[key].is_number() ? term[key].get<double>()
                                                                                  : kNaN;
         };
-        Part part{{family, FlankChoice::kBoth,
-                   {number("profile_degree"), number("face_degree"), number("order"),
-                    term.is_object() && term.value("flanks", "") == "opposite" ? 1.0 : 0.0}},
-                  {number("cos_um")}};
+        Part part;
+        part.effect.family = family;
+        part.effect.shape = {number("profile_degree"), number("face_degree"), number("order"),
+                             term.is_object() && term.value("flanks", "") == "opposite" ? 1.0 : 0.0};
+        part.coefficients = {number("cos_um")};
         if (!std::isfinite(part.effect.shape[0] + part.effect.shape[1] + part.effect.shape[2] +
                            part.coefficients[0] + number("sin_um")))
           return fail(broken("a term without its numbers", "effects.terms"));
@@ -114,7 +143,9 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
       result.left_.push_back(id + ": " + family->correction);
       continue;
     }
-    Part part{{family, flank_of(item), {}}, {}};
+    Part part;
+    part.effect.family = family;
+    part.effect.flank = flank_of(item);
     if (!read_parameters(item, *family, part.effect.shape, part.coefficients))
       return fail(broken("an effect without its parameters", "effects." + id));
     result.parts_.push_back(std::move(part));
@@ -210,7 +241,7 @@ Point3 Correction::displacement_mm(const Point3& p) const {
 bool Correction::bends_over_the_face() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
     const std::string& id = part.effect.family->id;
-    return id == "crowning" || id == "elephant_foot" || id == "ghost_order" ||
+    return !part.effect.family->formulas.empty() || id == "crowning" || id == "elephant_foot" || id == "ghost_order" ||
            (id == "unnamed" && part.effect.shape[1] > 1.0);
   });
 }

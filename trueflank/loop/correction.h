@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,7 @@ class Correction {
   [[nodiscard]] bool bends_over_the_face() const;
 
   FlankGeometry geometry_;
+  std::vector<std::shared_ptr<const EffectFamily>> declared_;  ///< parts may point into these
   std::vector<Part> parts_;
   std::vector<std::string> corrected_, left_;
 };

@@ -19,6 +19,9 @@ using FoldErrors = Eigen::VectorXd;
 
 /// Chi-square by which anchors tell two models apart.
 constexpr double kAnchorsTell = 4.0;
+/// Share of what two effects explain that one preferred to them may leave: second order of displacements,
+/// which is put right once the effect is chosen.
+constexpr double kNearly = 3e-3;
 /// Chi-square in the folds that is nothing, rounding included.
 constexpr double kNothing = 0.5;
 
@@ -213,12 +216,13 @@ class Selection {
     return preferred(tried, *best);
   }
 
-  /// Of those as good as the best the one with the lowest preference, then the fewest columns.
+  /// Of those as good as the best the one with the lowest preference, then the fewest columns, then the
+  /// simplest.
   [[nodiscard]] int preferred(const std::vector<Tried>& tried, const Tried& best) const {
     const Tried* pick = &best;
     const auto rank = [&](const Tried& t) {
       const CandidateGroup& group = problem_.groups[t.group];
-      return std::tuple(group.preference, group.columns, -t.gain.sum());
+      return std::tuple(group.preference, group.columns, group.complexity, -t.gain.sum());
     };
     for (const Tried& other : tried)
       if (is_tie(best.gain - other.gain) && rank(other) < rank(*pick)) pick = &other;
@@ -260,6 +264,8 @@ class Selection {
         const CandidateGroup& b = problem_.groups[chosen_[k].record.group];
         const CrossValidation model(problem_, statistics_, active(i, k));
         const int limit = std::min(a.preference, b.preference);
+        const int most = std::max(a.preference, b.preference);
+        const double earned = (model.base_errors() - full).sum();
         int best = -1;
         double best_loss = 1e300;
         for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
@@ -268,7 +274,8 @@ class Selection {
               group.columns >= a.columns + b.columns)
             continue;
           const FoldErrors loss = model.errors_with(g) - full;
-          if (is_tie(loss) && loss.sum() < best_loss) {
+          const bool nearly = group.preference < most && loss.sum() < kNearly * earned;
+          if ((is_tie(loss) || nearly) && loss.sum() < best_loss) {
             best_loss = loss.sum();
             best = g;
           }

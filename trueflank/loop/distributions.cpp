@@ -74,4 +74,10 @@ double student_95(double degrees) {
   return find_root([&](double t) { return student_two_sided(t, degrees) - 0.05; }, 1.0, 20.0);
 }
 
+double f_tail(double f, double degrees, double degrees_below) {
+  if (!(f > 0.0)) return 1.0;
+  return incomplete_beta(0.5 * degrees_below, 0.5 * degrees,
+                         degrees_below / (degrees_below + degrees * f));
+}
+
 }  // namespace trueflank::loop

@@ -11,4 +11,7 @@ namespace trueflank::loop {
 /// t with P(|Student t| <= t) = 0.95.
 [[nodiscard]] double student_95(double degrees);
 
+/// P(F with these degrees of freedom > f). Accuracy: 1e-10.
+[[nodiscard]] double f_tail(double f, double degrees, double degrees_below);
+
 }  // namespace trueflank::loop

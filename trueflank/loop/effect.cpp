@@ -40,9 +40,10 @@ const EffectFamily* find_family(const std::string& id) {
   return nullptr;
 }
 
-std::vector<Effect> candidate_effects(const FlankGeometry& geometry) {
+std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
+                                      const DeclaredFamilies& declared) {
   std::vector<Effect> effects;
-  for (const EffectFamily& family : effect_library()) {
+  const auto add = [&](const EffectFamily& family) {
     std::vector<std::vector<double>> shapes{{}};
     if (family.shapes) shapes = family.shapes(geometry);
     for (const auto& shape : shapes) {
@@ -51,7 +52,10 @@ std::vector<Effect> candidate_effects(const FlankGeometry& geometry) {
       effects.push_back({&family, FlankChoice::kLeft, shape});
       effects.push_back({&family, FlankChoice::kRight, shape});
     }
-  }
+  };
+  if (declared)
+    for (const EffectFamily& family : *declared) add(family);
+  for (const EffectFamily& family : effect_library()) add(family);
   return effects;
 }
 

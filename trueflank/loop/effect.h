@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct EffectFamily {
   bool named = true;
   Correctable correctable = Correctable::kGeometry;
   int preference = 0;               ///< lower wins between equals
+  /// Declared by a user: name and formula of every parameter, as declared.
+  std::vector<std::pair<std::string, std::string>> formulas = {};
   std::function<int(const std::vector<double>& shape)> columns;
   std::function<std::vector<std::vector<double>>(const FlankGeometry&)> shapes;
   std::function<void(const FlankGeometry&, const Place&, const std::vector<double>& shape,
@@ -71,8 +74,11 @@ struct Effect {
 [[nodiscard]] const std::vector<EffectFamily>& effect_library();
 /// The family of an id; nullptr where there is none.
 [[nodiscard]] const EffectFamily* find_family(const std::string& id);
-/// Every candidate for a gear.
-[[nodiscard]] std::vector<Effect> candidate_effects(const FlankGeometry& geometry);
+/// Families a user declared. Shared: effects point into them.
+using DeclaredFamilies = std::shared_ptr<const std::vector<EffectFamily>>;
+/// Every candidate for a gear: of the library and of what the user declared.
+[[nodiscard]] std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
+                                                    const DeclaredFamilies& declared = nullptr);
 
 /// @name Parts of the library, by what the effects act on
 /// @{

@@ -179,6 +179,7 @@ EffectFamily elephant_foot() {
   f.parameters = {"amount_um"};
   f.shape_names = {"height_mm"};
   f.shape_is_continuous = true;
+  f.only_positive = true;
   f.shapes = [](const FlankGeometry& g) {
     return heights(g, 0.1, std::max(0.3, 0.3 * g.face_width_mm()), 8, true);
   };

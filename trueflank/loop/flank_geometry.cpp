@@ -30,6 +30,19 @@ FlankGeometry::FlankGeometry(const ToothProfile& profile, double face_width_mm,
   TRUEFLANK_EXPECTS(face_width_mm > 0.0);
 }
 
+FlankGeometry::FlankGeometry(const TrainGear& gear, double bore_radius_mm)
+    : FlankGeometry(gear.profile, gear.face_width_mm, bore_radius_mm, gear.twist.herringbone) {
+  designed_ = gear.deviation;
+  edge_chamfer_ = gear.edge_chamfer_mm;
+}
+
+double FlankGeometry::designed_deviation_mm(const Place& place) const {
+  if (designed_.empty() || place.surface != Surface::kFlank) return 0.0;
+  const Flank flank =
+      flank_side(Flank::kLeft, gear_.kind) == place.side ? Flank::kLeft : Flank::kRight;
+  return designed_.deviation_mm(place.tooth - 1, flank, place.roll_mm, place.z_mm);
+}
+
 double FlankGeometry::profile_coordinate(double roll_mm) const {
   return 2.0 * (roll_mm - root_roll_) / (tip_roll_ - root_roll_) - 1.0;
 }
@@ -104,7 +117,8 @@ PlacedPoint FlankGeometry::nearest_flank(const std::array<double, 3>& p, double 
   const double transverse =
       base_radius_ * (side * offset - half_angle_) + sense_ * involute;
   result.place = on_flank(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
-  result.distance_mm = transverse * std::cos(base_helix_);
+  result.distance_mm =
+      transverse * std::cos(base_helix_) - designed_deviation_mm(result.place);
   const double u = profile_coordinate(result.place.roll_mm);
   if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;
   return result;

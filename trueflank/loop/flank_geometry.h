@@ -4,6 +4,7 @@
 #include <array>
 
 #include "trueflank/geometry/tooth_profile.h"
+#include "trueflank/train/gear_train.h"
 
 // Where a measured point lies on the gear as designed: tooth, flank, roll length, height, and the
 // exact signed distance. Frame: the gear's own; tooth 1 on +x at z = 0, face from 0 to face width.
@@ -37,6 +38,8 @@ class FlankGeometry {
  public:
   FlankGeometry(const ToothProfile& profile, double face_width_mm, double bore_radius_mm = 0.0,
                 bool herringbone = false);
+  /// A gear of a design, its flank modifications and edge chamfers included.
+  explicit FlankGeometry(const TrainGear& gear, double bore_radius_mm = 0.0);
 
   [[nodiscard]] const Gear& gear() const { return gear_; }
   [[nodiscard]] int teeth() const { return gear_.teeth; }
@@ -53,6 +56,11 @@ class FlankGeometry {
   [[nodiscard]] double pressure_angle_rad() const { return pressure_angle_; }
   [[nodiscard]] double root_form_roll_mm() const { return root_roll_; }
   [[nodiscard]] double tip_form_roll_mm() const { return tip_roll_; }
+  [[nodiscard]] double edge_chamfer_mm() const { return edge_chamfer_; }
+
+  /// What the design itself takes off or puts on the involute at a place of a flank [mm, along the
+  /// normal, + = material]: relief, crowning.
+  [[nodiscard]] double designed_deviation_mm(const Place& place) const;
 
   /// Roll length as -1 at the root form circle ... +1 at the tip form circle.
   [[nodiscard]] double profile_coordinate(double roll_mm) const;
@@ -67,7 +75,7 @@ class FlankGeometry {
   [[nodiscard]] Place on_flank(int tooth, int side, double roll_mm, double z_mm) const;
   [[nodiscard]] Place on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
                                 double z_mm) const;
-  /// Nearest flank of a point, whatever its distance; place.surface is kNone outside the involute
+  /// Nearest flank of a point, whatever its distance from the flank as designed; place.surface is kNone outside the involute
   /// (with a margin of `margin` of its length at either end).
   [[nodiscard]] PlacedPoint nearest_flank(const std::array<double, 3>& point_mm,
                                           double margin = 0.0) const;
@@ -85,6 +93,8 @@ class FlankGeometry {
   double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;
   double twist_per_mm_;
   bool herringbone_;
+  FlankDeviation designed_ = {};
+  double edge_chamfer_ = 0.0;
 };
 
 }  // namespace trueflank::loop

@@ -46,6 +46,7 @@ class Describer {
     const auto& effects = sources_.fit.effects();
     std::map<int, std::size_t> unnamed_at;  // order -> place in found_
     for (int e = 0; e < static_cast<int>(effects.size()); ++e) {
+      if (!sources_.only.empty() && !sources_.only[e]) continue;
       if (effects[e].family->id == "unnamed") {
         const int order = static_cast<int>(effects[e].shape[2]);
         const auto [place, is_new] = unnamed_at.emplace(order, found_.size());
@@ -81,6 +82,7 @@ class Describer {
     found.p_value = chosen.p_value;
     found.bic_gain = chosen.bic_gain;
     found.correctable = family.correctable == Correctable::kGeometry;
+    found.form = family.formulas;
     if (!family.named && family.local)
       found.description = "the " + found.flank + " flank of tooth " +
                           std::to_string(static_cast<int>(effect.shape[0])) + " stands out";
@@ -216,12 +218,45 @@ constexpr Separation kSeparations[] = {
     {"flank_wear", "profile_crowning", "profile traces over the whole flank, and the unworn flank"},
     {"axis_tilt", "layer_shift", "sections at more heights"},
     {"single_tooth", "pitch_wave", "index of all teeth"},
+    {"axis_tilt", "eccentricity", "sections at more heights, or helix traces"},
+    {"scale_xy", "pitch_wave", "the index of both flanks"},
+};
+
+/// Causes that act alike on the geometry, so that no measurement of the teeth tells them apart.
+constexpr std::pair<const char*, const char*> kCauses[] = {
+    {"scale", "scale: shrinkage of the part, heat and a scale error of the measuring device look alike; note "
+              "the temperature, remeasure at 20 degrees, measure a gauge block in the same setup"},
+    {"lobing", "lobing: chuck jaws, gates and press fits look alike; measure before and after unclamping, "
+               "compare the phase with jaws and gates"},
+    {"pitch_wave", "pitch_wave: an error of the measuring table looks like one of the gear; measure at two "
+                   "orientations on the table"},
+    {"helix_error", "helix_error: lead of the machine and twist of a print look alike; the process tells, "
+                    "or a test of the spindle"},
+    {"tip_relief", "tip_relief: wear looks like relief; measure the unworn (coast) flank, or a new part"},
+    {"eccentricity", "eccentricity: of the toothing against the bore, or of the mounting; measure again in "
+                     "another clamping"},
 };
 
 }  // namespace
 
 std::vector<FoundEffect> describe_effects(const EffectSources& sources) {
   return Describer(sources).run();
+}
+
+std::vector<std::pair<std::string, double>> parameter_values(const Effect& effect,
+                                                             const Eigen::VectorXd& b) {
+  const EffectFamily& family = *effect.family;
+  std::vector<std::pair<std::string, double>> values;
+  for (std::size_t k = 0; k < effect.shape.size(); ++k)
+    values.emplace_back(family.shape_names[k], effect.shape[k]);
+  if (family.form == ParameterForm::kWave) {
+    values.emplace_back(family.parameters[0], std::hypot(b[0], b[1]));
+    values.emplace_back(family.parameters[1],
+                        deg_from_rad(std::atan2(b[1], b[0])) / family.phase_divisor);
+  } else {
+    for (Eigen::Index k = 0; k < b.size(); ++k) values.emplace_back(family.parameters[k], b[k]);
+  }
+  return values;
 }
 
 std::string words_for(const Effect& effect) {
@@ -261,6 +296,14 @@ std::vector<std::string> measurements_that_separate(const std::vector<FoundEffec
           by = s.measurement;
       say(found.id + " and " + other + " cannot be told apart here; measure " + by);
     }
+  for (const FoundEffect& found : effects)
+    for (const auto& [id, sentence] : kCauses)
+      if (found.id == id) say(sentence);
+  const bool one_part = std::any_of(effects.begin(), effects.end(), [](const FoundEffect& found) {
+    return found.correctable && !found.repeatable;
+  });
+  if (one_part)
+    say("one part cannot show what repeats; measure a second part of the process before correcting it");
   const auto hidden = [&](const char* id) {
     return std::find(not_observable.begin(), not_observable.end(), id) != not_observable.end();
   };

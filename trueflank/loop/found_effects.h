@@ -16,7 +16,13 @@ struct EffectSources {
   const std::vector<Effect>& candidates;
   const ShapeUncertainty& uncertainty;
   const std::vector<std::string>& not_observable;
+  /// Which of the fit's effects to describe; empty: all.
+  std::vector<bool> only = {};
 };
+
+/// Value of every parameter for the coefficients of an effect.
+[[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(
+    const Effect& effect, const Eigen::VectorXd& coefficients);
 
 /// Named effects in the order they were chosen, unnamed terms gathered by their order.
 [[nodiscard]] std::vector<FoundEffect> describe_effects(const EffectSources& sources);

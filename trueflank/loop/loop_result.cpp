@@ -78,6 +78,20 @@ Json effect_json(const FoundEffect& e, const std::string& unit) {
                {"correctable", e.correctable}};
   if (!e.side.empty()) json["side"] = e.side;
   if (!e.drive_terms.empty()) json["terms"] = drive_terms_json(e.drive_terms);
+  if (e.repeatable) {
+    json["repeatable"] = *e.repeatable;
+    json["repeatability_p_value"] = number(e.repeat_p_value);
+    if (!e.part.empty()) json["part"] = e.part;
+    Json in_parts = Json::object();
+    for (const auto& in_part : e.in_parts)
+      for (const auto& [name, value] : in_part.parameters) in_parts[in_part.part][name] = number(value);
+    json["in_parts"] = in_parts;
+  }
+  if (!e.form.empty()) {
+    Json form = Json::object();
+    for (const auto& [name, formula] : e.form) form[name] = formula;
+    json["form"] = form;
+  }
   if (e.terms.empty()) return json;
   Json terms = Json::array();
   for (const FreeTerm& t : e.terms)
@@ -135,6 +149,17 @@ std::string loop_json(const LoopResult& r) {
                {"measure_next", r.measure_next},
                {"notes", r.notes}};
   if (!r.possible.empty()) json["possible"] = possible_json(r.possible);
+  if (!r.parts.empty()) {
+    Json parts = Json::array();
+    for (const auto& part : r.parts)
+      parts.push_back({{"name", part.name},
+                       {"observations", part.observations},
+                       {"before", figures(part.before, r.unit)},
+                       {"after", figures(part.after, r.unit)}});
+    json["parts"] = parts;
+    json["new_part"] = {{"rms_before_" + r.unit, number(r.new_part_before)},
+                        {"rms_after_" + r.unit, number(r.new_part_after)}};
+  }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -155,6 +180,9 @@ std::string loop_text(const LoopResult& r) {
   for (const FoundEffect& e : r.effects) {
     text += "  " + e.id + (e.flank == "both" ? "" : " (" + e.flank + " flank)") + ": " +
             e.description + "\n";
+    if (e.repeatable)
+      text += *e.repeatable ? "    repeats from part to part (p = " + short_number(e.repeat_p_value) + ")\n"
+                            : "    one-off, on part " + e.part + "\n";
     for (const Parameter& p : e.parameters) {
       text += "    " + p.name + " = " + short_number(p.value);
       if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
@@ -171,6 +199,10 @@ std::string loop_text(const LoopResult& r) {
       text += "\n";
     }
   }
+  if (!r.parts.empty())
+    text += "  a part not fitted to: " + short_number(r.new_part_before) + " " + unit +
+            " rms as designed, " + short_number(r.new_part_after) +
+            " with the repeatable effects of the others\n";
   text += "  left: " + r.structure_left + " (p = " + short_number(r.structure_left_p_value) + ")\n";
   for (const PossibleExplanation& p : r.possible) text += "  possible: " + p.text + "\n";
   for (const std::string& next : r.measure_next) text += "  next: " + next + "\n";

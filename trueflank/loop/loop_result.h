@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,12 +46,25 @@ struct FoundEffect {
   std::vector<FreeTerm> terms;  ///< unnamed effects
   std::vector<DriveTerm> drive_terms;  ///< unnamed effects of a drive
   std::string side;                    ///< of a sensor effect: input or output; else empty
+  /// Effects a user declared: name and formula of every parameter.
+  std::vector<std::pair<std::string, std::string>> form;
   double explained_fraction = 0.0;
   double held_out_gain_um = kNaN;
   double p_value = kNaN;
   double bic_gain = kNaN;
   std::vector<std::string> confounded_with;
   bool correctable = true;
+  /// @name Where several parts were measured
+  /// @{
+  std::optional<bool> repeatable = {};  ///< told from one-off effects; empty: one part only
+  double repeat_p_value = kNaN;         ///< of a mean like this if it were random from part to part
+  std::string part = {};                ///< of a one-off effect: the part it is on
+  struct InPart {
+    std::string part;
+    std::vector<std::pair<std::string, double>> parameters;
+  };
+  std::vector<InPart> in_parts = {};    ///< fitted to each part alone
+  /// @}
 };
 
 enum class Verdict { kNoEffect, kExplained, kPartlyExplained };
@@ -83,6 +97,15 @@ struct LoopResult {
   double structure_left_p_value = 1.0;
   std::string structure_left;
   Verdict verdict = Verdict::kNoEffect;
+  /// Where several parts were measured: figures of each, and the error on a part that took no part in
+  /// fitting the repeatable effects (each left out in turn).
+  struct PartFigures {
+    std::string name;
+    int observations = 0;
+    ErrorFigures before, after;
+  };
+  std::vector<PartFigures> parts;
+  double new_part_before = kNaN, new_part_after = kNaN;
   std::vector<std::string> not_observable;  ///< ids of effects these data cannot show
   std::vector<std::string> measure_next;    ///< what would separate what is confounded
   std::vector<std::string> notes;

@@ -16,6 +16,7 @@ namespace trueflank::loop {
 /// Points of a scan [mm]; sigma_um is empty or one value a point.
 struct ScanData {
   std::string file;
+  std::string part;  ///< name of the part it is of; empty: the only one
   std::vector<std::array<double, 3>> points_mm;
   std::vector<double> sigma_um;
   /// Outward normals of a mesh's points, empty for a cloud: they tell walls from end faces.
@@ -40,9 +41,11 @@ struct InspectionRow {
 };
 struct InspectionData {
   std::string file;
+  std::string part;
   std::vector<InspectionRow> rows;
   std::map<std::string, std::string> keys;  ///< comment lines `# key = value`
   bool common_zero = false;
+  bool from_design = false;  ///< `# reference = design`: modifications of the design taken off already
   double ball_diameter_mm = kNaN;
 };
 
@@ -56,10 +59,11 @@ struct SizeRow {
 };
 struct SizeData {
   std::string file;
+  std::string part;
   std::vector<SizeRow> rows;
 };
 
-/// All measured data of one part, with what was left out and why (one sentence each).
+/// Measured data of one part or several, with what was left out and why (one sentence each).
 struct MeasuredData {
   std::vector<ScanData> scans;
   std::vector<InspectionData> inspections;
@@ -69,6 +73,7 @@ struct MeasuredData {
 };
 
 /// Reads measured files of any kind the loop knows (docs/loop.md), told from their name and header.
+/// `PART=FILE` says which part a file is of; a comment line `# part = NAME` in the file says it, too.
 /// A file of which a part is unusable is used for the rest, and notes say so.
 /// Errors: all files' together; kSyntax with file and line where nothing usable is left.
 [[nodiscard]] ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& paths);

@@ -73,6 +73,7 @@ class TableBuilder {
       errors.push_back(bad.error("no row of the file fits this gear"));
       return;
     }
+    if (!data.from_design) take_design_off(before);
     bad.tell(table.notes);
   }
 
@@ -87,6 +88,7 @@ class TableBuilder {
       errors.push_back(bad.error("no size of the file fits this gear"));
       return;
     }
+    take_design_off(before);
     bad.tell(table.notes);
   }
 
@@ -105,6 +107,18 @@ class TableBuilder {
     table.rows.push_back(row);
     return table.rows.back();
   }
+  /// Machines draw traces against the plain involute and helix, sizes are compared with the plain
+  /// gear's: what the design itself relieves is no deviation.
+  void take_design_off(std::size_t from) {
+    for (std::size_t i = from; i < table.rows.size(); ++i) {
+      Observation& row = table.rows[i];
+      for (std::uint32_t k = 0; k < row.places; ++k) {
+        const WeightedPlace& place = table.places[row.first_place + k];
+        row.deviation_um -=
+            place.weight * um_from_mm(geometry_.designed_deviation_mm(place.place));
+      }
+    }
+  }
   void add_place(Observation& row, const Place& place, double weight) {
     table.places.push_back({place, weight});
     ++row.places;
@@ -112,14 +126,15 @@ class TableBuilder {
 
   void add_points(const ScanData& scan, const Pose& pose, int source) {
     const double reach = 0.35 * geometry_.gear().normal_module_mm;
-    const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1);
+    const double chamfer = geometry_.edge_chamfer_mm();
+    const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1) + chamfer;
     const double b = geometry_.face_width_mm();
     std::size_t unused = 0;
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
       const auto p = pose(scan.points_mm[i]);
       const PlacedPoint placed = geometry_.nearest(p, reach);
       // Without normals, points at the very ends of the face may lie on the end faces.
-      const double inside = scan.normals.empty() ? edge : -edge;
+      const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
       const bool usable = placed.place.surface != Surface::kNone && p[2] > inside &&
                           p[2] < b - inside && looks_outwards(scan, i, pose, placed.place);
       if (!usable) {
@@ -274,9 +289,29 @@ class TableBuilder {
   ObservationOptions options_;
 };
 
+constexpr std::size_t kFewInPatch = 5;
+using PatchRows = std::map<std::array<int, 5>, std::vector<std::size_t>>;
+
+/// Patches of a flank with too few values to judge by are judged together.
+void gather_small_patches(PatchRows& patches) {
+  PatchRows gathered;
+  for (auto patch = patches.begin(); patch != patches.end();) {
+    if (patch->second.size() >= kFewInPatch) {
+      ++patch;
+      continue;
+    }
+    std::array<int, 5> key = patch->first;
+    key[3] = key[4] = -1;
+    auto& rows = gathered[key];
+    rows.insert(rows.end(), patch->second.begin(), patch->second.end());
+    patch = patches.erase(patch);
+  }
+  patches.merge(gathered);
+}
+
 /// Leaves out what lies far from its neighbours on the same flank: an effect moves them together.
 void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
-  std::map<std::array<int, 5>, std::vector<std::size_t>> patches;
+  PatchRows patches;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial ||
@@ -295,6 +330,7 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
                           : place.tooth;
     patches[{static_cast<int>(row.kind) * 64 + row.source, tooth, place.side, u, v}].push_back(i);
   }
+  gather_small_patches(patches);
   // One spread for each kind: the median of the patches' own.
   std::map<int, std::vector<double>> spreads;
   std::map<int, double> spread_of;
@@ -306,28 +342,23 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     for (double& value : values) value = std::abs(value - centre);
     return std::pair(centre, 1.4826 * median(values));
   };
-  std::vector<double> centres;
-  for (const auto& [key, patch] : patches) {
-    const auto [centre, spread] = centre_and_spread(patch);
-    centres.push_back(centre);
-    if (patch.size() >= 5) spreads[key[0]].push_back(spread);
-  }
+  for (const auto& [key, patch] : patches)
+    if (patch.size() >= kFewInPatch) spreads[key[0]].push_back(centre_and_spread(patch).second);
   for (auto& [kind, list] : spreads) spread_of[kind] = median(list);
   std::vector<bool> out(table.rows.size(), false);
-  std::size_t number = 0;
   for (const auto& [key, patch] : patches) {
-    const double centre = centres[number++];
-    if (patch.size() < 5 || !spread_of.contains(key[0])) continue;
-    const double own = centre_and_spread(patch).second;
-    const double limit = 6.0 * std::max({own, spread_of[key[0]], 0.02});
-    std::size_t far = 0;
-    for (const std::size_t i : patch) {
-      out[i] = std::abs(table.rows[i].deviation_um - centre) > limit;
-      far += out[i] ? 1 : 0;
-    }
-    // So many far ones are no accident: a step runs through the patch.
-    if (4 * far > patch.size())
-      for (const std::size_t i : patch) out[i] = false;
+    if (patch.size() < kFewInPatch) continue;
+    const auto [centre, own] = centre_and_spread(patch);
+    // A patch full of outliers must not set its own limit.
+    const double kind = std::max(spread_of[key[0]], 0.02);
+    const double limit = 6.0 * std::clamp(own, kind, 3.0 * kind);
+    std::vector<std::size_t> far;
+    for (const std::size_t i : patch)
+      if (std::abs(table.rows[i].deviation_um - centre) > limit) far.push_back(i);
+    // Many that agree with each other are no accident: a step runs through the patch.
+    const bool step = far.size() >= 3 && 4 * far.size() > patch.size() &&
+                      centre_and_spread(far).second < 0.5 * limit;
+    for (const std::size_t i : far) out[i] = !step;
   }
   std::size_t kept = 0;
   std::size_t points = 0;

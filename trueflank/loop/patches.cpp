@@ -357,6 +357,9 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
     group.columns = effect.columns();
     group.preference = effect.family->preference +
                        (effect.flank != FlankChoice::kBoth && !effect.family->local ? 2 : 0);
+    // Low degrees first, low orders among them.
+    if (effect.family->id == "unnamed")
+      group.complexity = effect.shape[0] + effect.shape[1] + 0.01 * effect.shape[2];
     if (effect.family->local)
       group.local_family = effect.family->id == "single_tooth" ? 0 : 1;
     if (effect.family->shape_is_continuous) group.kin = 3 * kin + static_cast<int>(effect.flank);

@@ -157,6 +157,26 @@ PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
   return result;
 }
 
+double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
+  const int pose = nuisance_.count();
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(columns_);
+  b.tail(columns_ - pose) = effect_coefficients;
+  if (pose > 0) {
+    Eigen::MatrixXd normal = all_.topLeftCorner(pose, pose);
+    normal.diagonal() *= 1.0 + 1e-12;
+    normal.diagonal().array() += 1e-30;
+    const Eigen::VectorXd right =
+        all_.col(columns_).head(pose) - all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
+    b.head(pose) = normal.ldlt().solve(right);
+  }
+  return observations_ > 0 ? std::sqrt(std::max(0.0, square_error(plain_all_, b)) / observations_)
+                           : kNaN;
+}
+
+double PointFit::column_size(int column) const {
+  return observations_ > 0 ? std::sqrt(plain_all_(column, column) / observations_) : 0.0;
+}
+
 double PointFit::explained_fraction(int effect) const {
   std::vector<bool> with(effects_.size(), true);
   const double full = square_error(plain_all_, solution(all_, columns_with(with)));
@@ -177,6 +197,7 @@ void PointFit::solve() {
   noise_um_ = std::sqrt(std::max(0.0, plain) / free);
   covariance_ = Eigen::MatrixXd::Zero(p, p);
   degrees_.assign(p, 2.0);
+  retained_.assign(p, 0.0);
   if (p == 0) return;
   Eigen::MatrixXd normal = all_.topLeftCorner(p, p);
   normal.diagonal() *= 1.0 + 1e-12;
@@ -184,6 +205,7 @@ void PointFit::solve() {
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   std::set<int> local;
   for (int k = 0; k < p; ++k) {
+    if (normal(k, k) > 1e-20) retained_[k] = 1.0 / (inverse(k, k) * normal(k, k));
     double sum = 0.0, squares = 0.0;
     for (const Eigen::MatrixXd& unit : unit_grams_) {
       if (unit.size() == 0) continue;

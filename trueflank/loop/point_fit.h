@@ -29,6 +29,13 @@ class PointFit {
   /// Errors with some effects left out (and all else refitted): held-out ones from a fit to the
   /// training part, the others from a fit to all.
   [[nodiscard]] Errors errors(const std::vector<bool>& with_effect) const;
+  /// Error [um] with the effects' coefficients given (in the order of columns, the nuisance left out) and
+  /// only the nuisance fitted: what a model learnt elsewhere leaves here.
+  [[nodiscard]] double rms_with_um(const Eigen::VectorXd& effect_coefficients) const;
+  /// Share of a column that is left beside all others: 0 where these data cannot show it.
+  [[nodiscard]] double retained(int column) const { return retained_[column]; }
+  /// Root mean square of a column over the values [um a unit of its coefficient].
+  [[nodiscard]] double column_size(int column) const;
   /// Weighted share of the variance before that vanishes without an effect.
   [[nodiscard]] double explained_fraction(int effect) const;
 
@@ -75,7 +82,7 @@ class PointFit {
   Eigen::MatrixXd train_, all_, plain_held_, plain_all_;
   Eigen::VectorXd coefficients_;
   Eigen::MatrixXd covariance_;
-  std::vector<double> degrees_;
+  std::vector<double> degrees_, retained_;
   double noise_um_ = 0.0, residual_square_ = 0.0;
   int observations_ = 0, held_out_ = 0, zeros_ = 0;
 };

@@ -131,6 +131,8 @@ Result<InspectionData> read_inspection_csv(const std::string& file, std::string_
   data.keys = rows.keys;
   if (const auto zero = rows.keys.find("zero"); zero != rows.keys.end())
     data.common_zero = lowered(zero->second) == "common";
+  if (const auto reference = rows.keys.find("reference"); reference != rows.keys.end())
+    data.from_design = lowered(reference->second) == "design";
   if (const auto ball = rows.keys.find("ball_diameter_mm"); ball != rows.keys.end())
     data.ball_diameter_mm = number_in(ball->second);
   rows.bad.tell(notes);

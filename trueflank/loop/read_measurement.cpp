@@ -42,30 +42,71 @@ FileKind kind_of(const std::string& path, std::string_view text) {
   return FileKind::kUnknown;
 }
 
-template <class T>
-void keep(Result<T> result, std::vector<T>& kept, Errors& errors) {
-  if (result) kept.push_back(std::move(*result));
-  else errors.push_back(result.error());
+/// NAME of a comment line `# part = NAME` (PLY: `comment part = NAME`) before the data; empty: none.
+std::string part_named_in(std::string_view text) {
+  constexpr int kHeaderLines = 60;
+  for (int i = 0; i < kHeaderLines && !text.empty(); ++i) {
+    std::string_view line = trimmed(next_line(text));
+    if (line.starts_with("comment")) line.remove_prefix(7);
+    else if (line.starts_with("#")) line.remove_prefix(1);
+    else continue;
+    const std::size_t equals = line.find('=');
+    if (equals != std::string_view::npos && lowered(trimmed(line.substr(0, equals))) == "part")
+      return std::string(trimmed(line.substr(equals + 1)));
+  }
+  return {};
 }
 
-void read_one(const std::string& path, MeasuredData& data, Errors& errors) {
+/// `PART=FILE`, unless there is a file of that very name.
+std::pair<std::string, std::string> part_and_path(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  std::error_code ignored;
+  if (equals == std::string::npos || equals == 0 || std::filesystem::exists(argument, ignored) ||
+      argument.find_first_of("/\\") < equals)
+    return {{}, argument};
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+template <class T>
+void keep(Result<T> result, const std::string& part, std::vector<T>& kept, Errors& errors) {
+  if (!result) {
+    errors.push_back(result.error());
+    return;
+  }
+  result->part = part;
+  kept.push_back(std::move(*result));
+}
+
+void read_one(const std::string& argument, MeasuredData& data, Errors& errors) {
+  const auto [named, path] = part_and_path(argument);
   const auto text = read_whole_file(path);
   if (!text) {
     errors.push_back(text.error());
     return;
   }
+  const std::string part = named.empty() ? part_named_in(*text) : named;
   switch (kind_of(path, *text)) {
     case FileKind::kScanCsv:
-      keep(read_scan_csv(path, *text, data.notes), data.scans, errors);
+      keep(read_scan_csv(path, *text, data.notes), part, data.scans, errors);
       break;
-    case FileKind::kXyz: keep(read_xyz(path, *text, data.notes), data.scans, errors); break;
-    case FileKind::kMesh: keep(read_scan_mesh(path, *text, data.notes), data.scans, errors); break;
+    case FileKind::kXyz:
+      keep(read_xyz(path, *text, data.notes), part, data.scans, errors);
+      break;
+    case FileKind::kMesh:
+      keep(read_scan_mesh(path, *text, data.notes), part, data.scans, errors);
+      break;
     case FileKind::kInspection:
-      keep(read_inspection_csv(path, *text, data.notes), data.inspections, errors);
+      keep(read_inspection_csv(path, *text, data.notes), part, data.inspections, errors);
       break;
-    case FileKind::kSizes: keep(read_sizes_csv(path, *text, data.notes), data.sizes, errors); break;
-    case FileKind::kMka: keep(read_mka(path, *text, data.notes), data.inspections, errors); break;
-    case FileKind::kGde: keep(read_gde(path, *text, data.notes), data.inspections, errors); break;
+    case FileKind::kSizes:
+      keep(read_sizes_csv(path, *text, data.notes), part, data.sizes, errors);
+      break;
+    case FileKind::kMka:
+      keep(read_mka(path, *text, data.notes), part, data.inspections, errors);
+      break;
+    case FileKind::kGde:
+      keep(read_gde(path, *text, data.notes), part, data.inspections, errors);
+      break;
     case FileKind::kUnknown:
       errors.push_back(
           {.code = ErrorCode::kSyntax,

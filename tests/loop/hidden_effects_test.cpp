@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "tests/loop/counted_runs.h"
+
+// Effects in pairs, at every strength, in bad data, and effects that the library has no name for.
+namespace trueflank::test {
+namespace {
+
+using loop::Verdict;
+
+struct Hidden {
+  std::string id;
+  Process process;
+};
+
+/// One of each sort, each about three times the noise of 5 um.
+std::vector<Hidden> hidden_effects() {
+  return {{"eccentricity", off_centre(15, 30)},
+          {"axis_tilt", leaning(4, 110)},
+          {"scale", scaled(0.25)},
+          {"crowning", grown([](auto&, const FlankSpot& s, auto&) { return -15.0 * s.v * s.v; })},
+          {"helix_error", twisted(20)},
+          {"pitch_wave", indexed(4, 12, 70)},
+          {"lobing", out_of_round(3, 15, -40)}};
+}
+
+ScanOptions small_scan(unsigned seed = 1) {
+  ScanOptions options;
+  options.points = 4000;
+  options.seed = seed;
+  return options;
+}
+
+TEST(HiddenEffects, InPairsAreBothNamed) {
+  const auto all = hidden_effects();
+  const MadeGear gear = spur(18);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = i + 1; k < all.size(); ++k) {
+      const auto result =
+          close(gear, scan_of(gear, {all[i].process, all[k].process}, small_scan()), true);
+      SCOPED_TRACE(all[i].id + " + " + all[k].id + " -> " + list(result));
+      EXPECT_EQ(result.effects.size(), 2u);
+      EXPECT_NE(find(result, all[i].id), nullptr);
+      EXPECT_NE(find(result, all[k].id), nullptr);
+      EXPECT_LT(result.after.held_out_rms, 5.0 * 1.2);
+    }
+}
+
+TEST(HiddenEffects, AreNeverNamedWronglyHoweverWeak) {
+  // 0 to 10 sigma: what is found has the right name, and from one sigma on it is found.
+  const MadeGear gear = spur(18);
+  for (const double strength : {0.0, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const double um = 5.0 * strength;
+    const std::vector<Hidden> cases = {
+        {"eccentricity", off_centre(um, 30)},
+        {"crowning", grown([um](auto&, const FlankSpot& s, auto&) { return -um * s.v * s.v; })},
+        {"lobing", out_of_round(3, um, -40)}};
+    for (const Hidden& c : cases) {
+      const auto result = close(gear, scan_of(gear, {c.process}, small_scan(9)), true);
+      SCOPED_TRACE(c.id + " at " + std::to_string(strength) + " sigma -> " + list(result));
+      EXPECT_EQ(result.effects.empty(), result.verdict == Verdict::kNoEffect);
+      if (strength == 0.0) {
+        EXPECT_EQ(result.verdict, Verdict::kNoEffect);
+      } else if (strength >= 1.0) {
+        EXPECT_NE(find(result, c.id), nullptr);
+        EXPECT_EQ(result.effects.size(), 1u);
+      }
+      for (const auto& effect : result.effects) {
+        if (!effect.named || effect.id == c.id) continue;
+        EXPECT_NE(std::find(effect.confounded_with.begin(), effect.confounded_with.end(), c.id),
+                  effect.confounded_with.end())
+            << effect.id;
+      }
+    }
+  }
+}
+
+TEST(HiddenEffects, AreFoundInBadData) {
+  const MadeGear gear = spur(18);
+  for (const double correlation : {0.0, 0.8}) {
+    ScanOptions options = small_scan(3);
+    options.correlation = correlation;
+    options.outlier_share = 0.05;
+    options.missing_teeth = {2, 3, 11};
+    for (const Hidden& c : {hidden_effects()[0], hidden_effects()[3], hidden_effects()[6]}) {
+      const auto result = close(gear, scan_of(gear, {c.process}, options), true);
+      SCOPED_TRACE(c.id + " -> " + list(result));
+      EXPECT_EQ(result.effects.size(), 1u);
+      EXPECT_NE(find(result, c.id), nullptr);
+      // Outliers below six times the noise cannot be told from it.
+      EXPECT_GT(result.noise, 4.5);
+      EXPECT_LT(result.noise, 8.0);
+    }
+  }
+}
+
+TEST(HiddenEffects, AreFoundInAnyPoseWhereThePoseCannotHideThem) {
+  const MadeGear gear = spur(18);
+  for (const Hidden& c : {hidden_effects()[2], hidden_effects()[3], hidden_effects()[6]}) {
+    ScanOptions options = small_scan(5);
+    options.any_pose = true;
+    const auto result = close(gear, scan_of(gear, {c.process}, options), false);
+    SCOPED_TRACE(c.id + " -> " + list(result));
+    EXPECT_EQ(result.effects.size(), 1u);
+    EXPECT_NE(find(result, c.id), nullptr);
+  }
+}
+
+TEST(HiddenEffects, OfHelicalGearsAreFoundInScansAndTraces) {
+  MadeGear gear = helical(21, 25);
+  const std::vector<Hidden> in_scans = {hidden_effects()[0], hidden_effects()[2], hidden_effects()[4]};
+  for (const Hidden& c : in_scans) {
+    const auto result = close(gear, scan_of(gear, {c.process}, small_scan(2)), true);
+    SCOPED_TRACE(c.id + " in a scan -> " + list(result));
+    EXPECT_EQ(result.effects.size(), 1u);
+    EXPECT_NE(find(result, c.id), nullptr);
+    EXPECT_LT(result.after.held_out_rms, 5.0 * 1.1);
+  }
+  for (const Hidden& c : {Hidden{"eccentricity", off_centre(5, 30)}, Hidden{"axis_tilt", leaning(1, 60)},
+                          Hidden{"helix_error", twisted(6)}}) {
+    const auto result = close(gear, inspection_of(gear, {c.process}, {}));
+    SCOPED_TRACE(c.id + " in traces -> " + list(result));
+    EXPECT_EQ(result.effects.size(), 1u);
+    EXPECT_NE(find(result, c.id), nullptr);
+    EXPECT_LT(result.after.held_out_rms, 0.5 * 1.2);
+  }
+}
+
+TEST(HiddenEffects, OfRingsAreFound) {
+  const MadeGear gear = ring(45);
+  for (const Hidden& c : {hidden_effects()[0], hidden_effects()[2], hidden_effects()[6]}) {
+    const auto result = close(gear, scan_of(gear, {c.process}, small_scan(4)), true);
+    SCOPED_TRACE(c.id + " -> " + list(result));
+    EXPECT_EQ(result.effects.size(), 1u);
+    EXPECT_NE(find(result, c.id), nullptr);
+  }
+}
+
+/// Structure of no name: found, described by what it depends on, and no cause invented.
+struct Nameless {
+  std::string what, words;  ///< words that its description must hold
+  Process process;
+};
+
+TEST(HiddenEffects, WithoutANameAreDescribedAndGivenNoCause) {
+  const MadeGear gear = spur(20);
+  const std::vector<Nameless> cases = {
+      {"saddle", "crowned over the face",
+       grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+         return 14.0 * (s.v * s.v - 1.0 / 3.0) * std::cos(2.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth);
+       })},
+      {"lean twice per turn", "twice per turn",
+       grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+         return 12.0 * s.v * std::cos(2.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth - 0.7);
+       })},
+      {"S over the profile", "S-shaped over the profile",
+       grown([](auto&, const FlankSpot& s, auto&) { return 14.0 * (s.u * s.u * s.u - 0.6 * s.u); })},
+      {"thickness wave", "equal on both flanks",
+       grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+         return 12.0 * std::cos(5.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth) * (1.0 + s.u);
+       })}};
+  for (const Nameless& c : cases) {
+    const auto result = close(gear, scan_of(gear, {c.process}, small_scan(6)), true);
+    SCOPED_TRACE(c.what + " -> " + list(result));
+    ASSERT_FALSE(result.effects.empty());
+    std::string described;
+    for (const auto& effect : result.effects) {
+      EXPECT_FALSE(effect.named) << effect.id;
+      EXPECT_TRUE(effect.cause.empty());
+      described += effect.description + " ";
+    }
+    EXPECT_NE(described.find(c.words), std::string::npos) << described;
+    EXPECT_LT(result.after.held_out_rms, 5.0 * 1.2);
+  }
+}
+
+TEST(HiddenEffects, BeyondTheFreeFormLeaveTheVerdictPartly) {
+  // A dent of 40 um on one flank, and a wave too fine for the free form over the face.
+  const MadeGear gear = spur(20);
+  const Process dent = grown([](auto&, const FlankSpot& s, auto&) {
+    const double du = s.u / 0.3, dv = (s.v - 0.3) / 0.3;
+    return s.tooth == 6 && s.side > 0 ? -120.0 * std::exp(-du * du - dv * dv) : 0.0;
+  });
+  const auto dented = close(gear, scan_of(gear, {dent}, small_scan(8)), true);
+  for (const auto& effect : dented.effects)
+    EXPECT_TRUE(!effect.named || effect.id == "single_tooth") << list(dented);
+  const bool tooth_named =
+      std::any_of(dented.effects.begin(), dented.effects.end(), [](const auto& effect) {
+        return effect.description.find("tooth 6") != std::string::npos || effect.id == "single_tooth";
+      });
+  EXPECT_TRUE(tooth_named || dented.verdict == Verdict::kPartlyExplained) << list(dented);
+}
+
+TEST(HiddenEffects, OfGearsWithFewTeethAreFound) {
+  MadeGear gear = spur(17);
+  gear.teeth = 17;
+  for (const int teeth : {6, 8}) {
+    MadeGear small = gear;
+    small.teeth = teeth;
+    small.shift = 0.6;
+    small.tip_mm = small.reference() + 1.2;
+    small.root_form_mm = ToothProfile::make(design_of(small))->root_form_radius_mm();
+    const auto result =
+        close(small, scan_of(small, {scaled(0.4)}, small_scan(4)), true);
+    EXPECT_NE(find(result, "scale"), nullptr) << teeth << ": " << list(result);
+  }
+}
+
+TEST(HiddenEffects, FiveTracesAreEnoughForWhatTheyShow) {
+  const MadeGear gear = spur(20);
+  InspectionOptions options;
+  options.teeth = {1, 5, 9, 13, 17};
+  options.helix = options.index = false;
+  const Process crowned = grown([](auto&, const FlankSpot& s, auto&) { return -5.0 * s.u * s.u; });
+  auto data = inspection_of(gear, {crowned}, options);
+  std::erase_if(data.rows, [](const auto& row) { return row.flank == Flank::kRight; });
+  const auto result = close(gear, data);
+  ASSERT_EQ(result.effects.size(), 1u) << list(result);
+  EXPECT_EQ(result.effects[0].id, "profile_crowning");
+  EXPECT_NE(std::find(result.not_observable.begin(), result.not_observable.end(), "helix_error"),
+            result.not_observable.end());
+}
+
+}  // namespace
+}  // namespace trueflank::test

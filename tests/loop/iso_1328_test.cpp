@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/iso_1328.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/loop/made_gears.h"
+
+// Deviations and classes to ISO 1328-1:2013 against values worked out by hand.
+namespace trueflank::test {
+namespace {
+
+const loop::Iso1328Row& row_of(const loop::Iso1328& table, const std::string& symbol) {
+  for (const auto& row : table.rows)
+    if (row.symbol == symbol) return row;
+  throw std::runtime_error("no row " + symbol);
+}
+
+loop::Iso1328 evaluated(const MadeGear& gear, const std::vector<Process>& processes) {
+  InspectionOptions options;
+  options.noise_um = 0.0;
+  options.points = 200;
+  loop::MeasuredData data;
+  data.inspections.push_back(inspection_of(gear, processes, options));
+  return loop::iso_1328(*loop::close_loop(geometry_of(gear), "gear", data, {}));
+}
+
+TEST(Iso1328, TolerancesAreThoseOfTheStandard) {
+  // m_n 3, d 120, class 6: f_pT = (0.12 + 1.2 + 5) sqrt(2) = 8.94, rounded to halves: 9.0.
+  EXPECT_DOUBLE_EQ(loop::iso_1328_tolerance_um(0.001 * 120 + 0.4 * 3 + 5, 6), 9.0);
+  // Above 10 to whole, below 5 to tenths.
+  EXPECT_DOUBLE_EQ(loop::iso_1328_tolerance_um(10.6, 5), 11.0);
+  EXPECT_DOUBLE_EQ(loop::iso_1328_tolerance_um(8.0, 3), 4.0);
+  EXPECT_DOUBLE_EQ(loop::iso_1328_tolerance_um(6.8, 4), 4.8);
+}
+
+TEST(Iso1328, BracketsAreThoseOfTheStandard) {
+  MadeGear gear = spur(40);
+  gear.module_mm = 3.0;
+  gear.face_mm = 25.0;
+  gear.tip_mm = gear.reference() + 3.0;
+  gear.root_form_mm = ToothProfile::make(design_of(gear))->root_form_radius_mm();
+  const auto table = evaluated(gear, {});  // d = 120, m = 3, b = 25
+  EXPECT_TRUE(table.in_scope);
+  EXPECT_NEAR(row_of(table, "fp").bracket_um, 6.32, 1e-9);
+  EXPECT_NEAR(row_of(table, "Fp").bracket_um, 0.24 + 0.55 * 10.954451 + 2.1 + 12.0, 1e-6);
+  EXPECT_NEAR(row_of(table, "fHa").bracket_um, 5.32, 1e-9);
+  EXPECT_NEAR(row_of(table, "ffa").bracket_um, 6.65, 1e-9);
+  EXPECT_NEAR(row_of(table, "Fa").bracket_um, 8.51615, 1e-4);   // sqrt(5.32^2 + 6.65^2)
+  EXPECT_NEAR(row_of(table, "fHb").bracket_um, 0.05 * 10.954451 + 1.75 + 4.0, 1e-6);
+  EXPECT_NEAR(row_of(table, "ffb").bracket_um, 0.07 * 10.954451 + 2.25 + 4.0, 1e-6);
+}
+
+TEST(Iso1328, SlopesAndPitchOfAKnownGearAreRead) {
+  const MadeGear gear = spur(20);  // d = 20, m = 1, b = 10
+  const auto leaning_profile =
+      evaluated(gear, {grown([](auto&, const FlankSpot& s, auto&) { return 4.0 * s.u; })});
+  // Evaluated over 22 of 24 parts of the flank: 8 um root to tip are 8 * 22 / 24 there, less at most a part.
+  EXPECT_NEAR(row_of(leaning_profile, "fHa").value_um, 8.0 * 22.0 / 24.0, 0.4);
+  EXPECT_LT(row_of(leaning_profile, "ffa").value_um, 0.2);
+  EXPECT_LT(row_of(leaning_profile, "fHb").value_um, 0.2);
+  const auto turned = evaluated(gear, {twisted(12)});
+  EXPECT_NEAR(row_of(turned, "fHb").value_um, 12.0 * 22.0 / 24.0, 0.5);
+  // Eccentricity: cumulative pitch on a flank goes up and down by 2 e / cos(alpha) along the circle.
+  const auto off = evaluated(gear, {off_centre(10, 0)});
+  EXPECT_NEAR(row_of(off, "Fp").value_um, 20.0 / std::cos(gear.pressure_angle_rad), 0.4);
+  // Neighbours differ by at most 2 sin(pi / z) of the amplitude.
+  EXPECT_NEAR(row_of(off, "fp").value_um,
+              2.0 * std::sin(M_PI / 20.0) * 10.0 / std::cos(gear.pressure_angle_rad), 0.1);
+}
+
+TEST(Iso1328, GivesTheSmallestClassThatHoldsAndNoneOutOfScope) {
+  const MadeGear gear = spur(20);
+  const auto table = evaluated(gear, {twisted(12)});
+  const auto& row = row_of(table, "fHb");
+  ASSERT_GT(row.accuracy_class, 1);
+  EXPECT_LE(row.value_um, loop::iso_1328_tolerance_um(row.bracket_um, row.accuracy_class));
+  EXPECT_GT(row.value_um, loop::iso_1328_tolerance_um(row.bracket_um, row.accuracy_class - 1));
+  MadeGear narrow = spur(20);
+  narrow.face_mm = 3.0;
+  const auto outside = evaluated(narrow, {twisted(12)});
+  EXPECT_FALSE(outside.in_scope);
+  for (const auto& each : outside.rows) EXPECT_EQ(each.accuracy_class, 0);
+}
+
+}  // namespace
+}  // namespace trueflank::test

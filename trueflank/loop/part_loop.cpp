@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/part_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/loop/finite_displacement.h"
+#include "trueflank/loop/found_effects.h"
+#include "trueflank/loop/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Order around the gear of a named effect, and how much of what it explains may stay unexplained at that
+/// order before the name is doubted; 0: no wave.
+struct Kin {
+  double order = 0.0, share = 0.0;
+};
+Kin kin_of(const Effect& effect) {
+  const std::string& id = effect.family->id;
+  if ((id == "pitch_wave" || id == "lobing" || id == "ghost_order") && effect.shape[0] >= 2.0)
+    return {effect.shape[0], 0.05};
+  if (id == "scale_xy" || id == "skew") return {2.0, 0.3};
+  return {};
+}
+
+}  // namespace
+
+PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options options)
+    : geometry_(geometry),
+      options_(std::move(options)),
+      measured_(std::move(table)),
+      table_(measured_),
+      candidates_(candidate_effects(geometry, options_.declared)) {
+  banned_.assign(candidates_.size(), false);
+}
+
+void PartLoop::run() {
+  patches_ = make_patches(geometry_, table_);
+  ban_what_cannot_be_seen();
+  ban_given();
+  for (int round = 0; round < 5; ++round) {
+    select();
+    // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
+    // leaves is taken for another effect.
+    bool again = put_refined_shapes_on_the_grid();
+    again = ban_misnamed() || again;
+    again = linearise() || again;
+    if (!again) break;
+  }
+  look_at_single_teeth();
+}
+
+/// What the data cannot show is not looked for under another name: shapes over the profile where nothing
+/// was measured along it, over the face likewise. A wave over the generating rotation shows along the
+/// profile only; in values one a tooth every order looks like a lower one.
+void PartLoop::ban_what_cannot_be_seen() {
+  bool along_profile = false, along_face = false;
+  for (const Observation& row : table_.rows) {
+    const bool scan = row.kind == ObservationKind::kScanFlank;
+    along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
+    along_face = along_face || scan || row.kind == ObservationKind::kHelix;
+  }
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const std::string& id = candidates_[g].family->id;
+    const auto& shape = candidates_[g].shape;
+    if (!along_profile && (id == "ghost_order" || id == "flank_twist" || id == "flank_wear" ||
+                           id == "tip_relief" || (id == "unnamed" && shape[0] > 0.0)))
+      banned_[g] = true;
+    if (!along_face && (id == "flank_twist" || (id == "unnamed" && shape[1] > 0.0)))
+      banned_[g] = true;
+  }
+}
+
+/// What is given does not enter again, nor at a neighbouring shape.
+void PartLoop::ban_given() {
+  for (const Effect& given : options_.given)
+    for (std::size_t g = 0; g < candidates_.size(); ++g) {
+      const Effect& candidate = candidates_[g];
+      if (candidate.family == given.family && candidate.flank == given.flank &&
+          (candidate.shape == given.shape || given.family->shape_is_continuous))
+        banned_[g] = true;
+    }
+}
+
+void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
+  const auto before = problem.nuisance.cols();
+  problem.nuisance.conservativeResize(Eigen::NoChange, before + fitted.candidates.cols());
+  problem.nuisance.rightCols(fitted.candidates.cols()) = fitted.candidates.cast<double>();
+}
+
+void PartLoop::select() {
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, candidates_);
+  if (!options_.given.empty())
+    add_nuisance(problem, make_problem(geometry_, table_, patches_, options_.given));
+  DiscoveryOptions options;
+  options.banned = banned_;
+  options.first_level /= options_.tables;
+  options.next_level /= options_.tables;
+  options.local_level /= options_.tables;
+  discovery_ = discover(problem, options);
+  // What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
+  constexpr double kFileRounding_um = 0.01;
+  if (PointFit(geometry_, measured_, patches_, {}).errors({}).rms_um < kFileRounding_um) {
+    discovery_.chosen.clear();
+    discovery_.first_p_value = discovery_.p_left = 1.0;
+  }
+  effects_ = options_.given;
+  for (const ChosenGroup& chosen : discovery_.chosen) effects_.push_back(candidates_[chosen.group]);
+  ChosenGroup record;
+  record.group = -1;
+  discovery_.chosen.insert(discovery_.chosen.begin(), options_.given.size(), record);
+}
+
+void PartLoop::leave_out_across_steps() {
+  for (const Effect& effect : effects_)
+    if (effect.family->id == "layer_shift") patches_.leave_out_across(effect.shape[0]);
+}
+
+/// True where a shape moved noticeably.
+bool PartLoop::put_refined_shapes_on_the_grid() {
+  const std::vector<Effect> chosen = effects_;
+  refine_shapes(geometry_, table_, patches_, effects_);
+  std::copy(options_.given.begin(), options_.given.end(), effects_.begin());
+  leave_out_across_steps();
+  bool moved = false;
+  for (std::size_t i = options_.given.size(); i < effects_.size(); ++i) {
+    for (std::size_t k = 0; k < effects_[i].shape.size(); ++k)
+      moved = moved || std::abs(effects_[i].shape[k] - chosen[i].shape[k]) >
+                           3e-3 * std::abs(chosen[i].shape[k]);
+    candidates_[discovery_.chosen[i].group].shape = effects_[i].shape;
+  }
+  return moved;
+}
+
+/// True where finite displacements changed the deviations by more than the noise can hide.
+bool PartLoop::linearise() {
+  const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+    return static_cast<bool>(effect.family->displacement_mm);
+  });
+  if (!body || measured_.points_mm.empty()) return false;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  const double change = linearise_at(geometry_, fit, measured_, table_);
+  if (!(change > 0.02 * fit.noise_um())) return false;
+  patches_ = make_patches(geometry_, table_);
+  leave_out_across_steps();
+  return true;
+}
+
+std::vector<std::string> PartLoop::not_observable() const {
+  std::vector<std::string> seen, hidden;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (g < discovery_.observable.size() && discovery_.observable[g])
+      seen.push_back(candidates_[g].family->id);
+  for (const Effect& given : options_.given) seen.push_back(given.family->id);
+  const auto look = [&](const EffectFamily& family) {
+    if (family.named && !family.local && std::find(seen.begin(), seen.end(), family.id) == seen.end())
+      hidden.push_back(family.id);
+  };
+  if (options_.declared)
+    for (const EffectFamily& family : *options_.declared) look(family);
+  for (const EffectFamily& family : effect_library()) look(family);
+  return hidden;
+}
+
+/// Bans named effects that cannot be meant: an amount of the wrong sign; a wave whose kin of the same
+/// order remain unexplained, which is not that wave and is better described. True where any was.
+bool PartLoop::ban_misnamed() {
+  bool any = ban_wrong_signs();
+  const auto ban = [&](std::size_t group) {
+    any = any || !banned_[group];
+    banned_[group] = true;
+  };
+  for (const ChosenGroup& named : discovery_.chosen) {
+    if (named.group < 0) continue;
+    const Effect& effect = candidates_[named.group];
+    const std::string& id = effect.family->id;
+    const Kin kin = kin_of(effect);
+    if (kin.order == 0) continue;
+    for (const ChosenGroup& other : discovery_.chosen) {
+      if (other.group < 0) continue;
+      const Effect& term = candidates_[other.group];
+      if (term.family->id != "unnamed" || other.gain < kin.share * named.gain) continue;
+      if (id == "ghost_order" ? term.shape[2] == 0.0 : term.shape[2] != kin.order) continue;
+      for (std::size_t g = 0; g < candidates_.size(); ++g)
+        if (candidates_[g].family->named && candidates_[g].shape == effect.shape &&
+            candidates_[g].family->shape_names == effect.family->shape_names)
+          ban(g);
+    }
+  }
+  return any;
+}
+
+bool PartLoop::ban_wrong_signs() {
+  if (effects_.empty()) return false;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  bool any = false;
+  for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (!effect.family->only_positive) continue;
+    if (fit.coefficients()[fit.first_column(static_cast<int>(e))] > 0.0) continue;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank)
+        banned_[g] = any = true;
+  }
+  return any;
+}
+
+/// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
+void PartLoop::look_at_single_teeth() {
+  std::vector<Effect> local;
+  for (const Effect& effect : candidates_) {
+    if (!effect.family->local) continue;
+    const bool chosen = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& e) {
+      return e.family == effect.family && e.shape == effect.shape && e.flank == effect.flank;
+    });
+    if (!chosen) local.push_back(effect);
+  }
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, local);
+  add_nuisance(problem, make_problem(geometry_, table_, patches_, effects_));
+  for (int& fold : problem.fold)
+    if (fold == 0) fold = 1;
+  DiscoveryOptions options;
+  options.first_level = options.next_level = 0.0;
+  options.local_level /= options_.tables;
+  options.flips = 1;
+  options.most_effects = 3;
+  for (const ChosenGroup& chosen : discover(problem, options).chosen) {
+    effects_.push_back(local[chosen.group]);
+    ChosenGroup record = chosen;
+    record.group = -1;
+    discovery_.chosen.push_back(record);
+  }
+}
+
+bool PartLoop::structure_is_left() const {
+  constexpr double kLeft = 0.02, kLeftOfNothing = 0.01;
+  if (effects_.empty()) return discovery_.first_p_value <= kLeftOfNothing / options_.tables;
+  return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
+}
+
+std::string PartLoop::structure_left() const {
+  if (!structure_is_left() || discovery_.likest_left < 0)
+    return "nothing beyond the measurement's own noise was found";
+  return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);
+}
+
+}  // namespace trueflank::loop
