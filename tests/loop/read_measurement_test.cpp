@@ -134,7 +134,7 @@ TEST(Mka, ReadsTracesOverTheMeasuredRange) {
       " 45 :Ende Messbereich......be  [mm]..:  42.0\n"
       "Profil:  Zahn-Nr.: 1a rechts / 3 Werte  / z= 21.0\n  1.0  2.0\n -2147483.648\n\n"
       "Flankenlinie:  Zahn-Nr.: 12 links / 3 Werte  / d= 178.0\n 0.5 0.6 0.7\n\n"
-      "linke Zahnflanke\n";
+      "linke Zahnflanke\n";  // an empty table
   const auto data = read_mka("a.mka", text, notes);
   ASSERT_TRUE(data);
   ASSERT_EQ(data->rows.size(), 5u);
@@ -144,6 +144,28 @@ TEST(Mka, ReadsTracesOverTheMeasuredRange) {
   EXPECT_EQ(data->rows[1].diameter_to_mm, 182.8);
   EXPECT_EQ(data->rows[3].z_mm, 21.0);
   EXPECT_EQ(data->rows[4].tooth, 12);
+  EXPECT_EQ(notes.size(), 1u);
+}
+
+TEST(Mka, ReadsPitchTablesCountedClockwise) {
+  Notes notes;
+  const std::string text =
+      "  21 :Normalmodul mn........[mm]..:  1.859\n"
+      "  22 :Z\xE4hnezahl..............:  4\n"
+      "        linke Zahnflanke\n        Zahn-Nr.  fp  Fp  Fr\n\n  1  0.0 0.0 0.3\n  2  1.5 1.5 0.1\n"
+      "  3  0.5 2.0 0.2\n  4  -1.0 1.0 0\n\n"
+      "        rechte Zahnflanke\n        Zahn-Nr.  fp  Fp  Fr\n  1  0.1 0.1 0.3\n  2 0 -2147483.648 0\n"
+      "Teilung:\n";
+  const auto data = read_mka("a.mka", text, notes);
+  ASSERT_TRUE(data);
+  ASSERT_EQ(data->rows.size(), 5u);
+  EXPECT_EQ(data->rows[0].tooth, 1);
+  EXPECT_EQ(data->rows[1].tooth, 4);  // the second clockwise is the last counter-clockwise
+  EXPECT_EQ(data->rows[3].tooth, 2);
+  EXPECT_EQ(data->rows[1].record, RecordKind::kIndex);
+  EXPECT_TRUE(data->rows[1].along_circle);
+  EXPECT_EQ(data->rows[1].deviation_um, -1.5);
+  EXPECT_EQ(data->rows[4].flank, Flank::kRight);
   EXPECT_EQ(notes.size(), 1u);
 }
 

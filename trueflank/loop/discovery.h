@@ -17,10 +17,10 @@ struct CandidateGroup {
   int first_column = 0;
   int columns = 1;
   int preference = 0;      ///< of candidates that explain equally well the one with the lowest wins
-  double complexity = 0.0; ///< of candidates of one preference and size the simplest wins
   /// Groups of one family that each live in one unit (one tooth) are judged against each other.
   int local_family = -1;   ///< -1: not local
   int kin = -1;            ///< groups that are one effect at other shape parameters; -1: none
+  double complexity = 0.0; ///< of candidates of one preference and size the simplest wins
 };
 
 struct DiscoveryProblem {

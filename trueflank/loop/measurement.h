@@ -37,6 +37,9 @@ struct InspectionRow {
   double z_mm = kNaN;
   double deviation_um = 0.0;
   double sigma_um = kNaN;
+  /// Index rows of machines: an arc in the transverse section, + = counter-clockwise, in place of the
+  /// deviation along the normal.
+  bool along_circle = false;
   int line = 0;  ///< in the file
 };
 struct InspectionData {

@@ -199,7 +199,13 @@ class TableBuilder {
     const bool index = row.record == RecordKind::kIndex;
     const std::array<int, 4> key{static_cast<int>(row.record), index ? 0 : row.tooth, side, source};
     const int trace = zero_of(data, key, traces);
-    Observation& added = add_row(kKinds[static_cast<int>(row.record)], row.deviation_um,
+    // Along the circle the flank goes further than along its normal, by 1 / (cos(alpha_y) cos(beta_b)).
+    const double share = row.along_circle
+                             ? side * geometry_.base_radius_mm() /
+                                   std::hypot(geometry_.base_radius_mm(), roll) *
+                                   std::cos(geometry_.base_helix_rad())
+                             : 1.0;
+    Observation& added = add_row(kKinds[static_cast<int>(row.record)], share * row.deviation_um,
                                  row.sigma_um, source);
     added.trace = trace;
     add_place(added, geometry_.on_flank(row.tooth, side, roll, z), 1.0);

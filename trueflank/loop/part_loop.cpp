@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/loop/distributions.h"
 #include "trueflank/loop/finite_displacement.h"
 #include "trueflank/loop/found_effects.h"
 #include "trueflank/loop/shape_refinement.h"
@@ -49,6 +50,7 @@ void PartLoop::run() {
     if (!again) break;
   }
   look_at_single_teeth();
+  look_at_sizes();
 }
 
 /// What the data cannot show is not looked for under another name: shapes over the profile where nothing
@@ -229,6 +231,45 @@ void PartLoop::look_at_single_teeth() {
     effects_.push_back(local[chosen.group]);
     ChosenGroup record = chosen;
     record.group = -1;
+    discovery_.chosen.push_back(record);
+  }
+}
+
+/// Sizes are few and know their own error: what they say of thickness, which traces with zeros of their own
+/// cannot show, is judged by chi-square.
+void PartLoop::look_at_sizes() {
+  constexpr double kSure = 1e-3, kTie = 4.0;
+  const auto sizes = std::count_if(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+    return row.kind == ObservationKind::kSize;
+  });
+  for (int round = 0; round < 2 && sizes > 0; ++round) {
+    const double before = PointFit(geometry_, table_, patches_, effects_).residual_square();
+    int best = -1;
+    std::vector<std::pair<int, double>> tried;
+    for (int g = 0; g < static_cast<int>(candidates_.size()); ++g) {
+      const Effect& effect = candidates_[g];
+      const std::string& id = effect.family->id;
+      if ((id != "tooth_thickness" && id != "contour_offset" && id != "scale") || banned_[g] ||
+          std::any_of(effects_.begin(), effects_.end(),
+                      [&](const Effect& e) { return e.family == effect.family; }))
+        continue;
+      std::vector<Effect> with = effects_;
+      with.push_back(effect);
+      const PointFit fit(geometry_, table_, patches_, with);
+      if (fit.retained(fit.first_column(static_cast<int>(effects_.size()))) < 2e-3) continue;
+      tried.emplace_back(g, before - fit.residual_square());
+      if (best < 0 || tried.back().second > tried[best].second) best = static_cast<int>(tried.size()) - 1;
+    }
+    if (best < 0) return;
+    const double tests = static_cast<double>(tried.size()) * options_.tables;
+    const double p = std::min(1.0, tests * std::exp(-minus_log_chi_square_tail(tried[best].second, 1)));
+    if (p > kSure) return;
+    ChosenGroup record;
+    record.group = tried[best].first;
+    record.p_value = p;
+    for (const auto& [group, gain] : tried)
+      if (group != record.group && tried[best].second - gain < kTie) record.confounded.push_back(group);
+    effects_.push_back(candidates_[record.group]);
     discovery_.chosen.push_back(record);
   }
 }

@@ -43,6 +43,7 @@ class PartLoop {
   [[nodiscard]] bool ban_misnamed();
   [[nodiscard]] bool ban_wrong_signs();
   void look_at_single_teeth();
+  void look_at_sizes();
   void leave_out_across_steps();
 
   const FlankGeometry& geometry_;

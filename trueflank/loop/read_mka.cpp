@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "trueflank/loop/read_measurement.h"
@@ -15,6 +16,7 @@ constexpr double kUndefined = -2147483.0;  // the machine's mark for a missing p
 struct Header {
   double profile_start = kNaN, profile_end = kNaN;  // diameters da, de
   double helix_start = kNaN, helix_end = kNaN;      // ba, be
+  int teeth = 0;
 };
 
 /// First number behind the label of a header line.
@@ -39,6 +41,10 @@ bool mentions(std::string_view line, std::string_view mark) {
 
 void read_header_line(std::string_view line, Header& header) {
   const std::string low = lowered(line);
+  if (low.find("hnezahl") != std::string::npos || low.find("number of teeth") != std::string::npos) {
+    const double teeth = first_value(line);
+    if (teeth >= 3.0 && teeth <= 10000.0) header.teeth = static_cast<int>(std::abs(teeth));
+  }
   const bool range = low.find("messbereich") != std::string::npos ||
                      low.find("meas") != std::string::npos;
   if (!range) return;
@@ -108,6 +114,39 @@ void add_rows(const Block& block, const Header& header, InspectionData& data, Ba
   }
 }
 
+/// "linke Zahnflanke" over a table of tooth, fp, Fp, Fr: the flank; nothing for other lines.
+std::optional<Flank> pitch_table_head(const std::string& low) {
+  if (low.find("zahnflanke") == std::string::npos) return std::nullopt;
+  if (low.find("linke") != std::string::npos) return Flank::kLeft;
+  if (low.find("rechte") != std::string::npos) return Flank::kRight;
+  return std::nullopt;
+}
+
+/// Cumulative pitch Fp of a tooth. The machine counts teeth, and pitch deviations, clockwise: the records of
+/// a real gear agree with each other only so (docs/loop.md).
+bool add_pitch_row(const std::vector<std::string_view>& fields, Flank flank, int line,
+                   InspectionData& data) {
+  if (fields.size() < 3) return false;
+  const double tooth = number_in(fields[0]), total = number_in(fields[2]);
+  if (!(tooth >= 1.0) || tooth != std::floor(tooth) || tooth > 1e6 || std::isnan(total)) return false;
+  if (total < kUndefined) return true;
+  InspectionRow row;
+  row.record = RecordKind::kIndex;
+  row.tooth = static_cast<int>(tooth);
+  row.flank = flank;
+  row.deviation_um = -total;
+  row.along_circle = true;
+  row.line = line;
+  data.rows.push_back(row);
+  return true;
+}
+
+/// Clockwise numbers to counter-clockwise ones; tooth 1 stays.
+void count_the_other_way(int teeth, InspectionData& data) {
+  for (InspectionRow& row : data.rows)
+    if (row.tooth >= 1 && row.tooth <= teeth) row.tooth = (teeth + 1 - row.tooth) % teeth + 1;
+}
+
 }  // namespace
 
 Result<InspectionData> read_mka(const std::string& file, std::string_view text,
@@ -121,6 +160,7 @@ Result<InspectionData> read_mka(const std::string& file, std::string_view text,
   std::set<std::string> unknown;
   std::vector<std::string_view> fields;
   bool in_block = false;
+  std::optional<Flank> pitch;  ///< flank of the pitch table the lines are in
   int line_number = 0;
   while (!text.empty()) {
     const std::string_view line = trimmed(next_line(text));
@@ -140,14 +180,20 @@ Result<InspectionData> read_mka(const std::string& file, std::string_view text,
       continue;
     }
     in_block = false;
+    if (pitch && numbers && add_pitch_row(fields, *pitch, line_number, data)) continue;
     read_header_line(line, header);
     const std::string low = lowered(line);
-    if (low.find("zahnflanke") != std::string::npos || low.starts_with("teilung"))
-      unknown.insert("pitch tables (their sign is not confirmed)");
+    if (const auto flank = pitch_table_head(low)) pitch = flank;
+    else if (low.find("fp") == std::string::npos) pitch.reset();
+    if (low.starts_with("teilung")) unknown.insert("probed positions of the pitch measurement");
     if (low.starts_with("topografie") || low.starts_with("verschr"))
       unknown.insert("topography and twist blocks");
   }
   for (const Block& read : blocks) add_rows(read, header, data, bad);
+  if (header.teeth > 0) count_the_other_way(header.teeth, data);
+  else if (!data.rows.empty())
+    notes.push_back(file + ": the header names no number of teeth; teeth are taken as counted "
+                           "counter-clockwise");
   if (data.rows.empty())
     return fail(bad.error("the MKA file holds no profile or helix trace that could be read"));
   bad.tell(notes);
