@@ -79,7 +79,9 @@ def flank_errors(mesh):
     angle = numpy.arctan2(points[:, 1], points[:, 0])
     off = (angle + math.pi / TEETH) % (2 * math.pi / TEETH) - math.pi / TEETH
     unwound = numpy.sqrt(radius**2 - base**2)
-    return 1e3 * (base * (numpy.abs(off) - half) + unwound - base * numpy.arctan2(unwound, base))
+    distance = 1e3 * (base * (numpy.abs(off) - half) + unwound - base * numpy.arctan2(unwound, base))
+    # A turn of the whole gear is no error: a shear has one in it.
+    return distance - numpy.sign(off) * numpy.mean(numpy.sign(off) * distance)
 
 
 def rms(values):
@@ -95,7 +97,9 @@ class RoundTrip(unittest.TestCase):
         self.folder = OUTPUT / self.id().split(".")[-1]
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / "design.toml").write_text(DESIGN)
-        run("make", self.folder / "design.toml", "-o", self.folder / "made", "--formats", "stl", "--quiet")
+        # Chords of 1 um are a real deviation of the mesh, and the loop finds it.
+        run("make", self.folder / "design.toml", "-o", self.folder / "made", "--formats", "stl",
+            "--tolerance-um", "0.1", "--quiet")
         self.made = triangles(self.folder / "made/gear.stl")
 
     def corrected(self, *data):
@@ -184,9 +188,10 @@ amount_um = "side * v * (1 + cos(angle))"
         write_xyz(inches, scan(self.made, 4000, 5) / 25.4)
         self.assertIn("unit", run("loop", self.folder / "design.toml", inches, "-o", self.folder / "l",
                                   code=2).stderr)
-        random = self.folder / "random.xyz"
-        write_xyz(random, numpy.random.default_rng(1).uniform(-13, 13, (5000, 3)))
-        run("loop", self.folder / "design.toml", random, "-o", self.folder / "l", code=2)
+        for seed in range(3):
+            random = self.folder / "random.xyz"
+            write_xyz(random, numpy.random.default_rng(seed).uniform(-13, 13, (5000, 3)))
+            run("loop", self.folder / "design.toml", random, "-o", self.folder / "l", code=2)
         run("loop", self.folder / "design.toml", self.folder / "nowhere.xyz", "-o", self.folder / "l", code=3)
         half = self.folder / "half.xyz"
         lines = [f"{x} {y} {z}" for x, y, z in scan(self.made, 6000, 5)]

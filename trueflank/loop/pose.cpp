@@ -280,11 +280,18 @@ PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan, co
     if (placed.place.surface != Surface::kFlank) continue;
     if (std::abs(placed.distance_mm) > reach) continue;
     near += 1.0;
-    distances.push_back(std::abs(placed.distance_mm));
+    distances.push_back(placed.distance_mm);
   }
   PoseQuality quality;
   quality.share = all > 0.0 ? near / all : 0.0;
-  if (!distances.empty()) quality.median_mm = quantile(distances, 0.5);
+  if (distances.empty()) return quality;
+  // Points at random lie as far from a flank as the search reaches: half of them beyond half of it.
+  const double centre = quantile(distances, 0.5);
+  std::vector<double> spread;
+  for (const double d : distances) spread.push_back(std::abs(d - centre));
+  if (quantile(spread, 0.5) > 0.4 * reach) quality.share = 0.0;
+  for (double& d : distances) d = std::abs(d);
+  quality.median_mm = quantile(distances, 0.5);
   return quality;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "trueflank/loop/read_measurement.h"
@@ -114,12 +113,10 @@ void add_rows(const Block& block, const Header& header, InspectionData& data, Ba
   }
 }
 
-/// "linke Zahnflanke" over a table of tooth, fp, Fp, Fr: the flank; nothing for other lines.
-std::optional<Flank> pitch_table_head(const std::string& low) {
-  if (low.find("zahnflanke") == std::string::npos) return std::nullopt;
-  if (low.find("linke") != std::string::npos) return Flank::kLeft;
-  if (low.find("rechte") != std::string::npos) return Flank::kRight;
-  return std::nullopt;
+/// "linke Zahnflanke" or "rechte Zahnflanke" over a table of tooth, fp, Fp, Fr.
+bool is_pitch_table_head(const std::string& low) {
+  return low.find("linke zahnflanke") != std::string::npos ||
+         low.find("rechte zahnflanke") != std::string::npos;
 }
 
 /// Cumulative pitch Fp of a tooth. The machine counts teeth, and pitch deviations, clockwise: the records of
@@ -160,7 +157,8 @@ Result<InspectionData> read_mka(const std::string& file, std::string_view text,
   std::set<std::string> unknown;
   std::vector<std::string_view> fields;
   bool in_block = false;
-  std::optional<Flank> pitch;  ///< flank of the pitch table the lines are in
+  bool in_pitch = false;
+  Flank pitch = Flank::kLeft;  ///< of the pitch table the lines are in
   int line_number = 0;
   while (!text.empty()) {
     const std::string_view line = trimmed(next_line(text));
@@ -180,11 +178,15 @@ Result<InspectionData> read_mka(const std::string& file, std::string_view text,
       continue;
     }
     in_block = false;
-    if (pitch && numbers && add_pitch_row(fields, *pitch, line_number, data)) continue;
+    if (in_pitch && numbers && add_pitch_row(fields, pitch, line_number, data)) continue;
     read_header_line(line, header);
     const std::string low = lowered(line);
-    if (const auto flank = pitch_table_head(low)) pitch = flank;
-    else if (low.find("fp") == std::string::npos) pitch.reset();
+    if (is_pitch_table_head(low)) {
+      in_pitch = true;
+      pitch = low.find("linke") != std::string::npos ? Flank::kLeft : Flank::kRight;
+    } else if (low.find("fp") == std::string::npos) {
+      in_pitch = false;
+    }
     if (low.starts_with("teilung")) unknown.insert("probed positions of the pitch measurement");
     if (low.starts_with("topografie") || low.starts_with("verschr"))
       unknown.insert("topography and twist blocks");
