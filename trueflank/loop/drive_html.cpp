@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "trueflank/loop/loop_page.h"
+
 namespace trueflank::loop {
 namespace {
 
@@ -201,7 +203,7 @@ std::string residual_chart(const DriveLoop& closed, const char* caption,
 std::string possible_table(const LoopResult& result) {
   if (result.possible.empty()) return {};
   std::string html =
-      "<h2>What could explain the numbers</h2><table><tr><th>effect</th><th>what it would have to be</th>"
+      "<h2>What could explain the numbers</h2><div class='scroll'><table class='words'><tr><th>effect</th><th>what it would have to be</th>"
       "<th>explains</th><th>left, points</th><th>left, N m</th></tr>";
   for (const PossibleExplanation& p : result.possible) {
     std::string met;
@@ -210,22 +212,13 @@ std::string possible_table(const LoopResult& result) {
             (met.empty() ? "-" : escaped(met)) + "</td><td>" + number(p.left_points) + "</td><td>" +
             number(p.left_nm, "%.4f") + "</td></tr>";
   }
-  return html + "</table>";
+  return html + "</table></div>";
 }
 
 }  // namespace
 
 std::string drive_html(const DriveLoop& closed) {
-  std::string page =
-      "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>Trueflank loop: drive</title>"
-      "<style>body{font:15px sans-serif;max-width:84em;margin:2em auto;padding:0 1em}"
-      "svg{width:100%;background:#fff;border:1px solid #ddd}.z{stroke:#ccc;fill:none}"
-      ".f{fill:#bbb}.a{fill:#06c}figure{margin:0}text{font:9px sans-serif;text-anchor:middle}"
-      ".four{display:grid;grid-template-columns:repeat(4,1fr);gap:.6em}"
-      ".two{display:grid;grid-template-columns:1fr 1fr;gap:.6em}pre{white-space:pre-wrap}"
-      "td,th{padding:.2em .8em;text-align:left;vertical-align:top}</style></head><body>"
-      "<h1>What the bench tells of the drive</h1><pre>" +
-      escaped(loop_text(closed.result)) + "</pre>";
+  std::string page = loop_page_opening(closed.result, "What the bench tells of the drive");
   page += possible_table(closed.result);
   if (!closed.table.points.empty()) {
     page += maps_of(closed, true) + maps_of(closed, false);
@@ -240,7 +233,7 @@ std::string drive_html(const DriveLoop& closed) {
                              [](const BenchPoint& p) { return p.angle_rad / kTwoPi; });
     page += "</div>";
   }
-  return page + "</body></html>\n";
+  return page + loop_page_end(closed.result);
 }
 
 }  // namespace trueflank::loop
