@@ -241,6 +241,18 @@ class Make(Case):
             self.assertLessEqual(file["accuracy_um"], 0.01 if file["format"] == "step" else 1.0, file)
         self.assertIn("B_SPLINE_SURFACE_WITH_KNOTS", (out / "pinion.step").read_text())
 
+    def test_a_correction_too_sharp_for_splines_goes_into_meshes_only(self):
+        loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [
+            {"id": "contour_offset", "flank": "both", "parameters": {"offset_um": {"value": 20}}}]}
+        (self.folder / "loop.json").write_text(json.dumps(loop))
+        out = self.folder / "out"
+        result = run("make", self.design(PAIR), "-o", out, "--formats", "stl,step,svg", "--correct",
+                     self.folder / "loop.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("not written: step, svg (meshes hold the correction", result.stdout)
+        self.assertTrue((out / "pinion.stl").is_file())
+        self.assertFalse((out / "pinion.step").exists())
+
     def test_correction_displaces_the_toothing_within_the_tolerance(self):
         design = self.design(PAIR)
         loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/app/corrected_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "trueflank/loop/correction.h"
 #include "trueflank/loop/text_table.h"
+#include "trueflank/solid/brep.h"
 
 namespace trueflank::app {
 namespace {
@@ -81,23 +83,42 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
   return result;
 }
 
+namespace {
+
+/// Why neither STEP nor drawings can carry a correction; empty where they can.
+std::string reason_for_meshes_only(const CorrectedParts& corrected,
+                                   const std::vector<io::FileFormat>& formats) {
+  if (!corrected.meshes.empty()) return "a scale of the part goes into meshes only";
+  const bool asked = std::any_of(formats.begin(), formats.end(), [](io::FileFormat format) {
+    return format == io::FileFormat::kStep || format == io::FileFormat::kDxf ||
+           format == io::FileFormat::kSvg;
+  });
+  if (!asked || corrected.displacement == nullptr) return {};
+  for (const PartShape& part : corrected.shapes.parts)
+    if (const auto solid = brep_of(part); !solid)
+      return "meshes hold the correction, splines do not: " + solid.error().message;
+  return {};
+}
+
+}  // namespace
+
 std::vector<io::FileFormat> formats_of_corrected(const std::vector<io::FileFormat>& formats,
                                                  CorrectedParts& corrected) {
-  const bool only_meshes = !corrected.meshes.empty();
+  const std::string reason = reason_for_meshes_only(corrected, formats);
   std::vector<io::FileFormat> kept;
   std::string dropped;
   for (const io::FileFormat format : formats) {
     const bool mesh = format == io::FileFormat::kStl || format == io::FileFormat::k3mf ||
                       format == io::FileFormat::kObj || format == io::FileFormat::kPly ||
                       format == io::FileFormat::kGlb;
-    const bool curves = format != io::FileFormat::kScad && !only_meshes;
+    const bool curves = format != io::FileFormat::kScad && reason.empty();
     if (mesh || curves) kept.push_back(format);
     else dropped += std::string(dropped.empty() ? "" : ", ") + io::to_text(format);
   }
   if (!dropped.empty())
-    corrected.text += "not written: " + dropped +
-                      (only_meshes ? " (a scale of the part goes into meshes only)\n"
-                                   : " (an OpenSCAD file cannot carry a correction)\n");
+    corrected.text += "not written: " + dropped + " (" +
+                      (reason.empty() ? "an OpenSCAD file cannot carry a correction" : reason) +
+                      ")\n";
   return kept;
 }
 

@@ -27,7 +27,7 @@ struct CorrectedParts {
                                                         double tolerance_mm);
 
 /// The formats that can carry a correction: all but OpenSCAD; meshes only, where it is of the whole
-/// part. What was asked for beside them is told in its text.
+/// part or bends teeth too sharply for splines. What was asked for beside them is told in its text.
 [[nodiscard]] std::vector<io::FileFormat> formats_of_corrected(
     const std::vector<io::FileFormat>& formats, CorrectedParts& corrected);
 

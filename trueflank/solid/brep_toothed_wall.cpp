@@ -40,7 +40,8 @@ class ToothedWallBuilder {
     find_cylinders();
     double error_mm = 0.0, share = 1.0;
     for (int i = 0; i <= kTightenings; ++i, share *= 0.25) {
-      choose_bases(share);
+      const double bases_mm = choose_bases(share);
+      if (!(bases_mm <= kSurfaceContract_mm)) return fail(too_rough(bases_mm));
       fit_patches();
       error_mm = patches_error_mm();
       if (error_mm <= kWorseThanAsked * coarsest_mm()) break;
@@ -140,20 +141,27 @@ class ToothedWallBuilder {
 
   // ---------------------------------------------------------------- fit
 
-  void choose_bases(double share) {
+  /// Returns the worst distance of the lines that the bases were chosen for.
+  double choose_bases(double share) {
+    double worst = 0.0;
+    const auto best = [&](const LineBundle& lines, double tolerance_mm) {
+      BasisFit fit = fit_basis(lines, tolerance_mm);
+      worst = std::max(worst, fit.error_mm);
+      return std::move(fit.basis);
+    };
     for (std::size_t c = 0; c < count_; ++c) {
       if (!ever_spline(c)) continue;
       const Column& column = columns_.columns()[c];
       const bool flank = column.kind == Column::Kind::kHalf &&
                          toothing().profile->pieces()[column.piece].kind == PieceKind::kInvolute;
-      across_[c].emplace(
-          fit_basis([&](double u) { return lines_across(c, u); },
-                    share * (flank ? tolerance_.flank_mm : tolerance_.fillet_mm)).basis);
+      across_[c].emplace(best([&](double u) { return lines_across(c, u); },
+                              share * (flank ? tolerance_.flank_mm : tolerance_.fillet_mm)));
     }
     along_.clear();
     for (std::size_t r = 0; r < bands(); ++r)
       along_.emplace_back(
-          fit_basis([&](double v) { return lines_along(r, v); }, share * tolerance_.lead_mm).basis);
+          best([&](double v) { return lines_along(r, v); }, share * tolerance_.lead_mm));
+    return worst;
   }
 
   [[nodiscard]] Eigen::RowVectorXd lines_across(std::size_t c, double u) const {
