@@ -27,7 +27,7 @@ _trueflank() {
       make) options+=" -o --output --formats --tolerance-um --part --correct --materials --allow-failing" ;;
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
-      loop) options+=" -o --output --gear --aligned" ;;
+      loop) options+=" -o --output --gear --aligned --effects" ;;
       compare) options+=" --tolerance-um --json --picture" ;;
     esac
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
