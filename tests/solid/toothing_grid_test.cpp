@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/solid/random_toothing.h"
+#include "tests/train/prototype_design.h"
+#include "trueflank/solid/flank_strips.h"
 #include "trueflank/solid/gear_mesh.h"
 #include "trueflank/solid/mesh_accuracy.h"
 #include "trueflank/solid/mesh_validity.h"
@@ -97,6 +99,38 @@ TEST_P(RandomToothings, AreClosedAndKeepTheToleranceBothWays) {
 }
 INSTANTIATE_TEST_SUITE_P(PlainDeviatedDisplacedChamferedAll, RandomToothings,
                          testing::Range<std::size_t>(0, kKinds.size()));
+
+TEST(FlankStrips, CoverTheirPatchOnceWithNodesOfTheBorderAlone) {
+  for (const bool falling : {true, false})
+    for (int columns = 1; columns < 7; ++columns)
+      for (int rows = 1; rows < 7; ++rows) {
+        const auto facets = strips(columns, rows, falling, 1.0, 0.9);
+        EXPECT_EQ(facets.size(), static_cast<std::size_t>(2 * (columns + rows) - 2));
+        int twice_area = 0;
+        for (const auto& [a, b, c] : facets) {
+          const int area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+          EXPECT_GT(area, 0);
+          twice_area += area;
+          for (const PatchNode& node : {a, b, c})
+            EXPECT_TRUE(node[0] == 0 || node[0] == columns || node[1] == 0 || node[1] == rows);
+        }
+        EXPECT_EQ(twice_area, 2 * columns * rows);
+      }
+}
+
+TEST(FlankStrips, SaveAThirdOfThePlainFlanksFacetsAndNoneOfTheModifiedOnes) {
+  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {17});
+  design.helix_angle_rad = rad_from_deg(20.0);
+  auto train = lay_out(design);
+  ASSERT_TRUE(train);
+  const auto facets = [&] {
+    const auto shapes = part_shapes(*train);
+    return static_cast<double>(part_mesh(shapes->parts[0]).mesh.triangles.size());
+  };
+  const double plain = facets();
+  train->gears[0].deviation.deviation_mm = [](int, Flank, double, double) { return 0.0; };
+  EXPECT_LT(plain, 0.75 * facets());
+}
 
 }  // namespace
 }  // namespace trueflank

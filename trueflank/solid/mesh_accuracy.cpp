@@ -31,6 +31,8 @@ constexpr std::array kCutShares = {0.013, 0.171, 0.337, 0.523, 0.689, 0.854, 0.9
 constexpr std::size_t kSampleStride = 3;
 /// Edges on a twisted wall longer than this part of its radius are looked at in three places.
 constexpr double kLongEdge = 0.05;
+/// One facet in so many of a twisted wall is looked at in its middle, too.
+constexpr std::size_t kFacetsPerMiddle = 4;
 
 /// An outline of a slab: its curves and the cut's segments that lie on it.
 struct Wall {
@@ -82,6 +84,8 @@ class Measurement {
     }
     planes_mm_.push_back(shape.slabs.back().z_upper_mm);
     measured_.assign(mesh.vertices.size(), -1);
+    if (std::any_of(slabs_.begin(), slabs_.end(), [](const SlabWalls& s) { return !s.prismatic; }))
+      vertex_walls_.assign(mesh.vertices.size(), 0);
   }
 
   Accuracy run() {
@@ -151,12 +155,12 @@ class Measurement {
       return;
     }
     if (!slabs_[slab].prismatic) {
-      const Point3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
-      last_wall_ = measure_on_wall(slab, middle);
-      if (slabs_[slab].walls[last_wall_].toothing) {
-        const std::size_t wall = last_wall_;
-        measure_twisted_facet(t, corner, slab);
-        last_wall_ = wall;
+      bool toothed = true;
+      for (std::size_t i = 0; i < 3; ++i)
+        toothed = slabs_[slab].walls[wall_of_corner(t[i], slab)].toothing && toothed;
+      if (toothed) {
+        measure_twisted_facet(corner, slab);
+        last_wall_ = vertex_walls_[t[0]];
         cut_triangle(corner, slab);
         return;
       }
@@ -170,14 +174,21 @@ class Measurement {
     }
   }
 
-  /// A facet of teeth that are no prism: corners, and places along the edges. An edge has two facets:
-  /// it is looked at with the one that runs it upwards in the order of its coordinates.
-  void measure_twisted_facet(const std::array<std::uint32_t, 3>& t,
-                             const std::array<Point3, 3>& corner, std::size_t slab) {
+  /// Measures a corner once a slab; the wall it belongs to.
+  std::size_t wall_of_corner(std::uint32_t v, std::size_t slab) {
     const auto stamp = static_cast<std::int32_t>(slab);
+    if (measured_[v] != stamp) vertex_walls_[v] = measure_on_wall(slab, vertex(v));
+    measured_[v] = stamp;
+    return vertex_walls_[v];
+  }
+
+  /// A facet of teeth that are no prism, its corners measured: places along the edges, where all
+  /// surfaces but domes are farthest, and of some facets the middle. An edge has two facets: it is looked
+  /// at with the one that runs it upwards in the order of its coordinates.
+  void measure_twisted_facet(const std::array<Point3, 3>& corner, std::size_t slab) {
+    if (twisted_facets_++ % kFacetsPerMiddle == 0)
+      measure_on_wall(slab, (corner[0] + corner[1] + corner[2]) / 3.0);
     for (std::size_t i = 0; i < 3; ++i) {
-      if (measured_[t[i]] != stamp) measure_on_wall(slab, corner[i]);
-      measured_[t[i]] = stamp;
       const Point3 &from = corner[i], &to = corner[(i + 1) % 3];
       if (!std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end())) continue;
       const bool is_long = (to - from).squaredNorm() >
@@ -374,6 +385,8 @@ class Measurement {
   std::vector<SlabWalls> slabs_;
   std::vector<double> planes_mm_;
   std::vector<std::int32_t> measured_;  ///< slab a vertex was last measured in
+  std::vector<std::size_t> vertex_walls_;  ///< of vertices measured in slabs that are no prisms
+  std::size_t twisted_facets_ = 0;
   std::size_t last_slab_ = 0, last_wall_ = 0;  ///< of the chord measured last
   Point2 last_from_ = Point2::Zero(), last_to_ = Point2::Zero(), last_vertex_ = Point2::Zero();
   Accuracy result_;

@@ -35,6 +35,20 @@ class ToothingGrid {
   /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its lower
   /// left to its upper right corner (seen from the axis' outside, the axis upwards).
   [[nodiscard]] bool rises(std::size_t layer, int tooth, int point) const;
+  /// Flanks in strips along their generators: the columns [first, last] of a tooth between which only
+  /// the borders of a patch have vertices. A patch lies between two whole rows. None where the surface
+  /// is no helicoid, or strips would be more.
+  struct Strip {
+    int first = 0, last = 0;
+    bool falling = true;  ///< in the lowest patch
+  };
+  [[nodiscard]] const std::vector<Strip>& flank_strips() const { return strips_; }
+  /// Whether its diagonals fall in the patch that has this layer.
+  [[nodiscard]] bool falls(const Strip& strip, std::size_t layer) const;
+  [[nodiscard]] double column_turn_rad() const { return column_turn_rad_; }  ///< of strips
+  [[nodiscard]] double row_turn_rad(std::size_t layer) const;
+  /// Whether every column has a vertex in a row.
+  [[nodiscard]] bool is_whole(std::size_t row) const;
   /// False where teeth differ by deviation or displacement.
   [[nodiscard]] bool teeth_alike() const { return teeth_alike_; }
   /// Bound on the distance of facets to the surface and of the surface to the facets.
@@ -74,13 +88,17 @@ class ToothingGrid {
   /// Cuts all quadrilaterals along the better diagonal and returns the largest error left; what is
   /// beyond the tolerance is charged to columns or layers.
   double cut(double tolerance_mm);
+  void try_strips(double tolerance_mm);
+  [[nodiscard]] double strip_error_mm(const Strip& strip) const;
   void add_where_charged(double tolerance_mm);
 
   const ToothedOutline& outline_;
   Toothing toothing_;
   int teeth_ = 0;
   bool teeth_alike_ = true, layers_alike_ = true, plain_ = true;
-  std::vector<double> levels_mm_, heights_mm_;
+  std::vector<double> levels_mm_, breaks_mm_, heights_mm_;
+  std::vector<Strip> strips_;
+  double column_turn_rad_ = 0.0;
   std::vector<HalfEdge> edges_;
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
