@@ -11,6 +11,7 @@ Lengths are millimetres (names say _um where micrometres), angles degrees. Error
 (the data are wrong) and SystemFailure (files could not be read or written), both TrueflankError.
 """
 from ._core import (
+    ClosedDriveLoop,
     ClosedLoop,
     Gearbox,
     Mesh,
@@ -26,6 +27,7 @@ from ._core import (
 from ._errors import InputError, Problem, SystemFailure, TrueflankError
 
 __all__ = [
+    "ClosedDriveLoop",
     "ClosedLoop",
     "Gearbox",
     "InputError",

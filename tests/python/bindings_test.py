@@ -195,6 +195,24 @@ class Bindings(unittest.TestCase):
                                           tolerance_um=5.1)["same"])
         self.assertGreater(trueflank.compare(gearbox.mesh("gear", 5), corrected["gear"])["max_um"], 25)
 
+    def test_drive_loop_is_the_programs(self):
+        random, ratio = np.random.default_rng(4), self.report["train"]["ratio"]
+        rows = ["direction,input_speed_rpm,input_torque_nm,output_torque_nm"]
+        for speed in range(300, 3000, 300):
+            for torque in np.arange(0.3, 1.5, 0.1):
+                out = ratio * 0.9083 * (torque - 0.03) + random.normal(0, 0.05)
+                rows.append(f"forward,{speed},{torque:.4f},{out:.4f}")
+        bench = OUTPUT / "bench.csv"
+        bench.write_text("\n".join(rows) + "\n")
+        self.assertEqual(program("loop", DESIGN, bench, "-o", OUTPUT / "drive", "-q").returncode, 0)
+        loop = self.gearbox.close_drive_loop(bench)
+        self.assertEqual(loop.json_text(), (OUTPUT / "drive/loop.json").read_text())
+        self.assertEqual(loop.html(), (OUTPUT / "drive/loop.html").read_text())
+        self.assertEqual(loop.verdict, loop.result["verdict"])
+        self.assertEqual((len(loop.before_nm), len(loop.after_nm)), (len(rows) - 1, len(rows) - 1))
+        self.assertLess(np.std(loop.after_nm), np.abs(np.mean(loop.before_nm)))
+        self.assertTrue(loop.text())
+
     def test_new_designs_read(self):
         for kind in ("3k", "simple", "pair", "gear"):
             gearbox = trueflank.read_text(trueflank.new_design(kind, "mine"))
