@@ -141,6 +141,9 @@ const drawingRows = [
   ['Start of active profile, diameter', 'start_active_profile_diameter_mm', 4, 'mm'],
   ['Root form diameter', 'root_form_diameter_mm', 4, 'mm'], ['Root diameter', 'root_diameter_mm', 4, 'mm'],
   ['Root fillet radius, of the module', 'root_radius_coefficient', 4],
+  ['Transverse module', 'transverse_module_mm', 5, 'mm'],
+  ['Transverse pressure angle', 'transverse_pressure_angle_deg', 4, '°'],
+  ['Base helix angle', 'base_helix_angle_deg', 4, '°'], ['Lead', 'lead_mm', 4, 'mm'],
   ['Face width', 'face_width_mm', 3, 'mm'], ['Tooth thickness at reference circle', 'reference_thickness_mm', 4, 'mm'],
   ['Tooth thickness at tip', 'tip_thickness_mm', 4, 'mm'], ['Thinning for backlash', 'thinning_um', 2, 'µm'],
 ];
@@ -203,12 +206,21 @@ function meshTable() {
   const percent = (value) => isNumber(value) ? `${text(100 * value, 2)} %` : '–';
   return table('Each mesh; power and loss are shares of the driving power, sun driving',
     ['Mesh', column('Working angle °'), column('Approach e₁'), column('Recess e₂'), column('Contact ratio'),
-      column('effective'), column('Basic efficiency'), column('Rolling power'), column('Loss')],
+      column('effective'), column('Overlap ratio'), column('Basic efficiency'), column('Rolling power'), column('Loss')],
     Object.keys(report.meshes).map((name) => h('tr', {}, h('th', {scope: 'row'}, name),
       ['working_pressure_angle_deg', 'approach_contact_ratio', 'recess_contact_ratio', 'contact_ratio',
-        'effective_contact_ratio', 'basic_efficiency'].map((key) =>
+        'effective_contact_ratio', 'overlap_ratio', 'basic_efficiency'].map((key) =>
         h('td', {class: 'n'}, number(`meshes/${name}/${key}`, key === 'basic_efficiency' ? 5 : 3))),
       ['rolling_power', 'loss'].map((key) => h('td', {class: 'n'}, percent(share(name, key)))))), 'numbers');
+}
+function thrustTable() {
+  const thrust = report.axial_thrust;
+  if (!thrust || !Object.values(thrust.meshes).some((m) => m.on_gear1_n_per_nm)) return [];
+  return [h('h3', {}, 'Axial thrust'),
+    table('Net force along z on each body, the sun (pinion) driven counter-clockwise; the other way with the other sign',
+      ['Body', column('N per N m at the sun'), column('N at the allowable torque')],
+      Object.keys(thrust.bodies).map((name) => h('tr', {}, h('th', {scope: 'row'}, name),
+        ['n_per_nm', 'n'].map((key) => h('td', {class: 'n'}, number(`axial_thrust/bodies/${name}/${key}`, 3))))), 'numbers')];
 }
 function torqueTable(direction, torque) {
   const members = direction.members;
@@ -239,7 +251,7 @@ function drawEfficiency() {
       key === 'backward' && e.self_locking ? '0 %, self-locking' : `${text(100 * e[key], 2)} %`)];
   body.append(h('div', {class: 'bars'}, bar('Forward', 'forward'), bar('Backward', 'backward')),
     h('p', {class: 'note'}, `Friction in the meshes alone, coefficient ${e.friction}; bearings, seals and grease cost more and must be measured.`),
-    h('h3', {}, 'Meshes'), meshTable());
+    h('h3', {}, 'Meshes'), meshTable(), ...thrustTable());
   if (model.forward.members.length) {
     const holder = h('div');
     const torque = h('input', {type: 'number', id: 'torque', min: '0', step: 'any', value: '1'});

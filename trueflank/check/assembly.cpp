@@ -38,8 +38,10 @@ std::string places_text(const AssemblyCondition& condition) {
 
 std::string order_text(const GearTrain& train, const std::vector<MeshState>& states) {
   if (train.design.herringbone)
-    return " Order: herringbone teeth do not slide into each other along the axis; split the ring"
-           " gears (or the sun) at the apex and close them over the planets.";
+    return " Order: herringbone teeth do not slide into each other along the axis, and planets between"
+           " sun and ring cannot move apart: this set can only be assembled from halves. Planets round"
+           " the sun first, radially; then each ring in two halves, split at the apex, closed over them"
+           " (or whole rings, and the sun in two halves from either side).";
   const bool compound = train.design.kind == TrainKind::k3k;
   std::string text = " Order: planets on the carrier at their angles and marks, then the sun along the axis";
   if (compound) {
@@ -55,6 +57,21 @@ std::string order_text(const GearTrain& train, const std::vector<MeshState>& sta
       text += "; without the sun in place, " + gear1_name(train, train.meshes[i]) +
               " also goes into " + gear2_name(train, train.meshes[i]) + " radially";
   return text + ".";
+}
+
+/// Two gears alone: only a herringbone pinion in a ring does not simply go in.
+Finding without_planets(const GearTrain& train) {
+  Finding finding{.id = "assembly",
+                  .where = "train",
+                  .status = CheckStatus::kNotApplicable,
+                  .message = "there are no planets to assemble"};
+  if (train.design.kind == TrainKind::kPair && train.design.herringbone && train.pair(train.meshes[0]).internal()) {
+    finding.status = CheckStatus::kWarn;
+    finding.message = "herringbone teeth do not slide into a ring along the axis: this pair can only be "
+                      "assembled from halves.";
+    finding.cure = "split the wheel at the apex and close it over the pinion";
+  }
+  return finding;
 }
 
 /// The closed form's word, without the order.
@@ -94,10 +111,7 @@ Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& st
   const bool planetary =
       train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
   if (!planetary)
-    return {{.id = "assembly",
-             .where = "train",
-             .status = CheckStatus::kNotApplicable,
-             .message = "there are no planets to assemble"}};
+    return {without_planets(train)};
   Finding finding = by_closed_form(train);
   const TrainTurning turning = turn_train(train, states);
   // equal spacing where nothing meshes is drawn all the same: the closed form has failed it already
@@ -110,6 +124,11 @@ Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& st
     finding.message += " Turned, every mesh of every planet keeps its phase.";
   }
   if (finding.status != CheckStatus::kFail) finding.message += order_text(train, states);
+  if (train.design.herringbone && finding.status != CheckStatus::kFail) {
+    finding.status = CheckStatus::kWarn;
+    finding.cure += std::string(finding.cure.empty() ? "" : "; ") +
+                    "make the rings (or the sun) in halves that part at the apex";
+  }
   return {finding};
 }
 

@@ -6,12 +6,14 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
 
 Finding judge(const GearTrain& train, const TrainMesh& mesh) {
-  const double backlash = mesh.backlash_mm;
+  const ModifiedMesh modified = modified_mesh(train, mesh);
+  const double backlash = modified.backlash_mm;
   const GearPair pair = train.pair(mesh);
   const double normal = backlash * std::cos(working_pressure_angle_rad(pair)) *
                         std::cos(base_helix_angle_rad(pair.gear1()));
@@ -23,6 +25,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
                   .unit = "mm"};
   finding.message = "circumferential backlash " + number_text(backlash, 5) +
                     " mm at the working pitch circle, " + um_text(normal) + " normal to the flanks";
+  if (modified.modified)
+    finding.message += ", the smallest that the modifications leave (" +
+                       number_text(mesh.backlash_mm, 5) + " mm without them)";
   if (backlash >= -tolerance::kTouch_mm) {
     if (backlash < tolerance::kTouch_mm) finding.message += ": no play for errors of manufacture";
     return finding;

@@ -6,23 +6,12 @@
 
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
 
 constexpr double kWantedContactRatio = 1.1;
-
-/// Overlap ratio of helical teeth: common face width over axial pitch.
-double overlap_ratio(const GearTrain& train, const TrainMesh& mesh) {
-  const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
-  const TrainGear& gear2 = train.gears[static_cast<std::size_t>(mesh.gear2)];
-  const double face = std::min(gear1.z_lower_mm + gear1.face_width_mm,
-                               gear2.z_lower_mm + gear2.face_width_mm) -
-                      std::max(gear1.z_lower_mm, gear2.z_lower_mm);
-  const Gear& gear = gear1.profile.gear();
-  return std::max(face, 0.0) * std::sin(std::abs(gear.helix_angle_rad)) /
-         (kPi * gear.normal_module_mm);
-}
 
 Finding judge(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
@@ -39,7 +28,19 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
   finding.message = "transverse " + number_text(ratios.total, 3) + " from the tip circles, " +
                     number_text(ratios.effective, 3) + " effective";
   if (overlap > 0.0) finding.message += ", and " + number_text(overlap, 3) + " by the helix";
-  if (value >= kWantedContactRatio) return finding;
+  const double unrelieved = modified_mesh(train, mesh).unrelieved_contact_ratio;
+  const bool relieved = unrelieved < ratios.effective - 1e-9;
+  if (relieved)
+    finding.message += "; between the starts of the reliefs " + number_text(unrelieved, 3);
+  if (value >= kWantedContactRatio) {
+    if (!relieved || unrelieved + overlap >= 1.0) return finding;
+    finding.status = CheckStatus::kWarn;
+    finding.message += ", less than 1 with the helix: without load the teeth change over on their reliefs";
+    finding.cure = "reliefs that start nearer to tip and root, by " +
+                   mm_text((1.0 - unrelieved - overlap) * line_of_action(pair).base_pitch_mm) +
+                   " of roll length in all";
+    return finding;
+  }
   finding.status = value < 1.0 ? CheckStatus::kFail : CheckStatus::kWarn;
   // both tips lie on the line of action: a length more there is so much more contact
   const double lacking = (limit - value) * line_of_action(pair).base_pitch_mm;

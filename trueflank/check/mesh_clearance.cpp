@@ -14,6 +14,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/gear_distance.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/scalar_minimum.h"
 #include "trueflank/check/tooth_crossing.h"
@@ -327,14 +328,17 @@ MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_
   return result;
 }
 
+/// Gear 2 turned towards the counter-clockwise flank of gear 1; a ring's own counter-clockwise flank
+/// touches on the other side.
+MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn) {
+  return pair.internal() ? sweep_both(pair, d.gear1, d.gear2, -turn, turn)
+                         : sweep_both(pair, d.gear1, d.gear2, turn, turn);
+}
+
 MeshClearance driving(const GearPair& pair, const PairDistances& d) {
   const double backlash = circumferential_backlash_mm(pair);
   if (!(backlash > kZero_mm)) return {};
-  // gear 2 turned so that the counter-clockwise flank of gear 1 touches; a ring's own
-  // counter-clockwise flank touches on the other side
-  const double turn = 0.5 * backlash / pitch_radius2_mm(pair);
-  return pair.internal() ? sweep_both(pair, d.gear1, d.gear2, -turn, turn)
-                         : sweep_both(pair, d.gear1, d.gear2, turn, turn);
+  return closed(pair, d, 0.5 * backlash / pitch_radius2_mm(pair));
 }
 
 const char* piece_text(PieceKind kind) {
@@ -375,6 +379,12 @@ MeshClearance driving_clearance(const GearPair& pair) {
   return driving(pair, d);
 }
 
+MeshClearance closed_clearance(const GearPair& pair, double closing_rad) {
+  TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
+  const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
+  return closed(pair, d, closing_rad);
+}
+
 std::string place_text(const MeshPlace& place, const std::string& name1, const std::string& name2) {
   return side_text(place.piece1, place.corner1, place.radius1_mm, name1) + ", " +
          side_text(place.piece2, place.corner2, place.radius2_mm, name2) + ", " +
@@ -387,7 +397,8 @@ std::vector<MeshState> mesh_states(const GearTrain& train) {
   std::vector<std::future<RadialRemoval>> removals;
   for (const TrainMesh& mesh : train.meshes) {
     const GearPair pair = train.pair(mesh);
-    turned.push_back(std::async(std::launch::async, [pair] {
+    turned.push_back(std::async(std::launch::async, [pair, &train, &mesh] {
+      if (is_modified(train, mesh)) return modified_state(train, mesh);
       const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
       return MeshState{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
     }));

@@ -33,6 +33,7 @@ enum class ExactVerdict { kApart, kCross };
 struct MeshClearance {
   double clearance_mm = kNaN;  ///< smallest distance; negative: deepest penetration
   MeshPlace place;
+  double z_mm = kNaN;  ///< height in the assembly, where the teeth differ along the face
   ExactVerdict exact = ExactVerdict::kApart;  ///< at `place`
   double chord_error_mm = kNaN;               ///< of the polygons behind `exact`
 
@@ -56,6 +57,8 @@ struct MeshClearance {
 /// driving. Below 0: something else touches first (a tip corner in a root fillet), and the teeth
 /// cannot run conjugate there. NaN where there is no backlash to take up.
 [[nodiscard]] MeshClearance driving_clearance(const GearPair& pair);
+/// The same with gear 2 turned by a given angle [rad] that closes the play of those flanks.
+[[nodiscard]] MeshClearance closed_clearance(const GearPair& pair, double closing_rad);
 
 /// What stands at a place, in words: "tip corner of sun (diameter 14.2 mm) at the root fillet of ...".
 [[nodiscard]] std::string place_text(const MeshPlace& place, const std::string& name1,
@@ -67,7 +70,8 @@ struct MeshState {
   MeshClearance driving;
   std::optional<RadialRemoval> removal;  ///< rings only
 };
-/// Of every mesh of a train, in its order.
+/// Of every mesh of a train, in its order. Where flanks are modified the sections of both gears at the
+/// heights with most material are turned, exact to section_profile.h; the worst of them counts.
 [[nodiscard]] std::vector<MeshState> mesh_states(const GearTrain& train);
 
 }  // namespace trueflank

@@ -6,6 +6,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 
 namespace trueflank {
@@ -20,6 +21,10 @@ bool tip_is_of_gear1(const GearPair& pair, const MeshPlace& place) {
 
 std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
   const GearPair pair = train.pair(mesh);
+  if (is_modified(train, mesh) && sweep_clearance_mm(pair) > -tolerance::kTouch_mm)
+    return "without their modifications these teeth clear each other: smaller slopes, or backlash_mm "
+           "larger by " +
+           number_text(-2.0 * centred.clearance_mm / std::cos(working_pressure_angle_rad(pair)));
   const double backlash = circumferential_backlash_mm(pair);
   if (backlash < -tolerance::kTouch_mm)
     return "teeth thinned by " +
@@ -39,7 +44,8 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshClearance
                   .margin = um_from_mm(clearance),
                   .unit = "um"};
   const std::string place =
-      place_text(centred.place, gear1_name(train, mesh), gear2_name(train, mesh));
+      place_text(centred.place, gear1_name(train, mesh), gear2_name(train, mesh)) +
+      (std::isnan(centred.z_mm) ? "" : ", at z = " + mm_text(centred.z_mm));
   const bool cross = centred.exact == ExactVerdict::kCross;
   // within their chord error the polygons prove nothing and the curves decide
   const bool proven = std::abs(clearance) > centred.chord_error_mm;

@@ -5,6 +5,7 @@
 
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/geometry/scalar_root.h"
+#include "trueflank/train/flank_modifications.h"
 
 namespace trueflank {
 namespace {
@@ -22,9 +23,23 @@ double tip_radius_for_thickness_mm(const ToothProfile& profile, double thickness
   return find_root(lacking, low, high);
 }
 
+/// At the tip, where modifications leave least of it; the edge chamfer, at the very ends, aside.
+double thickness_mm(const TrainGear& gear) {
+  double least = gear.profile.tip_thickness_mm();
+  if (gear.deviation.empty()) return least;
+  Toothing toothing = gear.toothing();
+  toothing.edge_chamfer_mm = 0.0;
+  constexpr int kHeights = 16;
+  for (int i = 0; i <= kHeights; ++i) {
+    const double z = gear.face_width_mm * i / kHeights;
+    least = std::min(least, 2.0 * gear.profile.tip_radius_mm() * tip_land_half_angle_rad(toothing, z));
+  }
+  return least;
+}
+
 Finding judge(const TrainGear& gear) {
   const double m = gear.profile.gear().normal_module_mm;
-  const double thickness = gear.profile.tip_thickness_mm();
+  const double thickness = thickness_mm(gear);
   const double limit = kSmallestTipThickness * m;
   Finding finding{.id = "tip_thickness",
                   .where = gear.name,
@@ -34,6 +49,7 @@ Finding judge(const TrainGear& gear) {
                   .unit = "mm"};
   finding.message = gear.name + ": " + mm_text(thickness) + " thick at tip diameter " +
                     mm_text(2.0 * gear.profile.tip_radius_mm());
+  if (!gear.deviation.empty()) finding.message += ", where the modifications leave least";
   if (gear.profile.notes().pointed)
     finding.message = gear.name + ": the teeth are pointed at diameter " +
                       mm_text(2.0 * gear.profile.tip_radius_mm()) + ", before the tip circle of " +

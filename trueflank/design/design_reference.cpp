@@ -69,6 +69,7 @@ constexpr const char* kRules = R"(
   may not remove the tip land or lean a flank by more than 0.2
   ([modifications](theory/modifications.md)).
 - `relief_groove_mm` stands with herringbone teeth only and is less than every face width.
+  Herringbone gears in mesh have one face width, so that their apexes meet.
 - `[carrier]` needs planets with a round bore that is larger than its pins;
   `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
   plate.

@@ -4,7 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/export/number_text.h"
+#include "trueflank/geometry/tooth_span.h"
+
 namespace trueflank::io {
+namespace {
+
+/// To 1 um.
+std::string mm_digits(double length_mm) {
+  std::string text;
+  append_decimal(text, std::round(length_mm * 1e3) / 1e3);
+  return text;
+}
+
+}  // namespace
+
 
 double start_of_active_profile_mm(const GearTrain& train, const TrainGear& gear) {
   double result = kNaN;
@@ -21,6 +35,25 @@ double start_of_active_profile_mm(const GearTrain& train, const TrainGear& gear)
       result = ring ? std::max(result, radius) : std::min(result, radius);
   }
   return result;
+}
+
+std::string span_obstacle(const TrainGear& gear, int teeth_spanned) {
+  const Gear& g = gear.profile.gear();
+  if (g.kind == GearKind::kInternal) return "a ring has no span";
+  const double needed = span_face_width_mm(g, teeth_spanned);
+  const double face = gear.twist.herringbone
+                          ? 0.5 * (gear.face_width_mm - gear.twist.relief_groove_mm)
+                          : gear.face_width_mm;
+  if (face > needed) return {};
+  return "the span over " + std::to_string(teeth_spanned) + " teeth needs a face width above " +
+         mm_digits(needed) + " mm, " + (gear.twist.herringbone ? "a half has " : "there are ") +
+         mm_digits(face) + " mm";
+}
+
+std::string measured_with(const Gear& gear) {
+  const bool straight = gear.helix_angle_rad == 0.0;
+  const bool opposite = gear.kind == GearKind::kExternal && gear.teeth % 2 == 0;
+  return straight || opposite ? "pins" : "balls";
 }
 
 }  // namespace trueflank::io

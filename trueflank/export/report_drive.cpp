@@ -93,4 +93,19 @@ std::string inertia_json_text(const ReportedInertia& inertia) {
   return json.dump();
 }
 
+std::string axial_thrust_json_text(const AxialThrust& thrust, double input_torque_nm) {
+  Json json;
+  json["input_torque_nm"] = finite(input_torque_nm);
+  json["meshes"] = Json::object();
+  for (const auto& mesh : thrust.meshes)
+    json["meshes"][mesh.name] = {
+        {"on_gear1_n_per_nm", finite(mesh.on_gear1_n_per_nm)},
+        {"on_gear1_n", finite(mesh.on_gear1_n_per_nm * input_torque_nm)}};
+  json["bodies"] = Json::object();
+  for (const auto& body : thrust.bodies)
+    json["bodies"][body.name] = {{"n_per_nm", finite(body.n_per_nm)},
+                                 {"n", finite(body.n_per_nm * input_torque_nm)}};
+  return json.dump();
+}
+
 }  // namespace trueflank::io

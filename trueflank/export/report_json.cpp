@@ -6,6 +6,7 @@
 #include "trueflank/export/report.h"
 #include "trueflank/export/report_drive.h"
 #include "trueflank/geometry/tooth_span.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank::io {
 namespace {
@@ -76,9 +77,26 @@ Json gear_json(const GearTrain& train, const TrainGear& gear) {
   json["tip_inside_base_circle"] = notes.tip_inside_base;
   json["tip_trimmed_by_cutter"] = notes.tip_trimmed;
   json["span_teeth"] = external ? Json(span_teeth) : Json(nullptr);
-  json["span_mm"] = base_tangent_length_mm(g, span_teeth);
+  const std::string no_span = span_obstacle(gear, span_teeth);
+  json["span_mm"] = no_span.empty() ? base_tangent_length_mm(g, span_teeth) : kNaN;
+  json["span_note"] = no_span.empty() ? Json(nullptr) : Json(no_span);
   json["pin_diameter_mm"] = pin;
   json["over_pins_mm"] = over_pins_mm(g, pin);
+  json["over_pins_with"] = measured_with(g);
+  json["normal_module_mm"] = g.normal_module_mm;
+  json["transverse_module_mm"] = transverse_module_mm(g);
+  json["normal_pressure_angle_deg"] = deg_from_rad(g.rack.pressure_angle_rad);
+  json["transverse_pressure_angle_deg"] = deg_from_rad(transverse_pressure_angle_rad(g));
+  json["helix_angle_deg"] = deg_from_rad(g.helix_angle_rad);
+  json["base_helix_angle_deg"] = deg_from_rad(base_helix_angle_rad(g));
+  json["hand"] = g.helix_angle_rad == 0.0 ? Json(nullptr)
+                 : gear.twist.herringbone ? Json("herringbone")
+                                          : Json(g.helix_angle_rad > 0.0 ? "right" : "left");
+  json["lead_mm"] = g.helix_angle_rad == 0.0
+                        ? kNaN
+                        : kTwoPi * reference_radius_mm(g) / std::tan(std::abs(g.helix_angle_rad));
+  json["relief_groove_mm"] = gear.twist.relief_groove_mm;
+  json["modified"] = !gear.deviation.empty() || gear.edge_chamfer_mm > 0.0 || g.tip_rounding_mm > 0.0;
   return json;
 }
 
@@ -93,7 +111,12 @@ Json mesh_json(const Report& report, std::size_t index) {
   json["effective_contact_ratio"] = ratios.effective;
   json["approach_contact_ratio"] = ratios.approach;
   json["recess_contact_ratio"] = ratios.recess;
+  const ModifiedMesh modified = modified_mesh(train, mesh);
+  json["overlap_ratio"] = overlap_ratio(train, mesh);
+  json["total_contact_ratio"] = ratios.effective + overlap_ratio(train, mesh);
+  json["unrelieved_contact_ratio"] = modified.unrelieved_contact_ratio;
   json["backlash_mm"] = mesh.backlash_mm;
+  json["modified_backlash_mm"] = modified.backlash_mm;
   json["implied_backlash_mm"] = mesh.implied_backlash_mm;
   json["basic_efficiency"] = report.efficiency.basic_efficiency_of(mesh.name);
   const bool swept = index < report.sweeps.size();
@@ -143,6 +166,11 @@ std::string report_json(const Report& report) {
   for (std::size_t i = 0; i < train.meshes.size(); ++i)
     json["meshes"][train.meshes[i].name] = mesh_json(report, i);
   json["efficiency"] = Json::parse(efficiency_json_text(report.efficiency));
+  if (!train.meshes.empty()) {
+    const double torque = report.strength ? report.strength->input_torque_nm : kNaN;
+    json["axial_thrust"] = Json::parse(
+        axial_thrust_json_text(axial_thrust(train, report.efficiency.forward_drive), torque));
+  }
   if (report.strength) json["strength"] = Json::parse(strength_json_text(*report.strength));
   if (report.inertia) json["inertia"] = Json::parse(inertia_json_text(*report.inertia));
   if (!report.files.empty()) {

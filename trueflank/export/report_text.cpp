@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "trueflank/export/report.h"
+#include "trueflank/train/axial_thrust.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank::io {
 namespace {
@@ -87,19 +89,6 @@ std::string mesh_table(const Report& report) {
   return text + "\n";
 }
 
-std::string coloured(CheckStatus status, TextColour colour) {
-  const std::string word = to_text(status);
-  const std::string padded = word + std::string(word.size() < 5 ? 5 - word.size() : 0, ' ');
-  if (colour == TextColour::kNone) return padded;
-  switch (status) {
-    case CheckStatus::kPass: return "\033[32m" + padded + "\033[0m";
-    case CheckStatus::kWarn: return "\033[33m" + padded + "\033[0m";
-    case CheckStatus::kFail: return "\033[31m" + padded + "\033[0m";
-    case CheckStatus::kNotApplicable: return padded;
-  }
-  return padded;
-}
-
 /// Words wrapped to 80 columns behind an indent.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string result(indent, ' '), word;
@@ -123,6 +112,48 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   }
   put();
   return result + "\n";
+}
+
+/// Hands, overlap and axial forces; nothing for spur teeth.
+std::string helix_table(const Report& report) {
+  const GearTrain& train = *report.train;
+  if (train.design.helix_angle_rad == 0.0) return {};
+  std::string text;
+  for (const TrainGear& gear : train.gears) {
+    const Gear& g = gear.profile.gear();
+    text += (text.empty() ? "helix: " : ", ") + gear.name + " " +
+            formatted("%g", std::abs(deg_from_rad(g.helix_angle_rad))) + " deg " +
+            (gear.twist.herringbone ? "herringbone" : g.helix_angle_rad > 0.0 ? "right" : "left");
+  }
+  text = wrapped(text, 0);
+  if (train.meshes.empty()) return text + "\n";
+  const AxialThrust thrust = axial_thrust(train, report.efficiency.forward_drive);
+  text += row({{-14, "mesh"}, {9, "overlap"}, {9, "total"}, {22, "thrust on gear 1 N/Nm"}});
+  for (std::size_t i = 0; i < train.meshes.size(); ++i) {
+    const double overlap = overlap_ratio(train, train.meshes[i]);
+    text += row({{-14, train.meshes[i].name},
+                 {9, formatted("%.3f", overlap)},
+                 {9, formatted("%.3f", contact_ratios(train.pair(train.meshes[i])).effective + overlap)},
+                 {22, formatted("%.3f", thrust.meshes[i].on_gear1_n_per_nm)}});
+  }
+  std::string net = "net axial thrust per N m at the sun (pinion) driven counter-clockwise, + along z:";
+  for (const auto& body : thrust.bodies)
+    net += " " + body.name + " " + formatted("%.3f", body.n_per_nm) + " N" +
+           (&body == &thrust.bodies.back() ? "" : ",");
+  return text + wrapped(net, 0) + "\n";
+}
+
+std::string coloured(CheckStatus status, TextColour colour) {
+  const std::string word = to_text(status);
+  const std::string padded = word + std::string(word.size() < 5 ? 5 - word.size() : 0, ' ');
+  if (colour == TextColour::kNone) return padded;
+  switch (status) {
+    case CheckStatus::kPass: return "\033[32m" + padded + "\033[0m";
+    case CheckStatus::kWarn: return "\033[33m" + padded + "\033[0m";
+    case CheckStatus::kFail: return "\033[31m" + padded + "\033[0m";
+    case CheckStatus::kNotApplicable: return padded;
+  }
+  return padded;
 }
 
 std::string check_table(const Report& report, TextColour colour) {
@@ -162,6 +193,7 @@ std::string report_text(const Report& report, TextColour colour) {
     failures += finding.status == CheckStatus::kFail;
   }
   std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
+                     helix_table(report) +
                      check_table(report, colour) + file_table(report);
   text += "verdict: " + coloured(verdict(report.findings), colour);
   if (failures + warnings > 0)

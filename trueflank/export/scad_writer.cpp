@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"
@@ -62,6 +63,11 @@ std::string curve_list(const CutterTrochoid& c, const Curve& curve) {
               number(c.corner_centre_radius_mm), degrees(c.corner_centre_angle_rad),
               number(c.corner_radius_mm), number(c.ratio), degrees(c.gap_angle_rad),
               std::string(c.contact == CutterContact::kTrimming ? "true" : "false"));
+}
+/// Parts come as designed, without a section's own curves.
+std::string curve_list(const PointCurve&, const Curve&) {
+  TRUEFLANK_EXPECTS(false && "a section of a modified toothing is no part");
+  return {};
 }
 
 /// Gathers parameters, data and the solid's text slab by slab.

@@ -40,10 +40,12 @@ double fit_parameter(const CutterTrochoid& c, double eta) {
   if (ratio <= 1.0) return inverse_gudermannian(off);
   return inverse_gudermannian(std::asin(std::min(ratio * std::sin(off), 1.0)));
 }
+double fit_parameter(const PointCurve&, double t) { return t; }
 
 double curve_parameter(const CircularArc&, double v) { return v; }
 double curve_parameter(const StraightLine&, double v) { return v; }
 double curve_parameter(const Involute&, double v) { return v; }
+double curve_parameter(const PointCurve&, double v) { return v; }
 double curve_parameter(const RackTrochoid&, double v) { return 0.5 * kPi - gudermannian(v); }
 double curve_parameter(const CutterTrochoid& c, double v) {
   if (!is_fillet(c)) return v;

@@ -61,6 +61,7 @@ Point2 point_of(const Involute& c, double xi) {
 }
 Point2 point_of(const RackTrochoid& c, double t) { return contact_point(c, t); }
 Point2 point_of(const CutterTrochoid& c, double t) { return contact_point(c, t); }
+Point2 point_of(const PointCurve& c, double t) { return (*c.point)(t); }
 
 // Tangents up to sign; tangent_at orients them by the travel of the point.
 Point2 tangent_of(const CircularArc&, double t) { return perpendicular(unit_vector(t)); }
@@ -70,6 +71,10 @@ Point2 tangent_of(const Involute& c, double xi) {
 }
 Point2 tangent_of(const RackTrochoid& c, double t) { return contact_tangent(c, t); }
 Point2 tangent_of(const CutterTrochoid& c, double t) { return contact_tangent(c, t); }
+Point2 tangent_of(const PointCurve& c, double t) {
+  constexpr double kStep = 1e-6;  // of a roll angle or a normal's angle
+  return (point_of(c, t + kStep) - point_of(c, t - kStep)).normalized();
+}
 
 }  // namespace
 

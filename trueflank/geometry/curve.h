@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <variant>
 
 #include "trueflank/geometry/point2.h"
@@ -60,9 +62,16 @@ struct CutterTrochoid {
   CutterContact contact = CutterContact::kFillet;
 };
 
-/// One smooth piece: an analytic curve over a parameter interval, run from begin to end.
+/// A curve given by its points alone: a deviated flank. Smooth over its interval, and asked for a
+/// little beyond either end.
+struct PointCurve {
+  std::shared_ptr<const std::function<Point2(double)>> point;
+};
+
+/// One smooth piece: a curve over a parameter interval, run from begin to end.
 struct Curve {
-  std::variant<CircularArc, StraightLine, Involute, RackTrochoid, CutterTrochoid> shape;
+  std::variant<CircularArc, StraightLine, Involute, RackTrochoid, CutterTrochoid, PointCurve>
+      shape;
   double begin = 0.0;
   double end = 1.0;
 

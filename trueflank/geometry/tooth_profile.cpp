@@ -540,6 +540,12 @@ Status ProfileBuilder::trim_ring_tip(const CutterTrochoid& fillet, double eta_jo
 
 Result<ToothProfile> ToothProfile::make(const Gear& gear) { return ProfileBuilder(gear).build(); }
 
+ToothProfile ToothProfile::with_pieces(std::vector<ProfilePiece> pieces) const {
+  ToothProfile other = *this;
+  other.pieces_ = std::move(pieces);
+  return other;
+}
+
 double ToothProfile::root_form_roll_length_mm() const {
   return roll_length_mm(root_form_radius_mm_, base_radius_mm(gear_));
 }

@@ -48,6 +48,10 @@ class ToothProfile {
   /// tests/geometry/tooth_profile_test.cpp.
   [[nodiscard]] static Result<ToothProfile> make(const Gear& gear);
 
+  /// The same gear with another half tooth: the section of a modified toothing (section_profile.h).
+  /// Circles and form circles stay those of the design.
+  [[nodiscard]] ToothProfile with_pieces(std::vector<ProfilePiece> pieces) const;
+
   [[nodiscard]] const Gear& gear() const { return gear_; }
   [[nodiscard]] const std::vector<ProfilePiece>& pieces() const { return pieces_; }
   [[nodiscard]] const ProfileNotes& notes() const { return notes_; }

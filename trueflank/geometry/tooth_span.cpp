@@ -18,6 +18,10 @@ double base_tangent_length_mm(const Gear& gear, int teeth_spanned) {
   return transverse * std::cos(base_helix_angle_rad(gear));
 }
 
+double span_face_width_mm(const Gear& gear, int teeth_spanned) {
+  return base_tangent_length_mm(gear, teeth_spanned) * std::sin(std::abs(base_helix_angle_rad(gear)));
+}
+
 int recommended_span_teeth(const Gear& gear) {
   // The planes touch at the roll length W/2: chosen nearest to the circle r + x m.
   const double r_touch = reference_radius_mm(gear) + gear.shift * gear.normal_module_mm;

@@ -11,6 +11,10 @@ namespace trueflank {
 /// Number of teeth to span so that the measuring planes touch near half tooth height; at least 1.
 [[nodiscard]] int recommended_span_teeth(const Gear& gear);
 
+/// Face width that a base tangent over k teeth needs, W_k sin(beta_b): on less the measuring planes
+/// find no two flanks (DIN 3960: a little more, for the planes to rest on). 0 for spur, NaN for rings.
+[[nodiscard]] double span_face_width_mm(const Gear& gear, int teeth_spanned);
+
 /// Distance over (ring: between) two pins or balls of a diameter [mm], thinning included; NaN where
 /// the pin touches no involute.
 [[nodiscard]] double over_pins_mm(const Gear& gear, double pin_diameter_mm);

@@ -27,7 +27,10 @@ MeshEfficiency mesh_efficiency(const GearTrain& train, const TrainMesh& mesh, do
   result.formula_applies = contact_ratio_formula_applies(ratios.approach, ratios.recess);
   const double face_width = std::min(train.gears[mesh.gear1].face_width_mm,
                                      train.gears[mesh.gear2].face_width_mm);
-  sliding = sliding_efficiency(contact_path(pair, face_width), friction, LoadSharing::kEqual);
+  // the halves of a herringbone run alike: one of them tells
+  const FaceTwist& twist = train.gears[mesh.gear1].twist;
+  const double helix_width = (face_width - twist.relief_groove_mm) * (twist.herringbone ? 0.5 : 1.0);
+  sliding = sliding_efficiency(contact_path(pair, helix_width), friction, LoadSharing::kEqual);
   result.by_path_integral = sliding.gear1_driving;
   return result;
 }

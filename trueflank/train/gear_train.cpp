@@ -120,6 +120,26 @@ void stack_layers(GearTrain& train) {
   }
 }
 
+/// Halves of opposite hands mesh only where their apexes stand at one height, and all gears of a layer
+/// start at one.
+Errors apex_errors(const GearboxDesign& design, const std::vector<TrainMesh>& meshes) {
+  Errors errors;
+  if (!design.herringbone) return errors;
+  for (const TrainMesh& mesh : meshes) {
+    const GearDesign& gear1 = design.gears[static_cast<std::size_t>(mesh.gear1)];
+    const GearDesign& gear2 = design.gears[static_cast<std::size_t>(mesh.gear2)];
+    if (gear1.face_width_mm == gear2.face_width_mm) continue;
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = mesh.name + ": herringbone teeth of different face widths have their "
+                                 "apexes at different heights",
+                      .key = gear2.name + ".face_width_mm",
+                      .value = std::to_string(gear2.face_width_mm),
+                      .remedy = "the face width of " + gear1.name + ", " +
+                                std::to_string(gear1.face_width_mm)});
+  }
+  return errors;
+}
+
 }  // namespace
 
 ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
@@ -135,6 +155,9 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
     train.meshes.push_back({.name = std::string(names.gear1) + "-" + names.gear2,
                             .gear1 = index_of(names.gear1),
                             .gear2 = index_of(names.gear2)});
+
+  if (Errors apart = apex_errors(design, train.meshes); !apart.empty())
+    return fail_all(std::move(apart));
 
   auto solution = solve_shifts(design, train.meshes);
   if (!solution) return fail_all(solution.error());

@@ -6,6 +6,7 @@
 
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/strength_form_factor.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
@@ -38,11 +39,10 @@ struct MeshGeometry {
 MeshGeometry geometry_of(const GearTrain& train, const TrainMesh& mesh) {
   MeshGeometry g{.pair = train.pair(mesh)};
   g.face_width_mm = std::min(train.gears[mesh.gear1].face_width_mm,
-                             train.gears[mesh.gear2].face_width_mm);
+                             train.gears[mesh.gear2].face_width_mm) -
+                    train.gears[mesh.gear1].twist.relief_groove_mm;
   g.contact_ratio = std::max(1.0, contact_ratios(g.pair).effective);
-  const Gear& gear1 = g.pair.gear1();
-  g.overlap_ratio = g.face_width_mm * std::sin(std::abs(gear1.helix_angle_rad)) /
-                    (kPi * gear1.normal_module_mm);
+  g.overlap_ratio = overlap_ratio(train, mesh);
   g.count = train.design.kind == TrainKind::kPair ? 1 : train.design.planets;
   return g;
 }
@@ -57,7 +57,7 @@ void set_bending(const MeshGeometry& g, const ToothProfile& profile, const Mater
   const Gear& gear = profile.gear();
   const double limit = material.bending_limit_mpa * (tooth.bends_both_ways ? kBothWays : 1.0);
   tooth.material = material.name;
-  tooth.form_factor = critical_section(profile).form_factor;
+  tooth.form_factor = form_factor(profile);
   const double y_epsilon = 1.0 / g.contact_ratio;
   tooth.bending_force_n = limit * gear.normal_module_mm * g.face_width_mm /
                           (tooth.form_factor * y_epsilon * helix_angle_factor(gear)) *

@@ -90,4 +90,28 @@ CriticalSection critical_section(const ToothProfile& profile) {
   return worst;
 }
 
+double form_factor(const ToothProfile& profile) {
+  const Gear& gear = profile.gear();
+  const double transverse = critical_section(profile).form_factor;
+  if (gear.helix_angle_rad == 0.0 || gear.cutter) return transverse;
+  const double cos_b = std::cos(base_helix_angle_rad(gear)), cos_beta = std::cos(gear.helix_angle_rad);
+  const double teeth = gear.teeth / (cos_b * cos_b * cos_beta);
+  const auto of_virtual = [&](int whole_teeth) {
+    Gear spur = gear;
+    spur.helix_angle_rad = 0.0;
+    spur.teeth = whole_teeth;
+    spur.thinning_mm = gear.thinning_mm * cos_beta;
+    spur.tip_radius_mm =
+        reference_radius_mm(spur) + profile.tip_radius_mm() - reference_radius_mm(gear);
+    const auto made = ToothProfile::make(spur);
+    return made ? critical_section(*made).form_factor : kNaN;
+  };
+  const double low = std::floor(teeth);
+  const double y_low = of_virtual(static_cast<int>(low)), y_high = of_virtual(static_cast<int>(low) + 1);
+  // nearly linear in 1 / z
+  const double share = (1.0 / low - 1.0 / teeth) / (1.0 / low - 1.0 / (low + 1.0));
+  const double y = y_low + share * (y_high - y_low);
+  return std::isnan(y) ? transverse : y;
+}
+
 }  // namespace trueflank

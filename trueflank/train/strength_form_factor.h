@@ -18,8 +18,14 @@ struct CriticalSection {
 /// Tooth form factor Y_F = 6 (h_F/m) cos a_F / ((s_F/m)^2 cos a) from the exact root curve: the section
 /// where the fillet's tangent stands at 30 degrees to the tooth's middle (ring: 60 degrees), tip load.
 /// Where a sharp or very short fillet has no such tangent, the section of greatest bending stress.
-/// Helical: transverse section, thickness brought to the normal section.
+/// Helical: transverse section, thickness brought to the normal section; form_factor does it better.
 /// Accuracy: the tangent point is found to 1e-9 of the piece's parameter.
 [[nodiscard]] CriticalSection critical_section(const ToothProfile& profile);
+
+/// Y_F of a gear: of its own section for spur teeth; for helical ones of the virtual spur gear in the
+/// normal section, z_n = z / (cos^2 beta_b cos beta) teeth with the same rack, shift and tooth heights
+/// (ISO 6336-3, JGMA 401-01), between the two whole numbers of teeth next to it. A shaped ring, whose
+/// cutter has no virtual one, and a virtual gear that does not exist count by the transverse section.
+[[nodiscard]] double form_factor(const ToothProfile& profile);
 
 }  // namespace trueflank

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/mesh_face.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/geometry/involute.h"
+
+namespace trueflank {
+namespace {
+
+const TrainGear& gear_of(const GearTrain& train, int index) {
+  return train.gears[static_cast<std::size_t>(index)];
+}
+
+/// The flanks that touch when gear 1's counter-clockwise (side +1) or clockwise flank drives. At the
+/// mesh an external mate's counter-clockwise side faces gear 1's; a ring's clockwise side does.
+struct TouchingFlanks {
+  Flank flank1, flank2;
+};
+Flank flank_on(int side, GearKind kind) {
+  return flank_side(Flank::kLeft, kind) == side ? Flank::kLeft : Flank::kRight;
+}
+TouchingFlanks touching(const GearPair& pair, int side1) {
+  const int side2 = pair.internal() ? -side1 : side1;
+  return {flank_on(side1, pair.gear1().kind), flank_on(side2, pair.gear2().kind)};
+}
+
+double deviation_of(const TrainGear& gear, Flank flank, double roll_mm, double z_mm) {
+  return gear.deviation.empty()
+             ? 0.0
+             : gear.deviation.deviation_mm(0, flank, roll_mm, z_mm - gear.z_lower_mm);
+}
+
+double play_mm(const GearTrain& train, const TrainMesh& mesh, int side1, double z_mm) {
+  const GearPair pair = train.pair(mesh);
+  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
+  const LineOfAction line = line_of_action(pair);
+  const double working = working_pressure_angle_rad(pair);
+  const double span = pair.centre_distance_mm * std::sin(working);
+  const double half = 0.5 * mesh.backlash_mm * std::cos(working);
+  const double cos_b = std::cos(base_helix_angle_rad(pair.gear1()));
+  const TouchingFlanks flanks = touching(pair, side1);
+  double least = 1e300;
+  const auto look = [&](double roll1) {
+    const double roll2 = pair.internal() ? roll1 + span : span - roll1;
+    least = std::min(least, half - (deviation_of(gear1, flanks.flank1, roll1, z_mm) +
+                                    deviation_of(gear2, flanks.flank2, roll2, z_mm)) /
+                                       cos_b);
+  };
+  constexpr int kPlaces = 200;
+  const double length = line.effective_end_mm - line.effective_start_mm;
+  for (int i = 0; i <= kPlaces; ++i) look(line.effective_start_mm + length * i / kPlaces);
+  const auto at_break = [&](double roll1) {
+    if (roll1 > line.effective_start_mm && roll1 < line.effective_end_mm) look(roll1);
+  };
+  for (double roll : gear1.deviation.roll_breaks_mm) at_break(roll);
+  for (double roll : gear2.deviation.roll_breaks_mm)
+    at_break(pair.internal() ? roll - span : span - roll);
+  return least;
+}
+
+/// In the groove between herringbone halves there are no teeth.
+bool in_groove(const CommonFace& face, double z_mm) {
+  const double groove = face.upper_mm - face.lower_mm - face.carrying_mm;
+  return std::abs(z_mm - 0.5 * (face.lower_mm + face.upper_mm)) < 0.5 * groove - 1e-9;
+}
+
+/// The height at which a side has least play; crowning and slopes together put it anywhere.
+double height_of_least_play(const GearTrain& train, const TrainMesh& mesh, int side1,
+                            const CommonFace& face) {
+  constexpr int kHeights = 32;
+  const double step = (face.upper_mm - face.lower_mm) / kHeights;
+  const auto play_at = [&](double z) {
+    return in_groove(face, z) ? 1e300 : play_mm(train, mesh, side1, z);
+  };
+  double best = face.lower_mm, least = 1e300;
+  for (int i = 0; i <= kHeights; ++i) {
+    const double z = i == kHeights ? face.upper_mm : face.lower_mm + step * i;
+    if (const double play = play_at(z); play < least) least = play, best = z;
+  }
+  double low = std::max(face.lower_mm, best - step), high = std::min(face.upper_mm, best + step);
+  for (int k = 0; k < 40; ++k) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    if (play_at(a) < play_at(b)) high = b;
+    else low = a;
+  }
+  const double refined = 0.5 * (low + high);
+  return play_at(refined) < least - 1e-12 ? refined : best;
+}
+
+double unrelieved_ratio(const GearTrain& train, const TrainMesh& mesh) {
+  const GearPair pair = train.pair(mesh);
+  const LineOfAction line = line_of_action(pair);
+  const double span = pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair));
+  double start = line.effective_start_mm, end = line.effective_end_mm;
+  const auto& m1 = train.design.gears[static_cast<std::size_t>(mesh.gear1)].modifications;
+  const auto& m2 = train.design.gears[static_cast<std::size_t>(mesh.gear2)].modifications;
+  const auto roll1 = [&](double diameter_mm) {
+    return roll_length_mm(0.5 * diameter_mm, base_radius_mm(pair.gear1()));
+  };
+  const auto roll2 = [&](double diameter_mm) {
+    const double roll = roll_length_mm(0.5 * diameter_mm, base_radius_mm(pair.gear2()));
+    return pair.internal() ? roll - span : span - roll;
+  };
+  if (m1.tip_relief_um > 0.0) end = std::min(end, roll1(m1.tip_relief_start_diameter_mm));
+  if (m1.root_relief_um > 0.0) start = std::max(start, roll1(m1.root_relief_start_diameter_mm));
+  if (m2.tip_relief_um > 0.0) start = std::max(start, roll2(m2.tip_relief_start_diameter_mm));
+  if (m2.root_relief_um > 0.0) end = std::min(end, roll2(m2.root_relief_start_diameter_mm));
+  return std::max(0.0, end - start) / line.base_pitch_mm;
+}
+
+}  // namespace
+
+CommonFace common_face(const GearTrain& train, const TrainMesh& mesh) {
+  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
+  CommonFace face;
+  face.lower_mm = std::max(gear1.z_lower_mm, gear2.z_lower_mm);
+  face.upper_mm = std::min(gear1.z_lower_mm + gear1.face_width_mm,
+                           gear2.z_lower_mm + gear2.face_width_mm);
+  face.carrying_mm =
+      std::max(0.0, face.upper_mm - face.lower_mm - gear1.twist.relief_groove_mm);
+  face.helix_mm = gear1.twist.herringbone ? 0.5 * face.carrying_mm : face.carrying_mm;
+  return face;
+}
+
+double overlap_ratio(const GearTrain& train, const TrainMesh& mesh) {
+  const Gear& gear = gear_of(train, mesh.gear1).profile.gear();
+  return common_face(train, mesh).helix_mm * std::sin(std::abs(gear.helix_angle_rad)) /
+         (kPi * gear.normal_module_mm);
+}
+
+std::vector<double> section_heights_mm(const GearTrain& train, const TrainMesh& mesh) {
+  const CommonFace face = common_face(train, mesh);
+  const double middle = 0.5 * (face.lower_mm + face.upper_mm);
+  std::vector<double> heights{middle};
+  const TrainGear* const gears[] = {&gear_of(train, mesh.gear1), &gear_of(train, mesh.gear2)};
+  bool varies = false;
+  for (const TrainGear* gear : gears) varies = varies || gear->deviation.varies_along_face;
+  if (!varies) return heights;
+  const double width = face.upper_mm - face.lower_mm;
+  const double half_groove = 0.5 * (width - face.carrying_mm);
+  if (half_groove > 1e-9) heights = {middle - half_groove, middle + half_groove};
+  for (double share : {0.0, 0.25, 0.75, 1.0})
+    if (const double at = face.lower_mm + share * width; !in_groove(face, at))
+      heights.push_back(at);
+  for (const TrainGear* gear : gears)
+    for (double z : gear->deviation.z_breaks_mm)
+      if (const double at = gear->z_lower_mm + z;
+          at > face.lower_mm && at < face.upper_mm && !in_groove(face, at))
+        heights.push_back(at);
+  for (int side : {1, -1}) heights.push_back(height_of_least_play(train, mesh, side, face));
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end(),
+                            [](double a, double b) { return std::abs(a - b) < 1e-9; }),
+                heights.end());
+  return heights;
+}
+
+double closing_turn_rad(const GearTrain& train, const TrainMesh& mesh, double z_mm) {
+  const GearPair pair = train.pair(mesh);
+  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
+  const auto leaning = [&](const TrainGear& gear, Flank touching_flank) {
+    const Flank other = touching_flank == Flank::kLeft ? Flank::kRight : Flank::kLeft;
+    const double mid = 0.5 * (gear.profile.root_form_roll_length_mm() +
+                              gear.profile.tip_form_roll_length_mm());
+    return 0.5 * (deviation_of(gear, touching_flank, mid, z_mm) -
+                  deviation_of(gear, other, mid, z_mm));
+  };
+  const TouchingFlanks flanks = touching(pair, 1);
+  return (leaning(gear1, flanks.flank1) + leaning(gear2, flanks.flank2)) /
+         (base_radius_mm(pair.gear2()) * std::cos(base_helix_angle_rad(pair.gear1())));
+}
+
+ModifiedMesh modified_mesh(const GearTrain& train, const TrainMesh& mesh) {
+  ModifiedMesh result;
+  result.modified = !gear_of(train, mesh.gear1).deviation.empty() ||
+                    !gear_of(train, mesh.gear2).deviation.empty();
+  result.backlash_mm = mesh.backlash_mm;
+  const GearPair pair = train.pair(mesh);
+  if (!result.modified) {
+    result.ccw_play_mm = result.cw_play_mm =
+        0.5 * mesh.backlash_mm * std::cos(working_pressure_angle_rad(pair));
+    result.unrelieved_contact_ratio = contact_ratios(pair).effective;
+    return result;
+  }
+  result.ccw_play_mm = result.cw_play_mm = 1e300;
+  for (double z : section_heights_mm(train, mesh)) {
+    result.ccw_play_mm = std::min(result.ccw_play_mm, play_mm(train, mesh, 1, z));
+    result.cw_play_mm = std::min(result.cw_play_mm, play_mm(train, mesh, -1, z));
+  }
+  result.backlash_mm =
+      (result.ccw_play_mm + result.cw_play_mm) / std::cos(working_pressure_angle_rad(pair));
+  result.unrelieved_contact_ratio = unrelieved_ratio(train, mesh);
+  return result;
+}
+
+}  // namespace trueflank
