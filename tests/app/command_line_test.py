@@ -113,6 +113,41 @@ class Check(Case):
         self.assertEqual([g for g in report["gears"]],
                          ["sun", "planet1", "ring1", "planet2", "ring2"])
 
+    def test_helical_sets_tell_hands_overlap_thrust_and_what_cannot_be_measured(self):
+        design = SOURCE / "examples/helical_planetary/design.toml"
+        result = run("check", design, "--json", self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
+        self.assertIn("net axial thrust", result.stdout)
+        report = json.loads((self.folder / "r.json").read_text())
+        gears, meshes = report["gears"], report["meshes"]
+        self.assertEqual([gears[g]["hand"] for g in gears], ["right", "left", "left"])
+        self.assertAlmostEqual(gears["sun"]["transverse_module_mm"], 1.0641778, places=7)
+        self.assertEqual(gears["ring"]["over_pins_with"], "balls")
+        self.assertIsNone(gears["ring"]["span_mm"])
+        self.assertIn("ring", gears["ring"]["span_note"])
+        for mesh in meshes.values():
+            self.assertAlmostEqual(mesh["overlap_ratio"], 1.5242, places=4)
+            self.assertAlmostEqual(mesh["total_contact_ratio"],
+                                   mesh["effective_contact_ratio"] + mesh["overlap_ratio"])
+        bodies = {name: b["n_per_nm"] for name, b in report["axial_thrust"]["bodies"].items()}
+        self.assertGreater(abs(bodies["sun"]), 10)
+        self.assertLess(abs(bodies["sun"] + bodies["ring"]), 0.02 * abs(bodies["sun"]) + 1e-9 +
+                        3 * abs(bodies["planet"]))
+        narrow = design.read_text().replace("face_width_mm = 14.0", "face_width_mm = 2.0")
+        report = json.loads(run("check", self.design(narrow), "--json", "-").stdout)
+        self.assertIsNone(report["gears"]["planet"]["span_mm"])
+        self.assertIn("face width", report["gears"]["planet"]["span_note"])
+
+    def test_modified_flanks_are_checked(self):
+        result = run("check", SOURCE / "examples/relieved_3k/design.toml", "--json", "-")
+        report = json.loads(result.stdout)
+        self.assertTrue(report["gears"]["planet1"]["modified"])
+        self.assertFalse(report["gears"]["ring1"]["modified"])
+        for mesh in report["meshes"].values():
+            self.assertLessEqual(mesh["unrelieved_contact_ratio"], mesh["effective_contact_ratio"])
+            self.assertAlmostEqual(mesh["modified_backlash_mm"], 0.05, places=4)
+
     def test_json_on_standard_output_is_alone_there(self):
         result = run("check", DESIGN, "--json", "-")
         json.loads(result.stdout)
