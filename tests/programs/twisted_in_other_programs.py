@@ -32,7 +32,27 @@ outer_diameter_mm = 56
 {ring}
 """
 BOLTS = "bolt_count = 4\nbolt_circle_diameter_mm = 50\nbolt_hole_diameter_mm = 2\n"
+# a part's module has the part's name: none of the library's may have it
+PLANETARY = """format = 1
+name = "planetary"
+[gearbox]
+kind = "simple"
+planets = 3
+module_mm = 1.0
+backlash_mm = 0.1
+helix_angle_deg = 20.0
+[sun]
+teeth = 18
+face_width_mm = 8.0
+[planet]
+teeth = 18
+face_width_mm = 8.0
+[ring]
+teeth = 54
+face_width_mm = 8.0
+"""
 DESIGNS = {
+    "planetary": PLANETARY,
     "helical": PAIR.format(more="", ring=""),
     "herringbone": PAIR.format(more="herringbone = true", ring=""),
     "groove": PAIR.format(more="herringbone = true\nrelief_groove_mm = 1.0", ring=BOLTS),
@@ -59,8 +79,8 @@ class Twisted(unittest.TestCase):
                 "stl" if name == "modified" else "stl,scad")
 
     def test_openscad_renders_the_same_solid(self):
-        for name in ["helical", "herringbone", "groove"]:
-            for part in ["pinion", "wheel"]:
+        for name in ["helical", "herringbone", "groove", "planetary"]:
+            for part in ["ring"] if name == "planetary" else ["pinion", "wheel"]:
                 with self.subTest(f"{name}/{part}"):
                     rendered = OUTPUT / f"{name}.{part}.stl"
                     text = run("openscad", "-o", rendered, "--export-format", "binstl",
@@ -72,7 +92,7 @@ class Twisted(unittest.TestCase):
 
     def test_prusa_slicer_and_admesh_find_whole_parts(self):
         for name in DESIGNS:
-            for part in ["pinion", "wheel"]:
+            for part in ["ring"] if name == "planetary" else ["pinion", "wheel"]:
                 with self.subTest(f"{name}/{part}"):
                     file = OUTPUT / name / f"{part}.stl"
                     info = run("prusa-slicer", "--info", file)

@@ -184,7 +184,7 @@ module stack(slabs, bore = []) {
 }
 
 // a ring: slabs [height, hole, points a tooth, rows] within a rim
-module ring(rim, slabs) {
+module stack_in_rim(rim, slabs) {
   n = len(slabs);
   loops = concat(slab_loops(slabs), [rim, rim]);
   z = concat(slab_heights(slabs), [0, heights_before(slabs, n)]);

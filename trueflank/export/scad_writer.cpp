@@ -266,7 +266,7 @@ class PartText {
                        [](const Slab& s) { return !s.holes.empty() && is_twisted(s.holes.front()); });
   }
   std::string ring_text() const {
-    std::string rings = "ring(" + slabs_.front().outer + ", [";
+    std::string rings = "stack_in_rim(" + slabs_.front().outer + ", [";
     for (const SlabText& slab : slabs_)
       rings += (rings.ends_with('[') ? "" : ",\n  ") +
                (slab.rows.empty()
