@@ -223,6 +223,13 @@ class ReportInBrowser(unittest.TestCase):
         ReportInBrowser.showing = None
         self.browser.media("print", prefers_reduced_motion="reduce")
         self.assertEqual(self.browser.run("[...document.querySelectorAll('button')].filter(b => b.offsetParent).length"), 0)
+        # nothing is cut off at the edge of a sheet: A4 less its margins is 688 pixels wide
+        self.browser.size(688, 1000)
+        try:
+            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 688)
+        finally:
+            self.browser.media()
+            self.browser.size(1200, 900)
 
 
 if __name__ == "__main__":
