@@ -151,6 +151,23 @@ const workshopRows = [
   ['Teeth spanned', 'span_teeth', 0], ['Span', 'span_mm', 4, 'mm'], ['Pin or ball diameter', 'pin_diameter_mm', 3, 'mm'],
   ['Over pins (ring: between pins)', 'over_pins_mm', 4, 'mm'],
 ];
+const allowanceRows = [
+  ['Tooth thickness allowance, upper', 'upper_um', 1, 'µm'], ['Tooth thickness allowance, lower', 'lower_um', 1, 'µm'],
+  ['Span, smallest', 'span_min_mm', 4, 'mm'], ['Span, largest', 'span_max_mm', 4, 'mm'],
+  ['Over pins, smallest', 'over_pins_min_mm', 4, 'mm'], ['Over pins, largest', 'over_pins_max_mm', 4, 'mm'],
+];
+function drawAllowances(body) {
+  const names = Object.keys(report.gears).filter((n) => report.gears[n].thickness_allowance);
+  if (!names.length) return;
+  body.append(h('h3', {}, 'Tooth thickness and backlash limits'),
+    table('Sizes at both ends of the tolerance', ['Size', ...names.map(column)], allowanceRows.map(([title, key, digits, unit]) =>
+      h('tr', {}, h('th', {scope: 'row'}, title, h('span', {class: 'unit'}, ` ${unit}`)),
+        names.map((n) => h('td', {class: 'n'}, number(`gears/${n}/thickness_allowance/${key}`, digits))))), 'numbers'));
+  const meshes = Object.keys(report.meshes).filter((n) => isNumber(report.meshes[n].backlash_min_mm));
+  if (meshes.length) body.append(table('Backlash from these allowances, at the exact centre distance',
+    ['Mesh', 'Smallest', 'Largest'], meshes.map((n) => h('tr', {}, h('th', {scope: 'row'}, n, h('span', {class: 'unit'}, ' mm')),
+      h('td', {class: 'n'}, number(`meshes/${n}/backlash_min_mm`, 4)), h('td', {class: 'n'}, number(`meshes/${n}/backlash_max_mm`, 4)))), 'numbers'));
+}
 const noteWords = {undercut: 'undercut', pointed: 'pointed tooth', full_round_root: 'full round root',
   closed_space: 'space closed before the root', tip_inside_base_circle: 'tip inside the base circle',
   tip_trimmed_by_cutter: 'tip trimmed by the cutter'};
@@ -197,6 +214,7 @@ function drawDimensions() {
   body.append(h('h3', {}, 'For the drawing'), table('Geometry of each gear as it is cut', columns, rows, 'numbers'),
     h('h3', {}, 'For the workshop'),
     table('Sizes to measure; thinning for backlash is in them', columns, gearRows(names, workshopRows), 'numbers'));
+  drawAllowances(body);
   drawTolerances(body);
 }
 

@@ -10,6 +10,7 @@
 #include "trueflank/check/contact_ratio.h"
 #include "trueflank/check/fillet_interference.h"
 #include "trueflank/check/involute_interference.h"
+#include "trueflank/check/manufacturability.h"
 #include "trueflank/check/overlap.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/profile.h"
@@ -40,7 +41,7 @@ Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& sta
                            check_trochoid_interference, check_trimming_interference,
                            check_assembly})
     append(all, check(train, states));
-  for (const auto check : {check_planet_spacing, check_axial})
+  for (const auto check : {check_planet_spacing, check_axial, check_manufacturability})
     append(all, check(train));
   return all;
 }

@@ -28,6 +28,9 @@ Finding judge(const TrainGear& gear) {
   if (!gear.profile.notes().undercut) {
     finding.message = gear.name + ": profile shift " + number_text(gear.shift) +
                       ", no undercut down to " + number_text(limit);
+    if (const double depth = gear.profile.notes().protuberance_undercut_mm; depth > 0.0)
+      finding.message += "; the tool's protuberance relieves the root by " + um_text(depth) +
+                         " below diameter " + mm_text(2.0 * gear.profile.root_form_radius_mm());
     return finding;
   }
   const double lost = gear.profile.root_form_radius_mm() - base_radius_mm(gear.profile.gear());

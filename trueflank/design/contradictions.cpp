@@ -28,9 +28,11 @@ class Contradictions {
       check_meshes();
     }
     check_gearbox();
+    check_rack();
     for (const GearDesign& gear : design_.gears) {
       gear_ = &gear;
       check_tip_and_thinning();
+      check_thickness();
       check_modifications();
       if (gear.kind == GearKind::kInternal) {
         check_bolts();
@@ -107,6 +109,43 @@ class Contradictions {
           design_.relief_groove_mm >= gear.face_width_mm)
         return reading_.contradiction(groove, "leaves " + gear.name + " no teeth",
                                       "less than its face width, " + mm(gear.face_width_mm));
+  }
+
+  void check_rack() {
+    const BasicRack& rack = design_.rack;
+    const auto at = [&](const char* name) {  // a named rack may have the value
+      return reading_.has(std::string("rack.") + name) ? std::string("rack.") + name
+                                                       : std::string("rack.profile");
+    };
+    if (rack.grinding_stock > 0.0 && !(rack.grinding_stock < rack.protuberance) &&
+        reading_.good(at("grinding_stock")))
+      reading_.contradiction(at("grinding_stock"),
+                             "not less than the protuberance: grinding would leave a step",
+                             "a stock below protuberance, or 0");
+    if (!(rack.protuberance > 0.0) || !reading_.good(at("protuberance"))) return;
+    if (!(rack.protuberance_angle_rad < rack.pressure_angle_rad))
+      reading_.contradiction(at("protuberance_angle_deg"), "not below the pressure angle",
+                             "a smaller protuberance_angle_deg");
+    const auto ring = [](const GearDesign& gear) { return gear.kind == GearKind::kInternal; };
+    if (!design_.gears.empty() && std::all_of(design_.gears.begin(), design_.gears.end(), ring))
+      reading_.contradiction(at("protuberance"), "there is no external gear: a rack cuts no rings",
+                             "a rack without protuberance");
+  }
+
+  void check_thickness() {
+    const bool series = has("thickness_allowance"), upper = has("thickness_upper_um"),
+               lower = has("thickness_lower_um");
+    if (!series && !upper && !lower) return;
+    if (has("thinning_um"))
+      wrong("thinning_um", "the tooth thickness is told twice", "thinning_um or an allowance");
+    if (series && (upper || lower))
+      wrong("thickness_allowance", "the allowance is told twice", "a series or numbers");
+    else if (upper != lower)
+      wrong(upper ? "thickness_upper_um" : "thickness_lower_um", "the other allowance is missing",
+            "both thickness_upper_um and thickness_lower_um");
+    else if (good("thickness_upper_um") && good("thickness_lower_um") &&
+             gear_->thickness->lower_mm > gear_->thickness->upper_mm)
+      wrong("thickness_lower_um", "above the upper allowance", "at most thickness_upper_um");
   }
 
   [[nodiscard]] std::optional<double> module_mm(const GearDesign& gear) const {

@@ -46,6 +46,7 @@ std::string place_of(std::string_view name) {
   if (in(rack_keys())) return "[rack]";
   if (in(carrier_keys())) return "[carrier]";
   if (in(shafts_keys())) return "[shafts]";
+  if (in(made_keys())) return "[made]";
   if (in(gear_keys()) || name == "modifications") return "a gear's table";
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
@@ -60,17 +61,23 @@ class DesignReader {
   ResultAll<DesignFile> read(const std::string& file) {
     note_lines("", root_);
     for (const Error& error : syntax_errors_) reading_.report(error);
+    read_tool_tables(file);
     read_top();
     if (const TomlTable* table = section("gearbox")) read_gearbox(*table);
-    if (const TomlTable* table = section("rack"))
-      read_keys("rack", *table, rack_keys(), file_.design.rack);
+    if (const TomlTable* table = section("rack")) read_rack(*table);
     read_gears();
     read_carrier();
     if (const TomlTable* table = section("shafts"))
       read_keys("shafts", *table, shafts_keys(), file_.design.shafts);
+    if (const TomlTable* table = section("made")) read_made(*table);
     settle_module();
+    settle_tools();
     report_contradictions(file_.design, kind_known_, reading_);
-    if (!reading_.clean()) return fail_all(reading_.errors(file));
+    if (!reading_.clean() || !tools_errors_.empty()) {
+      Errors errors = reading_.clean() ? Errors{} : reading_.errors(file);
+      errors.insert(errors.end(), tools_errors_.begin(), tools_errors_.end());
+      return fail_all(std::move(errors));
+    }
     file_.file = file;
     for (const auto& [key, found] : reading_.found()) file_.lines[key] = found.line;
     if (file_.design.name.empty())
@@ -90,7 +97,7 @@ class DesignReader {
 
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {
@@ -129,6 +136,80 @@ class DesignReader {
       if (place == KeyPlace::kOf3k) return kind_known_ && design.kind == TrainKind::k3k;
       return place != KeyPlace::kUnlessEveryGear;
     });
+  }
+
+  /// The user's own tools; a relative path starts at the design file.
+  void read_tool_tables(const std::string& file) {
+    const TomlEntry* entry = root_.find("tools");
+    const auto* name = entry ? std::get_if<std::string>(&entry->value) : nullptr;
+    if (!name || name->empty()) return;
+    auto tools = read_tools((std::filesystem::path(file).parent_path() / *name).string());
+    if (tools)
+      file_.tools = std::move(*tools);
+    else
+      tools_errors_ = std::move(tools.error());
+  }
+
+  /// The text of a key that names something; nothing where it is no text.
+  static const std::string* name_in(const TomlTable& table, const char* key) {
+    const TomlEntry* entry = table.find(key);
+    return entry ? std::get_if<std::string>(&entry->value) : nullptr;
+  }
+
+  void report_unknown_name(const std::string& key, const std::string& name, const char* what,
+                           const std::vector<std::string>& known) {
+    if (!tools_errors_.empty()) return;  // it may be in the file that could not be read
+    const std::string near = nearest_name(name, known);
+    reading_.report({.code = ErrorCode::kOutOfRange,
+                     .message = std::string("no ") + what + " of this name" +
+                                (near.empty() ? "" : "; did you mean " + near + "?"),
+                     .key = key,
+                     .remedy = joined(known)});
+  }
+
+  void read_rack(const TomlTable& table) {
+    if (const std::string* name = name_in(table, "profile")) {
+      rack_tool_ = find_rack(file_.tools, *name);
+      if (rack_tool_)
+        file_.design.rack = rack_tool_->rack;
+      else
+        report_unknown_name("rack.profile", *name, "rack", names_of(file_.tools.racks));
+    }
+    read_keys("rack", table, rack_keys(), file_.design.rack);
+  }
+
+  void read_made(const TomlTable& table) {
+    MadeDesign& made = file_.design.made;
+    read_keys("made", table, made_keys(), made);
+    if (!made.process) return;
+    if (const Process* process = file_.tools.processes.find(made.process->name))
+      made.process = *process;
+    else
+      report_unknown_name("made.process", made.process->name, "process",
+                          names_of(file_.tools.processes));
+  }
+
+  /// Tools that depend on the module: it is known only now.
+  void settle_tools() {
+    GearboxDesign& design = file_.design;
+    if (rack_tool_ && rack_tool_->dedendum_plus_mm != 0.0 && !reading_.has("rack.dedendum")) {
+      const double m = design.gears.empty() ? design.module_mm : module_of(design, design.gears[0]);
+      design.rack.dedendum = rack_tool_->at_module(m).dedendum;
+      for (const GearDesign& gear : design.gears)
+        if (module_of(design, gear) != m)
+          return reading_.contradiction(
+              "rack.profile", "its depth depends on the module, and the gears have several",
+              "another rack, or a dedendum");
+    }
+    for (GearDesign& gear : design.gears) {
+      const auto named = cutter_tools_.find(gear.name);
+      if (named == cutter_tools_.end() || !gear.cutter) continue;
+      const ShaperCutter cutter = named->second->at_module(module_of(design, gear));
+      const std::string key = gear.name + ".cutter.";
+      if (!reading_.has(key + "teeth")) gear.cutter->teeth = cutter.teeth;
+      if (!reading_.has(key + "shift")) gear.cutter->shift = cutter.shift;
+      if (!reading_.has(key + "tip_radius")) gear.cutter->tip_radius = cutter.tip_radius;
+    }
   }
 
   /// The gearbox's module may be missing where every gear has its own.
@@ -199,9 +280,23 @@ class DesignReader {
     } else if (const auto* table = std::get_if<TomlTable>(&entry.value)) {
       gear.cutter = ShaperCutter{};
       read_keys(key, *table, cutter_keys(), *gear.cutter);
-      report_missing(key, cutter_keys(), [](KeyPlace) { return true; });
+      name_cutter(key, *table, gear.name);
     } else {
       report_no_table(key);
+    }
+  }
+
+  void name_cutter(const std::string& key, const TomlTable& table, const std::string& gear) {
+    if (const std::string* name = name_in(table, "name")) {
+      const CutterTool* tool = find_cutter(file_.tools, *name);
+      if (tool)
+        cutter_tools_[gear] = tool;
+      else
+        report_unknown_name(key + ".name", *name, "cutter", names_of(file_.tools.cutters));
+    } else if (!reading_.has(key + ".teeth") && !reading_.has(key + ".name")) {
+      for (const auto& cutter_key : cutter_keys())
+        if (std::string_view(cutter_key.rule.name) == "teeth")
+          reading_.missing(key + ".teeth", "missing", wanted(cutter_key.rule) + ", or name");
     }
   }
 
@@ -291,6 +386,9 @@ class DesignReader {
   const Errors& syntax_errors_;
   Reading reading_;
   DesignFile file_;
+  Errors tools_errors_;  ///< of the tools file
+  const RackTool* rack_tool_ = nullptr;
+  std::map<std::string, const CutterTool*> cutter_tools_;  ///< by the ring's name
   bool kind_known_ = false;
 };
 

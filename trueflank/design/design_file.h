@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "trueflank/base/result.h"
+#include "trueflank/design/tools_file.h"
 #include "trueflank/train/gearbox_design.h"
 
 // The design file (docs/design-file.md): TOML in millimetres, micrometres and degrees.
@@ -16,6 +17,7 @@ struct DesignFile {
   GearboxDesign design;
   std::string file;
   std::map<std::string, int> lines;  ///< of every dotted key and table there is, 1-based
+  ToolTables tools = standard_tools();  ///< with those of the design's tools file
 };
 
 /// Largest design file; a hundred times what any needs.

@@ -75,6 +75,10 @@ std::string design_file_text(const GearboxDesign& design, std::string_view comme
     text += "\n[shafts]\n";
     write_keys(text, shafts_keys(), design.shafts);
   }
+  if (design.made != MadeDesign{}) {
+    text += "\n[made]\n";
+    write_keys(text, made_keys(), design.made);
+  }
   return text;
 }
 

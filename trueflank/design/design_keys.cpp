@@ -78,6 +78,12 @@ const std::vector<DesignKey<GearboxDesign>>& file_keys() {
        KeyPlace::kAnywhere,
        [](GearboxDesign& d, const KeyValue& v) { d.name = text(v); },
        [](const GearboxDesign& d) { return d.name.empty() ? Value() : Value(d.name); }},
+      {{.name = "tools", .type = KeyType::kText, .by_default = "none",
+        .meaning = "TOML file with racks, cutters and processes of one's own ([made](made.md)); a "
+                   "relative path starts at this file"},
+       KeyPlace::kAnywhere,
+       [](GearboxDesign& d, const KeyValue& v) { d.tools_file = text(v); },
+       [](const GearboxDesign& d) { return d.tools_file.empty() ? Value() : Value(d.tools_file); }},
   };
   return keys;
 }
@@ -167,6 +173,11 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
 const std::vector<DesignKey<BasicRack>>& rack_keys() {
   using R = BasicRack;
   static const std::vector<DesignKey<R>> keys{
+      {{.name = "profile", .type = KeyType::kText, .by_default = "\"ISO53-A\"",
+        .meaning = "a rack by its name ([made](made.md)); the keys below change single values of it"},
+       KeyPlace::kAnywhere,
+       [](R&, const KeyValue&) {},  // the reader has taken the rack's values before the other keys
+       [](const R&) { return Value(); }},
       {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 50, .by_default = "20",
         .meaning = "pressure angle, in the normal section"},
        KeyPlace::kAnywhere,
@@ -188,6 +199,25 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.root_radius = number(v); },
        [](const R& r) { return Value(r.root_radius); }},
+      {{.name = "protuberance", .unit = "module", .lower = 0, .upper = 1, .by_default = "0",
+        .meaning = "how far the tip corners of the cutting rack stand out of its flanks, normal to "
+                   "them; external gears only"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.protuberance = number(v); },
+       [](const R& r) { return unless(r.protuberance, 0.0); }},
+      {{.name = "protuberance_angle_deg", .unit = "deg", .lower = 1, .upper = 49,
+        .by_default = "10", .meaning = "pressure angle of the protuberance's sides"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.protuberance_angle_rad = rad_from_deg(number(v)); },
+       [](const R& r) {
+         return r.protuberance > 0.0 ? Value(file_deg(r.protuberance_angle_rad)) : Value();
+       }},
+      {{.name = "grinding_stock", .unit = "module", .lower = 0, .upper = 1, .by_default = "0",
+        .meaning = "what the tool leaves on each flank for grinding, normal to it; the teeth are "
+                   "told and made as ground; less than the protuberance"},
+       KeyPlace::kAnywhere,
+       [](R& r, const KeyValue& v) { r.grinding_stock = number(v); },
+       [](const R& r) { return unless(r.grinding_stock, 0.0); }},
   };
   return keys;
 }

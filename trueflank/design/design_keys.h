@@ -51,6 +51,9 @@ inline constexpr int kDesignFormat = 1;
 /// `[carrier]`.
 [[nodiscard]] const std::vector<DesignKey<CarrierDesign>>& carrier_keys();
 
+/// `[made]`.
+[[nodiscard]] const std::vector<DesignKey<MadeDesign>>& made_keys();
+
 /// What a gear is if its `internal` says nothing: rings are internal.
 [[nodiscard]] GearKind usual_kind(const std::string& gear_name);
 /// Whether `internal` is this gear's to say.

@@ -70,6 +70,13 @@ constexpr const char* kRules = R"(
   ([modifications](theory/modifications.md)).
 - `relief_groove_mm` stands with herringbone teeth only and is less than every face width.
   Herringbone gears in mesh have one face width, so that their apexes meet.
+- `[<ring>.cutter]` needs `teeth` or `name`.
+- `thickness_allowance`, or `thickness_upper_um` with `thickness_lower_um` not above it, stands
+  instead of `thinning_um`. The series of DIN 3967 are a, ab, b, bc, c, cd, d, e, f, g, h with a
+  number from 21 to 30, for reference diameters up to 10 m.
+- A protuberance needs an external gear and an angle below the pressure angle; a `grinding_stock`
+  needs a protuberance larger than itself.
+- A rack whose depth depends on the module (`AGMA-fine-pitch`) needs one module for all gears.
 - `[carrier]` needs planets with a round bore that is larger than its pins;
   `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
   plate.
@@ -147,6 +154,7 @@ std::string design_reference() {
            "What hangs on the shafts besides, for the inertia that either shaft feels "
            "([efficiency](efficiency.md)).",
            shafts_keys());
+  describe(text, "`[made]`", "How the parts are made ([made](made.md)); may be left out.", made_keys());
   return text + kRules;
 }
 

@@ -19,6 +19,12 @@ Value if_given(const std::optional<double>& value) { return value ? Value(*value
 void set_teeth(G& gear, const KeyValue& value) { gear.teeth = whole(value); }
 Value get_teeth(const G& gear) { return whole_value(gear.teeth); }
 
+ThicknessAllowance& allowance(G& gear) {
+  if (!gear.thickness) gear.thickness = ThicknessAllowance{};
+  return *gear.thickness;
+}
+bool by_numbers(const G& gear) { return gear.thickness && gear.thickness->series.empty(); }
+
 std::vector<DesignKey<G>> toothing_keys() {
   return {
       {{.name = "internal", .type = KeyType::kFlag, .by_default = "false",
@@ -68,6 +74,26 @@ std::vector<DesignKey<G>> toothing_keys() {
        KeyPlace::kAnywhere,
        [](G& g, const KeyValue& v) { g.thinning_mm = mm_from_um(number(v)); },
        [](const G& g) { return g.thinning_mm ? Value(file_um(*g.thinning_mm)) : Value(); }},
+      {{.name = "thickness_allowance", .type = KeyType::kText, .by_default = "none",
+        .meaning = "tooth thickness by a series of DIN 3967, like \"cd25\"; the teeth are made in "
+                   "the middle of their tolerance, instead of thinning_um and backlash_mm"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { allowance(g).series = std::get<std::string>(v); },
+       [](const G& g) {
+         return g.thickness && !g.thickness->series.empty() ? Value(g.thickness->series) : Value();
+       }},
+      {{.name = "thickness_upper_um", .unit = "um", .lower = -100000, .upper = 100000,
+        .by_default = "none",
+        .meaning = "upper allowance of the tooth thickness in numbers: of the arc on the reference "
+                   "circle, normal section, negative for thinner teeth"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { allowance(g).upper_mm = mm_from_um(number(v)); },
+       [](const G& g) { return by_numbers(g) ? Value(file_um(g.thickness->upper_mm)) : Value(); }},
+      {{.name = "thickness_lower_um", .unit = "um", .lower = -100000, .upper = 100000,
+        .by_default = "none", .meaning = "lower allowance; not above the upper one"},
+       KeyPlace::kAnywhere,
+       [](G& g, const KeyValue& v) { allowance(g).lower_mm = mm_from_um(number(v)); },
+       [](const G& g) { return by_numbers(g) ? Value(file_um(g.thickness->lower_mm)) : Value(); }},
   };
 }
 
@@ -178,7 +204,14 @@ const std::vector<DesignKey<GearDesign>>& gear_keys() {
 const std::vector<DesignKey<ShaperCutter>>& cutter_keys() {
   using C = ShaperCutter;
   static const std::vector<DesignKey<C>> keys{
-      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 500, .required = true,
+      {{.name = "name", .type = KeyType::kText, .by_default = "none",
+        .meaning = "a cutter by its name ([made](made.md)); the keys below change single values of "
+                   "it"},
+       KeyPlace::kAnywhere,
+       [](C&, const KeyValue&) {},  // the reader fills in what the other keys do not say
+       [](const C&) { return Value(); }},
+      {{.name = "teeth", .type = KeyType::kWhole, .lower = 5, .upper = 500,
+        .by_default = "needed without name",
         .meaning = "number of teeth of the cutter; fewer than the ring's"},
        KeyPlace::kAnywhere,
        [](C& c, const KeyValue& v) { c.teeth = whole(v); },

@@ -46,6 +46,29 @@ Json train_json(const GearTrain& train) {
   return json;
 }
 
+/// Sizes at both ends of a thickness allowance; null without one.
+Json thickness_json(const TrainGear& gear, int span_teeth, double pin_mm) {
+  if (!gear.thinning_limits) return nullptr;
+  const ThinningLimits& limits = *gear.thinning_limits;
+  const Gear thick = thinned(gear.profile.gear(), limits.least_mm);
+  const Gear thin = thinned(gear.profile.gear(), limits.most_mm);
+  const bool external = thick.kind == GearKind::kExternal;
+  const double r = reference_radius_mm(thick);
+  // thicker teeth of a ring leave less room between its pins
+  const Gear &widest = external ? thick : thin, &narrowest = external ? thin : thick;
+  Json json;
+  json["upper_um"] = um_from_mm(limits.upper_mm);
+  json["lower_um"] = um_from_mm(limits.lower_mm);
+  json["reference_thickness_min_mm"] = tooth_thickness_mm(thin, r);
+  json["reference_thickness_max_mm"] = tooth_thickness_mm(thick, r);
+  const bool spans = span_obstacle(gear, span_teeth).empty();
+  json["span_min_mm"] = spans ? base_tangent_length_mm(thin, span_teeth) : kNaN;
+  json["span_max_mm"] = spans ? base_tangent_length_mm(thick, span_teeth) : kNaN;
+  json["over_pins_min_mm"] = over_pins_mm(narrowest, pin_mm);
+  json["over_pins_max_mm"] = over_pins_mm(widest, pin_mm);
+  return json;
+}
+
 Json gear_json(const GearTrain& train, const TrainGear& gear) {
   const ToothProfile& profile = gear.profile;
   const Gear& g = profile.gear();
@@ -97,6 +120,8 @@ Json gear_json(const GearTrain& train, const TrainGear& gear) {
                         : kTwoPi * reference_radius_mm(g) / std::tan(std::abs(g.helix_angle_rad));
   json["relief_groove_mm"] = gear.twist.relief_groove_mm;
   json["modified"] = !gear.deviation.empty() || gear.edge_chamfer_mm > 0.0 || g.tip_rounding_mm > 0.0;
+  json["protuberance_undercut_um"] = um_from_mm(notes.protuberance_undercut_mm);
+  json["thickness_allowance"] = thickness_json(gear, span_teeth, pin);
   return json;
 }
 
@@ -118,6 +143,8 @@ Json mesh_json(const Report& report, std::size_t index) {
   json["backlash_mm"] = mesh.backlash_mm;
   json["modified_backlash_mm"] = modified.backlash_mm;
   json["implied_backlash_mm"] = mesh.implied_backlash_mm;
+  json["backlash_min_mm"] = mesh.smallest_backlash_mm;
+  json["backlash_max_mm"] = mesh.largest_backlash_mm;
   json["basic_efficiency"] = report.efficiency.basic_efficiency_of(mesh.name);
   const bool swept = index < report.sweeps.size();
   json["minimum_clearance_um"] = swept ? report.sweeps[index].minimum_clearance_um : kNaN;

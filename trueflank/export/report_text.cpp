@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "trueflank/export/report.h"
+#include "trueflank/geometry/tooth_span.h"
 #include "trueflank/train/axial_thrust.h"
 #include "trueflank/train/mesh_face.h"
 
@@ -65,6 +67,41 @@ std::string gear_table(const GearTrain& train) {
                  {10, formatted("%.4f", 2.0 * gear.profile.root_radius_mm())},
                  {10, formatted("%.4f", 2.0 * gear.profile.root_form_radius_mm())},
                  {9, formatted("%.2f", gear.face_width_mm)}});
+  return text + "\n";
+}
+
+/// Limits of tooth thickness, as an inspector needs them; nothing where no gear has an allowance.
+std::string thickness_table(const GearTrain& train) {
+  std::string text;
+  for (const TrainGear& gear : train.gears) {
+    if (!gear.thinning_limits) continue;
+    const ThinningLimits& limits = *gear.thinning_limits;
+    const Gear thick = thinned(gear.profile.gear(), limits.least_mm);
+    const Gear thin = thinned(gear.profile.gear(), limits.most_mm);
+    const int k = recommended_span_teeth(gear.profile.gear());
+    const double pin = recommended_pin_diameter_mm(gear.profile.gear());
+    const double pins1 = over_pins_mm(thin, pin), pins2 = over_pins_mm(thick, pin);
+    if (text.empty())
+      text = row({{-8, "gear"}, {16, "thickness um"}, {19, "span mm"}, {5, "over"},
+                  {21, "over pins mm"}, {8, "pin mm"}});
+    const bool external = thick.kind == GearKind::kExternal;
+    text += row({{-8, gear.name},
+                 {16, formatted("%.1f", um_from_mm(limits.lower_mm)) + " .. " +
+                          formatted("%.1f", um_from_mm(limits.upper_mm))},
+                 {19, external ? formatted("%.4f", base_tangent_length_mm(thin, k)) + ".." +
+                                     formatted("%.4f", base_tangent_length_mm(thick, k))
+                               : "-"},
+                 {5, external ? std::to_string(k) : "-"},
+                 {21, formatted("%.4f", std::min(pins1, pins2)) + ".." +
+                          formatted("%.4f", std::max(pins1, pins2))},
+                 {8, formatted("%.3f", pin)}});
+  }
+  if (text.empty()) return {};
+  for (const TrainMesh& mesh : train.meshes)
+    if (!std::isnan(mesh.smallest_backlash_mm))
+      text += mesh.name + ": backlash " + formatted("%.1f", um_from_mm(mesh.smallest_backlash_mm)) +
+              " .. " + formatted("%.1f", um_from_mm(mesh.largest_backlash_mm)) +
+              " um from these allowances\n";
   return text + "\n";
 }
 
@@ -194,6 +231,7 @@ std::string report_text(const Report& report, TextColour colour) {
   }
   std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
                      helix_table(report) +
+                     thickness_table(*report.train) +
                      check_table(report, colour) + file_table(report);
   text += "verdict: " + coloured(verdict(report.findings), colour);
   if (failures + warnings > 0)

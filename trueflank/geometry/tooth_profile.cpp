@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
+#include "trueflank/geometry/protuberance.h"
 #include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
@@ -53,6 +55,15 @@ Status check_values(const Gear& g) {
     return fail(out_of_range("rack.root_radius", g.rack.root_radius, "0 or more"));
   if (!(g.rack.dedendum > 0.0) || !(g.rack.addendum > 0.0))
     return fail(out_of_range("rack.dedendum", g.rack.dedendum, "addendum and dedendum above 0"));
+  if (!(g.rack.protuberance >= 0.0) || !(g.rack.grinding_stock >= 0.0) ||
+      (g.rack.grinding_stock > 0.0 && !(g.rack.grinding_stock < g.rack.protuberance)))
+    return fail(out_of_range("rack.grinding_stock", g.rack.grinding_stock,
+                             "less than the protuberance: grinding would leave a step"));
+  if (g.rack.protuberance > 0.0 && !(g.rack.protuberance_angle_rad > rad_from_deg(1.0) &&
+                                     g.rack.protuberance_angle_rad < a))
+    return fail(out_of_range("rack.protuberance_angle_deg",
+                             deg_from_rad(g.rack.protuberance_angle_rad),
+                             "above 1 degree and below the pressure angle"));
   if (!std::isfinite(g.shift) || !std::isfinite(g.thinning_mm) || !std::isfinite(g.tip_radius_mm))
     return fail(out_of_range("shift", g.shift, "finite numbers"));
   if (!(g.tip_radius_mm > 0.0))
@@ -252,7 +263,8 @@ Status ProfileBuilder::build_external() {
                            "a tip diameter above " + text(2.0 * root_radius)));
 
   const double half_land = 0.25 * kPi - g().rack.dedendum * std::tan(alpha_n) -
-                           rho * (1.0 - std::sin(alpha_n)) / std::cos(alpha_n);
+                           rho * (1.0 - std::sin(alpha_n)) / std::cos(alpha_n) +
+                           residual_protuberance(g().rack) / std::cos(alpha_n);
   const RackTrochoid corner{.pitch_radius_mm = r,
                             .corner_depth_mm = depth - rho * m,
                             .corner_offset_mm = stretch * m * std::max(half_land, 0.0) +
@@ -262,11 +274,23 @@ Status ProfileBuilder::build_external() {
                             .gap_angle_rad = gap_angle()};
   const double root_end = gap_angle() - corner.corner_offset_mm / r;
   Curve fillet{corner, alpha_n, 0.5 * kPi};  // from the involute to the root circle
+  std::optional<Curve> protuberance_side;
 
   // Roll length where the rack's straight flank stops touching.
   const double joint_depth = corner.corner_depth_mm + corner.corner_radius_mm * std::sin(alpha_n);
   const double joint_roll = r * std::sin(alpha_t) - joint_depth / std::sin(alpha_t);
-  if (joint_roll < 0.0) {
+  if (residual_protuberance(g().rack) > 0.0) {
+    p_.notes_.protuberance_undercut_mm = m * residual_protuberance(g().rack);
+    p_.notes_.undercut = joint_roll < 0.0;
+    const auto cut = cut_protuberance(g(), corner, p_.tip_radius_mm_);
+    if (!cut)
+      return fail(infeasible("rack.protuberance", g().rack.protuberance,
+                             "the protuberance takes the whole flank away",
+                             "a smaller protuberance or a larger protuberance_angle_deg"));
+    fillet = cut->fillet;
+    protuberance_side = cut->side;
+    p_.root_form_radius_mm_ = cut->root_form_radius_mm;
+  } else if (joint_roll < 0.0) {
     Curve from_root{corner, 0.5 * kPi, alpha_n};
     p_.notes_.undercut = true;
     if (auto ok = find_undercut(from_root, fillet.begin); !ok) return ok;
@@ -305,6 +329,7 @@ Status ProfileBuilder::build_external() {
   const double roll_tip = roll_length_mm(p_.tip_form_radius_mm_, r_b);
   if (!p_.notes_.pointed) add_tip();
   add_involute(roll_tip, roll_root);
+  if (protuberance_side) add(PieceKind::kFillet, *protuberance_side);
   add(PieceKind::kFillet, fillet);
   add_arc(PieceKind::kRoot, root_radius, root_end, gap_angle());
   return {};

@@ -16,7 +16,9 @@ enum class PieceKind {
   kTrim,     ///< ring only: tip corner as trimmed by the shaper cutter
   kRadial,   ///< ring only: straight continuation of the flank inside the base circle
   kInvolute,
-  kFillet,   ///< trochoid of the tool, or the fillet arc of a ring
+  /// Trochoid of the tool, or the fillet arc of a ring. Above the trochoid of a protuberance there
+  /// may be one more: the involute that the protuberance's straight side cuts.
+  kFillet,
   kRoot,     ///< arc of the root circle, to the gap's middle
 };
 
@@ -27,12 +29,16 @@ struct ProfilePiece {
 
 /// What the profile could not be as asked; each is told in the report.
 struct ProfileNotes {
-  bool undercut = false;          ///< the tool cut into the involute (external)
+  /// The tool cut into the involute (external): generating undercut. What a protuberance takes away
+  /// on purpose does not count.
+  bool undercut = false;
   bool pointed = false;           ///< flanks met before the tip circle; the tooth ends there
   bool full_round = false;        ///< tip rounding of the tool did not fit and was reduced
   bool space_closed = false;      ///< ring: flanks met before the root circle; the space ends there
   bool tip_inside_base = false;   ///< ring: straight radial flank from the base circle to the tip
   bool tip_trimmed = false;       ///< ring: the cutter trimmed the tip corner
+  /// External: depth, normal to the flank, to which the tool's protuberance undercuts it [mm].
+  double protuberance_undercut_mm = 0.0;
 };
 
 /// The exact transverse section of tooth 1, counter-clockwise half: from the tooth's middle (angle 0

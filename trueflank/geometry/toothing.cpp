@@ -82,7 +82,8 @@ HalfPoint half_point(const Toothing& t, const ToothPlace& place, double z_mm) {
   };
   const Curve& curve = piece.curve;
   if (place.piece > flank) {  // fillet, root
-    if (piece.kind != PieceKind::kFillet) return {point_at(curve, place.parameter), 0.0};
+    const bool next = place.piece == flank + 1 && piece.kind == PieceKind::kFillet;
+    if (!next) return {point_at(curve, place.parameter), 0.0};
     const double along = (place.parameter - curve.begin) / (curve.end - curve.begin);
     return {point_at(curve, place.parameter),
             turn_at(pieces[flank].curve.end) * (1.0 - smooth_step(along))};

@@ -10,6 +10,7 @@
 #include "trueflank/train/flank_modifications.h"
 #include "trueflank/train/planet_phase.h"
 #include "trueflank/train/shift_solution.h"
+#include "trueflank/train/thickness_allowance.h"
 
 namespace trueflank {
 namespace {
@@ -58,14 +59,49 @@ std::vector<Gear> gears_without_tips(const GearboxDesign& design, const ShiftSol
   return gears;
 }
 
+/// Thinning of the gears that have a thickness allowance, from one end of it to the other.
+Result<ThinningLimits> thinning_limits(const ThicknessAllowance& asked, const Gear& gear) {
+  ThicknessAllowance allowance = asked;
+  if (!asked.series.empty()) {
+    auto found = din3967_allowance(asked.series, 2.0 * reference_radius_mm(gear));
+    if (!found) return fail(std::move(found.error()));
+    allowance = *found;
+  }
+  // allowances are of the normal section
+  const double stretch = 1.0 / std::cos(gear.helix_angle_rad);
+  return ThinningLimits{.least_mm = -allowance.upper_mm * stretch,
+                        .most_mm = -allowance.lower_mm * stretch,
+                        .upper_mm = allowance.upper_mm,
+                        .lower_mm = allowance.lower_mm};
+}
+
+/// Backlash of a mesh with all allowances at one end; NaN where neither gear has one.
+double backlash_at_limits_mm(const GearTrain& train, const TrainMesh& mesh,
+                             double ThinningLimits::*end) {
+  const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
+  const TrainGear& gear2 = train.gears[static_cast<std::size_t>(mesh.gear2)];
+  if (!gear1.thinning_limits && !gear2.thinning_limits) return kNaN;
+  const GearPair pair = train.pair(mesh);
+  double thinned_mm = 0.0;  // beyond what the gears have
+  for (const TrainGear* gear : {&gear1, &gear2})
+    if (gear->thinning_limits)
+      thinned_mm += *gear->thinning_limits.*end - gear->profile.gear().thinning_mm;
+  return mesh.backlash_mm + thinned_mm * pitch_radius1_mm(pair) / reference_radius_mm(pair.gear1());
+}
+
 /// Backlash by thinning: the first mesh shares it evenly, a gear already thinned keeps its part and
 /// the mate takes the rest.
 void share_thinning(const GearboxDesign& design, const std::vector<TrainMesh>& meshes,
+                    const std::vector<std::optional<ThinningLimits>>& limits,
                     double centre_distance_mm, std::vector<Gear>& gears) {
   std::vector<bool> settled(gears.size(), false);
   for (std::size_t i = 0; i < gears.size(); ++i) {
-    if (!design.gears[i].thinning_mm) continue;
-    gears[i].thinning_mm = *design.gears[i].thinning_mm;
+    if (limits[i])
+      gears[i].thinning_mm = 0.5 * (limits[i]->least_mm + limits[i]->most_mm);
+    else if (design.gears[i].thinning_mm)
+      gears[i].thinning_mm = *design.gears[i].thinning_mm;
+    else
+      continue;
     settled[i] = true;
   }
   for (const TrainMesh& mesh : meshes) {
@@ -166,10 +202,21 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
   std::vector<Gear> gears = gears_without_tips(design, *solution);
   for (std::size_t k = 0; k < train.meshes.size(); ++k)
     train.meshes[k].implied_backlash_mm = solution->implied_backlash_mm[k];
-  share_thinning(design, train.meshes, train.centre_distance_mm, gears);
+  Errors errors;
+  std::vector<std::optional<ThinningLimits>> limits(gears.size());
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    if (!design.gears[i].thickness) continue;
+    auto found = thinning_limits(*design.gears[i].thickness, gears[i]);
+    if (found) {
+      limits[i] = *found;
+    } else {
+      found.error().key = design.gears[i].name + ".thickness_allowance";
+      errors.push_back(std::move(found.error()));
+    }
+  }
+  share_thinning(design, train.meshes, limits, train.centre_distance_mm, gears);
   set_tip_circles(design, train.meshes, train.centre_distance_mm, gears);
 
-  Errors errors;
   for (std::size_t i = 0; i < gears.size(); ++i) {
     auto profile = ToothProfile::make(gears[i]);
     const GearDesign& d = design.gears[i];
@@ -198,16 +245,26 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
                            .face_width_mm = d.face_width_mm,
                            .twist = twist,
                            .deviation = std::move(*deviation),
-                           .edge_chamfer_mm = d.modifications.edge_chamfer_mm});
+                           .edge_chamfer_mm = d.modifications.edge_chamfer_mm,
+                           .thinning_limits = limits[i]});
   }
   if (!errors.empty()) return fail_all(std::move(errors));
 
   for (TrainMesh& mesh : train.meshes)
     mesh.backlash_mm = circumferential_backlash_mm(train.pair(mesh));
+  for (TrainMesh& mesh : train.meshes) {
+    mesh.smallest_backlash_mm = backlash_at_limits_mm(train, mesh, &ThinningLimits::least_mm);
+    mesh.largest_backlash_mm = backlash_at_limits_mm(train, mesh, &ThinningLimits::most_mm);
+  }
   stack_layers(train);
   train.assembly = assembly_condition(train);
   train.phases = phases_in_mesh(train);
   return train;
+}
+
+Gear thinned(Gear gear, double thinning_mm) {
+  gear.thinning_mm = thinning_mm;
+  return gear;
 }
 
 const TrainGear* GearTrain::find(const std::string& name) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@
 // placed. Everything after this (checks, solids, files, report) reads only this.
 namespace trueflank {
 
+/// Circular thinning of the teeth on the reference circle, transverse, at both ends of a tolerance;
+/// the gear itself has their mean.
+struct ThinningLimits {
+  double least_mm = 0.0;  ///< thickest tooth
+  double most_mm = 0.0;   ///< thinnest tooth
+  double upper_mm = 0.0, lower_mm = 0.0;  ///< the allowances they come from, normal section
+};
+
 /// A gear of the train.
 struct TrainGear {
   std::string name;
@@ -26,6 +35,7 @@ struct TrainGear {
   FaceTwist twist = {};             ///< in the gear's own frame
   FlankDeviation deviation = {};    ///< the design's modifications; empty: none
   double edge_chamfer_mm = 0.0;
+  std::optional<ThinningLimits> thinning_limits = {};  ///< gears with a thickness allowance
 
   /// The tooth surface as designed; refers to this gear.
   [[nodiscard]] Toothing toothing() const {
@@ -40,6 +50,9 @@ struct TrainMesh {
   int gear1 = 0, gear2 = 0;             ///< indices into GearTrain::gears
   double backlash_mm = kNaN;            ///< circumferential, at the working pitch circle, as it comes out
   double implied_backlash_mm = 0.0;     ///< the part shifts and centre distance imply, thinning aside
+  /// With all thickness allowances at their ends, at the exact centre distance; NaN where neither
+  /// gear has one.
+  double smallest_backlash_mm = kNaN, largest_backlash_mm = kNaN;
 };
 
 /// Where the planets stand and how they are turned, at one moment of the train (sun's phase chosen so
@@ -84,6 +97,9 @@ struct GearTrain {
 /// Solves and places a design. Errors: all at once; every key is the design file's.
 /// A design that does not fit or turn is not an error: the checks tell.
 [[nodiscard]] ResultAll<GearTrain> lay_out(const GearboxDesign& design);
+
+/// The gear at an end of its thickness allowance.
+[[nodiscard]] Gear thinned(Gear gear, double thinning_mm);
 
 /// Axis of the wheel of a pair: (a, 0), for a ring (-a, 0), so that the contact lies on +x.
 [[nodiscard]] Point2 wheel_centre_mm(const GearTrain& train);

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/geometry/gear.h"
+#include "trueflank/train/process.h"
 
 // The design as its author writes it (docs/design-file.md), in mm and radians; nothing is solved yet.
 namespace trueflank {
@@ -62,6 +63,15 @@ struct ModificationsDesign {
   bool operator==(const ModificationsDesign&) const = default;
 };
 
+/// Tooth thickness as its maker may deviate from the backlash-free one: of the circular thickness on
+/// the reference circle, in the normal section, as DIN 3967 counts it.
+struct ThicknessAllowance {
+  std::string series = {};  ///< "cd25": DIN 3967, by the reference diameter; empty: the numbers below
+  double upper_mm = 0.0, lower_mm = 0.0;
+
+  bool operator==(const ThicknessAllowance&) const = default;
+};
+
 /// One gear of the design file.
 struct GearDesign {
   std::string name;  ///< sun, planet1, ring1, planet2, ring2, planet, ring, gear, pinion, wheel
@@ -72,6 +82,7 @@ struct GearDesign {
   double face_width_mm = 10.0;
   std::optional<double> tip_diameter_mm = {};
   std::optional<double> thinning_mm = {};  ///< on the reference circle, instead of the shared backlash
+  std::optional<ThicknessAllowance> thickness = {};  ///< instead of thinning and backlash
   BoreDesign bore = {};
   std::optional<double> outer_diameter_mm = {};  ///< rings
   BoltCircleDesign bolt_circle = {};             ///< rings
@@ -106,6 +117,14 @@ struct ShaftsDesign {
   bool operator==(const ShaftsDesign&) const = default;
 };
 
+/// How the parts are made.
+struct MadeDesign {
+  std::optional<Process> process = {};  ///< what it can make is checked against
+  std::optional<double> kerf_mm = {};   ///< width of the cut of a wire or beam, for drawings
+
+  bool operator==(const MadeDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
@@ -125,6 +144,8 @@ struct GearboxDesign {
   std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
   std::string material = {};  ///< of every gear that does not set its own; empty: the default
   ShaftsDesign shafts = {};
+  MadeDesign made = {};
+  std::string tools_file = {};  ///< the user's racks, cutters and processes; empty: none
 
   bool operator==(const GearboxDesign&) const = default;
 };
