@@ -23,8 +23,8 @@ _trueflank() {
   if [[ $word == -* ]]; then
     local options="--help --quiet"
     case $command in
-      check) options+=" --json --html --tolerance --material --materials --pictures" ;;
-      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --allow-failing" ;;
+      check) options+=" --json --html --tolerance --material --materials --process --pictures" ;;
+      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --kerf-mm --allow-failing" ;;
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;

@@ -156,7 +156,7 @@ TEST(DesignErrors, UnknownKeysNameTheNearestKnownOne) {
             "teeth = \"drive\""},
            {"planets = 3", "planets = 3\nzzzzzzzz = 1", kUnknown, "gearbox.zzzzzzzz", "1",
             "unknown key kind, output", "zzzzzzzz"},
-           {"[rack]", "[motor]\n[rack]", kUnknown, "motor", "a table", "format, name, sun",
+           {"[rack]", "[motor]\n[rack]", kUnknown, "motor", "a table", "format, name, tools, sun",
             "[motor]"}}) {
     SCOPED_TRACE(slip.with);
     const auto design = read_design_text(replaced(k3k, slip.what, slip.with), "slip.toml");

@@ -41,6 +41,13 @@ class RandomDesigns {
               .addendum = real(0.5, 1.5),
               .dedendum = real(0.5, 1.5),
               .root_radius = coin() ? real(0.0, 0.4) : 0.0};
+    if (d.kind != TrainKind::kGear && coin()) {  // there is an external gear
+      d.rack.protuberance = real(0.01, 0.1);
+      d.rack.protuberance_angle_rad = rad_from_deg(real(2.0, 13.0));
+      d.rack.grinding_stock = coin() ? d.rack.protuberance * real(0.0, 0.9) : 0.0;
+    }
+    if (coin()) d.made.process = *ProcessTable().find(coin() ? "fdm-0.4" : "wire-edm");
+    if (coin()) d.made.kerf_mm = real(0.0, 1.0);
     for (const std::string& gear : gear_names(d.kind)) d.gears.push_back(next_gear(gear));
     return d;
   }
@@ -55,7 +62,13 @@ class RandomDesigns {
     if (coin()) g.shift = real(-2.0, 2.0);
     g.face_width_mm = real(3.0, 100.0);
     if (coin()) g.tip_diameter_mm = ring ? real(1.0, 2.0) : real(4e4, 1e5);
-    if (coin()) g.thinning_mm = mm_from_um(real(0.0, 500.0));
+    if (coin())
+      g.thinning_mm = mm_from_um(real(0.0, 500.0));
+    else if (coin())
+      g.thickness = ThicknessAllowance{.series = "cd25"};
+    else if (coin())
+      g.thickness = ThicknessAllowance{.upper_mm = mm_from_um(real(-50.0, 50.0)),
+                                       .lower_mm = mm_from_um(real(-500.0, -50.0))};
     if (ring)
       dress_ring(g);
     else if (gear_name != "planet2")

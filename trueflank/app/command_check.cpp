@@ -41,7 +41,7 @@ Status draw_meshes(const GearTrain& train, const std::string& folder) {
 }  // namespace
 
 int run_check(const CheckOptions& options) {
-  const auto train = read_train(options.design);
+  const auto train = read_train(options.design, {.process = options.process, .kerf_mm = {}});
   if (!train) return report_errors(train.error());
   const auto strength = strength_options(
       train->design, {.material = options.material, .file = options.materials_file});

@@ -25,6 +25,8 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
                       "of every gear, for torque and inertia (docs/strength.md)");
   command->add_option("--materials", options.materials_file,
                       "file with more [material.NAME] tables");
+  command->add_option("--process", options.process,
+                      "how the parts are made: warns of what that cannot make (docs/made.md)");
   command->add_option("--pictures", options.pictures,
                       "draw each mesh at its worst place, an SVG in this folder");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
@@ -48,6 +50,10 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
                       "loop.json: write geometry that cancels the effects found");
   command->add_option("--materials", options.materials_file,
                       "file with more [material.NAME] tables");
+  command->add_option("--kerf-mm", options.kerf_mm,
+                      "DXF files of parts hold the path of a wire or beam that cuts this width");
+  command->add_option("--process", options.process,
+                      "how the parts are made: warns of what that cannot make (docs/made.md)");
   command->add_flag("--allow-failing", options.allow_failing,
                     "write the parts though a check failed (the exit code is still 1)");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");

@@ -20,6 +20,7 @@ namespace {
 /// Finest and coarsest tolerance: below, doubles and file sizes end; above, teeth are no teeth.
 constexpr double kFinestTolerance_um = 0.001;
 constexpr double kCoarsestTolerance_um = 1000.0;
+constexpr double kWidestKerf_mm = 20.0;
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -37,6 +38,12 @@ Errors usage_errors(const MakeOptions& options) {
                       .key = "--tolerance-um",
                       .value = std::to_string(options.tolerance_um),
                       .remedy = "0.001 to 1000"});
+  if (options.kerf_mm && !(*options.kerf_mm >= 0.0 && *options.kerf_mm <= kWidestKerf_mm))
+    errors.push_back({.code = ErrorCode::kUsage,
+                      .message = "no width of a cut",
+                      .key = "--kerf-mm",
+                      .value = std::to_string(*options.kerf_mm),
+                      .remedy = "0 to 20"});
   return errors;
 }
 
@@ -85,7 +92,7 @@ Status write_report(const io::Report& report, const PartShapes& shapes,
 
 int run_make(const MakeOptions& options) {
   if (Errors errors = usage_errors(options); !errors.empty()) return report_errors(errors);
-  const auto train = read_train(options.design);
+  const auto train = read_train(options.design, {.process = options.process, .kerf_mm = options.kerf_mm});
   if (!train) return report_errors(train.error());
   const auto shapes = part_shapes(*train);
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
@@ -116,8 +123,12 @@ int run_make(const MakeOptions& options) {
                                   {.folder = folder,
                                    .formats = *formats,
                                    .tolerance_mm = mm_from_um(options.tolerance_um),
+                                   .kerf_mm = train->design.made.kerf_mm.value_or(0.0),
                                    .part = options.part});
-    if (!files) return report_errors(files.error());
+    if (!files) {
+      const bool of_design = files.error().front().code == ErrorCode::kInfeasible;
+      return report_errors(of_design ? located_in(options.design, files.error()) : files.error());
+    }
     report.tolerance_um = options.tolerance_um;
     report.files = std::move(*files);
     const auto scad = [](const io::ReportedFile& file) { return file.format == "scad"; };

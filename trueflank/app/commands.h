@@ -16,6 +16,7 @@ struct CheckOptions {
   std::string tolerance;  ///< see parse_tolerance; empty: no tolerance analysis
   std::string material;        ///< of every gear, for strength and inertia; empty: the default
   std::string materials_file;  ///< more [material.NAME]; empty: none
+  std::string process;    ///< what the parts are made by; empty: the design's
   std::string pictures;   ///< folder for an SVG of each mesh at its worst place; empty: none
   bool quiet = false;
 };
@@ -28,6 +29,8 @@ struct MakeOptions {
   double tolerance_um = 1.0;
   std::string part;     ///< empty: all
   std::string correct;  ///< loop.json; empty: none
+  std::optional<double> kerf_mm;  ///< of the DXF files; nothing: the design's
+  std::string process;  ///< what the parts are made by; empty: the design's
   std::string materials_file;  ///< more [material.NAME]; empty: none
   bool allow_failing = false;
   bool quiet = false;

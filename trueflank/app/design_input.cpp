@@ -13,9 +13,21 @@
 
 namespace trueflank::app {
 
-ResultAll<GearTrain> read_train(const std::string& path) {
+ResultAll<GearTrain> read_train(const std::string& path, const MadeOptions& made) {
   auto file = read_design_file(path);
   if (!file) return fail_all(file.error());
+  if (!made.process.empty()) {
+    const Process* process = file->tools.processes.find(made.process);
+    if (!process) {
+      std::string known;
+      for (const std::string& name : names_of(file->tools.processes))
+        known += (known.empty() ? "" : ", ") + name;
+      return fail_all({{.code = ErrorCode::kUsage, .message = "no such process",
+                        .key = "--process", .value = made.process, .remedy = known}});
+    }
+    file->design.made.process = *process;
+  }
+  if (made.kerf_mm) file->design.made.kerf_mm = made.kerf_mm;
   auto train = lay_out(file->design);
   if (!train) return fail_all(located(train.error(), *file));
   return train;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,15 @@
 
 namespace trueflank::app {
 
-/// Reads a design file and lays it out. Errors: all of the file, with file and line.
-[[nodiscard]] ResultAll<GearTrain> read_train(const std::string& path);
+/// How the parts are made, as the command line says it instead of the design file.
+struct MadeOptions {
+  std::string process;            ///< name of a process; empty: the design's
+  std::optional<double> kerf_mm;  ///< nothing: the design's
+};
+
+/// Reads a design file and lays it out. Errors: all of the file, with file and line; no such process.
+[[nodiscard]] ResultAll<GearTrain> read_train(const std::string& path,
+                                              const MadeOptions& made = {});
 
 /// Errors of later stations with file and line of their keys in the design file.
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);

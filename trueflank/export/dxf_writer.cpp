@@ -91,6 +91,7 @@ class DxfText {
 struct Layer {
   std::string name;
   int colour = 7;  ///< AutoCAD colour index
+  bool frozen = false;
 };
 
 std::string layer_name(const Section& section, const SectionBody& body) {
@@ -176,7 +177,7 @@ void put_layer_table(DxfText& dxf, const std::vector<Layer>& layers) {
   for (const Layer& layer : layers) {
     dxf.begin_record("LAYER", handle++, kLayers, "AcDbLayerTableRecord");
     dxf.put(2, layer.name);
-    dxf.put(70, 0);
+    dxf.put(70, layer.frozen ? 1 : 0);
     dxf.put(62, layer.colour);
     dxf.put(6, "Continuous");
   }
@@ -301,7 +302,7 @@ Status write_dxf(const std::filesystem::path& path, const std::vector<Section>& 
   for (const Section& section : sections)
     for (const SectionBody& body : section.bodies) {
       include(box, body.outer);
-      layers.push_back({layer_name(section, body), colour_index(body.part)});
+      layers.push_back({layer_name(section, body), colour_index(body.part), body.frozen});
       count += 1 + static_cast<int>(body.holes.size());
     }
   DxfText dxf(*file);

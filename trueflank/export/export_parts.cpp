@@ -12,6 +12,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/dxf_writer.h"
 #include "trueflank/export/glb_writer.h"
+#include "trueflank/export/kerf_path.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/obj_writer.h"
 #include "trueflank/export/parallel_jobs.h"
@@ -240,12 +241,28 @@ class Exporter {
     }
     if (job.format == FileFormat::kStep) return write_step(job, path, file);
     if (job.format == FileFormat::kScad) return write_scad_file(job, path);
+    if (job.format == FileFormat::kDxf && job.part != kAssembly && options_.kerf_mm > 0.0)
+      return write_kerf(shapes_.parts[job.part], path, file);
     const auto sections = job.part == kAssembly
                               ? assembly_sections(shapes_, options_.tolerance_mm)
                               : part_sections(shapes_.parts[job.part], options_.tolerance_mm);
     file.accuracy_um = um_from_mm(largest_chord_error_mm(sections));
     if (job.format == FileFormat::kDxf) return write_dxf(path, sections);
     return write_svg(path, train_.design.name + ": " + file.part, sections);
+  }
+
+  Status write_kerf(const PartShape& part, const std::filesystem::path& path,
+                    ReportedFile& file) const {
+    auto kerf = kerf_sections(part, options_.kerf_mm, options_.tolerance_mm);
+    if (!kerf) {
+      kerf.error().message = part.name + ": " + kerf.error().message;
+      return fail(std::move(kerf.error()));
+    }
+    file.accuracy_um = um_from_mm(kerf->deviation_mm);
+    file.kerf_mm = options_.kerf_mm;
+    file.unreached_corners = kerf->unreached;
+    file.left_um = um_from_mm(kerf->left_mm);
+    return write_dxf(path, kerf->sections);
   }
 
   Status write_scad_file(const Job& job, const std::filesystem::path& path) const {

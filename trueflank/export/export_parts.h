@@ -36,6 +36,9 @@ struct ExportOptions {
   std::vector<FileFormat> formats = {FileFormat::kStl, FileFormat::k3mf};
   /// Largest distance of facets and chords from the true surface or curve.
   double tolerance_mm = 1e-3;
+  /// Above 0: DXF files of parts hold the path of a wire or beam that cuts this width (kerf_path.h);
+  /// the assembly's and all other formats the parts as they are.
+  double kerf_mm = 0.0;
   std::string part;  ///< this part alone, without the assembly; empty: all
   /// Called after each file, by one thread at a time; for showing progress.
   std::function<void(const std::string& file_name)> on_written = {};
@@ -46,7 +49,7 @@ struct ExportOptions {
 /// files and report are the same whatever their number.
 /// The result is in the order parts x formats, the assembly last.
 /// Errors: kUsage (no such part), kFileNotFound, kPermission, kDisk, kInterrupted, kUnsupported (STEP of
-/// outlines that cross). Files written before an error stay; none of them is incomplete.
+/// outlines that cross), kInfeasible (the kerf does not fit into a hole). Files written before an error stay; none of them is incomplete.
 [[nodiscard]] ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
                                                                 const ExportOptions& options);
 

@@ -30,6 +30,9 @@ struct ReportedFile {
   std::uint64_t triangles = 0;    ///< 0 where the format has none
   double accuracy_um = kNaN;      ///< largest distance between file and true surface, both ways
   double volume_mm3 = kNaN;
+  double kerf_mm = kNaN;  ///< NaN: the file does not hold the path of a wire
+  std::size_t unreached_corners = 0;  ///< corners that the wire is too thick for
+  double left_um = kNaN;  ///< deepest material that stays in them
 };
 
 /// Inertia of the set, of solids of one density.

@@ -218,6 +218,17 @@ std::string file_table(const Report& report) {
                  {12, std::to_string(file.bytes)},
                  {11, file.triangles > 0 ? std::to_string(file.triangles) : "-"},
                  {14, formatted("%.3f", file.accuracy_um)}});
+  for (const ReportedFile& file : report.files) {
+    if (std::isnan(file.kerf_mm)) continue;
+    text += wrapped(file.path + ": path of the middle of a cut " + formatted("%g", file.kerf_mm) +
+                        " mm wide" +
+                        (file.unreached_corners == 0
+                             ? std::string()
+                             : "; it does not reach into " + std::to_string(file.unreached_corners) +
+                                   " corners, where up to " + formatted("%.1f", file.left_um) +
+                                   " um of material stay (frozen layers AS_CUT)"),
+                    0);
+  }
   return text + "\n";
 }
 

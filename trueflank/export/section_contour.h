@@ -45,6 +45,7 @@ struct SectionBody {
   std::string part;
   Contour outer;
   std::vector<Contour> holes;
+  bool frozen = false;  ///< DXF: on a frozen layer, to be looked at and not to be cut
 };
 /// All that one plane cuts.
 struct Section {

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What ezdxf makes of the DXF files of `trueflank make --kerf-mm`, and the made options of the program.
+
+A pair with a keyway is written with and without kerf; every point of the path must be half the kerf
+from the outline in the other file, whose area grows by perimeter and corners as an offset's does.
+"""
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+import ezdxf
+import numpy as np
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+KERF_MM = 0.25
+DESIGN = """format = 1
+[gearbox]
+kind = "gear"
+module_mm = 1.0
+[gear]
+teeth = 24
+face_width_mm = 5
+bore_mm = 8
+bore_keyway_width_mm = 3
+bore_keyway_depth_mm = 1.4
+"""
+
+
+def make(name, *options, design=DESIGN, expect=0):
+    path = OUTPUT / f"{name}.toml"
+    path.write_text(design)
+    done = subprocess.run([PROGRAM, "make", path, "-o", OUTPUT / name, "--formats", "dxf", *options],
+                          capture_output=True, text=True, timeout=60)
+    if done.returncode != expect:
+        raise AssertionError(f"exit {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout + done.stderr
+
+
+def dense(entity):
+    """Points on a closed LWPOLYLINE, arcs by their bulges (ezdxf's own paths of arcs are 0.03 % off)."""
+    vertices = [(np.array(v[:2]), v[2]) for v in entity.get_points("xyb")]
+    points = []
+    for (a, bulge), (b, _) in zip(vertices, vertices[1:] + vertices[:1]):
+        angle = 4 * math.atan(bulge)
+        count = max(2, math.ceil(abs(angle) / 0.004))
+        chord = b - a
+        for i in range(count):
+            if abs(angle) < 1e-12:
+                points.append(a + chord * i / count)
+                continue
+            # the chord to a point of the arc: its angle at a is half the arc's that is left
+            t = angle * i / count
+            turn = (t - angle) / 2
+            length = math.sin(t / 2) / math.sin(angle / 2)
+            c, s = math.cos(turn), math.sin(turn)
+            points.append(a + length * np.array([c * chord[0] - s * chord[1], s * chord[0] + c * chord[1]]))
+    return np.array(points)
+
+
+def contours(folder, layer):
+    """Dense points of every contour of a layer, the outermost first."""
+    document = ezdxf.readfile(str(OUTPUT / folder / "gear.dxf"))
+    lines = []
+    for entity in document.modelspace():
+        if entity.dxf.layer == layer:
+            lines.append(dense(entity))
+    return sorted(lines, key=lambda line: -np.hypot(*line.T).max())
+
+
+def distances(points, line):
+    """From each point to a closed chain of points."""
+    if not np.allclose(line[0], line[-1]):
+        line = np.vstack([line, line[:1]])
+    a, d = line[:-1], np.diff(line, axis=0)
+    keep = (d**2).sum(axis=1) > 0
+    a, d = a[keep], d[keep]
+    square = (d**2).sum(axis=1)
+    result = np.empty(len(points))
+    for i, p in enumerate(points):
+        along = np.clip(((p - a) * d).sum(axis=1) / square, 0, 1)
+        result[i] = np.sqrt((((a + along[:, None] * d) - p)**2).sum(axis=1).min())
+    return result
+
+
+def area(line):
+    x, y = line.T
+    return abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
+
+
+class Kerf(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        make("plain", "--tolerance-um", "0.02")
+        cls.told = make("kerf", "--kerf-mm", str(KERF_MM))
+        cls.outline = contours("plain", "SECTION_1_GEAR")
+        cls.path = contours("kerf", "SECTION_1_GEAR_KERF_250UM")
+
+    def test_ezdxf_finds_no_error_and_the_layers(self):
+        document = ezdxf.readfile(str(OUTPUT / "kerf" / "gear.dxf"))
+        audit = document.audit()
+        self.assertEqual((len(audit.errors), len(audit.fixes)), (0, 0))
+        self.assertTrue(document.layers.get("SECTION_1_GEAR_AS_CUT").is_frozen())
+        self.assertFalse(document.layers.get("SECTION_1_GEAR_KERF_250UM").is_frozen())
+        self.assertEqual([len(self.outline), len(self.path)], [2, 2])
+        for entity in document.modelspace():
+            if entity.dxftype() == "LWPOLYLINE":
+                self.assertTrue(entity.closed)
+                self.assertLess(len(entity), 24 * 40)
+
+    def test_every_point_of_the_path_is_half_the_kerf_from_the_outline(self):
+        for path, outline in zip(self.path, self.outline):
+            away = distances(path[::5], outline)
+            self.assertLess(abs(away - KERF_MM / 2).max(), 1.02e-3)
+
+    def test_path_goes_round_the_part_and_inside_its_bore(self):
+        self.assertGreater(area(self.path[0]), area(self.outline[0]))
+        self.assertLess(area(self.path[1]), area(self.outline[1]))
+
+    def test_area_of_the_bores_path_is_that_of_its_arcs_and_lines(self):
+        d, r, half_width, depth = KERF_MM / 2, 4.0, 1.5, 1.4
+        mouth = math.asin(half_width / r)
+        corner = np.array([r * math.cos(mouth), half_width])
+
+        def arc(centre, radius, begin, end):
+            angles = np.linspace(begin, end, 20001)
+            return centre + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        floor = r + depth - d
+        path = np.vstack([
+            arc(np.zeros(2), r - d, mouth, 2 * math.pi - mouth),
+            arc(corner * [1, -1], d, math.pi - mouth, math.pi / 2),  # round the mouth's corner
+            [[floor, d - half_width], [floor, half_width - d]],
+            arc(corner, d, 1.5 * math.pi, math.pi + mouth)])
+        self.assertAlmostEqual(area(self.path[1]), area(path), delta=1e-3)
+
+    def test_unreached_corners_are_told(self):
+        report = json.loads((OUTPUT / "kerf" / "report.json").read_text())
+        entry = report["files"][0]
+        self.assertEqual(entry["kerf_mm"], KERF_MM)
+        self.assertEqual(entry["unreached_corners"], 2)
+        self.assertAlmostEqual(entry["left_um"], 125 * (math.sqrt(2) - 1), delta=0.05)
+        self.assertLess(entry["accuracy_um"], 1.0)
+        self.assertIn("2 corners", " ".join(self.told.split()))
+
+    def test_kerf_of_the_design_file_does_the_same(self):
+        make("written", design=DESIGN + "[made]\nkerf_mm = 0.25\n")
+        self.assertEqual((OUTPUT / "written" / "gear.dxf").read_bytes(),
+                         (OUTPUT / "kerf" / "gear.dxf").read_bytes())
+
+    def test_what_cannot_be_is_an_error(self):
+        told = make("wide", "--kerf-mm", "9", expect=2)
+        self.assertIn("does not fit", told)
+        self.assertIn("no width of a cut", make("negative", "--kerf-mm", "-1", expect=2))
+        self.assertIn("fdm-0.4", make("process", "--process", "magic", expect=2))
+
+    def test_process_warns_and_the_parts_are_made(self):
+        told = make("printed", "--process", "fdm-0.4",
+                    design=DESIGN.replace("module_mm = 1.0", "module_mm = 0.5").replace(
+                        "bore_mm = 8", "bore_mm = 3").replace("width_mm = 3", "width_mm = 1").replace(
+                        "depth_mm = 1.4", "depth_mm = 0.5"))
+        self.assertIn("manufacturability", told)
+        self.assertTrue((OUTPUT / "printed" / "gear.dxf").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv)
