@@ -24,7 +24,7 @@ _trueflank() {
     local options="--help --quiet"
     case $command in
       check) options+=" --json --html --tolerance --material --materials --process --pictures" ;;
-      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --kerf-mm --allow-failing" ;;
+      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --compensate --kerf-mm --allow-failing" ;;
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;

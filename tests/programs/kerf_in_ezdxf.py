@@ -158,6 +158,23 @@ class Kerf(unittest.TestCase):
         self.assertIn("no width of a cut", make("negative", "--kerf-mm", "-1", expect=2))
         self.assertIn("fdm-0.4", make("process", "--process", "magic", expect=2))
 
+    def test_compensation_moves_the_walls_of_meshes_only(self):
+        (OUTPUT / "own.toml").write_text("[process.wide]\nhorizontal_expansion_mm = 0.02\n")
+        design = 'tools = "own.toml"\n' + DESIGN + '[made]\nprocess = "wide"\n'
+        make("nominal", "--formats", "stl", design=design)
+        told = make("moved", "--formats", "stl", "--compensate", design=design)
+        self.assertIn("20 um inwards", told)
+        files = [{f["format"]: f for f in json.loads((OUTPUT / name / "report.json").read_text())["files"]}
+                 for name in ("nominal", "moved")]
+        self.assertEqual(files[1]["stl"]["compensated_for"], "wide")
+        self.assertNotIn("compensated_for", files[1]["dxf"])
+        self.assertEqual(*[(OUTPUT / name / "gear.dxf").read_bytes() for name in ("nominal", "moved")])
+        # walls times expansion, from the outlines' own lengths
+        length = sum(np.hypot(*(np.roll(line, -1, axis=0) - line).T).sum() for line in self.outline)
+        lost = files[0]["stl"]["volume_mm3"] - files[1]["stl"]["volume_mm3"]
+        self.assertAlmostEqual(lost / (5 * 0.02 * length), 1, delta=0.01)
+        self.assertIn("needs a process", make("none", "--compensate", expect=2))
+
     def test_process_warns_and_the_parts_are_made(self):
         told = make("printed", "--process", "fdm-0.4",
                     design=DESIGN.replace("module_mm = 1.0", "module_mm = 0.5").replace(

@@ -50,6 +50,8 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
                       "loop.json: write geometry that cancels the effects found");
   command->add_option("--materials", options.materials_file,
                       "file with more [material.NAME] tables");
+  command->add_flag("--compensate", options.compensate,
+                    "meshes with walls moved against the process's expansion and elephant foot");
   command->add_option("--kerf-mm", options.kerf_mm,
                       "DXF files of parts hold the path of a wire or beam that cuts this width");
   command->add_option("--process", options.process,

@@ -7,6 +7,7 @@
 #include "trueflank/app/corrected_parts.h"
 #include "trueflank/app/design_input.h"
 #include "trueflank/app/error_text.h"
+#include "trueflank/app/exported_files.h"
 #include "trueflank/app/html_document.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
@@ -44,6 +45,11 @@ Errors usage_errors(const MakeOptions& options) {
                       .key = "--kerf-mm",
                       .value = std::to_string(*options.kerf_mm),
                       .remedy = "0 to 20"});
+  if (options.compensate && !options.correct.empty())
+    errors.push_back({.code = ErrorCode::kUsage,
+                      .message = "a correction from measured parts holds the process's effects",
+                      .key = "--compensate",
+                      .remedy = "either --compensate or --correct"});
   return errors;
 }
 
@@ -97,6 +103,11 @@ int run_make(const MakeOptions& options) {
   const auto shapes = part_shapes(*train);
   if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   if (Errors errors = part_errors(options, *shapes); !errors.empty()) return report_errors(errors);
+  if (options.compensate && !train->design.made.process)
+    return report_errors({{.code = ErrorCode::kUsage,
+                           .message = "compensation needs a process",
+                           .key = "--compensate",
+                           .remedy = "--process NAME, or [made] process in the design"}});
 
   std::string told;  // what was left out, and what was corrected
   auto formats = formats_for(options, train->design, told);
@@ -117,16 +128,17 @@ int run_make(const MakeOptions& options) {
       formats = formats_of_corrected(*formats, corrected);
       told += corrected.text;
     }
-    auto files = io::export_parts({.train = &*train,
-                                   .shapes = options.correct.empty() ? &*shapes : &corrected.shapes,
-                                   .meshes = corrected.meshes.empty() ? nullptr : &corrected.meshes},
-                                  {.folder = folder,
-                                   .formats = *formats,
-                                   .tolerance_mm = mm_from_um(options.tolerance_um),
-                                   .kerf_mm = train->design.made.kerf_mm.value_or(0.0),
-                                   .part = options.part});
+    auto files = exported_files({.train = &*train,
+                                 .shapes = options.correct.empty() ? &*shapes : &corrected.shapes,
+                                 .meshes = corrected.meshes.empty() ? nullptr : &corrected.meshes},
+                                {.folder = folder,
+                                 .formats = *formats,
+                                 .tolerance_mm = mm_from_um(options.tolerance_um),
+                                 .kerf_mm = train->design.made.kerf_mm.value_or(0.0),
+                                 .part = options.part},
+                                options.compensate, told);
     if (!files) {
-      const bool of_design = files.error().front().code == ErrorCode::kInfeasible;
+      const bool of_design = files.error().front().key.starts_with("made.");
       return report_errors(of_design ? located_in(options.design, files.error()) : files.error());
     }
     report.tolerance_um = options.tolerance_um;

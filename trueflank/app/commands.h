@@ -29,6 +29,7 @@ struct MakeOptions {
   double tolerance_um = 1.0;
   std::string part;     ///< empty: all
   std::string correct;  ///< loop.json; empty: none
+  bool compensate = false;  ///< meshes with walls moved against the process's effects
   std::optional<double> kerf_mm;  ///< of the DXF files; nothing: the design's
   std::string process;  ///< what the parts are made by; empty: the design's
   std::string materials_file;  ///< more [material.NAME]; empty: none

@@ -395,6 +395,14 @@ Result<KerfPath> kerf_path(const Outline& outline, bool hole, double kerf_mm, do
   if (const auto* bore = std::get_if<BoreOutline>(&outline))
     if (bore->bore.kind == BoreKind::kRound)
       return of_circle({Point2::Zero(), 0.5 * bore->bore.diameter_mm});
+  if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
+    if (!toothed->toothing().prismatic() || toothed->toothing().has_deviation())
+      return fail(Error{.code = ErrorCode::kUnsupported,
+                        .message = "the path of a wire is built for straight teeth without "
+                                   "modifications and chamfers only",
+                        .key = "made.kerf_mm",
+                        .value = std::to_string(kerf_mm),
+                        .remedy = "no kerf for this design"});
   auto path = PathBuilder(outline, hole, kerf_mm, tolerance_mm).build();
   if (!path) return fail(does_not_fit(kerf_mm));
   return std::move(*path);

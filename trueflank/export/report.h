@@ -33,6 +33,7 @@ struct ReportedFile {
   double kerf_mm = kNaN;  ///< NaN: the file does not hold the path of a wire
   std::size_t unreached_corners = 0;  ///< corners that the wire is too thick for
   double left_um = kNaN;  ///< deepest material that stays in them
+  std::string compensated_for = {};  ///< process whose effects the walls are moved against; or empty
 };
 
 /// Inertia of the set, of solids of one density.

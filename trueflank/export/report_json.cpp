@@ -175,6 +175,7 @@ Json file_json(const ReportedFile& file) {
   json["triangles"] = file.triangles > 0 ? Json(file.triangles) : Json(nullptr);
   json["accuracy_um"] = file.accuracy_um;
   json["volume_mm3"] = file.volume_mm3;
+  if (!file.compensated_for.empty()) json["compensated_for"] = file.compensated_for;
   if (!std::isnan(file.kerf_mm)) {
     json["kerf_mm"] = file.kerf_mm;
     json["unreached_corners"] = file.unreached_corners;

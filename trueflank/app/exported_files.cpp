@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/app/exported_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/solid/process_compensation.h"
+
+namespace trueflank::app {
+namespace {
+
+bool is_mesh(io::FileFormat format) {
+  switch (format) {
+    case io::FileFormat::kStl:
+    case io::FileFormat::k3mf:
+    case io::FileFormat::kObj:
+    case io::FileFormat::kPly:
+    case io::FileFormat::kGlb: return true;
+    default: return false;
+  }
+}
+
+std::string um(double length_mm) {
+  return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
+}
+
+}  // namespace
+
+ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& model,
+                                                        io::ExportOptions options, bool compensate,
+                                                        std::string& told) {
+  const auto& formats = options.formats;
+  if (options.kerf_mm > 0.0 &&
+      std::find(formats.begin(), formats.end(), io::FileFormat::kDxf) == formats.end())
+    told += "the kerf concerns DXF files, and none was written\n";
+  const auto& process = model.train->design.made.process;
+  if (!compensate || !process) return io::export_parts(model, options);
+  auto moved = compensated(*model.shapes, *process);
+  if (!moved) return fail_all({std::move(moved.error())});
+
+  io::ExportOptions meshes = options, others = options;
+  meshes.formats.clear();
+  others.formats.clear();
+  for (io::FileFormat format : options.formats)
+    (is_mesh(format) ? meshes : others).formats.push_back(format);
+  std::vector<io::ReportedFile> files;
+  if (!meshes.formats.empty()) {
+    auto made = io::export_parts({.train = model.train, .shapes = &moved->shapes}, meshes);
+    if (!made) return made;
+    for (io::ReportedFile& file : *made) file.compensated_for = process->name;
+    files = std::move(*made);
+    told += "meshes are compensated for " + process->name + ": walls " +
+            um(process->horizontal_expansion_mm) + " inwards";
+    if (process->elephant_foot_mm > 0.0)
+      told += ", at the bed " + um(process->elephant_foot_mm) + " more, falling to nothing over " +
+              um(process->elephant_foot_height_mm);
+    told += "\n";
+  }
+  if (others.formats.empty()) return files;
+  auto made = io::export_parts(model, others);
+  if (!made) return made;
+  files.insert(files.end(), made->begin(), made->end());
+  return files;
+}
+
+}  // namespace trueflank::app
