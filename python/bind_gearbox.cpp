@@ -178,7 +178,8 @@ py::list export_files(const Gearbox& self, const py::object& folder, const std::
     const auto wanted = value_or_throw(io::parse_formats(formats));
     for (const io::FileFormat format : wanted) require_format(self, format);
     auto written = io::export_parts({.train = &self.train(), .shapes = &self.shapes()},
-                                    {.folder = path, .formats = wanted, .tolerance_mm = tolerance_mm, .part = part});
+                                    {.folder = path, .formats = wanted, .tolerance_mm = tolerance_mm,
+                                     .kerf_mm = self.train().design.made.kerf_mm.value_or(0.0), .part = part});
     if (!written) throw self.failure(written.error());
     files = std::move(*written);
   }

@@ -97,46 +97,16 @@ TEST(ProcessCompensation, VolumeShrinksByTheWallsTimesTheExpansion) {
   EXPECT_NEAR((more + less) / 2.0, nominal, 0.02 * 0.02 * 6.0 * 24 * 4);
 }
 
-TEST(ProcessCompensation, ElephantFootIsAStaircaseThatEndsAtItsHeight) {
-  const GearTrain train = gear_train();
-  const auto shapes = part_shapes(train);
-  ASSERT_TRUE(shapes);
-  const Process process{.name = "p", .layer_mm = 0.2, .elephant_foot_mm = 0.15,
-                        .elephant_foot_height_mm = 0.4};
-  const auto moved = compensated(*shapes, process);
-  ASSERT_TRUE(moved);
-  const auto& slabs = moved->shapes.parts[0].slabs;
-  ASSERT_EQ(slabs.size(), 3u);
-  const double designed = train.gears[0].profile.tip_radius_mm();
-  const double steps[] = {0.15 * 0.75, 0.15 * 0.25, 0.0};
-  for (int i = 0; i < 3; ++i) {
-    const auto& outline = std::get<ToothedOutline>(slabs[static_cast<std::size_t>(i)].outer);
-    EXPECT_NEAR(outline.profile->tip_radius_mm(), designed - steps[i], 1e-12);
-    EXPECT_NEAR(std::get<BoreOutline>(slabs[static_cast<std::size_t>(i)].holes[0]).bore.diameter_mm,
-                6.0 + 2.0 * steps[i], 1e-12);
-  }
-  EXPECT_NEAR(slabs[0].z_upper_mm, 0.2, 1e-15);
-  EXPECT_NEAR(slabs[2].z_lower_mm, 0.4, 1e-15);
-  EXPECT_EQ(slabs[2].z_upper_mm, 6.0);
-  const PartMesh mesh = part_mesh(moved->shapes.parts[0]);
-  EXPECT_TRUE(mesh_validity(mesh.mesh).valid());
-}
-
-TEST(ProcessCompensation, HelicalTeethAreOffsetButGetNoElephantFoot) {
+TEST(ProcessCompensation, HelicalTeethAreOffsetInTheirSections) {
   const GearTrain train = gear_train(20.0);
   const auto shapes = part_shapes(train);
   ASSERT_TRUE(shapes);
-  Process process{.name = "p", .horizontal_expansion_mm = 0.03};
+  const Process process{.name = "p", .horizontal_expansion_mm = 0.03};
   EXPECT_TRUE(compensated(*shapes, process));
   // a layer is a transverse section: its flanks are offset there
   const Gear before = train.gears[0].profile.gear(), after = offset_gear(before, 0.03);
   EXPECT_NEAR(base_radius_mm(after) * (base_half_angle_rad(before) - base_half_angle_rad(after)),
               0.03, 1e-12);
-  process.elephant_foot_mm = 0.1;
-  process.elephant_foot_height_mm = 0.3;
-  const auto refused = compensated(*shapes, process);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
 }
 
 TEST(ProcessCompensation, WallsThatVanishAreAnError) {

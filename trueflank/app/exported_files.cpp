@@ -52,8 +52,8 @@ ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& m
     told += "meshes are compensated for " + process->name + ": walls " +
             um(process->horizontal_expansion_mm) + " inwards";
     if (process->elephant_foot_mm > 0.0)
-      told += ", at the bed " + um(process->elephant_foot_mm) + " more, falling to nothing over " +
-              um(process->elephant_foot_height_mm);
+      told += "; not for its elephant foot of " + um(process->elephant_foot_mm) +
+              ", which is the slicer's";
     told += "\n";
   }
   if (others.formats.empty()) return files;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "trueflank/base/units.h"
@@ -15,7 +16,7 @@ Error does_not_exist(const std::string& part, double offset_mm, const std::strin
           .message = part + ": nothing is left where its walls are moved by the process: " + why,
           .key = "made.process",
           .value = std::to_string(um_from_mm(offset_mm)) + " um",
-          .remedy = "a process with less horizontal_expansion_mm and elephant_foot_mm"};
+          .remedy = "a process with less horizontal_expansion_mm"};
 }
 
 class Compensator {
@@ -26,59 +27,18 @@ class Compensator {
   }
 
   Result<CompensatedShapes> run() {
-    for (PartShape& part : result_.shapes.parts) {
-      std::vector<Slab> slabs;
-      for (const Slab& slab : part.slabs)
-        for (const Slab& piece : stepped(slab)) {
-          auto moved = offset_slab(part.name, piece);
-          if (!moved) return fail(std::move(moved.error()));
-          slabs.push_back(std::move(*moved));
-        }
-      part.slabs = std::move(slabs);
-    }
+    for (PartShape& part : result_.shapes.parts)
+      for (Slab& slab : part.slabs) {
+        if (auto ok = offset(part.name, slab.outer, false); !ok) return fail(std::move(ok.error()));
+        for (Outline& hole : slab.holes)
+          if (auto ok = offset(part.name, hole, true); !ok) return fail(std::move(ok.error()));
+      }
     return std::move(result_);
   }
 
  private:
-  /// How far walls move into the material between two heights of a part.
-  [[nodiscard]] double inwards_mm(double z_lower, double z_upper) const {
-    const double middle = 0.5 * (z_lower + z_upper);
-    double foot = 0.0;
-    if (process_.elephant_foot_height_mm > middle)
-      foot = process_.elephant_foot_mm * (1.0 - middle / process_.elephant_foot_height_mm);
-    return process_.horizontal_expansion_mm + foot;
-  }
-
-  /// The slab cut into layers as far as the elephant foot reaches.
-  [[nodiscard]] std::vector<Slab> stepped(const Slab& slab) const {
-    const double top = std::min(process_.elephant_foot_height_mm, slab.z_upper_mm);
-    const double layer = process_.layer_mm > 0.0 ? process_.layer_mm : process_.elephant_foot_height_mm;
-    if (process_.elephant_foot_mm <= 0.0 || top <= slab.z_lower_mm) return {slab};
-    std::vector<Slab> steps;
-    const int count =
-        std::max(1, static_cast<int>(std::lround((top - slab.z_lower_mm) / layer)));
-    for (int i = 0; i < count; ++i) {
-      Slab step = slab;
-      step.z_lower_mm = slab.z_lower_mm + (top - slab.z_lower_mm) * i / count;
-      step.z_upper_mm = slab.z_lower_mm + (top - slab.z_lower_mm) * (i + 1) / count;
-      steps.push_back(std::move(step));
-    }
-    if (top < slab.z_upper_mm) {
-      steps.push_back(slab);
-      steps.back().z_lower_mm = top;
-    }
-    return steps;
-  }
-
-  Result<Slab> offset_slab(const std::string& part, Slab slab) {
-    const double inwards = inwards_mm(slab.z_lower_mm, slab.z_upper_mm);
-    if (auto ok = offset(part, slab.outer, inwards, false); !ok) return fail(std::move(ok.error()));
-    for (Outline& hole : slab.holes)
-      if (auto ok = offset(part, hole, inwards, true); !ok) return fail(std::move(ok.error()));
-    return slab;
-  }
-
-  Status offset(const std::string& part, Outline& outline, double inwards, bool hole) {
+  Status offset(const std::string& part, Outline& outline, bool hole) {
+    const double inwards = process_.horizontal_expansion_mm;
     const double outwards = hole ? inwards : -inwards;  // from the outline's own inside
     if (auto* circle = std::get_if<CircleOutline>(&outline)) {
       circle->radius_mm += outwards;
@@ -94,22 +54,21 @@ class Compensator {
       return {};
     }
     auto& toothed = std::get<ToothedOutline>(outline);
-    const bool straight = toothed.toothing().prismatic() && !toothed.toothing().has_deviation();
-    if (!straight && process_.elephant_foot_mm > 0.0)
-      return fail(Error{.code = ErrorCode::kUnsupported,
-                        .message = part + ": the elephant foot is compensated for straight teeth "
-                                          "without modifications and chamfers only",
-                        .key = "made.process",
-                        .remedy = "a process with elephant_foot_mm = 0; the slicer can do it"});
+    if (const auto known = moved_.find(toothed.profile); known != moved_.end()) {
+      toothed.profile = known->second;
+      return {};
+    }
     auto profile = ToothProfile::make(offset_gear(toothed.profile->gear(), inwards));
     if (!profile) return fail(does_not_exist(part, inwards, profile.error().message));
     result_.profiles.push_back(std::move(*profile));
+    moved_[toothed.profile] = &result_.profiles.back();
     toothed.profile = &result_.profiles.back();
     return {};
   }
 
   const Process& process_;
   CompensatedShapes result_;
+  std::map<const ToothProfile*, const ToothProfile*> moved_;
 };
 
 }  // namespace

@@ -16,15 +16,12 @@ struct CompensatedShapes {
 };
 
 /// Every wall moved into the material by the process's horizontal expansion (outwards where that is
-/// negative), and the lowest layers by the elephant foot besides: over its height by a share that
-/// falls linearly to nothing, in steps of the layer height, each step right at its middle.
+/// negative), in the plane of the sections; heights do not change. The elephant foot is not built.
 /// Teeth stay exact: the offset of a gear is the gear of a tool that is wider, deeper and rounder by
 /// the offset. Bores, rims and holes are offset exactly but for the corners of keyways, flats and
 /// hexagons, which stay sharp.
-/// Heights do not change: the offset is that of the sections. Helical teeth get no elephant foot: each step would need its own turn.
-/// Requires: `shapes` and the profiles it refers to outlive the result.
-/// Errors: kInfeasible where no gear or bore of the moved walls exists; kUnsupported for helical or
-/// modified teeth with an elephant foot.
+/// Requires: what `shapes` refers to outlives the result.
+/// Errors: kInfeasible, key made.process, where no gear or hole of the moved walls exists.
 /// Accuracy: 1e-8 mm for straight teeth cut by racks and for ring fillets, tested by OutlineDistance
 /// in tests/solid/process_compensation_test.cpp; a shaped ring's root fillet within a tenth of the
 /// offset, as is the root of helical teeth.
