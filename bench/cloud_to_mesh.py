@@ -7,8 +7,8 @@ cloud-to-mesh distance alone, on the same points. Times, memory, and how far eac
 CloudCompare is Debian's package cloudcompare; where it is missing only trueflank is timed.
 """
 import math
+import os
 import pathlib
-import resource
 import shutil
 import subprocess
 import sys
@@ -49,12 +49,17 @@ def flank_points(count, seed=1):
 
 
 def timed(command, **options):
+    """Seconds on the clock, of one processor, and MB at most, of a child."""
     before = time.monotonic()
-    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               text=True, **options)
-    output, _ = process.communicate()
-    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    return time.monotonic() - before, peak, process.returncode, output
+    with tempfile.TemporaryFile("w+") as output:
+        process = subprocess.Popen(list(map(str, command)), stdout=output, stderr=subprocess.STDOUT, **options)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        said = output.read()
+    figures = (f"{time.monotonic() - before:.1f} s, {used.ru_utime + used.ru_stime:.1f} s of processor, "
+               f"{used.ru_maxrss / 1024:.0f} MB, exit code {process.returncode}")
+    return figures, said
 
 
 def main():
@@ -68,19 +73,17 @@ def main():
         for count in map(int, sys.argv[2:] or ["200000"]):
             points, off = flank_points(count)
             numpy.savetxt(folder / "scan.xyz", points, fmt="%.6f")
-            seconds, peak, code, output = timed([program, "loop", folder / "design.toml", folder / "scan.xyz",
-                                                 "-o", folder / "loop", "--quiet"])
-            print(f"{count} points: trueflank loop, any pose, all effects: {seconds:.1f} s, "
-                  f"{peak:.0f} MB, exit code {code}")
+            figures, _ = timed([program, "loop", folder / "design.toml", folder / "scan.xyz",
+                                "-o", folder / "loop", "--quiet"])
+            print(f"{count} points: trueflank loop, any pose, all effects: {figures}")
             if other is None:
                 print("CloudCompare is not installed")
                 continue
-            seconds, peak, code, output = timed(
+            figures, output = timed(
                 [other, "-SILENT", "-AUTO_SAVE", "OFF", "-C_EXPORT_FMT", "ASC", "-PREC", "6", "-O", folder / "scan.xyz",
                  "-O", folder / "gear.stl", "-C2M_DIST", "-SAVE_CLOUDS", "FILE", folder / "distance.asc"],
                 env={"QT_QPA_PLATFORM": "offscreen", "PATH": "/usr/bin:/bin", "HOME": name})
-            print(f"{count} points: CloudCompare C2M, aligned, distance only: {seconds:.1f} s, "
-                  f"largest child so far {peak:.0f} MB, exit code {code}")
+            print(f"{count} points: CloudCompare C2M, aligned, distance only: {figures}")
             written = sorted(folder.glob("distance*"))
             if not written:
                 print(output[-600:])

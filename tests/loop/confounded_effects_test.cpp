@@ -166,6 +166,25 @@ TEST(Confounded, CausesThatGeometryCannotTellAreSaid) {
   EXPECT_TRUE(mentions(indexed_by.measure_next, "two orientations on the table"));
 }
 
+TEST(Sizes, AloneTellThicknessWithAnInterval) {
+  const MadeGear gear = spur(20);
+  const Gear design = design_of(gear);
+  loop::MeasuredData data;
+  loop::SizeData sizes;
+  for (const int teeth : {2, 3, 4})
+    sizes.rows.push_back({loop::SizeQuantity::kSpan, base_tangent_length_mm(design, teeth) - 0.015,
+                          static_cast<double>(teeth), 1.0});
+  sizes.rows.push_back({loop::SizeQuantity::kTipDiameter, 2.0 * gear.tip_mm, kNaN, 1.0});
+  data.sizes.push_back(sizes);
+  const auto result = loop::close_loop(geometry_of(gear), "gear", data, {})->result;
+  ASSERT_EQ(result.effects.size(), 1u) << list(result);
+  ASSERT_EQ(result.effects[0].id, "tooth_thickness");
+  const auto& amount = parameter(result.effects[0], "amount_um");
+  EXPECT_NEAR(amount.value, -15.0 / std::cos(gear.pressure_angle_rad), 0.1);
+  EXPECT_GT(amount.high - amount.low, 1.0);  // three values of 1 um each
+  EXPECT_LT(amount.high - amount.low, 8.0);
+}
+
 TEST(Sizes, TellThicknessFromOffset) {
   // Traces with zeros of their own say nothing of thickness; span, pins and diameters do.
   const MadeGear gear = spur(20);

@@ -114,6 +114,24 @@ TEST(ScanMesh, ReadsPlyCloudsAndObjFaces) {
   EXPECT_EQ(obj->points_mm.size(), 4u);
 }
 
+TEST(ScanMesh, ABinaryFileCutShortIsUsedForWhatItHolds) {
+  std::string text(80, '\0');
+  const std::uint32_t promised = 300, there = 150;
+  text.append(reinterpret_cast<const char*>(&promised), 4);
+  for (std::uint32_t i = 0; i < there; ++i) {
+    const float x = static_cast<float>(i);
+    const std::array<float, 12> facet{0, 0, 1, x, 0, 0, x + 1, 0, 0, x, 1, 0};
+    text.append(reinterpret_cast<const char*>(facet.data()), 48);
+    text.append(2, '\0');
+  }
+  Notes notes;
+  const auto scan = read_scan_mesh("cut.stl", text + "half", notes);
+  ASSERT_TRUE(scan);
+  EXPECT_GE(scan->points_mm.size(), there);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes[0].find("150 of 300"), std::string::npos);
+}
+
 TEST(ScanMesh, BrokenFilesAreRefused) {
   Notes notes;
   EXPECT_FALSE(read_scan_mesh("a.stl", "rubbish", notes));

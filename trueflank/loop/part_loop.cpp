@@ -49,8 +49,15 @@ void PartLoop::run() {
     again = linearise() || again;
     if (!again) break;
   }
-  look_at_single_teeth();
+  if (!is_rounding()) look_at_single_teeth();
   look_at_sizes();
+}
+
+/// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
+bool PartLoop::is_rounding() const {
+  constexpr double kFileRounding_um = 0.01;
+  const PointFit plain(geometry_, measured_, patches_, {});
+  return plain.observations() > 0 && plain.errors({}).rms_um < kFileRounding_um;
 }
 
 /// What the data cannot show is not looked for under another name: shapes over the profile where nothing
@@ -101,9 +108,7 @@ void PartLoop::select() {
   options.next_level /= options_.tables;
   options.local_level /= options_.tables;
   discovery_ = discover(problem, options);
-  // What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
-  constexpr double kFileRounding_um = 0.01;
-  if (PointFit(geometry_, measured_, patches_, {}).errors({}).rms_um < kFileRounding_um) {
+  if (is_rounding()) {
     discovery_.chosen.clear();
     discovery_.first_p_value = discovery_.p_left = 1.0;
   }

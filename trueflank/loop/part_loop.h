@@ -37,6 +37,7 @@ class PartLoop {
  private:
   void ban_what_cannot_be_seen();
   void ban_given();
+  [[nodiscard]] bool is_rounding() const;
   void select();
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();

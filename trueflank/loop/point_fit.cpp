@@ -214,7 +214,13 @@ void PointFit::solve() {
     }
     const double bearing = squares > 0.0 ? sum * sum / squares : 1.0;
     degrees_[k] = std::max(1.0, bearing - 1.0);
-    if (bearing < 2.6) local.insert(k);
+    // What only sizes tell: their own error is known, and their scatter too few to ask.
+    const double threshold = 1e-6 * sum;
+    bool sizes_only = sum > 0.0;
+    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+      sizes_only = sizes_only && (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) <= threshold ||
+                                  unit_kind_[b] == static_cast<int>(ObservationKind::kSize));
+    if (bearing < 2.6 || sizes_only) local.insert(k);
   }
   // Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
   double used = 0.0;
@@ -241,12 +247,12 @@ void PointFit::solve() {
     double scatter = 0.0, count = 0.0;
     std::set<int> kinds;
     for (std::size_t b = 0; b < unit_grams_.size(); ++b)
-      if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 0.0 &&
+      if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 1e-6 * normal(k, k) &&
           unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
           unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
         kinds.insert(unit_kind_[b]);
     for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
-      if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 0.0) continue;
+      if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 1e-6 * normal(k, k)) continue;
       if (!kinds.contains(unit_kind_[b])) continue;
       const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
       scatter += sum_b * sum_b / unit_sums_[b][p + 1];
@@ -254,7 +260,11 @@ void PointFit::solve() {
     }
     covariance_.row(k).setZero();
     covariance_.col(k).setZero();
-    covariance_(k, k) = inverse(k, k) * (count > 0.0 ? scatter / count : 1.0);
+    // Sizes come with their own error, and are too few to tell a smaller one.
+    const bool sizes_only =
+        kinds.size() == 1 && kinds.contains(static_cast<int>(ObservationKind::kSize));
+    const double scale = count > 0.0 ? scatter / count : 1.0;
+    covariance_(k, k) = inverse(k, k) * (sizes_only ? std::max(1.0, scale) : scale);
     degrees_[k] = std::max(4.0, count - 1.0);
   }
 }

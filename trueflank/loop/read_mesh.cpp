@@ -48,12 +48,30 @@ class VertexIndex {
   std::unordered_multimap<std::uint64_t, std::uint32_t> found_;
 };
 
-Result<Surface3> read_stl(const std::string& file, std::string_view text) {
+/// Facets that a binary STL file cut short still holds; 0 where it is none or complete.
+std::uint32_t facets_of_cut_file(std::string_view text, std::uint32_t promised) {
+  constexpr std::size_t kHead = 84, kFacet = 50, kFewest = 100;
+  if (text.size() < kHead + kFacet * kFewest || text.size() >= kHead + kFacet * std::uint64_t{promised})
+    return 0;
+  const std::string_view head = text.substr(0, 1000);
+  // Text has no zero bytes; a binary file's counts and attributes do.
+  if (head.find('\0') == std::string_view::npos || promised > 400'000'000u) return 0;
+  return static_cast<std::uint32_t>((text.size() - kHead) / kFacet);
+}
+
+Result<Surface3> read_stl(const std::string& file, std::string_view text,
+                          std::vector<std::string>& notes) {
   Surface3 surface;
   VertexIndex index(surface);
   std::uint32_t count = 0;
   if (text.size() >= 84) std::memcpy(&count, text.data() + 80, 4);
-  if (text.size() >= 84 && text.size() == 84 + 50ull * count) {
+  const std::uint32_t there = facets_of_cut_file(text, count);
+  if (there > 0) {
+    notes.push_back(file + ": the file is cut short; " + std::to_string(there) + " of " +
+                    std::to_string(count) + " facets are there and used");
+    count = there;
+  }
+  if (text.size() >= 84 && (there > 0 || text.size() == 84 + 50ull * count)) {
     for (std::uint32_t i = 0; i < count; ++i) {
       std::array<float, 9> c;
       std::memcpy(c.data(), text.data() + 84 + 50ull * i + 12, 36);
@@ -322,7 +340,7 @@ class MeshSampler {
 Result<ScanData> read_scan_mesh(const std::string& file, std::string_view text,
                                 std::vector<std::string>& notes) {
   const std::string ending = lowered(std::filesystem::path(file).extension().string());
-  auto surface = ending == ".stl"   ? read_stl(file, text)
+  auto surface = ending == ".stl"   ? read_stl(file, text, notes)
                  : ending == ".obj" ? read_obj(file, text)
                                     : read_ply(file, text, notes);
   if (!surface) return fail(surface.error());
