@@ -6,9 +6,11 @@
 #include "trueflank/app/effects_file.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
+#include "trueflank/design/design_file_writer.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/loop/close_drive_loop.h"
 #include "trueflank/loop/close_loop.h"
+#include "trueflank/loop/drive_calibration.h"
 #include "trueflank/loop/drive_html.h"
 #include "trueflank/loop/loop_html.h"
 
@@ -66,8 +68,17 @@ Result<bool> all_are_bench_files(const LoopOptions& options) {
 }
 
 int run_drive_loop(const GearTrain& train, const LoopOptions& options) {
-  const auto closed = loop::close_drive_loop(train, options.data);
+  auto closed = loop::close_drive_loop(train, options.data);
   if (!closed) return report_errors(closed.error());
+  const loop::CalibratedDesign calibrated = loop::calibrated_design(train.design, *closed);
+  for (const std::string& note : calibrated.notes) closed->result.notes.push_back(note);
+  if (calibrated.design) {
+    const std::filesystem::path folder(options.folder);
+    if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
+    const std::string text = design_file_text(
+        *calibrated.design, "Calibrated by trueflank loop with bench data: friction and [losses].");
+    if (auto ok = io::write_file(folder / "calibrated.toml", text); !ok) return report_errors({ok.error()});
+  }
   return write_results(options, loop::drive_html(*closed), closed->result);
 }
 

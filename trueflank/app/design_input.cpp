@@ -46,6 +46,12 @@ const Material& material_of(const StrengthOptions& options, const std::string& g
   return *options.materials.find(own == options.material_of.end() ? options.material : own->second);
 }
 
+/// What a bench found to hold the input at rest; NaN where none was.
+double drag_of(const GearboxDesign& design) {
+  if (!design.losses) return kNaN;
+  return loss_torque_nm(*design.losses, {.temperature_c = design.losses->temperature_c.value_or(kNaN)}, 0.0);
+}
+
 /// Efficiency, strength and inertia.
 void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
                io::Report& report) {
@@ -63,7 +69,8 @@ void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
   report.inertia = {density_of(""),
                     reflected_inertia(train, report.efficiency, body_inertias(*shapes, density_of),
                                       {.rotor_kg_m2 = train.design.shafts.rotor_inertia_kg_m2,
-                                       .load_kg_m2 = train.design.shafts.load_inertia_kg_m2})};
+                                       .load_kg_m2 = train.design.shafts.load_inertia_kg_m2,
+                                       .drag_torque_nm = drag_of(train.design)})};
 }
 
 }  // namespace

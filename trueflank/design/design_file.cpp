@@ -47,6 +47,7 @@ std::string place_of(std::string_view name) {
   if (in(carrier_keys())) return "[carrier]";
   if (in(shafts_keys())) return "[shafts]";
   if (in(made_keys())) return "[made]";
+  if (in(losses_keys())) return "[losses]";
   if (in(gear_keys()) || name == "modifications") return "a gear's table";
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
@@ -70,6 +71,7 @@ class DesignReader {
     if (const TomlTable* table = section("shafts"))
       read_keys("shafts", *table, shafts_keys(), file_.design.shafts);
     if (const TomlTable* table = section("made")) read_made(*table);
+    read_losses();
     settle_module();
     settle_tools();
     report_contradictions(file_.design, kind_known_, reading_);
@@ -97,7 +99,7 @@ class DesignReader {
 
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {
@@ -252,6 +254,13 @@ class DesignReader {
     if (!table) return;
     read_keys("carrier", *table, carrier_keys(), file_.design.carrier.emplace());
     report_missing("carrier", carrier_keys(), [](KeyPlace) { return true; });
+  }
+
+  void read_losses() {
+    const TomlTable* table = section("losses");
+    if (!table) return;
+    read_keys("losses", *table, losses_keys(), file_.design.losses.emplace());
+    report_missing("losses", losses_keys(), [](KeyPlace) { return true; });
   }
 
   GearDesign read_gear(const std::string& name, const TomlTable& table) {

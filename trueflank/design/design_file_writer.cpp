@@ -79,6 +79,10 @@ std::string design_file_text(const GearboxDesign& design, std::string_view comme
     text += "\n[made]\n";
     write_keys(text, made_keys(), design.made);
   }
+  if (design.losses) {
+    text += "\n[losses]\n";
+    write_keys(text, losses_keys(), *design.losses);
+  }
   return text;
 }
 

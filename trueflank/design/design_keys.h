@@ -53,6 +53,8 @@ inline constexpr int kDesignFormat = 1;
 
 /// `[made]`.
 [[nodiscard]] const std::vector<DesignKey<MadeDesign>>& made_keys();
+/// `[losses]`.
+[[nodiscard]] const std::vector<DesignKey<LossesDesign>>& losses_keys();
 
 /// What a gear is if its `internal` says nothing: rings are internal.
 [[nodiscard]] GearKind usual_kind(const std::string& gear_name);

@@ -155,6 +155,11 @@ std::string design_reference() {
            "([efficiency](efficiency.md)).",
            shafts_keys());
   describe(text, "`[made]`", "How the parts are made ([made](made.md)); may be left out.", made_keys());
+  describe(text, "`[losses]`",
+           "What a bench found beside the friction of the meshes ([the loop on the drive](drive-loop.md) "
+           "writes it);\nwithout this table the efficiency is that of the meshes alone. Torques are at the "
+           "input.",
+           losses_keys());
   return text + kRules;
 }
 

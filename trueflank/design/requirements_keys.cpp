@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
+#include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/design/design_keys.h"
 
 namespace trueflank {
 namespace {
@@ -265,9 +268,38 @@ RequirementsSection search() {
 
 }  // namespace
 
+namespace {
+
+template <std::size_t I>
+std::string set_loss(R& r, const V& v) {
+  if (!r.losses) r.losses.emplace();
+  losses_keys()[I].set(*r.losses, v);
+  return {};
+}
+
+constexpr std::size_t kLossKeys = 18;
+
+/// The keys of the design file's `[losses]`.
+template <std::size_t... I>
+RequirementsSection losses(std::index_sequence<I...>) {
+  TRUEFLANK_EXPECTS(losses_keys().size() == kLossKeys);
+  RequirementsSection section{"losses", {}};
+  (section.keys.push_back({losses_keys()[I].rule, set_loss<I>}), ...);
+  // The table may be left out; a load it needs is 1 N m then, a speed 0.
+  for (auto& key : section.keys)
+    if (key.rule.required) {
+      key.rule.required = false;
+      key.rule.by_default = key.rule.name == std::string_view("load_nm") ? "1" : "0";
+    }
+  return section;
+}
+
+}  // namespace
+
 const std::vector<RequirementsSection>& requirements_sections() {
   static const std::vector<RequirementsSection> kSections{
-      top(), gearbox(), rack(), ratio(), teeth(), shift(), limits(), strength(), search()};
+      top(),    gearbox(),  rack(),   ratio(), teeth(), shift(),
+      limits(), strength(), search(), losses(std::make_index_sequence<kLossKeys>{})};
   return kSections;
 }
 

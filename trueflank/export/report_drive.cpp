@@ -46,6 +46,13 @@ std::string efficiency_json_text(const EfficiencyResult& efficiency) {
                {"backward", efficiency.backward},
                {"self_locking", efficiency.self_locking},
                {"forward_locking", efficiency.forward_locking}};
+  if (efficiency.losses)
+    json["losses"] = {{"mesh_forward", efficiency.mesh_forward},
+                      {"mesh_backward", efficiency.mesh_backward},
+                      {"friction_forward", efficiency.losses->friction_forward},
+                      {"friction_backward", efficiency.losses->friction_backward},
+                      {"loss_forward_nm", efficiency.losses->loss_forward_nm},
+                      {"loss_backward_nm", efficiency.losses->loss_backward_nm}};
   json["meshes"] = Json::object();
   for (const MeshEfficiency& mesh : efficiency.meshes)
     json["meshes"][mesh.name] = {{"by_contact_ratios", mesh.by_contact_ratios},

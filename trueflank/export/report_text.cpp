@@ -46,6 +46,11 @@ std::string heading_text(const Report& report) {
     text += "efficiency at friction " + formatted("%g", e.friction) + ": forward " +
             formatted("%.2f", 100.0 * e.forward) + " %, backward ";
     text += e.self_locking ? "none (self-locking)\n" : formatted("%.2f", 100.0 * e.backward) + " %\n";
+    if (e.losses)
+      text += "  with the measured losses at " + formatted("%g", train.design.losses->load_nm) +
+              " N m of output torque and " + formatted("%g", train.design.losses->input_speed_rpm) +
+              " rpm; the meshes alone: forward " + formatted("%.2f", 100.0 * e.mesh_forward) +
+              " %, backward " + formatted("%.2f", 100.0 * e.mesh_backward) + " %\n";
   }
   if (report.strength && !std::isnan(report.strength->output_torque_nm)) {
     const StrengthResult& s = *report.strength;

@@ -12,8 +12,10 @@ namespace {
 
 /// Rows in a row stay one set point while speed and load move less than this share of their range.
 constexpr double kSamePoint = 0.02;
-/// Fewer units than this are not merged further.
-constexpr int kFewUnits = 24;
+/// Fewer units than this would leave the sign flips nothing to count.
+constexpr int kFewUnits = 9;
+/// Correlation of neighbours that is told from none: to merge in vain costs little.
+constexpr double kLeastCorrelation = 0.12, kCorrelationErrors = 1.5;
 
 struct Range {
   double low = 1e300, high = -1e300;
@@ -143,10 +145,13 @@ void assign_blocks(BenchTable& table, const SmoothFit& fit) {
   cut_into_set_points(table);
   bool log = false;
   while (table.units > 2 * kFewUnits &&
-         correlation(table, fit) > std::max(0.15, 3.0 / std::sqrt(static_cast<double>(table.units)))) {
+         correlation(table, fit) >
+             std::max(kLeastCorrelation,
+                      kCorrelationErrors / std::sqrt(static_cast<double>(table.units)))) {
     if (!merge_neighbours(table)) break;
     log = true;
   }
+  table.drifts = log;
   lock_hold_out(table, log);
 }
 

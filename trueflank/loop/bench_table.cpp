@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 namespace trueflank::loop {
 namespace {
@@ -71,6 +72,22 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
   return std::max(sigma, 1e-9 * y.cwiseAbs().maxCoeff() + 1e-300);
 }
 
+int count_levels(const BenchTable& table, double BenchPoint::*member) {
+  constexpr int kMost = 8;
+  std::vector<double> values;
+  for (const BenchPoint& p : table.points) values.push_back(p.*member);
+  std::sort(values.begin(), values.end());
+  const double apart = 0.04 * (values.back() - values.front());
+  int levels = 1;
+  double level = values.front();
+  for (const double value : values)
+    if (value - level > apart) {
+      level = value;
+      ++levels;
+    }
+  return std::min(levels, kMost);
+}
+
 class TableMaker {
  public:
   TableMaker(const DriveModel& model, BenchData data) : model_(model), data_(std::move(data)) {}
@@ -96,7 +113,7 @@ class TableMaker {
     for (BenchPoint& p : table_.points)
       if (std::isnan(p.sigma_nm)) p.sigma_nm = p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
     assign_blocks(table_, fit);
-    find_extent();
+    measure_extent(table_);
     if (swapped == Impossible::kNothing) look_for_gains();
     return std::move(table_);
   }
@@ -191,51 +208,17 @@ class TableMaker {
     return true;
   }
 
-  void find_extent() {
-    double low = 1e300, high = -1e300, sum = 0.0;
-    table_.least_speed_rpm = 1e300;
-    for (const BenchPoint& p : table_.points) {
-      table_.most_speed_rpm = std::max(table_.most_speed_rpm, p.speed_rpm);
-      table_.least_speed_rpm = std::min(table_.least_speed_rpm, p.speed_rpm);
-      table_.most_load_nm = std::max(table_.most_load_nm, p.load_nm);
-      low = std::min(low, p.temperature_c);
-      high = std::max(high, p.temperature_c);
-      sum += p.temperature_c;
-    }
-    table_.levels = {count_levels(&BenchPoint::load_nm), count_levels(&BenchPoint::speed_rpm), 0};
-    if (!table_.has_temperature) return;
-    table_.levels[2] = high - low >= 3.0 ? count_levels(&BenchPoint::temperature_c) : 0;
-    table_.mean_temperature_c = sum / static_cast<double>(table_.points.size());
-    table_.temperature_span_c = high - low;
-  }
-
-  [[nodiscard]] int count_levels(double BenchPoint::*member) const {
-    constexpr int kMost = 8;
-    std::vector<double> values;
-    for (const BenchPoint& p : table_.points) values.push_back(p.*member);
-    std::sort(values.begin(), values.end());
-    const double apart = 0.04 * (values.back() - values.front());
-    int levels = 1;
-    double level = values.front();
-    for (const double value : values)
-      if (value - level > apart) {
-        level = value;
-        ++levels;
-      }
-    return std::min(levels, kMost);
-  }
-
-  /// Set points of one direction and a third of its loads that deliver more than they take.
+  /// Set points of one direction and a sixth of its loads that deliver more than they take.
   void look_for_gains() {
     struct Cell {
       double excess = 0.0, taken = 0.0, count = 0.0;
       std::map<int, std::pair<double, int>> units;
       double speed = 0.0;
     };
-    std::map<std::pair<bool, int>, Cell> cells;
+    std::map<std::tuple<bool, int, int>, Cell> cells;  // direction, load, file
     for (const BenchPoint& p : table_.points) {
-      const int third = std::min(2, static_cast<int>(3.0 * p.load_nm / table_.most_load_nm));
-      Cell& cell = cells[{p.forward, third}];
+      const int sixth = std::min(5, static_cast<int>(6.0 * p.load_nm / table_.most_load_nm));
+      Cell& cell = cells[{p.forward, sixth, p.file}];
       const double lossless = p.forward ? model_.ratio * p.driving_nm : p.driving_nm / model_.ratio;
       cell.excess += p.driven_nm - lossless;
       cell.taken += lossless;
@@ -259,11 +242,11 @@ class TableMaker {
       std::snprintf(text, sizeof text,
                     "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers more "
                     "than it takes",
-                    key.first ? "forward" : "backward",
-                    key.second == 0 ? "low" : key.second == 1 ? "middle" : "high",
+                    std::get<0>(key) ? "forward" : "backward",
+                    std::get<1>(key) <= 1 ? "low" : std::get<1>(key) <= 3 ? "middle" : "high",
                     1.0 + cell.excess / cell.taken, 2.0 * error * cell.count / cell.taken);
       table_.impossible = Impossible::kEfficiencyAboveOne;
-      table_.impossible_text = text;
+      table_.impossible_text = data_.files[std::get<2>(key)] + ": " + text;
     }
   }
 
@@ -277,6 +260,24 @@ class TableMaker {
 bool BenchTable::has(bool forward) const {
   return std::any_of(points.begin(), points.end(),
                      [&](const BenchPoint& p) { return p.forward == forward; });
+}
+
+void measure_extent(BenchTable& table) {
+  double low = 1e300, high = -1e300, sum = 0.0;
+  table.least_speed_rpm = 1e300;
+  for (const BenchPoint& p : table.points) {
+    table.most_speed_rpm = std::max(table.most_speed_rpm, p.speed_rpm);
+    table.least_speed_rpm = std::min(table.least_speed_rpm, p.speed_rpm);
+    table.most_load_nm = std::max(table.most_load_nm, p.load_nm);
+    low = std::min(low, p.temperature_c);
+    high = std::max(high, p.temperature_c);
+    sum += p.temperature_c;
+  }
+  table.levels = {count_levels(table, &BenchPoint::load_nm), count_levels(table, &BenchPoint::speed_rpm), 0};
+  if (!table.has_temperature) return;
+  table.levels[2] = high - low >= 3.0 ? count_levels(table, &BenchPoint::temperature_c) : 0;
+  table.mean_temperature_c = sum / static_cast<double>(table.points.size());
+  table.temperature_span_c = high - low;
 }
 
 SmoothFit smooth_fit(const std::vector<BenchPoint>& points) {

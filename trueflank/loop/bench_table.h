@@ -23,6 +23,7 @@ struct BenchPoint {
   int unit = 0;             ///< rows of one set point, or of a stretch of a log
   int fold = 0;             ///< 0 locked hold-out, 1 ... 8 cross-validation
   int file = 0, line = 0;
+  [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }
 };
 
 /// What no gearbox can do, and what it is instead.
@@ -37,6 +38,7 @@ struct BenchTable {
   std::vector<BenchPoint> points;
   int units = 0;
   int outliers = 0;
+  bool drifts = false;  ///< neighbouring set points hang together: a log, or a drifting zero
   bool has_temperature = false, has_angle = false;
   double turns = 0.0;   ///< of the input that the angles span
   double most_speed_rpm = 0.0, least_speed_rpm = 0.0, most_load_nm = 0.0;
@@ -70,6 +72,8 @@ struct SmoothFit {
   double sigma_forward_nm = kNaN, sigma_backward_nm = kNaN;
 };
 [[nodiscard]] SmoothFit smooth_fit(const std::vector<BenchPoint>& points);
+/// Ranges and levels of the points.
+void measure_extent(BenchTable& table);
 /// Units and folds of points in the order they were taken.
 void assign_blocks(BenchTable& table, const SmoothFit& fit);
 /// @}

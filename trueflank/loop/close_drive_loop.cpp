@@ -83,7 +83,8 @@ class Loop {
     const DriveContext here = context();
     DiscoveryOptions options;
     options.banned = banned;
-    options.first_level = options_.level;
+    // Of what hangs together some is left when units were merged: half the level makes up for it.
+    options.first_level = table_.drifts ? 0.5 * options_.level : options_.level;
     Outcome outcome;
     outcome.discovery = discover(drive_problem(here, value_, candidates_), options);
     for (const ChosenGroup& chosen : outcome.discovery.chosen)
@@ -118,6 +119,11 @@ class Loop {
     return moved;
   }
 
+  /// True where the design's coefficient with this change can be one of flanks that rub.
+  [[nodiscard]] bool is_friction(double change) const {
+    return model_.friction + change > 0.0 && model_.friction + change < 1.0;
+  }
+
   bool ban_wrong_signs(const Outcome& outcome) {
     const DriveContext here = context();
     const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
@@ -126,7 +132,8 @@ class Loop {
       const DriveFamily* family = outcome.effects[e].family;
       const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
       const bool wrong = (family->only_positive && !(b > 0.0)) ||
-                         (family->id == "friction_coefficient" && !(model_.friction + b > 0.0));
+                         (family->id == "friction_coefficient" && !is_friction(b)) ||
+                         (family->id == "mesh_friction" && !is_friction(b));
       if (wrong) any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
     }
     return any;
@@ -377,6 +384,12 @@ ResultAll<DriveLoop> close_drive_loop(const DriveModel& model, const BenchData& 
     table->notes.push_back(std::to_string(data.quantities.size()) +
                            " single quantities were not used beside the rows");
   return Loop(model, std::move(*table), options).close();
+}
+
+DriveLoop close_drive_table(const DriveModel& model, BenchTable table,
+                            const DriveLoopOptions& options) {
+  measure_extent(table);
+  return Loop(model, std::move(table), options).close();
 }
 
 ResultAll<DriveLoop> close_drive_loop(const GearTrain& train, const std::vector<std::string>& files) {

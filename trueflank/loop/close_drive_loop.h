@@ -32,6 +32,11 @@ struct DriveLoopOptions {
 [[nodiscard]] ResultAll<DriveLoop> close_drive_loop(const DriveModel& model, const BenchData& data,
                                                     const DriveLoopOptions& options = {});
 
+/// The same for a table made elsewhere: logs of other machines, with their own units and hold-out
+/// (fold 0). Every point needs its sigma_nm, unit and fold.
+[[nodiscard]] DriveLoop close_drive_table(const DriveModel& model, BenchTable table,
+                                          const DriveLoopOptions& options = {});
+
 /// A few numbers in place of rows: what each effect alone would have to be, at which load. Names none.
 [[nodiscard]] ResultAll<DriveLoop> explain_quantities(const DriveModel& model, const BenchData& data);
 

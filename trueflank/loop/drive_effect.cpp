@@ -71,9 +71,24 @@ double DriveContext::temperature_coordinate(const BenchPoint& p) const {
   return 2.0 * (p.temperature_c - table.mean_temperature_c) / table.temperature_span_c;
 }
 
+double DriveContext::quantity_at(double over, double coordinate) const {
+  if (over == 0.0) return 0.5 * (coordinate + 1.0) * table.most_load_nm;
+  if (over == 2.0) return table.mean_temperature_c + 0.5 * coordinate * table.temperature_span_c;
+  // By halving: the speed's coordinate grows with it.
+  BenchPoint p;
+  double low = table.least_speed_rpm, high = table.most_speed_rpm;
+  for (int i = 0; i < 50; ++i) {
+    p.speed_rpm = 0.5 * (low + high);
+    (speed_coordinate(p) < coordinate ? low : high) = p.speed_rpm;
+  }
+  return p.speed_rpm;
+}
+
 std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model) {
   std::vector<DriveEfficiency> slopes;
-  const double mu = model.friction, mu_back = model.backward_friction();
+  const double mu = model.friction;
+  const double mu_back =
+      model.losses ? model.losses->backward_friction.value_or(mu) : mu;
   const double forward = model.at(mu).forward, backward = model.at(mu_back).backward;
   for (std::size_t k = 0; k < model.meshes.size(); ++k) {
     std::vector<double> one(model.meshes.size(), mu), other(model.meshes.size(), mu_back);
@@ -86,10 +101,12 @@ std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model) {
 }
 
 double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve, const BenchPoint& p) {
-  const double known =
-      model.known_loss_nm ? model.known_loss_nm(p.speed_rpm, p.load_nm, p.temperature_c) : 0.0;
-  if (p.forward) return model.ratio * curve.at(true, model.friction) * (p.driving_nm - known);
-  return curve.at(false, model.backward_friction()) * p.driving_nm / model.ratio - known;
+  const double efficiency = curve.at(p.forward, model.friction_at(p.at()));
+  double known = 0.0;
+  if (model.losses)
+    known = loss_torque_nm(*model.losses, p.at(), p.forward ? efficiency * p.load_nm : p.load_nm);
+  if (p.forward) return model.ratio * efficiency * (p.driving_nm - known);
+  return efficiency * p.driving_nm / model.ratio - known;
 }
 
 const std::vector<DriveFamily>& drive_library() {

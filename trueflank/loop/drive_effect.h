@@ -40,7 +40,7 @@ struct DriveContext {
 
   /// The meshes' friction at a point: as designed, and as the state has it.
   [[nodiscard]] double designed_friction(const BenchPoint& p) const {
-    return p.forward ? model.friction : model.backward_friction();
+    return model.friction_at(p.at());
   }
   [[nodiscard]] double friction(const BenchPoint& p) const;
   [[nodiscard]] double efficiency(const BenchPoint& p) const { return curve.at(p.forward, friction(p)); }
@@ -59,6 +59,8 @@ struct DriveContext {
   [[nodiscard]] double load_coordinate(const BenchPoint& p) const;
   [[nodiscard]] double speed_coordinate(const BenchPoint& p) const;
   [[nodiscard]] double temperature_coordinate(const BenchPoint& p) const;
+  /// The other way: the load, speed or temperature (over = 0, 1, 2) at a coordinate.
+  [[nodiscard]] double quantity_at(double over, double coordinate) const;
 };
 
 /// Slopes of the efficiencies at the designed friction over one mesh's friction alone.

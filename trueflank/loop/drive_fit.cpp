@@ -20,6 +20,18 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd&
   return scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * right);
 }
 
+/// Where a shape value still means what its name says.
+std::pair<double, double> bounds_of(const DriveContext& context, const std::string& shape) {
+  if (shape == "speed_rpm")
+    return {0.3 * context.table.least_speed_rpm + 1e-3 * context.table.most_speed_rpm,
+            0.7 * context.table.most_speed_rpm};
+  if (shape == "exponent") return {0.2, 3.0};
+  if (shape == "per_c") return {0.002, 0.2};
+  if (shape == "place") return {-0.95, 0.95};
+  if (shape == "width") return {0.08, 0.8};
+  return {-1e300, 1e300};
+}
+
 }  // namespace
 
 DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
@@ -176,6 +188,13 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
         };
         const double spread = round == 0 ? 1.7 : 1.25;
         double low = here / spread, high = here * spread;
+        if (effects[e].family->shape_names[k] == "place") {  // of a range, not a size
+          low = here - 0.3 * (spread - 1.0);
+          high = here + 0.3 * (spread - 1.0);
+        }
+        const auto [least, most] = bounds_of(context, effects[e].family->shape_names[k]);
+        low = std::clamp(low, least, most);
+        high = std::clamp(high, low, most);
         double a = low + kGolden * (high - low), b = high - kGolden * (high - low);
         double at_a = square(a), at_b = square(b);
         for (int i = 0; i < 16; ++i) {

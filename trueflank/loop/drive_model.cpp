@@ -84,6 +84,7 @@ Result<DriveModel> drive_model(const GearTrain& train) {
   DriveModel model;
   model.ratio = std::abs(1.0 / output);
   model.friction = train.design.friction;
+  model.losses = train.design.losses;
   for (const TrainMesh& mesh : train.meshes) model.meshes.push_back(mesh.name);
   const auto copy = std::make_shared<const GearTrain>(train);
   model.efficiency = [copy](const std::vector<double>& friction) {

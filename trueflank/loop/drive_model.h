@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueflank/base/result.h"
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/losses.h"
 
 namespace trueflank::loop {
 
@@ -27,20 +28,18 @@ struct MemberOrder {
 struct DriveModel {
   double ratio = 1.0;            ///< |input speed / output speed|
   double friction = 0.1;         ///< as designed
-  double friction_backward = kNaN;  ///< as designed, where it differs
   std::vector<std::string> meshes;
   /// Efficiencies for a friction of each mesh (as many as meshes).
   std::function<DriveEfficiency(const std::vector<double>& friction)> efficiency;
   std::vector<MemberOrder> orders;
-  /// Input speed, |torque at the input side of the teeth|, temperature -> loss torque at the input that
-  /// the design already knows of [N m]; empty: none.
-  std::function<double(double speed_rpm, double load_nm, double temperature_c)> known_loss_nm;
+  std::optional<LossesDesign> losses;  ///< that the design already knows of
 
   [[nodiscard]] DriveEfficiency at(double coefficient) const {
     return efficiency(std::vector<double>(meshes.size(), coefficient));
   }
-  [[nodiscard]] double backward_friction() const {
-    return std::isnan(friction_backward) ? friction : friction_backward;
+  /// As designed.
+  [[nodiscard]] double friction_at(const DrivePoint& point) const {
+    return losses ? mesh_friction(*losses, friction, point) : friction;
   }
 };
 

@@ -66,6 +66,12 @@ DriveFamily free_form() {
 
 constexpr int kCourseDegrees = 5;
 
+double coordinate(const DriveContext& context, const BenchPoint& p, double over) {
+  return over == 0.0   ? context.load_coordinate(p)
+         : over == 1.0 ? context.speed_coordinate(p)
+                       : context.temperature_coordinate(p);
+}
+
 /// Any course over one quantity: what humps and jumps need, where no single degree would be seen.
 DriveFamily free_course() {
   DriveFamily f;
@@ -84,17 +90,51 @@ DriveFamily free_course() {
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const Shape& shape, double* c) {
-    const double x = shape[0] == 0.0   ? context.load_coordinate(p)
-                     : shape[0] == 1.0 ? context.speed_coordinate(p)
-                                       : context.temperature_coordinate(p);
+    const double x = coordinate(context, p, shape[0]);
     const int columns = std::min(kCourseDegrees, static_cast<int>(shape[1]));
     for (int k = 0; k < columns; ++k) c[k] = -context.lever(p) * legendre(k, x);
   };
   return f;
 }
 
+/// A step at a place, or a hump about one, over load, speed or temperature (in -1 ... 1 of the range).
+DriveFamily free_place(bool hump) {
+  DriveFamily f;
+  f.id = "unnamed";
+  f.description = "structure that no named effect explains";
+  f.parameters = {"amount_nm"};
+  f.shape_names = {"over", "place"};
+  f.shape_continuous = {false, true};
+  f.named = false;
+  f.preference = 6;
+  if (hump) {
+    f.shape_names.push_back("width");
+    f.shape_continuous.push_back(true);
+  }
+  f.shapes = [hump](const DriveContext& context) {
+    std::vector<Shape> shapes;
+    for (int over = 0; over < 3; ++over) {
+      if (context.table.levels[over] < 4) continue;
+      for (double place : {-0.75, -0.5, -0.25, 0.05, 0.25, 0.5, 0.75}) {
+        if (!hump) shapes.push_back({double(over), place});
+        else
+          for (double width : {0.15, 0.35}) shapes.push_back({double(over), place, width});
+      }
+    }
+    return shapes;
+  };
+  f.evaluate = [hump](const DriveContext& context, const BenchPoint& p, const Shape& shape, double* c) {
+    const double x = coordinate(context, p, shape[0]) - shape[1];
+    const double size = hump ? std::exp(-x * x / (shape[2] * shape[2])) : x > 0.0 ? 1.0 : 0.0;
+    c[0] = -context.lever(p) * size;
+  };
+  return f;
+}
+
 }  // namespace
 
-std::vector<DriveFamily> drive_free_effects() { return {free_form(), free_course()}; }
+std::vector<DriveFamily> drive_free_effects() {
+  return {free_form(), free_course(), free_place(false), free_place(true)};
+}
 
 }  // namespace trueflank::loop

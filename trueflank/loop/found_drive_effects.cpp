@@ -156,6 +156,7 @@ class Describer {
     const std::vector<double>& shape = s_.all.effects()[e].shape;
     const int column = s_.all.first_column(e);
     DriveTerm t;
+    t.text = words_for(s_.context.model, s_.all.effects()[e]);
     t.load_degree = static_cast<int>(shape[0]);
     t.speed_degree = static_cast<int>(shape[1]);
     t.temperature_degree = static_cast<int>(shape[2]);
@@ -176,6 +177,7 @@ class Describer {
     const int column = s_.all.first_column(e);
     for (int k = 0; k < effect.columns(); ++k) {
       DriveTerm t;
+      t.text = words_for(s_.context.model, effect, &s_.context);
       (effect.shape[0] == 0.0   ? t.load_degree
        : effect.shape[0] == 1.0 ? t.speed_degree
                                 : t.temperature_degree) = k;
@@ -191,11 +193,8 @@ class Describer {
     found.description = "a loss at the input ";
     bool first = true;
     for (const DriveTerm& t : found.drive_terms) {
-      const DriveEffect as_effect{find_drive_family("unnamed"),
-                                  {double(t.load_degree), double(t.speed_degree),
-                                   double(t.temperature_degree), t.order,
-                                   t.opposite_directions ? 1.0 : 0.0}};
-      found.description += (first ? "" : "; and ") + words_for(s_.context.model, as_effect);
+      if (found.description.find(t.text) != std::string::npos) continue;
+      found.description += (first ? "" : "; and ") + t.text;
       first = false;
     }
     const DriveTerm& main = found.drive_terms.front();
@@ -289,7 +288,7 @@ std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources) {
   return Describer(sources).run();
 }
 
-std::string words_for(const DriveModel& model, const DriveEffect& effect) {
+std::string words_for(const DriveModel& model, const DriveEffect& effect, const DriveContext* context) {
   const auto wave = [&](double order) {
     const std::string member = member_of(model, order);
     return "in a wave of order " + plain(order) + " per input turn" +
@@ -299,9 +298,16 @@ std::string words_for(const DriveModel& model, const DriveEffect& effect) {
     return wave(effect.shape[0]) + (effect.shape[1] != 0.0 ? ", in proportion to the load" : "");
   if (effect.family->named) return effect.family->id;
   const auto& s = effect.shape;
-  if (s.size() != 5)
-    return std::string("a course over the ") +
-           (s[0] == 0.0 ? "load" : s[0] == 1.0 ? "speed" : "temperature");
+  if (s.size() != 5) {
+    const std::string over = s[0] == 0.0 ? "load" : s[0] == 1.0 ? "speed" : "temperature";
+    if (effect.family->shape_names[1] == "levels") return "with a course over the " + over;
+    return (s.size() == 3 ? "with a hump over the " : "with a step over the ") + over +
+           (context == nullptr ? std::string()
+                               : " at " + plain(context->quantity_at(s[0], s[1])) +
+                                     (s[0] == 0.0   ? " N m at the input"
+                                      : s[0] == 1.0 ? " rpm"
+                                                    : " C"));
+  }
   std::string text;
   if (s[3] != 0.0) text = wave(s[3]);
   else if (s[0] + s[1] + s[2] == 0.0) text = "constant";

@@ -27,7 +27,8 @@ struct DriveSources {
 [[nodiscard]] std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources);
 
 /// A candidate in words: "angle_periodic_friction at 0.1176 per input turn (carrier)".
-[[nodiscard]] std::string words_for(const DriveModel& model, const DriveEffect& effect);
+[[nodiscard]] std::string words_for(const DriveModel& model, const DriveEffect& effect,
+                                    const DriveContext* context = nullptr);
 
 /// The run that would separate what is confounded, or show what this bench cannot.
 [[nodiscard]] std::vector<std::string> runs_that_separate(const BenchTable& table,

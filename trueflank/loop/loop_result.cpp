@@ -39,7 +39,8 @@ Json drive_terms_json(const std::vector<DriveTerm>& terms) {
                     {"cos_nm", number(t.cos_nm)},
                     {"sin_nm", number(t.sin_nm)},
                     {"amplitude_nm", number(t.amplitude_nm())},
-                    {"ci95_half_nm", number(t.error_nm)}});
+                    {"ci95_half_nm", number(t.error_nm)},
+                    {"text", t.text}});
   return json;
 }
 

@@ -34,6 +34,7 @@ struct DriveTerm {
   bool opposite_directions = false;
   double cos_nm = 0.0, sin_nm = 0.0;  ///< sin 0 for order 0
   double error_nm = 0.0;              ///< half width of the 95 % interval of the amplitude
+  std::string text;                   ///< in words
   [[nodiscard]] double amplitude_nm() const;
 };
 

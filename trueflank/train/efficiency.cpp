@@ -88,6 +88,22 @@ BalanceTrain balance_of(const GearTrain& train) {
   return balance;
 }
 
+/// A backward efficiency that the drag takes is 0 without self_locking: more load moves the drive.
+void add_losses(const GearTrain& train, LossModel model, EfficiencyResult& result) {
+  const double ratio = std::abs(1.0 / member_speeds(train).output);
+  if (!std::isfinite(ratio)) return;
+  const MeshEfficiencies meshes = [&](double forward, double backward) {
+    const auto at = [&](double friction) {
+      return efficiency(train, {.model = model, .friction = friction});
+    };
+    const double back = at(backward).backward;
+    return std::pair(at(forward).forward, back);
+  };
+  result.losses = lossy_efficiency(*train.design.losses, train.design.friction, ratio, meshes);
+  result.forward = result.losses->forward;
+  result.backward = result.losses->backward;
+}
+
 }  // namespace
 
 bool contact_ratio_formula_applies(double approach, double recess) {
@@ -134,6 +150,10 @@ EfficiencyResult efficiency(const GearTrain& train, const EfficiencyOptions& opt
   result.forward_locking = forward.self_locking;
   result.forward_drive = described(train, forward);
   result.backward_drive = described(train, backward);
+  result.mesh_forward = result.forward;
+  result.mesh_backward = result.backward;
+  if (train.design.losses && !options.friction && options.mesh_friction.empty())
+    add_losses(train, options.model, result);
   return result;
 }
 

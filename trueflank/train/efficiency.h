@@ -8,6 +8,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/train/efficiency_balance.h"
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/losses.h"
 
 namespace trueflank {
 
@@ -69,6 +70,8 @@ struct EfficiencyResult {
   double friction = kNaN;
   double forward = kNaN;      ///< sun (pinion) drives; NaN for a single gear
   double backward = kNaN;     ///< output drives; 0 where self-locking
+  double mesh_forward = kNaN, mesh_backward = kNaN;  ///< of the meshes alone
+  std::optional<LossyEfficiency> losses = {};  ///< of a design with [losses]: forward, backward are its
   bool self_locking = false;  ///< backward: the output cannot drive the train, whatever its torque
   bool forward_locking = false;  ///< the sun cannot drive it either (a speed-increasing train)
   std::vector<MeshEfficiency> meshes;  ///< in the order of the train
@@ -79,7 +82,8 @@ struct EfficiencyResult {
 };
 
 /// Efficiency of a laid-out train from its shifted geometry: both directions, every member and mesh.
-/// Friction in the meshes only: bearings, seals and churning are measured things (docs/loop.md).
+/// Friction in the meshes, and what the design's [losses] say of bearings, seals and churning, unless a
+/// friction is given here: then the meshes alone. Flows and mesh losses are always those of the meshes.
 [[nodiscard]] EfficiencyResult efficiency(const GearTrain& train,
                                           const EfficiencyOptions& options = {});
 

@@ -125,6 +125,24 @@ struct MadeDesign {
   bool operator==(const MadeDesign&) const = default;
 };
 
+/// Losses beside the friction of the meshes as designed, as a bench found them (docs/drive-loop.md), and
+/// the point at which efficiencies are told. Torques are at the input shaft.
+struct LossesDesign {
+  double load_nm = 1.0;          ///< at the output
+  double input_speed_rpm = 0.0;
+  std::optional<double> temperature_c = {};
+  double reference_c = 25.0;
+  double drag_torque_nm = 0.0, drag_per_c = 0.0;
+  double viscous_nm_per_rpm = 0.0, viscous_per_c = 0.0;
+  double bearing_nm_at_1000_rpm = 0.0, bearing_load_share = 0.0;
+  double stribeck_torque_nm = 0.0, stribeck_speed_rpm = 100.0;
+  std::optional<double> backward_friction = {};
+  double load_friction = 0.0, load_friction_exponent = 1.0, load_friction_reference_nm = 1.0;
+  double mixed_friction = 0.0, mixed_friction_speed_rpm = 100.0;
+
+  bool operator==(const LossesDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
@@ -146,6 +164,7 @@ struct GearboxDesign {
   ShaftsDesign shafts = {};
   MadeDesign made = {};
   std::string tools_file = {};  ///< the user's racks, cutters and processes; empty: none
+  std::optional<LossesDesign> losses = {};  ///< none: friction of the meshes alone
 
   bool operator==(const GearboxDesign&) const = default;
 };

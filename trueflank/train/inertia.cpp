@@ -43,15 +43,18 @@ ReflectedInertia reflected_inertia(const GearTrain& train, const EfficiencyResul
   r.output_side_kg_m2 = m2;
   r.at_input_lossless_kg_m2 = m1 + g * g * m2;
   r.at_output_lossless_kg_m2 = m1 / (g * g) + m2;
-  r.at_input_forward_kg_m2 = m1 + g * g / efficiency.forward * m2;
-  r.at_output_forward_kg_m2 = efficiency.forward / (g * g) * m1 + m2;
-  r.at_input_backward_kg_m2 = m1 + efficiency.backward * g * g * m2;
+  // Of the meshes: what drags beside them is a torque of its own, and no factor.
+  const double forward = std::isnan(efficiency.mesh_forward) ? efficiency.forward : efficiency.mesh_forward;
+  const double backward = std::isnan(efficiency.mesh_backward) ? efficiency.backward : efficiency.mesh_backward;
+  r.at_input_forward_kg_m2 = m1 + g * g / forward * m2;
+  r.at_output_forward_kg_m2 = forward / (g * g) * m1 + m2;
+  r.at_input_backward_kg_m2 = m1 + backward * g * g * m2;
   r.at_output_backward_kg_m2 =
       efficiency.self_locking ? std::numeric_limits<double>::infinity()
-                              : m1 / (efficiency.backward * g * g) + m2;
+                              : m1 / (backward * g * g) + m2;
   if (!std::isnan(loads.drag_torque_nm))
     r.starting_torque_nm = efficiency.self_locking ? std::numeric_limits<double>::infinity()
-                                                   : loads.drag_torque_nm / (g * efficiency.backward);
+                                                   : loads.drag_torque_nm / (g * backward);
   return r;
 }
 

@@ -369,6 +369,7 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
   design.module_mm = m1;
   design.centre_distance_mm = free.centre_distance * m1;
   design.friction = r.friction;
+  design.losses = r.losses;
   design.backlash_mm = r.backlash_mm;
   design.rack = r.rack;
   const auto add = [&](const char* name, GearKind kind, int teeth, double shift, double module) {

@@ -557,6 +557,19 @@ SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const
                                        DriveDirection::kForward);
   candidate.backward = model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
                                         DriveDirection::kBackward);
+  if (requirements.losses) {
+    // A mesh's loss is in proportion to its friction; the best shifts are those of the meshes alone.
+    const double forward = 1.0 - candidate.forward, backward = 1.0 - candidate.backward;
+    const MeshEfficiencies meshes = [&](double mu_forward, double mu_backward) {
+      const double friction = std::max(requirements.friction, 1e-9);
+      return std::pair(1.0 - forward * mu_forward / friction,
+                       candidate.backward > 0.0 ? 1.0 - backward * mu_backward / friction : 0.0);
+    };
+    const LossyEfficiency lossy = lossy_efficiency(*requirements.losses, requirements.friction,
+                                                   std::abs(signed_ratio(model.set())), meshes);
+    candidate.forward = lossy.forward;
+    candidate.backward = lossy.backward;
+  }
   candidate.size_mm = model.outer_diameter(free) * model.module_mm(free);
   candidate.least_margin = 1e300;
   for (std::size_t i = 0; i < kLimits; ++i) {

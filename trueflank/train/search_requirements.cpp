@@ -133,6 +133,16 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("planet_clearance_mm", r.planet_clearance_mm);
   text.add("output_torque_nm", r.output_torque_nm.value_or(kNaN));
   text.add("loss_model", static_cast<int>(r.loss_model));
+  if (r.losses) {
+    const LossesDesign& l = *r.losses;
+    for (const double value :
+         {l.load_nm, l.input_speed_rpm, l.temperature_c.value_or(kNaN), l.reference_c, l.drag_torque_nm,
+          l.drag_per_c, l.viscous_nm_per_rpm, l.viscous_per_c, l.bearing_nm_at_1000_rpm,
+          l.bearing_load_share, l.stribeck_torque_nm, l.stribeck_speed_rpm,
+          l.backward_friction.value_or(kNaN), l.load_friction, l.load_friction_exponent,
+          l.load_friction_reference_nm, l.mixed_friction, l.mixed_friction_speed_rpm})
+      text.add("loss", value);
+  }
   for (const SearchObjective objective : r.objectives) text.add("objective", to_text(objective));
   add_strength(r.strength, text);
   return text.take();

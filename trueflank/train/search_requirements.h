@@ -57,6 +57,7 @@ struct SearchRequirements {
   double tip_thickness = 0.2;        ///< least, coefficient of the module
   double planet_clearance_mm = 0.5;  ///< least, between tip circles of neighbouring planets
   std::optional<double> output_torque_nm;  ///< to be carried
+  std::optional<LossesDesign> losses;      ///< measured on a like drive; written into the designs
   StrengthOptions strength;
   LossModel loss_model = LossModel::kContactRatios;
 

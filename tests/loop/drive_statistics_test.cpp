@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "tests/loop/sample_bench.h"
+
+// Counts over many benches; the larger counts are in docs/drive-loop.md.
+namespace trueflank::test {
+namespace {
+
+int false_alarms(BenchPlan plan, int runs) {
+  int alarms = 0;
+  for (int run = 1; run <= runs; ++run) {
+    plan.seed = 1000 + static_cast<std::uint64_t>(run);
+    const auto closed = close_hidden({}, plan);
+    alarms += closed->result.verdict != loop::Verdict::kNoEffect;
+  }
+  return alarms;
+}
+
+TEST(DriveStatistics, FalseAlarmsAreRare) {
+  EXPECT_LE(false_alarms({}, 200), 10);
+}
+
+TEST(DriveStatistics, IntervalsCover) {
+  HiddenDrive drive;
+  drive.friction = [](auto&, int) { return 0.12; };
+  drive.loss_nm = [](auto&) { return 0.003; };
+  int found_both = 0, friction = 0, drag = 0;
+  constexpr int kRuns = 60;
+  for (int run = 1; run <= kRuns; ++run) {
+    BenchPlan plan;
+    plan.seed = 5000 + static_cast<std::uint64_t>(run);
+    const auto closed = close_hidden(drive, plan);
+    const loop::FoundEffect* mu = found(closed->result, "friction_coefficient");
+    const loop::FoundEffect* torque = found(closed->result, "drag_torque");
+    if (mu == nullptr || torque == nullptr) continue;
+    ++found_both;
+    const loop::Parameter *value = parameter(*mu, "value"), *t = parameter(*torque, "torque_nm");
+    friction += value->low <= 0.12 && 0.12 <= value->high;
+    drag += t->low <= 0.003 && 0.003 <= t->high;
+  }
+  EXPECT_GE(found_both, 55);
+  // 95 % of 60: below 51 comes once in 2000 trials.
+  EXPECT_GE(friction * kRuns, 51 * found_both);
+  EXPECT_GE(drag * kRuns, 51 * found_both);
+}
+
+}  // namespace
+}  // namespace trueflank::test
