@@ -56,7 +56,9 @@ TEST(Manufacturability, WarnsOfLessBacklashThanTheProcessWants) {
 
 TEST(Manufacturability, IsAmongTheChecksAndNeverFails) {
   for (const Finding& finding : check_gearbox(pair_train(0.5, "fdm-0.6", 0.0)))
-    if (finding.id == "manufacturability") EXPECT_NE(finding.status, CheckStatus::kFail);
+    if (finding.id == "manufacturability") {
+      EXPECT_NE(finding.status, CheckStatus::kFail);
+    }
 }
 
 TEST(Manufacturability, RootRadiusOfAManyToothedGearIsNearTheRacks) {

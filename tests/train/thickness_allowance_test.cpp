@@ -47,8 +47,12 @@ TEST(ThicknessAllowance, GrowsWithTheDiameterAndFallsFromAToH) {
         };
         const ThicknessAllowance here = at(i, k, number);
         EXPECT_LT(here.lower_mm, here.upper_mm);
-        if (i > 0) EXPECT_GT(here.upper_mm, at(i - 1, k, number).upper_mm);
-        if (k > 0) EXPECT_LE(here.upper_mm, at(i, k - 1, number).upper_mm);
+        if (i > 0) {
+          EXPECT_GT(here.upper_mm, at(i - 1, k, number).upper_mm);
+        }
+        if (k > 0) {
+          EXPECT_LE(here.upper_mm, at(i, k - 1, number).upper_mm);
+        }
         if (number > 21) {
           const ThicknessAllowance finer = at(i, k, number - 1);
           EXPECT_GT(here.upper_mm - here.lower_mm, finer.upper_mm - finer.lower_mm);
