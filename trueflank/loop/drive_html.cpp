@@ -122,6 +122,13 @@ std::string colour(const Map& map, Map::Kind kind, double value) {
   return "rgb(" + mix(60, 40, 250) + "," + mix(20, 150, 225) + "," + mix(110, 140, 60) + ")";
 }
 
+/// A number's colour that can be read on the cell's.
+const char* ink(const Map& map, Map::Kind kind, double value) {
+  if (kind == Map::kResidual)
+    return std::abs(value) > 0.6 * map.most_residual ? "#fff" : "#111";
+  return value < map.low + 0.4 * (map.high - map.low) ? "#fff" : "#111";
+}
+
 std::string chart(const Map& map, Map::Kind kind, const char* caption, const char* torque_side) {
   constexpr double kLeft = 52.0, kTop = 6.0, kWidth = 240.0, kHeight = 200.0;
   const double w = kWidth / map.speed.count(), h = kHeight / map.load.count();
@@ -137,8 +144,8 @@ std::string chart(const Map& map, Map::Kind kind, const char* caption, const cha
              number(map.speed.centres[v], "%.4g") + " rpm, " + number(map.load.centres[t], "%.4g") +
              " N m: " + number(value) + " %</title></rect>";
       if (w < 26.0 || h < 11.0) continue;
-      svg += "<text x='" + number(x + 0.5 * w) + "' y='" + number(y + 0.5 * h + 3.0) + "'>" +
-             number(value, "%.1f") + "</text>";
+      svg += "<text x='" + number(x + 0.5 * w) + "' y='" + number(y + 0.5 * h + 3.0) +
+             "' style='fill:" + ink(map, kind, value) + "'>" + number(value, "%.1f") + "</text>";
     }
   const auto label = [&](double x, double y, const char* anchor, const std::string& text) {
     svg += "<text x='" + number(x) + "' y='" + number(y) + "' style='text-anchor:" + anchor +
