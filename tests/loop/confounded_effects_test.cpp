@@ -66,6 +66,14 @@ TEST(Confounded, ScaleAndPressureAngleUntilThicknessAndTipAreMeasured) {
   expect_told(told, "scale", "contour_offset");
 }
 
+TEST(Confounded, ALeanOfTheProfileOnTracesAloneIsNotToldAsAPartThatHasGrown) {
+  const MadeGear gear = spur(20);
+  const auto lean = grown([](auto&, const FlankSpot& s, auto&) { return 3.0 * s.u; });
+  const auto result = close(gear, inspection_of(gear, {lean}, only(true, true, true)));
+  expect_open(result, "pressure_angle_error", "scale");
+  EXPECT_EQ(result.effects[0].id, "pressure_angle_error");
+}
+
 TEST(Confounded, EccentricityAndIndexWaveUntilBothFlanksAreMeasured) {
   const MadeGear gear = spur(20);
   const auto both = inspection_of(gear, {off_centre(8, 40)}, only(false, false, true));

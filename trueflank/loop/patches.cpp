@@ -345,6 +345,12 @@ void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, 
 DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
                               const Patches& patches, const std::vector<Effect>& effects) {
   const NuisanceColumns nuisance(geometry, table);
+  // Traces show no size: there a leaning profile is likelier than a whole part that has grown.
+  const bool traces_only =
+      std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
+        return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kHelix ||
+               patch.kind == ObservationKind::kIndex;
+      });
   DiscoveryProblem problem;
   const auto n = static_cast<Eigen::Index>(patches.patches.size());
   int columns = 0, kin = 0;
@@ -357,6 +363,7 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
     group.columns = effect.columns();
     group.preference = effect.family->preference +
                        (effect.flank != FlankChoice::kBoth && !effect.family->local ? 2 : 0);
+    if (traces_only && effect.family->id == "scale") ++group.preference;
     // Low degrees first, low orders among them.
     if (effect.family->id == "unnamed")
       group.complexity = effect.shape[0] + effect.shape[1] + 0.01 * effect.shape[2];
