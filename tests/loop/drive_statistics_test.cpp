@@ -21,6 +21,13 @@ TEST(DriveStatistics, FalseAlarmsAreRare) {
   EXPECT_LE(false_alarms({}, 200), 10);
 }
 
+TEST(DriveStatistics, FalseAlarmsAreRareWhereTheNoiseGoesOnFromRowToRow) {
+  for (const double correlation : {0.3, 0.6})
+    for (const bool shuffled : {true, false})
+      EXPECT_LE(false_alarms({.noise_correlation = correlation, .shuffled = shuffled}, 200), 10)
+          << "correlation " << correlation << (shuffled ? ", shuffled" : ", in the sweep's order");
+}
+
 TEST(DriveStatistics, IntervalsCover) {
   HiddenDrive drive;
   drive.friction = [](auto&, int) { return 0.12; };
