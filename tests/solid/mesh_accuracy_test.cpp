@@ -13,10 +13,7 @@ namespace {
 class MeshAccuracy : public testing::Test {
  protected:
   void SetUp() override {
-    GearboxDesign design = test::prototype(0.5225, 1.9967, 25.6826);
-    design.gears[0].bore = {.diameter_mm = 5.0};
-    design.gears[2].bolt_circle = {.count = 6, .circle_diameter_mm = 99.0, .hole_diameter_mm = 3.2};
-    train_ = std::make_unique<GearTrain>(*lay_out(design));
+    train_ = std::make_unique<GearTrain>(*lay_out(test::bored_prototype()));
     shapes_ = *part_shapes(*train_);
   }
   [[nodiscard]] const PartShape& part(std::size_t i) const { return shapes_.parts[i]; }

@@ -53,4 +53,12 @@ namespace trueflank::test {
   return design;
 }
 
+/// The paper's optimum with a bore in the sun and bolts in ring1.
+[[nodiscard]] inline GearboxDesign bored_prototype() {
+  GearboxDesign design = prototype(0.5225, 1.9967, 25.6826);
+  design.gears[0].bore = {.diameter_mm = 5.0};
+  design.gears[2].bolt_circle = {.count = 6, .circle_diameter_mm = 99.0, .hole_diameter_mm = 3.2};
+  return design;
+}
+
 }  // namespace trueflank::test

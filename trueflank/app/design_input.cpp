@@ -60,11 +60,9 @@ void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
   if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
   const auto shapes = part_shapes(train);  // what does not fit is told where the parts are made
   if (!shapes) return;
-  const auto density_of = [&](const std::string& part) {
-    return material_of(strength_options, part.starts_with("planet") && train.find("planet1")
-                                             ? "planet1"
-                                             : part)
-        .density_kg_m3;
+  const std::string planet = train.find("planet1") ? "planet1" : "planet";
+  const auto density_of = [&](const std::string& part) {  // planets that differ are planet_1, ...
+    return material_of(strength_options, part.starts_with("planet") ? planet : part).density_kg_m3;
   };
   report.inertia = {density_of(""),
                     reflected_inertia(train, report.efficiency, body_inertias(*shapes, density_of),

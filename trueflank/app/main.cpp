@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <malloc.h>
-
 #include <exception>
 #include <iostream>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "trueflank/app/command_line.h"
 #include "trueflank/app/terminal.h"

@@ -60,7 +60,7 @@ class DesignReader {
       : root_(document.root), syntax_errors_(document.errors) {}
 
   ResultAll<DesignFile> read(const std::string& file) {
-    note_lines("", root_);
+    reading_.add_all(root_);
     for (const Error& error : syntax_errors_) reading_.report(error);
     read_tool_tables(file);
     read_top();
@@ -88,15 +88,6 @@ class DesignReader {
   }
 
  private:
-  void note_lines(const std::string& prefix, const TomlTable& table) {
-    for (const TomlEntry& entry : table.entries) {
-      const std::string key = prefix + entry.key;
-      const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
-      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
-      if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
-    }
-  }
-
   void read_top() {
     std::vector<std::string> known = all_gear_names();
     known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses"});

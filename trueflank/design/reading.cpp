@@ -5,6 +5,15 @@
 
 namespace trueflank {
 
+void Reading::add_all(const TomlTable& table, const std::string& prefix) {
+  for (const TomlEntry& entry : table.entries) {
+    const std::string key = prefix + entry.key;
+    const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
+    add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
+    if (const auto* inner = std::get_if<TomlTable>(&entry.value)) add_all(*inner, key + ".");
+  }
+}
+
 bool Reading::good(const std::string& key) const {
   const auto it = found_.find(key);
   return it != found_.end() && it->second.good;

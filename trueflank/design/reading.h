@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trueflank/design/key_rule.h"
+#include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 
@@ -19,6 +20,9 @@ class Reading {
   };
 
   void add(const std::string& key, Found found) { found_[key] = std::move(found); }
+  /// Every key of a table and of those in it, dotted; what the file's text could not be read as is not
+  /// good.
+  void add_all(const TomlTable& table, const std::string& prefix = "");
   [[nodiscard]] bool has(const std::string& key) const { return found_.contains(key); }
   /// There, and of itself right: fit to be compared with other values.
   [[nodiscard]] bool good(const std::string& key) const;

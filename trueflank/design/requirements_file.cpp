@@ -19,7 +19,7 @@ constexpr const char* kRankSuffix = "-000";
 class RequirementsReader {
  public:
   explicit RequirementsReader(const TomlDocument& document) : root_(document.root) {
-    note_lines("", root_);
+    reading_.add_all(root_);
     for (const Error& error : document.errors) reading_.report(error);
   }
 
@@ -57,15 +57,6 @@ class RequirementsReader {
 
  private:
   inline static const std::vector<std::string> kNoTables{};
-
-  void note_lines(const std::string& prefix, const TomlTable& table) {
-    for (const TomlEntry& entry : table.entries) {
-      const std::string key = prefix + entry.key;
-      const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
-      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
-      if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
-    }
-  }
 
   const TomlTable* table_of(const TomlTable& parent, const std::string& name) {
     const TomlEntry* entry = parent.find(name);

@@ -82,7 +82,7 @@ std::vector<ToolKey<Process>> process_keys() {
 class ToolsReader {
  public:
   explicit ToolsReader(const TomlDocument& document) : root_(document.root) {
-    note_lines("", root_);
+    reading_.add_all(root_);
     for (const Error& error : document.errors) reading_.report(error);
   }
 
@@ -101,15 +101,6 @@ class ToolsReader {
   }
 
  private:
-  void note_lines(const std::string& prefix, const TomlTable& table) {
-    for (const TomlEntry& entry : table.entries) {
-      const std::string key = prefix + entry.key;
-      const bool readable = !std::holds_alternative<TomlUnreadable>(entry.value);
-      reading_.add(key, {.line = entry.line, .value = quoted_toml(entry.value), .good = readable});
-      if (const auto* inner = std::get_if<TomlTable>(&entry.value)) note_lines(key + ".", *inner);
-    }
-  }
-
   const TomlTable* table_of(const TomlEntry& entry, const std::string& key) {
     const auto* table = std::get_if<TomlTable>(&entry.value);
     if (!table && reading_.good(key))
