@@ -60,6 +60,8 @@ def main():
     # the wheel of pom: inertia by the densities 1410 and 7850
     share = mixed["inertia"]["output_side_kg_m2"] / plain["inertia"]["output_side_kg_m2"]
     assert abs(share - 1410 / 7850) < 1e-9, share
+    share = mixed["inertia"]["input_side_kg_m2"] / plain["inertia"]["input_side_kg_m2"]
+    assert abs(share - 8500 / 7850) < 1e-9, share  # the pinion of brass
     _, wood = check("--materials", OUTPUT / "more.toml", gearbox='material = "wood"')
     assert teeth(wood) == ("wood", "wood")
     _, over = check("--material", "brass", pinion='material = "pom"')
