@@ -194,8 +194,9 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        [](R& r, const KeyValue& v) { r.dedendum = number(v); },
        [](const R& r) { return Value(r.dedendum); }},
       {{.name = "root_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0.38",
-        .meaning = "rounding of the cutting rack's tips (a ring's root fillet); 0 is the sharp "
-                   "rack; one that does not fit is reduced to the full round and reported"},
+        .meaning = "rounding of the cutting rack's tips in its normal section (a ring's root fillet: "
+                   "in the transverse section); 0 is the sharp rack; one that does not fit is "
+                   "reduced to the full round and reported"},
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.root_radius = number(v); },
        [](const R& r) { return Value(r.root_radius); }},

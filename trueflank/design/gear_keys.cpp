@@ -222,7 +222,7 @@ const std::vector<DesignKey<ShaperCutter>>& cutter_keys() {
        [](C& c, const KeyValue& v) { c.shift = number(v); },
        [](const C& c) { return Value(c.shift); }},
       {{.name = "tip_radius", .unit = "module", .lower = 0, .upper = 3, .by_default = "0",
-        .meaning = "rounding of the corners of the cutter's teeth"},
+        .meaning = "rounding of the corners of the cutter's teeth, in its transverse section"},
        KeyPlace::kAnywhere,
        [](C& c, const KeyValue& v) { c.tip_radius = number(v); },
        [](const C& c) { return Value(c.tip_radius); }},

@@ -51,7 +51,7 @@ class ToothProfile {
   /// severs the tooth, rack or cutter pointed before its depth, ...), kOutOfRange for values that
   /// cannot be.
   /// Accuracy: 1e-9 mm against numerical generation with the tool, tested in
-  /// tests/geometry/tooth_profile_test.cpp.
+  /// tests/geometry/tooth_profile_test.cpp, helical teeth in helical_generation_test.cpp.
   [[nodiscard]] static Result<ToothProfile> make(const Gear& gear);
 
   /// The same gear with another half tooth: the section of a modified toothing (section_profile.h).
