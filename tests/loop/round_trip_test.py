@@ -167,6 +167,39 @@ amount_um = "side * v * (1 + cos(angle))"
         print(f"declared: {before:.2f} -> {after:.2f} um rms")
         self.assertLess(after, before / 8)
 
+    def test_a_scale_on_twisted_teeth_keeps_the_facets_on_the_corrected_flanks(self):
+        beta, scale, amount = math.radians(25.0), 0.002, 14.0
+        design = self.folder / "helical.toml"
+        design.write_text(DESIGN.replace(f"module_mm = {MODULE}", f"module_mm = {MODULE}\n"
+                                         "helix_angle_deg = 25.0"))
+        loop = {"format": "trueflank-loop", "version": 1, "gear": "gear", "effects": [
+            {"id": "scale", "parameters": {"percent": {"value": 100 * scale}}},
+            {"id": "profile_crowning", "parameters": {"amount_um": {"value": amount}}}]}
+        (self.folder / "loop.json").write_text(json.dumps(loop))
+        run("make", design, "-o", self.folder / "corrected", "--formats", "stl", "--tolerance-um", "0.3",
+            "--correct", self.folder / "loop.json", "--quiet")
+        # Points inside the facets, not at their corners: facets must follow the flanks, too.
+        made = scan(triangles(self.folder / "corrected/gear.stl"), 20000, 3, noise_mm=0.0)
+        reference = 0.5 * MODULE * TEETH / math.cos(beta)
+        alpha = math.atan(math.tan(ALPHA) / math.cos(beta))
+        base = reference * math.cos(alpha)
+        beta_b = math.atan(math.tan(beta) * math.cos(alpha))
+        half = (0.5 * math.pi + 2 * 0.1 * math.tan(ALPHA)) / TEETH + math.tan(alpha) - alpha
+        grown = made * (1 + scale)
+        radius = numpy.hypot(grown[:, 0], grown[:, 1])
+        angle = numpy.arctan2(grown[:, 1], grown[:, 0]) - math.tan(beta) / reference * grown[:, 2]
+        off = (angle + math.pi / TEETH) % (2 * math.pi / TEETH) - math.pi / TEETH
+        unwound = numpy.sqrt(numpy.maximum(radius**2 - base**2, 0.0))
+        distance = 1e3 * math.cos(beta_b) * (base * (numpy.abs(off) - half) + unwound -
+                                             base * numpy.arctan2(unwound, base))
+        gear = json.loads((self.folder / "corrected/report.json").read_text())["gears"]["gear"]
+        low, high = (math.sqrt(gear[f"{end}_form_diameter_mm"]**2 / 4 - base**2) for end in ("root", "tip"))
+        distance -= amount * (2 * (unwound - low) / (high - low) - 1) ** 2
+        on_flank = ((numpy.abs(radius - reference - 0.1) < 0.7) & (numpy.abs(distance) < 40.0) &
+                    (numpy.abs(grown[:, 2] - FACE / 2) < 0.45 * FACE))
+        self.assertGreater(numpy.count_nonzero(on_flank), 3000)
+        self.assertLess(numpy.abs(distance[on_flank]).max(), 0.8)
+
     def test_wrong_files_of_effects_are_refused_with_line_and_remedy(self):
         write_xyz(self.folder / "scan.xyz", scan(self.made, 2000, 5))
         for text, words in (("", "declares no effect"),

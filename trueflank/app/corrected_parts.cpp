@@ -56,23 +56,25 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
   const auto correction = loop::Correction::make(*text, geometry);
   if (!correction) return fail_all(located(correction.error(), loop_json_file));
   CorrectedParts result{.shapes = shapes, .meshes = {}, .displacement = nullptr, .text = {}};
+  const auto on_teeth = std::make_shared<const loop::Correction>(correction->without_scale());
+  if (!on_teeth->empty()) {
+    result.displacement = std::make_shared<const Displacement>(
+        [on_teeth](const std::array<double, 3>& point) { return on_teeth->displacement_mm(point); });
+    for_toothings(result.shapes, gear->profile, [&](std::size_t, ToothedOutline& teeth) {
+      teeth.displacement = result.displacement.get();
+    });
+  }
   if (correction->moves_whole_part()) {
-    for (const PartShape& part : shapes.parts)
+    const loop::Correction scale = correction->scale_alone();
+    for (const PartShape& part : result.shapes.parts)
       result.meshes.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
     std::set<std::size_t> done;  // a groove parts the teeth of one gear
     for_toothings(result.shapes, gear->profile, [&](std::size_t part, const ToothedOutline& teeth) {
       if (!done.insert(part).second) return;
       TriangleMesh& mesh = result.meshes[part].mesh;
       if (teeth.rotation_rad != 0.0) turn(mesh, -teeth.rotation_rad);
-      mesh = correction->apply(mesh, teeth.z_lower_mm);
+      mesh = scale.apply(mesh, teeth.z_lower_mm);
       if (teeth.rotation_rad != 0.0) turn(mesh, teeth.rotation_rad);
-    });
-  } else if (!correction->empty()) {
-    const auto held = std::make_shared<const loop::Correction>(*correction);
-    result.displacement = std::make_shared<const Displacement>(
-        [held](const std::array<double, 3>& point) { return held->displacement_mm(point); });
-    for_toothings(result.shapes, gear->profile, [&](std::size_t, ToothedOutline& teeth) {
-      teeth.displacement = result.displacement.get();
     });
   }
   for (const std::string& id : correction->corrected())

@@ -12,7 +12,7 @@
 namespace trueflank::app {
 
 /// All parts, the measured gear's toothing corrected by a loop.json. The correction displaces the
-/// toothing; bore and rim stay. Where it is one of the whole part (a scale), finished meshes are moved.
+/// toothing; bore and rim stay. A scale is of the whole part: it moves the finished meshes of that.
 struct CorrectedParts {
   PartShapes shapes;
   std::vector<PartMesh> meshes;  ///< of a scale; else empty

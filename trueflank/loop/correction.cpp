@@ -246,6 +246,12 @@ bool Correction::bends_over_the_face() const {
   });
 }
 
+Correction Correction::only(bool scale) const {
+  Correction some = *this;
+  std::erase_if(some.parts_, [&](const Part& p) { return (p.effect.family->id == "scale") != scale; });
+  return some;
+}
+
 bool Correction::moves_whole_part() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [](const Part& p) { return p.effect.family->id == "scale"; });

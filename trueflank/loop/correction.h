@@ -35,8 +35,13 @@ class Correction {
   /// correction bends over the face. Guarantees: closed where the mesh was closed.
   [[nodiscard]] TriangleMesh apply(const TriangleMesh& mesh, double z_lower_mm) const;
 
-  /// Whether bore and rim are corrected, too: a scale. Then apply() is the only way.
+  /// Whether bore and rim are corrected, too: a scale. Then only meshes can hold it: what without_scale()
+  /// holds displaces the toothing first, so that facets follow it, and apply() of the scale comes last.
   [[nodiscard]] bool moves_whole_part() const;
+  /// The scale alone, or all but the scale. Their succession differs from both at once by the product of
+  /// the two, some hundredths of a micrometre.
+  [[nodiscard]] Correction scale_alone() const { return only(true); }
+  [[nodiscard]] Correction without_scale() const { return only(false); }
   [[nodiscard]] bool empty() const { return parts_.empty(); }
   [[nodiscard]] const std::vector<std::string>& corrected() const { return corrected_; }
   /// What stays, and why: one sentence each.
@@ -48,6 +53,7 @@ class Correction {
     std::vector<double> coefficients;
   };
   explicit Correction(const FlankGeometry& geometry) : geometry_(geometry) {}
+  [[nodiscard]] Correction only(bool scale) const;
   [[nodiscard]] double flank_deviation_mm(int tooth, int side, double roll_mm, double z_mm) const;
   [[nodiscard]] double turn_rad(const std::array<double, 3>& point_mm) const;
   [[nodiscard]] bool bends_over_the_face() const;
