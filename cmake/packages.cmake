@@ -48,15 +48,19 @@ function(trueflank_find_package name targets dependency)
     _trueflank_find(libcli11-dev CLI11)
     set(found CLI11::CLI11)
     set(call "CLI11")
-  elseif(name STREQUAL "libdeflate")
-    find_library(TRUEFLANK_LIBDEFLATE deflate)
-    find_path(TRUEFLANK_LIBDEFLATE_INCLUDE libdeflate.h)
-    if(NOT TRUEFLANK_LIBDEFLATE OR NOT TRUEFLANK_LIBDEFLATE_INCLUDE)
-      message(FATAL_ERROR "trueflank: libdeflate not found. On Debian: apt-get install "
-        "libdeflate-dev (or run scripts/install-dependencies, which installs all of them).")
+  elseif(name STREQUAL "isal")
+    find_library(TRUEFLANK_ISAL isal)
+    find_path(TRUEFLANK_ISAL_INCLUDE isa-l.h)
+    if(NOT TRUEFLANK_ISAL OR NOT TRUEFLANK_ISAL_INCLUDE)
+      message(FATAL_ERROR "trueflank: isa-l not found. On Debian: apt-get install libisal-dev (or run "
+        "scripts/install-dependencies, which installs all of them).")
     endif()
-    set(found deflate)  # by its plain name: Debian's package has no CMake configuration
+    set(found isal)  # by its plain name: Debian's package has no CMake configuration
     set(call "")
+  elseif(name STREQUAL "zlib")
+    _trueflank_find(zlib1g-dev ZLIB)
+    set(found ZLIB::ZLIB)
+    set(call "ZLIB")
   else()
     message(FATAL_ERROR "trueflank: unknown package `${name}`; add it to cmake/packages.cmake and "
       "to scripts/packages-build.txt")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/export/atomic_file.h"
+#include "trueflank/export/input_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <unistd.h>
 
 #include "tests/export/sample_scene.h"
-#include "trueflank/export/mesh_reader.h"
 
 namespace trueflank::io {
 namespace {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/atomic_file.h"
 #include "trueflank/export/export_parts.h"
+#include "trueflank/export/input_file.h"
+#include "trueflank/export/mesh_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +10,6 @@
 
 #include "tests/export/sample_scene.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/export/atomic_file.h"
-#include "trueflank/export/mesh_reader.h"
 
 namespace trueflank::io {
 namespace {

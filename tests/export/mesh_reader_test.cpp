@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Files as other programs write them, and files that are none.
-#include "trueflank/export/mesh_reader.h"
-
-#include <gtest/gtest.h>
-
-#include <cstring>
-
-#include "tests/export/sample_scene.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/glb_writer.h"
+#include "trueflank/export/input_file.h"
+#include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/obj_writer.h"
 #include "trueflank/export/ply_writer.h"
 #include "trueflank/export/stl_writer.h"
 #include "trueflank/export/threemf_writer.h"
 #include "trueflank/export/zip_archive.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "tests/export/sample_scene.h"
 
 namespace trueflank::io {
 namespace {
@@ -111,13 +113,62 @@ TEST(MeshReader, GivesThePointsOfACloudButNoMesh) {
   EXPECT_EQ(mesh.error().file, (folder / "cloud.ply").string());
 }
 
+// Facets one after the other are those of the mesh, in every format.
+TEST(MeshReader, ShowsTheFacetsOfTheMesh) {
+  const ScratchFolder folder;
+  const SampleScene sample;
+  const Scene scene = sample.assembly();
+  ASSERT_TRUE(write_stl(folder / "a.stl", scene));
+  ASSERT_TRUE(write_obj(folder / "a.obj", scene));
+  ASSERT_TRUE(write_ply(folder / "a.ply", scene));
+  ASSERT_TRUE(write_3mf(folder / "a.3mf", scene));
+  ASSERT_TRUE(write_glb(folder / "a.glb", scene));
+  for (const char* name : {"a.stl", "a.obj", "a.ply", "a.3mf", "a.glb"}) {
+    const TriangleMesh mesh = read_mesh(folder / name).value();
+    std::size_t next = 0, different = 0;
+    ASSERT_TRUE(visit_facets(folder / name, [&](const Facet& facet) {
+      const auto& t = mesh.triangles.at(next++);
+      for (std::size_t k = 0; k < 3; ++k) different += facet[k] == mesh.vertices[t[k]] ? 0 : 1;
+    })) << name;
+    EXPECT_EQ(next, mesh.triangles.size()) << name;
+    EXPECT_EQ(different, 0U) << name;
+  }
+}
+
+TEST(MeshReader, FacetsOfWhatIsNoMeshAreAnError) {
+  const ScratchFolder folder;
+  const SampleScene sample;
+  ASSERT_TRUE(write_stl(folder / "a.stl", sample.part()));
+  const std::string good = read_file(folder / "a.stl").value();
+  std::string none = good.substr(0, 84), infinite = good;
+  none.replace(80, 4, 4, '\0');
+  const float far = std::numeric_limits<float>::infinity();
+  std::memcpy(infinite.data() + 84 + 12, &far, sizeof far);
+  const auto ignore = [](const Facet&) {};
+  for (const std::string& content : {good.substr(0, good.size() - 7), none, infinite, std::string(),
+                                     std::string("no mesh at all")}) {
+    ASSERT_TRUE(write_file(folder / "b.stl", content));
+    const auto status = visit_facets(folder / "b.stl", ignore);
+    ASSERT_FALSE(status) << content.size();
+    EXPECT_EQ(status.error().code, ErrorCode::kSyntax) << content.size();
+    EXPECT_EQ(status.error().file, (folder / "b.stl").string());
+  }
+  EXPECT_EQ(visit_facets(folder / "missing.stl", ignore).error().code, ErrorCode::kFileNotFound);
+  EXPECT_EQ(visit_facets(folder.path(), ignore).error().code, ErrorCode::kDisk);
+}
+
 std::string package(const std::string& model, const std::string& more = {}) {
+  const auto packed = [](std::string_view text) {
+    PackedText all(text);
+    all.close();
+    return all;
+  };
   std::vector<ZipEntry> entries = {
       {"_rels/.rels",
-       "<?xml version='1.0'?><Relationships><Relationship Target='/3D/a.model' Id='r' "
-       "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></Relationships>"},
-      {"3D/a.model", model}};
-  if (!more.empty()) entries.push_back({"3D/Objects/b.model", more});
+       packed("<?xml version='1.0'?><Relationships><Relationship Target='/3D/a.model' Id='r' "
+       "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></Relationships>")},
+      {"3D/a.model", packed(model)}};
+  if (!more.empty()) entries.push_back({"3D/Objects/b.model", packed(more)});
   return zip_archive(entries).value();
 }
 

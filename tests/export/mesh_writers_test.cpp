@@ -14,6 +14,7 @@
 
 #include "tests/export/sample_scene.h"
 #include "trueflank/export/glb_writer.h"
+#include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/number_text.h"
 #include "trueflank/export/obj_writer.h"

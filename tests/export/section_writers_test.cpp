@@ -8,7 +8,7 @@
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "trueflank/export/dxf_writer.h"
-#include "trueflank/export/mesh_reader.h"
+#include "trueflank/export/input_file.h"
 #include "trueflank/export/section_contour.h"
 #include "trueflank/export/svg_writer.h"
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_profile.h"
 
@@ -37,6 +40,35 @@ TEST(CurveSpline, FootOfAPointOffTheTrochoidIsThePointItWasMovedFrom) {
         }
       }
     }
+  }
+}
+
+// Far points, where many nodes are nearly as near as the nearest: against samples of the curve.
+TEST(CurveSpline, FootOfAFarPointIsTheNearestSample) {
+  for (const bool backwards : {false, true}) {
+    Curve curve = fillet_of(17, 0.2, 1.0);
+    if (backwards) std::swap(curve.begin, curve.end);
+    const CurveSpline spline(curve);
+    const Point2 middle = point_at(curve, 0.5 * (curve.begin + curve.end));
+    int compared = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Point2 q = middle + 0.01 * (i + 1) * unit_vector(2.399963 * i);
+      double nearest = 1e9;
+      int at = 0;
+      constexpr int kSamples = 5000;
+      for (int k = 0; k <= kSamples; ++k) {
+        const Point2 p = point_at(curve, curve.begin + (curve.end - curve.begin) * k / kSamples);
+        if ((p - q).norm() < nearest) nearest = (p - q).norm(), at = k;
+      }
+      if (at == 0 || at == kSamples) continue;
+      const auto foot = spline.foot(q, 1e9);
+      ASSERT_TRUE(foot) << i;
+      EXPECT_LE(foot->distance_mm, nearest + 1e-9) << i;
+      // the foot lies within half a step of the sample
+      EXPECT_NEAR(std::pow(foot->distance_mm, 2), nearest * nearest, 1e-7) << i;
+      ++compared;
+    }
+    EXPECT_GT(compared, 20);
   }
 }
 

@@ -31,7 +31,8 @@ THIRD_PARTY = {
     "Eigen": (r"Eigen/", [f for f in EVERY if f != "base"], [f for f in EVERY if f != "base"]),
     "CGAL": (r"CGAL/", ["check", "solid", "loop"], []),
     "assimp": (r"assimp/", [], []),  # tests only: an independent reader
-    "libdeflate": (r"libdeflate", ["export"], []),
+    "isa-l": (r"isa-l\.h", ["export"], []),
+    "zlib": (r"zlib\.h", ["export"], []),
     # linked into tests only (33 ms at every start): tests/programs
     "OpenCASCADE": (r"(Standard|TopoDS|TopExp|BRep\w*|STEP\w*|XCAF\w*|gp)(_\w+)?\.hxx|opencascade/",
                     [], []),

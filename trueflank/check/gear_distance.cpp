@@ -11,6 +11,7 @@ namespace trueflank {
 GearDistance::GearDistance(const ToothProfile& profile)
     : pitch_rad_(kTwoPi / profile.gear().teeth),
       outward_(profile.gear().kind == GearKind::kExternal ? 1.0 : -1.0) {
+  for (int k = 0; k < profile.gear().teeth; ++k) axes_.push_back(unit_vector(k * pitch_rad_));
   const auto& pieces = profile.pieces();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Curve& curve = pieces[i].curve;
@@ -56,15 +57,15 @@ void GearDistance::add_joints(const ToothProfile& profile) {
 }
 
 GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
-  const double r = point.norm();
-  double phi = std::atan2(point.y(), point.x());
-  phi -= pitch_rad_ * std::nearbyint(phi / pitch_rad_);
-  const bool clockwise = phi < 0.0;
-  phi = std::abs(phi);
-  const Point2 q(r * std::cos(phi), r * std::sin(phi));
+  const auto teeth = static_cast<int>(axes_.size());
+  const int tooth = static_cast<int>(std::nearbyint(polar_angle_rad(point) / pitch_rad_));
+  const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth) % teeth)];
+  const double across = cross(axis, point);
+  const bool clockwise = across < 0.0;
+  const Point2 q(axis.dot(point), std::abs(across));
 
   Best best{std::numeric_limits<double>::infinity(), 0.0, -1, Point2::Zero()};
-  for (const Flank& flank : flanks_) measure_flank(flank, r, phi, best);
+  for (const Flank& flank : flanks_) measure_flank(flank, q, best);
   for (const Arc& arc : arcs_) measure_arc(arc, q, best);
   for (const Line& line : lines_) measure_line(line, q, best);
   for (const Spline& spline : splines_) measure_spline(spline, q, best);
@@ -92,18 +93,17 @@ void GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) cons
           arc.centre + from_centre * (radial > 0.0 ? arc.radius / radial : 0.0)};
 }
 
-void GearDistance::measure_flank(const Flank& flank, double r, double phi, Best& best) const {
-  const double r_b = flank.base_radius;
-  if (r < r_b) return;
-  // the normal through the point touches the base circle at tau
-  const double length = std::sqrt((r - r_b) * (r + r_b));
-  const double tau = phi + flank.sense * std::atan2(length, r_b);
-  const double roll = flank.sense * (tau - flank.half_angle);
+void GearDistance::measure_flank(const Flank& flank, const Point2& q, Best& best) const {
+  const double r_b = flank.base_radius, square = q.squaredNorm();
+  if (square < r_b * r_b) return;
+  // the normal through the point touches the base circle in the direction e, at tau
+  const double r = std::sqrt(square), length = std::sqrt((r - r_b) * (r + r_b));
+  const Point2 e = (r_b * q + flank.sense * length * perpendicular(q)) / square;
+  const double roll = flank.sense * (polar_angle_rad(e) - flank.half_angle);
   if (roll < flank.from || roll > flank.to) return;
   const double beyond = -flank.sense * (length - r_b * roll);
   const double distance = std::abs(beyond);
   if (!(distance < best.magnitude)) return;
-  const Point2 e = unit_vector(tau);
   best = {distance, beyond, flank.piece, r_b * (e - flank.sense * roll * perpendicular(e))};
 }
 

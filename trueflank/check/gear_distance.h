@@ -63,11 +63,12 @@ class GearDistance {
 
   void add_joints(const ToothProfile& profile);
   void measure_arc(const Arc& arc, const Point2& q, Best& best) const;
-  void measure_flank(const Flank& flank, double r, double phi, Best& best) const;
+  void measure_flank(const Flank& flank, const Point2& q, Best& best) const;
   void measure_line(const Line& line, const Point2& q, Best& best) const;
   void measure_spline(const Spline& spline, const Point2& q, Best& best) const;
 
   double pitch_rad_;
+  std::vector<Point2> axes_;  // directions of the teeth
   double outward_;  // +1: space is on the right of the direction of travel (external), -1: left
   std::vector<Joint> joints_;
   std::vector<Arc> arcs_;

@@ -11,6 +11,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/dxf_writer.h"
+#include "trueflank/export/facet_comparison.h"
 #include "trueflank/export/glb_writer.h"
 #include "trueflank/export/kerf_path.h"
 #include "trueflank/export/mesh_reader.h"
@@ -45,49 +46,6 @@ MeshWriter mesh_writer(FileFormat format) {
 }
 
 constexpr int kAssembly = -1;
-constexpr double kFloatStep = 1.2e-7;    // from one float to the next, of the coordinate itself
-constexpr double kTextStep_mm = 1e-6;    // append_decimal's
-
-double distance_mm(const std::array<double, 3>& p, const std::array<double, 3>& q) {
-  const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-  return std::sqrt(x * x + y * y + z * z);
-}
-
-/// Farthest that a corner of a scene moved on its way through a file; nothing where the file holds
-/// other triangles. Triangles that collapsed in rounding may be missing.
-std::optional<double> rounding_of(const TriangleMesh& mesh, const Scene& scene) {
-  double farthest_mm = 0.0;
-  std::size_t next = 0;
-  for (const Placement& body : scene.bodies) {
-    const TriangleMesh& shape = *scene.shapes[body.part].mesh;
-    const PlacementTransform place(body);
-    std::vector<std::array<double, 3>> placed;
-    placed.reserve(shape.vertices.size());
-    for (const auto& vertex : shape.vertices) placed.push_back(place(vertex));
-    for (const auto& t : shape.triangles) {
-      double moved_mm = 0.0, allowed_mm = 2.0 * kTextStep_mm;
-      for (int k = 0; k < 3; ++k) {
-        const auto& corner = placed[t[k]];
-        allowed_mm = std::max({allowed_mm, kFloatStep * std::abs(corner[0]),
-                               kFloatStep * std::abs(corner[1]), kFloatStep * std::abs(corner[2])});
-        if (next < mesh.triangles.size())
-          moved_mm = std::max(moved_mm, distance_mm(corner, mesh.vertices[mesh.triangles[next][k]]));
-      }
-      if (next < mesh.triangles.size() && moved_mm <= 2.0 * allowed_mm) {
-        farthest_mm = std::max(farthest_mm, moved_mm);
-        ++next;
-        continue;
-      }
-      double shortest_mm = 1e300;  // of a side: as short as the rounding, it may have collapsed
-      for (int k = 0; k < 3; ++k)
-        shortest_mm = std::min(shortest_mm, distance_mm(placed[t[k]], placed[t[(k + 1) % 3]]));
-      if (shortest_mm > 2.0 * allowed_mm) return std::nullopt;
-    }
-  }
-  if (next != mesh.triangles.size()) return std::nullopt;
-  return farthest_mm;
-}
-
 double largest_chord_error_mm(const std::vector<Section>& sections) {
   double largest_mm = 0.0;
   for (const Section& section : sections)
@@ -119,6 +77,7 @@ class Exporter {
     if (has(FileFormat::kStep)) make_solids();
     const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
     if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) make_meshes();
+    if (has(FileFormat::k3mf)) pack_meshes();
     files_.resize(jobs_.size());
     readings_.resize(jobs_.size());
     if (errors_.empty()) {
@@ -199,6 +158,16 @@ class Exporter {
     meshes_ = &own_meshes_;
   }
 
+  /// Packing serves the files of the parts and that of the assembly.
+  void pack_meshes() {
+    packed_meshes_.resize(shapes_.parts.size());
+    run_jobs(packed_meshes_.size(), [&](std::size_t i) {
+      if (options_.part.empty() || shapes_.parts[i].name == options_.part)
+        packed_meshes_[i] = packed_3mf_mesh((*meshes_)[i].mesh);
+      return true;
+    });
+  }
+
   /// Solids serve the files of the parts and that of the assembly.
   void make_solids() {
     solids_.resize(shapes_.parts.size());
@@ -236,7 +205,9 @@ class Exporter {
     ReportedFile& file = files_[index];
     if (const MeshWriter writer = mesh_writer(job.format)) {
       const Scene scene = scene_of(job);
-      if (auto status = writer(path, scene); !status) return status;
+      const auto status = job.format == FileFormat::k3mf ? write_3mf(path, scene, packed_meshes_of(job))
+                                                         : writer(path, scene);
+      if (!status) return status;
       return read_back(index, path, scene);
     }
     if (job.format == FileFormat::kStep) return write_step(job, path, file);
@@ -281,6 +252,13 @@ class Exporter {
     return scene;
   }
 
+  [[nodiscard]] std::vector<const PackedText*> packed_meshes_of(const Job& job) const {
+    if (job.part != kAssembly) return {&packed_meshes_[static_cast<std::size_t>(job.part)]};
+    std::vector<const PackedText*> all;
+    for (const PackedText& mesh : packed_meshes_) all.push_back(&mesh);
+    return all;
+  }
+
   Status write_step(const Job& job, const std::filesystem::path& path, ReportedFile& file) const {
     if (job.part != kAssembly) {
       file.accuracy_um = um_from_mm(solids_[job.part].solid.fit_error_mm);
@@ -292,21 +270,38 @@ class Exporter {
     return write_file(path, step_text(solids_, shapes_.assembly, train_.design.name));
   }
 
-  /// Reads the file from the disk, compares it with what was to be written, and measures the first
-  /// file of each part against the true surface.
+  /// Whether this file is the one of its part that is measured against the true surface: one whose
+  /// format knows which facets share a vertex, where there is one.
+  [[nodiscard]] bool is_measured(std::size_t index) const {
+    const int part = jobs_[index].part;
+    if (part == kAssembly) return false;
+    std::optional<std::size_t> chosen;
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      if (jobs_[i].part == part && mesh_writer(jobs_[i].format) != nullptr)
+        if (!chosen || jobs_[*chosen].format == FileFormat::kStl) chosen = i;
+    return chosen == index;
+  }
+
+  /// Reads the file from the disk, compares it with what was to be written, and measures one file of
+  /// each part.
   Status read_back(std::size_t index, const std::filesystem::path& path, const Scene& scene) {
-    const auto mesh = read_mesh(path);
-    if (!mesh) return fail(mesh.error());
-    files_[index].triangles = mesh->triangles.size();
-    files_[index].volume_mm3 = volume_mm3(*mesh);
-    const auto rounding_mm = rounding_of(*mesh, scene);
+    FacetComparison comparison(scene);
+    const auto compare = [&](const Facet& facet) { comparison.take(facet); };
+    if (is_measured(index)) {
+      const auto mesh = read_mesh(path);
+      if (!mesh) return fail(mesh.error());
+      for (const auto& t : mesh->triangles)
+        comparison.take({mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]});
+      readings_[index].measured_mm =
+          measure_accuracy(*mesh, shapes_.parts[jobs_[index].part]).largest_mm();
+    } else if (auto status = visit_facets(path, compare); !status) {
+      return status;
+    }
+    const auto rounding_mm = comparison.rounding_mm();
     if (!rounding_mm) return fail(file_error("verify", path, EIO));
     readings_[index].rounding_mm = *rounding_mm;
-    const Job& job = jobs_[index];
-    const bool first = index == 0 || jobs_[index - 1].part != job.part ||
-                       !mesh_writer(jobs_[index - 1].format);
-    if (job.part != kAssembly && first)
-      readings_[index].measured_mm = measure_accuracy(*mesh, shapes_.parts[job.part]).largest_mm();
+    files_[index].triangles = comparison.facets();
+    files_[index].volume_mm3 = comparison.volume_mm3();
     return {};
   }
 
@@ -333,6 +328,7 @@ class Exporter {
   const ExportOptions& options_;
   std::vector<Job> jobs_;
   std::vector<PartMesh> own_meshes_;
+  std::vector<PackedText> packed_meshes_;
   std::vector<StepPart> solids_;
   struct Reading {
     double rounding_mm = 0.0;   ///< farthest that a corner moved on its way through the file

@@ -15,6 +15,9 @@ namespace trueflank::io {
 
 using Bodies = std::vector<MeshBody>;
 [[nodiscard]] Result<Bodies> parse_binary_stl(std::string_view content);
+constexpr std::size_t kStlHeaderBytes = 84, kStlRecordBytes = 50;
+/// The facet that a record of a binary STL begins with.
+[[nodiscard]] Facet stl_facet(const char* record);
 [[nodiscard]] Result<Bodies> parse_text_stl(std::string_view content);
 [[nodiscard]] Result<Bodies> parse_obj(std::string_view content);
 [[nodiscard]] Result<Bodies> parse_ply(std::string_view content);
@@ -35,7 +38,7 @@ class Welder {
  public:
   explicit Welder(std::size_t expected_triangles);
   [[nodiscard]] std::uint32_t vertex(const std::array<double, 3>& point);
-  void add_triangle(const std::array<std::array<double, 3>, 3>& corners);
+  void add_triangle(const Facet& corners);
   [[nodiscard]] TriangleMesh take();
 
  private:

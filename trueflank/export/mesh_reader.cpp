@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/export/mesh_reader.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -13,10 +9,13 @@
 #include <cstring>
 
 #include "trueflank/export/atomic_file.h"
+#include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_parsers.h"
 
 namespace trueflank::io {
 namespace {
+
+enum class FileMark { kNone, k3mf, kGlb, kPly, kBinaryStl };
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -24,11 +23,20 @@ bool begins_with(std::string_view text, std::string_view word) {
   return text.substr(0, word.size()) == word;
 }
 
-bool is_binary_stl_by_size(std::string_view content) {
-  if (content.size() < 84) return false;
+/// Of a file of this size that begins so.
+bool is_binary_stl_by_size(std::string_view head, std::size_t size) {
+  if (head.size() < kStlHeaderBytes) return false;
   std::uint32_t count = 0;
-  std::memcpy(&count, content.data() + 80, sizeof count);
-  return content.size() == 84 + 50 * static_cast<std::size_t>(count);
+  std::memcpy(&count, head.data() + 80, sizeof count);
+  return size == kStlHeaderBytes + kStlRecordBytes * static_cast<std::size_t>(count);
+}
+
+/// By the marks that some formats begin with.
+FileMark mark_of(std::string_view head, std::size_t size) {
+  if (begins_with(head, "PK\3\4")) return FileMark::k3mf;
+  if (begins_with(head, "glTF")) return FileMark::kGlb;
+  if (begins_with(head, "ply\n") || begins_with(head, "ply\r")) return FileMark::kPly;
+  return is_binary_stl_by_size(head, size) ? FileMark::kBinaryStl : FileMark::kNone;
 }
 
 std::string lower_case(std::string_view text) {
@@ -72,6 +80,18 @@ bool take_short_decimal(std::string_view& text, double& value) {
 Error with_file(Error error, const std::filesystem::path& path) {
   if (error.file.empty()) error.file = path.string();
   return error;
+}
+
+Error no_triangle(const std::filesystem::path& path) {
+  return with_file({.code = ErrorCode::kSyntax, .message = "the mesh has no triangle"}, path);
+}
+
+Error not_finite() {
+  return {.code = ErrorCode::kSyntax, .message = "a coordinate is not a finite number"};
+}
+
+bool is_finite(const std::array<double, 3>& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
 }  // namespace
@@ -137,7 +157,7 @@ void Welder::grow() {
   table_ = std::move(larger.table_);
 }
 
-void Welder::add_triangle(const std::array<std::array<double, 3>, 3>& corners) {
+void Welder::add_triangle(const Facet& corners) {
   // neighbours follow each other in most files: two corners of three were just there
   const auto known = [&](const std::array<double, 3>& point) {
     if (!mesh_.triangles.empty())
@@ -158,42 +178,20 @@ Status check_mesh(const TriangleMesh& mesh) {
                           std::to_string(std::max({t[0], t[1], t[2]}) + 1) + " of " +
                           std::to_string(count) + ")");
   for (const auto& v : mesh.vertices)
-    if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-      return syntax_error("a coordinate is not a finite number");
+    if (!is_finite(v)) return fail(not_finite());
   return {};
-}
-
-Result<std::string> read_file(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return fail(file_error("read", path, errno));
-  struct stat status {};
-  int error_number = ::fstat(descriptor, &status) != 0 ? errno : 0;
-  std::string content;
-  // One byte more than the size: the read that finds the end needs no second round.
-  std::size_t filled = 0, room = S_ISREG(status.st_mode) ? status.st_size + 1 : 65536;
-  while (error_number == 0) {
-    content.resize(std::max(room, content.size()));
-    const ssize_t got = ::read(descriptor, content.data() + filled, content.size() - filled);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) error_number = errno;
-    if (got <= 0) break;
-    filled += static_cast<std::size_t>(got);
-    if (filled == content.size()) room = 2 * content.size();
-  }
-  ::close(descriptor);
-  if (error_number != 0) return fail(file_error("read", path, error_number));
-  content.resize(filled);
-  return content;
 }
 
 Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
   if (content.empty()) return syntax_error("the file is empty");
   Result<Bodies> bodies = [&]() -> Result<Bodies> {
-    if (begins_with(content, "PK\3\4")) return parse_3mf(content);
-    if (begins_with(content, "glTF")) return parse_glb(content);
-    if (begins_with(content, "ply") && content.size() > 3 && (content[3] == '\n' || content[3] == '\r'))
-      return parse_ply(content);
-    if (is_binary_stl_by_size(content)) return parse_binary_stl(content);
+    switch (mark_of(content, content.size())) {
+      case FileMark::k3mf: return parse_3mf(content);
+      case FileMark::kGlb: return parse_glb(content);
+      case FileMark::kPly: return parse_ply(content);
+      case FileMark::kBinaryStl: return parse_binary_stl(content);
+      case FileMark::kNone: break;
+    }
     const std::string ending = lower_case(extension);
     if (ending == ".obj") return parse_obj(content);
     std::string_view rest = content;
@@ -230,9 +228,44 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& path) {
     for (const auto& t : body.mesh.triangles)
       all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
-  if (all.triangles.empty())
-    return fail(with_file({.code = ErrorCode::kSyntax, .message = "the mesh has no triangle"}, path));
+  if (all.triangles.empty()) return fail(no_triangle(path));
   return all;
+}
+
+Status visit_facets(const std::filesystem::path& path,
+                    const std::function<void(const Facet&)>& show) {
+  InputFile file(path);
+  std::string head;
+  if (const auto size = file.regular_size()) {  // a pipe's head could not be read again
+    head.resize(std::min(*size, kStlHeaderBytes));
+    head.resize(file.fill(head.data(), head.size()));
+  }
+  if (mark_of(head, file.regular_size().value_or(0)) != FileMark::kBinaryStl ||
+      *file.regular_size() == kStlHeaderBytes) {
+    const auto bodies = read_bodies(path);
+    if (!bodies) return fail(bodies.error());
+    bool any = false;
+    for (const auto& [name, mesh] : *bodies)
+      for (const auto& t : mesh.triangles) {
+        show({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+        any = true;
+      }
+    return any ? Status{} : fail(no_triangle(path));
+  }
+  std::string block(1000 * kStlRecordBytes, '\0');
+  for (std::size_t left = *file.regular_size() - kStlHeaderBytes; left > 0;) {
+    const std::size_t wanted = std::min(left, block.size());
+    if (file.fill(block.data(), wanted) != wanted)
+      return fail(file_error("read", path, file.error_number() != 0 ? file.error_number() : EIO));
+    for (std::size_t at = 0; at < wanted; at += kStlRecordBytes) {
+      const Facet facet = stl_facet(block.data() + at);
+      for (const auto& corner : facet)
+        if (!is_finite(corner)) return fail(with_file(not_finite(), path));
+      show(facet);
+    }
+    left -= wanted;
+  }
+  return {};
 }
 
 Result<std::vector<std::array<double, 3>>> read_points(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,14 @@ struct MeshBody {
 /// All bodies of read_bodies() in one mesh. Errors: also kSyntax where there is no triangle.
 [[nodiscard]] Result<TriangleMesh> read_mesh(const std::filesystem::path& path);
 
+/// Corners of a triangle.
+using Facet = std::array<std::array<double, 3>, 3>;
+
+/// Shows the triangles of all bodies one after the other, as the file has them; a binary STL is not
+/// held in memory. Errors: as read_mesh's; facets before the place of an error may have been shown.
+[[nodiscard]] Status visit_facets(const std::filesystem::path& path,
+                                  const std::function<void(const Facet&)>& show);
+
 /// The vertices alone: a scan may be a cloud of points. Errors: as read_bodies'; kSyntax where there is
 /// no vertex.
 [[nodiscard]] Result<std::vector<std::array<double, 3>>> read_points(
@@ -38,8 +47,5 @@ struct MeshBody {
 /// As read_bodies(), of a file's content; `extension` (".obj") decides where the content does not.
 [[nodiscard]] Result<std::vector<MeshBody>> parse_bodies(std::string_view content,
                                                          std::string_view extension);
-
-/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder).
-[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
 }  // namespace trueflank::io

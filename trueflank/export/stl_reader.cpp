@@ -6,9 +6,17 @@
 namespace trueflank::io {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84, kRecordBytes = 50;
+constexpr std::size_t kHeaderBytes = kStlHeaderBytes, kRecordBytes = kStlRecordBytes;
 
 }  // namespace
+
+Facet stl_facet(const char* record) {
+  float values[12];  // normal, three corners
+  std::memcpy(values, record, sizeof values);
+  Facet facet;
+  for (std::size_t k = 0; k < 9; ++k) facet[k / 3][k % 3] = values[3 + k];
+  return facet;
+}
 
 Result<Bodies> parse_binary_stl(std::string_view content) {
   if (content.size() < kHeaderBytes)
@@ -22,20 +30,15 @@ Result<Bodies> parse_binary_stl(std::string_view content) {
                         std::to_string(count) + " triangles, there is room for " +
                         std::to_string(held));
   Welder welder(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    float values[12];  // normal, three corners
-    std::memcpy(values, content.data() + kHeaderBytes + i * kRecordBytes, sizeof values);
-    std::array<std::array<double, 3>, 3> corners;
-    for (int k = 0; k < 9; ++k) corners[k / 3][k % 3] = values[3 + k];
-    welder.add_triangle(corners);
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    welder.add_triangle(stl_facet(content.data() + kHeaderBytes + i * kRecordBytes));
   return Bodies{{.name = {}, .mesh = welder.take()}};
 }
 
 Result<Bodies> parse_text_stl(std::string_view content) {
   Bodies bodies;
   Welder welder(content.size() / 250);
-  std::array<std::array<double, 3>, 3> corners{};
+  Facet corners{};
   int corner = 0, line_number = 0;
   bool inside = false;
   while (!content.empty()) {

@@ -143,9 +143,18 @@ class ModelParser {
   /// reads them eight times as slowly. Stops at whatever looks different.
   void take_plain(std::string_view& text) {
     if (!object_) return;
+    // room for all there are before the list's end, so that it need not grow and be copied again
+    const auto room = [&](std::string_view end, std::size_t least_bytes) {
+      const std::size_t at = text.find(end);
+      return at == text.npos ? 0 : at / least_bytes;
+    };
+    if (text.starts_with("\n<vertex ") || text.starts_with("<vertex "))
+      object_->mesh.vertices.reserve(object_->mesh.vertices.size() + room("</vertices>", 36));
     std::array<double, 3> v{};
     while (take_plain_tag(text, {"<vertex x=\"", "\" y=\"", "\" z=\""}, v))
       object_->mesh.vertices.push_back(v);
+    if (text.starts_with("\n<triangle ") || text.starts_with("<triangle "))
+      object_->mesh.triangles.reserve(object_->mesh.triangles.size() + room("</triangles>", 36));
     std::array<std::uint32_t, 3> t{};
     while (take_plain_tag(text, {"<triangle v1=\"", "\" v2=\"", "\" v3=\""}, t))
       object_->mesh.triangles.push_back(t);

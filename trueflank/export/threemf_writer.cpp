@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "trueflank/base/contract.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"
 #include "trueflank/export/xml_text.h"
@@ -83,24 +84,16 @@ void append_line(std::string& text, const std::array<std::string_view, 3>& befor
   text.append(line.data(), at);
 }
 
-void append_shape(std::string& text, const SceneShape& shape, int index) {
+void append_shape(PackedText& packed, const SceneShape& shape, const PackedText& mesh, int index) {
+  std::string& text = packed.open_text();
   text += "<object";
   append_attribute(text, "id", kFirstShapeId + index);
   text += " type=\"model\" name=\"" + xml_escaped(shape.name) + "\"";
   append_attribute(text, "pid", kMaterialsId);
   append_attribute(text, "pindex", index);
-  text += "><mesh><vertices>\n";
-  const OrderOfUse order(*shape.mesh);
-  for (const std::uint32_t old : order.vertices) {
-    const auto& v = shape.mesh->vertices[old];
-    append_line(text, {"<vertex x=\"", "\" y=\"", "\" z=\""}, v, put_decimal);
-  }
-  text += "</vertices><triangles>\n";
-  for (const auto& t : shape.mesh->triangles)
-    append_line(text, {"<triangle v1=\"", "\" v2=\"", "\" v3=\""},
-                std::array{order.number[t[0]], order.number[t[1]], order.number[t[2]]},
-                put_integer);
-  text += "</triangles></mesh></object>\n";
+  text += ">";
+  packed.append(mesh);
+  packed.append("</object>\n");
 }
 
 /// Points are row vectors here: the rows are the images of x, y, z and the origin.
@@ -144,9 +137,9 @@ int append_assembly(std::string& text, const Scene& scene) {
   return next_id;
 }
 
-std::string model_text(const Scene& scene) {
-  std::string text;
-  text.reserve(1000 + 60 * (vertex_count(scene) + triangle_count(scene)));
+PackedText model_text(const Scene& scene, const std::vector<const PackedText*>& meshes) {
+  PackedText packed;
+  std::string& text = packed.open_text();
   text +=
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<model unit=\"millimeter\" xml:lang=\"en-US\" "
@@ -155,24 +148,62 @@ std::string model_text(const Scene& scene) {
   text += "<metadata name=\"Application\">Trueflank</metadata>\n<resources>\n";
   append_materials(text, scene);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
-    append_shape(text, scene.shapes[i], static_cast<int>(i));
+    append_shape(packed, scene.shapes[i], *meshes[i], static_cast<int>(i));
   const bool alone = scene.bodies.size() == 1;
   const int built = alone ? kFirstShapeId + scene.bodies.front().part : append_assembly(text, scene);
   text += "</resources>\n<build><item";
   append_attribute(text, "objectid", built);
   if (alone) append_transform(text, scene.bodies.front());
   text += "/></build>\n</model>\n";
-  return text;
+  packed.close();
+  return packed;
+}
+
+PackedText closed(std::string_view text) {
+  PackedText packed(text);
+  packed.close();
+  return packed;
 }
 
 }  // namespace
 
+PackedText packed_3mf_mesh(const TriangleMesh& mesh) {
+  PackedText packed;
+  packed.append("<mesh><vertices>\n");
+  const OrderOfUse order(mesh);
+  for (const std::uint32_t old : order.vertices) {
+    append_line(packed.open_text(), {"<vertex x=\"", "\" y=\"", "\" z=\""}, mesh.vertices[old],
+                put_decimal);
+    packed.pack_when_full();
+  }
+  packed.append("</vertices><triangles>\n");
+  for (const auto& t : mesh.triangles) {
+    append_line(packed.open_text(), {"<triangle v1=\"", "\" v2=\"", "\" v3=\""},
+                std::array{order.number[t[0]], order.number[t[1]], order.number[t[2]]},
+                put_integer);
+    packed.pack_when_full();
+  }
+  packed.append("</triangles></mesh>");
+  packed.close();
+  return packed;
+}
+
 Status write_3mf(const std::filesystem::path& path, const Scene& scene) {
+  std::vector<PackedText> packed;
+  for (const SceneShape& shape : scene.shapes) packed.push_back(packed_3mf_mesh(*shape.mesh));
+  std::vector<const PackedText*> meshes;
+  for (const PackedText& mesh : packed) meshes.push_back(&mesh);
+  return write_3mf(path, scene, meshes);
+}
+
+Status write_3mf(const std::filesystem::path& path, const Scene& scene,
+                 const std::vector<const PackedText*>& meshes) {
+  TRUEFLANK_EXPECTS(meshes.size() == scene.shapes.size());
   auto file = AtomicFile::create(path);
   if (!file) return fail(std::move(file.error()));
-  const auto archive = zip_archive({{"[Content_Types].xml", std::string(kContentTypes)},
-                                    {"_rels/.rels", std::string(kRelationships)},
-                                    {"3D/3dmodel.model", model_text(scene)}});
+  const auto archive = zip_archive({{"[Content_Types].xml", closed(kContentTypes)},
+                                    {"_rels/.rels", closed(kRelationships)},
+                                    {"3D/3dmodel.model", model_text(scene, meshes)}});
   if (!archive) return fail(archive.error());
   file->write(*archive);
   return file->commit();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "trueflank/base/result.h"
+#include "trueflank/export/packed_text.h"
 #include "trueflank/export/scene.h"
 
 namespace trueflank::io {
@@ -13,5 +15,11 @@ namespace trueflank::io {
 /// shared; a body whose name is not its shape's has an object of its own that carries the name.
 /// Errors: as AtomicFile's; kUnsupported at 4 GB.
 [[nodiscard]] Status write_3mf(const std::filesystem::path& path, const Scene& scene);
+
+/// What a file holds of a mesh, for files that share shapes.
+[[nodiscard]] PackedText packed_3mf_mesh(const TriangleMesh& mesh);
+/// As write_3mf(), of meshes that are packed already: one a shape of the scene.
+[[nodiscard]] Status write_3mf(const std::filesystem::path& path, const Scene& scene,
+                               const std::vector<const PackedText*>& meshes);
 
 }  // namespace trueflank::io

@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
+#include "trueflank/export/packed_text.h"
 
 // The container of 3MF files: PKZIP with deflated or stored entries; written below 4 GB, ZIP64 is read.
 namespace trueflank::io {
 
 struct ZipEntry {
   std::string name;
-  std::string content;
+  PackedText content;
 };
 
-/// An archive of the entries in their order, all dated 1980-01-01: the same entries, the same bytes.
+/// An archive of the entries in their order, all deflated and dated 1980-01-01: the same entries, the same
+/// bytes.
 /// Errors: kUnsupported at 4 GB.
 [[nodiscard]] Result<std::string> zip_archive(const std::vector<ZipEntry>& entries);
 

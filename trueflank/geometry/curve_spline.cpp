@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "trueflank/geometry/point2.h"
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kSplineError = 1e-9;  // of the curve's size, or mm
 constexpr int kFewestPieces = 24, kMostPieces = 1024;
-constexpr std::size_t kBlock = 16;  // nodes that are passed over at once
 
 /// Value and derivatives of a cubic Hermite piece at s in [0, 1].
 struct Cubic {
@@ -57,31 +57,42 @@ CurveSpline::CurveSpline(const Curve& curve) {
   }
   const auto [low_x, high_x] = std::minmax_element(x_.begin(), x_.end());
   const auto [low_y, high_y] = std::minmax_element(y_.begin(), y_.end());
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const std::size_t first = i - i % kBlock;
-    block_reach_mm_ =
-        std::max(block_reach_mm_, std::hypot(x_[i] - x_[first], y_[i] - y_[first]));
-  }
+  keep_radii();
   low_x_ = *low_x, high_x_ = *high_x, low_y_ = *low_y, high_y_ = *high_y;
 }
 
-/// Exact: a block is passed over where none of its nodes can be nearer than the nearest first one.
+void CurveSpline::keep_radii() {
+  for (std::size_t i = 0; i < x_.size(); ++i) radius_mm_.push_back(std::hypot(x_[i], y_[i]));
+  if (radius_mm_.front() > radius_mm_.back())
+    for (double& radius : radius_mm_) radius = -radius;
+  const auto step = std::adjacent_find(radius_mm_.begin(), radius_mm_.end(), std::greater_equal<>());
+  if (step != radius_mm_.end()) radius_mm_.clear();
+}
+
+/// Exact: a node whose radius differs from the point's by more than another's distance is farther.
 std::size_t CurveSpline::nearest_node(const Point2& q) const {
   const auto square = [&](std::size_t i) {
     const double dx = x_[i] - q.x(), dy = y_[i] - q.y();
     return dx * dx + dy * dy;
   };
   const std::size_t n = x_.size();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < n; i += kBlock) least = std::min(least, square(i));
-  const double reach = std::sqrt(least) + block_reach_mm_;
   std::size_t node = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t first = 0; first < n; first += kBlock) {
-    if (square(first) > reach * reach) continue;
-    for (std::size_t i = first; i < std::min(first + kBlock, n); ++i)
+  if (radius_mm_.empty()) {
+    for (std::size_t i = 0; i < n; ++i)
       if (const double s = square(i); s < nearest) nearest = s, node = i;
+    return node;
   }
+  const double radius = std::copysign(q.norm(), radius_mm_.back());
+  const auto may_be_nearer = [&](std::size_t i) {
+    return std::pow(radius_mm_[i] - radius, 2) < nearest;
+  };
+  const auto at = std::lower_bound(radius_mm_.begin(), radius_mm_.end(), radius);
+  const auto above = static_cast<std::size_t>(at - radius_mm_.begin());
+  for (std::size_t i = above; i < n && may_be_nearer(i); ++i)
+    if (const double s = square(i); s < nearest) nearest = s, node = i;
+  for (std::size_t i = above; i-- > 0 && may_be_nearer(i);)
+    if (const double s = square(i); s < nearest) nearest = s, node = i;
   return node;
 }
 

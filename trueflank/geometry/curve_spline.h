@@ -26,9 +26,10 @@ class CurveSpline {
   [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const;
 
  private:
+  void keep_radii();
   [[nodiscard]] std::size_t nearest_node(const Point2& point) const;
   std::vector<double> x_, y_, dx_, dy_;  ///< nodes at equal steps of the parameter, derivatives a step
-  double block_reach_mm_ = 0.0;  ///< of a block's nodes from its first
+  std::vector<double> radius_mm_;  ///< of the nodes where it rises all the way, negative where it falls
   double low_x_ = 0.0, high_x_ = 0.0, low_y_ = 0.0, high_y_ = 0.0;
 };
 

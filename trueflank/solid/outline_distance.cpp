@@ -72,7 +72,7 @@ InnerFoot inner_foot(const Involute& c, const Curve& curve, const Point2& p) {
   // The normal through p touches the base circle at angle tau and crosses the involute at roll angle
   // xi; outside the enclosed area the point is farther from there than the involute, on either kind.
   const double tangent = std::sqrt(r2 - r_b * r_b);
-  const double tau = polar_angle_rad(p) + c.sense * std::atan2(tangent, r_b);
+  const double tau = polar_angle_rad(r_b * p + c.sense * tangent * perpendicular(p));
   const double xi = c.sense * (tau - c.base_half_angle_rad);
   if (xi < std::min(curve.begin, curve.end) || xi > std::max(curve.begin, curve.end)) return {};
   const Point2 e = (r_b * p + c.sense * tangent * perpendicular(p)) / r2;

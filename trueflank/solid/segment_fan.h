@@ -21,8 +21,7 @@ class SegmentFan {
   [[nodiscard]] double distance_mm(const Point2& p) const;
 
  private:
-  [[nodiscard]] double direction(const Point2& p) const;
-  [[nodiscard]] std::size_t bin_of(double angle_rad) const;
+  [[nodiscard]] std::size_t bin_of(double diamond_angle) const;
   void visit(std::size_t bin, const Point2& p, double& best) const;
 
   std::vector<Segment> segments_;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <sys/stat.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "trueflank/base/result.h"
+
+namespace trueflank::io {
+
+/// A file, pipe or device to read from its beginning to its end. The number of the first error stays.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// errno of the first error; 0: none.
+  [[nodiscard]] int error_number() const { return error_number_; }
+  /// Bytes; nothing for pipes and devices.
+  [[nodiscard]] std::optional<std::size_t> regular_size() const;
+  /// What comes next, at least one byte; returns its size, 0 at the end and after an error.
+  std::size_t read(char* into, std::size_t room);
+  /// As read(), but all that fits.
+  std::size_t fill(char* into, std::size_t room);
+
+ private:
+  int descriptor_ = -1, error_number_ = 0;
+  struct stat status_ {};
+};
+
+/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder).
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace trueflank::io
