@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <future>
 
 #include "trueflank/app/commands.h"
 #include "trueflank/app/corrected_parts.h"
@@ -89,9 +90,10 @@ ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
 
 Status write_report(const io::Report& report, const PartShapes& shapes,
                     const std::filesystem::path& folder) {
+  auto json = std::async(std::launch::async, [&report] { return io::report_json(report); });
   if (auto ok = io::write_file(folder / "report.html", html_document(report, &shapes)); !ok)
     return ok;
-  return io::write_file(folder / "report.json", io::report_json(report));
+  return io::write_file(folder / "report.json", json.get());
 }
 
 }  // namespace

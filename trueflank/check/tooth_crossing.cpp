@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
-#include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
 
 namespace trueflank {
@@ -25,21 +25,44 @@ struct Edge {
   double low_x, high_x, low_y, high_y;
 };
 
-/// Edges of all teeth of a gear, placed, that lie inside a box.
-std::vector<Edge> edges_near(const SectionPolygon& section, double rotation_rad,
-                             const Point2& centre_mm, const Point2& low, const Point2& high) {
+/// A gear's section, placed, and the circles between which it lies.
+struct PlacedSection {
+  std::vector<Point2> points;
+  Point2 centre_mm = Point2::Zero();
+  double least_radius_mm = 0.0, largest_radius_mm = 0.0;
+};
+
+PlacedSection placed(const SectionPolygon& section, double rotation_rad, const Point2& centre_mm) {
+  PlacedSection result{.points = {}, .centre_mm = centre_mm};
+  result.points.reserve(section.points.size());
+  const Point2 axis = unit_vector(rotation_rad);
+  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (const Point2& p : section.points) {
+    result.points.push_back(centre_mm + p.x() * axis + p.y() * perpendicular(axis));
+    least = std::min(least, p.squaredNorm());
+    largest = std::max(largest, p.squaredNorm());
+  }
+  // chords of a circle dip below it by no more than the chord error
+  result.least_radius_mm = std::sqrt(least) - 2.0 * section.chord_error_mm;
+  result.largest_radius_mm = std::sqrt(largest) + 2.0 * section.chord_error_mm;
+  return result;
+}
+
+/// Edges of a section that reach between the circles of the other.
+std::vector<Edge> edges_near(const PlacedSection& section, const PlacedSection& other) {
   const std::size_t n = section.points.size();
-  std::vector<Point2> placed(n);
-  for (std::size_t i = 0; i < n; ++i)
-    placed[i] = centre_mm + rotated(section.points[i], rotation_rad);
   std::vector<Edge> edges;
+  double last_mm = (section.points.back() - other.centre_mm).norm();
   for (std::size_t i = 0; i < n; ++i) {
-    const Point2 &a = placed[i], &b = placed[(i + 1) % n];
-    const Edge e{a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x()), std::min(a.y(), b.y()),
-                 std::max(a.y(), b.y())};
-    if (e.high_x < low.x() || e.low_x > high.x() || e.high_y < low.y() || e.low_y > high.y())
+    const Point2 &a = section.points[i == 0 ? n - 1 : i - 1], &b = section.points[i];
+    const double to_a_mm = last_mm, to_b_mm = last_mm = (b - other.centre_mm).norm();
+    // no point of the edge is nearer or farther than its ends by more than half its length
+    const double half_mm = 0.5 * (b - a).norm();
+    if (std::max(to_a_mm, to_b_mm) + half_mm < other.least_radius_mm ||
+        std::min(to_a_mm, to_b_mm) - half_mm > other.largest_radius_mm)
       continue;
-    edges.push_back(e);
+    edges.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x()), std::min(a.y(), b.y()),
+                     std::max(a.y(), b.y())});
   }
   return edges;
 }
@@ -75,12 +98,9 @@ ToothCrossing teeth_cross(const GearPair& pair, double rotation1_rad, double rot
   const double tolerance = kChordError * pair.gear1().normal_module_mm;
   const SectionPolygon section1 = section_polygon(*pair.profile1, tolerance);
   const SectionPolygon section2 = section_polygon(*pair.profile2, tolerance);
-  // all of gear 1 that can be near: its own outline against everything of gear 2 in that box
-  const double reach = pair.profile1->tip_radius_mm() + pair.gear1().normal_module_mm;
-  auto first = edges_near(section1, rotation1_rad, Point2::Zero(), Point2(-reach, -reach),
-                          Point2(reach, reach));
-  auto second =
-      edges_near(section2, rotation2_rad, centre2_mm, Point2(-reach, -reach), Point2(reach, reach));
+  const PlacedSection one = placed(section1, rotation1_rad, Point2::Zero());
+  const PlacedSection two = placed(section2, rotation2_rad, centre2_mm);
+  auto first = edges_near(one, two), second = edges_near(two, one);
   return {any_meet(first, second), section1.chord_error_mm + section2.chord_error_mm};
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 using Point = std::array<double, 3>;
 
+constexpr double kSureStep_mm2 = 16.0 * kTextStep_mm * kTextStep_mm;  // no facet's step is less
+
 Point difference(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
 
 double squared_mm2(const Point& p, const Point& q) {
@@ -35,7 +37,7 @@ void FacetComparison::take(const Facet& facet) {
     for (std::size_t k = 0; k < 3; ++k)
       moved_mm2 = std::max(moved_mm2, squared_mm2(placed_[(*triangle)[k]], facet[k]));
     ++next_;
-    if (moved_mm2 <= std::pow(2.0 * largest_step_mm(*triangle), 2)) {
+    if (moved_mm2 <= kSureStep_mm2 || moved_mm2 <= std::pow(2.0 * largest_step_mm(*triangle), 2)) {
       farthest_mm_ = std::max(farthest_mm_, std::sqrt(moved_mm2));
       return;
     }

@@ -190,8 +190,8 @@ SectionPolygon section_polygon(const ToothProfile& profile, double tolerance_mm,
   section.points_per_tooth = static_cast<int>(tooth.size());
   section.points.reserve(tooth.size() * static_cast<std::size_t>(section.teeth));
   for (int k = 0; k < section.teeth; ++k) {
-    const double turn = rotation_rad + kTwoPi * k / section.teeth;
-    for (const Point2& p : tooth) section.points.push_back(rotated(p, turn));
+    const Point2 axis = unit_vector(rotation_rad + kTwoPi * k / section.teeth);
+    for (const Point2& p : tooth) section.points.push_back(p.x() * axis + p.y() * perpendicular(axis));
   }
   return section;
 }

@@ -121,19 +121,19 @@ void OutlineDistance::add(const Curve& curve) {
   Form form;
   form.start = curve.start_point();
   form.end = curve.end_point();
-  form.least_radius_mm = std::numeric_limits<double>::infinity();
   if (std::holds_alternative<RackTrochoid>(curve.shape) ||
       std::holds_alternative<CutterTrochoid>(curve.shape))
     form.spline.emplace(curve);
-  for (int i = 0; i < kNodes; ++i) {
+  form.low = form.high = form.start;
+  for (int i = 1; i < kNodes; ++i) {
     const Point2 node = point_at(curve, parameter(curve, i / (kNodes - 1.0)));
-    form.least_radius_mm = std::min(form.least_radius_mm, node.norm());
-    form.largest_radius_mm = std::max(form.largest_radius_mm, node.norm());
+    form.low = form.low.cwiseMin(node);
+    form.high = form.high.cwiseMax(node);
   }
-  // a curve bulges beyond its samples, a line towards the axis by much more
-  const double margin = 0.1 * pieces_.back().length_mm;
-  form.least_radius_mm = std::max(0.0, form.least_radius_mm - margin);
-  form.largest_radius_mm += margin;
+  // a curve bulges beyond its samples
+  const double margin = 1e-9 + pieces_.back().length_mm * std::min(0.1, pieces_.back().turning_rad / 8.0);
+  form.low.array() -= margin;
+  form.high.array() += margin;
   forms_.push_back(std::move(form));
 }
 
@@ -189,13 +189,18 @@ OutlineFoot OutlineDistance::foot(const Point2& point) const {
   return result;
 }
 
+double OutlineDistance::to_box_mm(std::size_t index, const Point2& point) const {
+  const Form& form = forms_[index];
+  return (form.low - point).cwiseMax(point - form.high).cwiseMax(0.0).norm();
+}
+
 OutlineFoot OutlineDistance::foot_on_half_tooth(const Point2& point) const {
-  OutlineFoot best{point, std::numeric_limits<double>::infinity()};
-  const double r = point.norm();
+  std::size_t first = 0;  // most likely the nearest: the others will not be looked at
+  for (std::size_t i = 1; i < pieces_.size(); ++i)
+    if (to_box_mm(i, point) < to_box_mm(first, point)) first = i;
+  OutlineFoot best = foot_on_piece(first, point, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const Form& form = forms_[i];
-    const double bound = std::max(r - form.largest_radius_mm, form.least_radius_mm - r);
-    if (bound > std::abs(best.distance_mm)) continue;
+    if (i == first || to_box_mm(i, point) > std::abs(best.distance_mm)) continue;
     const OutlineFoot candidate = foot_on_piece(i, point, std::abs(best.distance_mm));
     if (std::abs(candidate.distance_mm) < std::abs(best.distance_mm)) best = candidate;
   }

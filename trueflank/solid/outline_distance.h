@@ -42,7 +42,7 @@ class OutlineDistance {
 
  private:
   struct Form {  ///< what foot() needs of a piece
-    double least_radius_mm = 0.0, largest_radius_mm = 0.0;
+    Point2 low = Point2::Zero(), high = Point2::Zero();  ///< box around it
     Point2 start = Point2::Zero(), end = Point2::Zero();
     Point2 start_normal = Point2::Zero(), end_normal = Point2::Zero();  ///< pointing out of the enclosed area; mean of both pieces
     std::optional<CurveSpline> spline;  ///< of a trochoid
@@ -51,6 +51,7 @@ class OutlineDistance {
   void finish();
   [[nodiscard]] Point2 from_tooth(const Point2& p, std::size_t tooth) const;
   [[nodiscard]] OutlineFoot foot_on_half_tooth(const Point2& point) const;
+  [[nodiscard]] double to_box_mm(std::size_t index, const Point2& point) const;
   [[nodiscard]] OutlineFoot foot_on_piece(std::size_t index, const Point2& point,
                                           double limit_mm) const;
 
