@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/base/tolerance.h"
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/involute.h"
+#include "trueflank/geometry/tooth_profile.h"
+
+// How ToothProfile::make builds the half tooth from the tip inwards; for its sources alone. The
+// involute's ends are found first: the root form point by the geometry of the tool's corner, the tip
+// point by the tip circle or the flanks' meeting.
+namespace trueflank {
+
+class ProfileBuilder {
+ public:
+  explicit ProfileBuilder(const Gear& gear) { p_.gear_ = gear; }
+
+  Result<ToothProfile> build();
+
+ private:
+  [[nodiscard]] const Gear& g() const { return p_.gear_; }
+  double gap_angle() const { return kPi / g().teeth; }
+  double radius_at(double roll_mm) const { return std::hypot(base_radius_mm(g()), roll_mm); }
+
+  void add(PieceKind kind, Curve curve);
+  void add_arc(PieceKind kind, double radius, double from, double to);
+  /// The tip's land, and its rounding into the flank where there is one.
+  void add_tip();
+  void add_involute(double from_roll_mm, double to_roll_mm);
+  Status round_tip();
+
+  Status build_external();
+  Status find_pointed_tip();
+  Status find_undercut(const Curve& fillet, double& fillet_end);
+
+  Status build_ring();
+  Status ring_ends();
+  Status ring_fillet_root();
+  Status ring_shaper_root();
+  Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
+
+  ToothProfile p_;
+  Curve rounding_;  ///< of the tip corner, where there is one
+};
+
+/// A number of a message, without trailing zeros.
+[[nodiscard]] std::string profile_number(double value);
+/// kOutOfRange: a value that is possible for no gear.
+[[nodiscard]] Error impossible_value(std::string key, double value, std::string remedy);
+/// kInfeasible: values that are possible each, but make no tooth together.
+[[nodiscard]] Error no_tooth(std::string key, double value, std::string message, std::string remedy);
+
+}  // namespace trueflank
