@@ -17,7 +17,7 @@ class ProfileBuilder {
  public:
   explicit ProfileBuilder(const Gear& gear) { p_.gear_ = gear; }
 
-  Result<ToothProfile> build();
+  [[nodiscard]] Result<ToothProfile> build();
 
  private:
   [[nodiscard]] const Gear& g() const { return p_.gear_; }
@@ -29,17 +29,17 @@ class ProfileBuilder {
   /// The tip's land, and its rounding into the flank where there is one.
   void add_tip();
   void add_involute(double from_roll_mm, double to_roll_mm);
-  Status round_tip();
+  [[nodiscard]] Status round_tip();
 
-  Status build_external();
-  Status find_pointed_tip();
-  Status find_undercut(const Curve& fillet, double& fillet_end);
+  [[nodiscard]] Status build_external();
+  [[nodiscard]] Status find_pointed_tip();
+  [[nodiscard]] Status find_undercut(const Curve& fillet, double& fillet_end);
 
-  Status build_ring();
-  Status ring_ends();
-  Status ring_fillet_root();
-  Status ring_shaper_root();
-  Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
+  [[nodiscard]] Status build_ring();
+  [[nodiscard]] Status ring_ends();
+  [[nodiscard]] Status ring_fillet_root();
+  [[nodiscard]] Status ring_shaper_root();
+  [[nodiscard]] Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
 
   ToothProfile p_;
   Curve rounding_;  ///< of the tip corner, where there is one
