@@ -72,6 +72,11 @@ struct ToothingKinds {
                  .addendum = random.between(0.8, 1.1),
                  .dedendum = random.between(1.1, 1.35),
                  .root_radius = random.between(0.05, 0.4)};
+  RandomNumbers tool(seed + 0x9e3779b9);  // of its own: the other numbers stay those of the seed
+  if (!ring && tool.chance(0.35)) {
+    design.rack.protuberance = tool.between(0.01, 0.1);
+    design.rack.protuberance_angle_rad = rad_from_deg(tool.between(4.0, 12.0));
+  }
   design.gears = {gear};
   const auto bare = lay_out(design);
   if (!bare || bare->gears[0].profile.notes().pointed) return std::nullopt;
@@ -103,6 +108,7 @@ struct ToothingKinds {
   result.text = "seed " + std::to_string(seed) + ": " + (ring ? "ring " : "gear ") +
                 std::to_string(gear.teeth) + " teeth, module " + std::to_string(design.module_mm) +
                 " mm, helix " + std::to_string(helix) + (design.herringbone ? " herringbone" : "") +
+                ", protuberance " + std::to_string(design.rack.protuberance) +
                 ", tolerance " + std::to_string(result.tolerance_mm) + " mm";
   return result;
 }

@@ -100,6 +100,23 @@ TEST_P(RandomToothings, AreClosedAndKeepTheToleranceBothWays) {
 INSTANTIATE_TEST_SUITE_P(PlainDeviatedDisplacedChamferedAll, RandomToothings,
                          testing::Range<std::size_t>(0, kKinds.size()));
 
+TEST(ToothingGrid, KeepsTheToleranceWhereTheInvoluteStartsOnTheBaseCircle) {
+  // There the way along the flank grows with the square of the roll angle: the middle of an edge's
+  // parameters is far from its chord's. With an end relief the edges are the diagonals.
+  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {12});
+  design.module_mm = 1.5;
+  design.gears[0].shift = 0.2333;
+  design.gears[0].face_width_mm = 5.163;
+  design.gears[0].modifications = {.end_relief_um = 6.37, .end_relief_length_mm = 1.536};
+  const auto train = lay_out(design);
+  ASSERT_TRUE(train);
+  const auto shapes = part_shapes(*train);
+  for (const double tolerance_mm : {1.0e-3, 1.5e-3, 2.0e-3, 3.0e-3}) {
+    const PartMesh result = part_mesh(shapes->parts[0], {.tolerance_mm = tolerance_mm});
+    EXPECT_LE(measure_accuracy(result.mesh, shapes->parts[0]).largest_mm(), tolerance_mm);
+  }
+}
+
 TEST(FlankStrips, CoverTheirPatchOnceWithNodesOfTheBorderAlone) {
   for (const bool falling : {true, false})
     for (int columns = 1; columns < 7; ++columns)

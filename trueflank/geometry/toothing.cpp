@@ -6,6 +6,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/fillet_turn.h"
 #include "trueflank/geometry/involute.h"
 #include "trueflank/geometry/point2.h"
 
@@ -51,8 +52,6 @@ double flank_turn_rad(const Toothing& t, int tooth, int side, double roll_mm, do
   return (deviation - chamfer) / base_radius_mm(gear);
 }
 
-double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
-
 /// The section's half tooth at a height, before turning: the flank shortened by the tip's chamfer.
 struct HalfPoint {
   Point2 point;
@@ -82,11 +81,10 @@ HalfPoint half_point(const Toothing& t, const ToothPlace& place, double z_mm) {
   };
   const Curve& curve = piece.curve;
   if (place.piece > flank) {  // fillet, root
-    const bool next = place.piece == flank + 1 && piece.kind == PieceKind::kFillet;
-    if (!next) return {point_at(curve, place.parameter), 0.0};
-    const double along = (place.parameter - curve.begin) / (curve.end - curve.begin);
+    if (piece.kind != PieceKind::kFillet) return {point_at(curve, place.parameter), 0.0};
     return {point_at(curve, place.parameter),
-            turn_at(pieces[flank].curve.end) * (1.0 - smooth_step(along))};
+            turn_at(pieces[flank].curve.end) *
+                fillet_turn_share(profile, place.piece, place.parameter)};
   }
   const Curve& involute = pieces[flank].curve;
   const double tip_roll = lowered_tip_roll(profile, flank, depth);

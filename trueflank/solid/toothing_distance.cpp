@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/fillet_turn.h"
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank {
@@ -40,12 +41,13 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
     tip_half_angle_rad_ = polar_angle_rad(pieces.front().curve.end_point());
   low_roll_ = std::min(pieces[flank_].curve.begin, pieces[flank_].curve.end);
   high_roll_ = std::max(pieces[flank_].curve.begin, pieces[flank_].curve.end);
-  for (const ProfilePiece& piece : pieces) {
-    if (piece.kind != PieceKind::kFillet) continue;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (pieces[k].kind != PieceKind::kFillet) continue;
+    const Curve& curve = pieces[k].curve;
     for (int i = 0; i < kFilletNodes; ++i) {
-      const double t = static_cast<double>(i) / (kFilletNodes - 1);
-      fillet_radii_mm_.push_back(point_at(piece.curve, std::lerp(piece.curve.begin, piece.curve.end, t)).norm());
-      fillet_fades_.push_back(1.0 - t * t * (3.0 - 2.0 * t));  // as the surface is defined
+      const double at = std::lerp(curve.begin, curve.end, static_cast<double>(i) / (kFilletNodes - 1));
+      fillet_radii_mm_.push_back(point_at(curve, at).norm());
+      fillet_fades_.push_back(fillet_turn_share(*outline.profile, k, at));
     }
   }
   if (toothing_.displacement == nullptr) return;

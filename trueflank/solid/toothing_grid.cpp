@@ -27,6 +27,8 @@ constexpr int kRounds = 8;
 constexpr int kSomeTeeth = 6;
 /// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no end.
 constexpr double kShortest = 3.0;
+/// An edge whose parameter runs so unevenly that its middle is this share of it away from the chord's.
+constexpr double kUneven = 0.02;
 /// A break nearer to a vertex than this share of the tolerance is that vertex.
 constexpr double kSameVertex = 0.25;
 
@@ -50,6 +52,19 @@ double off_chord(const Point3& from, const Point3& to, const Point3& on_surface,
   const double length2 = along.squaredNorm();
   if (!(length2 > 0.0)) return away.norm();
   return (away - along * (away.dot(along) / length2)).norm();
+}
+
+/// Parameter at which a curve passes the middle of its chord. The middle of the parameters is far from it
+/// where an involute starts on its base circle: its way grows with the square of the roll angle.
+double middle_of_chord(const Curve& curve, double from, double to) {
+  const Point2 a = point_at(curve, from), chord = point_at(curve, to) - a;
+  const double half = 0.5 * chord.squaredNorm();
+  double low = from, high = to;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((point_at(curve, middle) - a).dot(chord) < half ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 std::vector<double> sorted_heights(std::vector<double> heights) {
@@ -143,7 +158,7 @@ void ToothingGrid::add_roll_breaks(double tolerance_mm) {
 }
 
 void ToothingGrid::place_columns() {
-  points_.clear(), middles_.clear(), edge_of_.clear();
+  points_.clear(), middles_.clear(), chord_middles_.clear(), edge_of_.clear();
   const auto& pieces = toothing_.profile->pieces();
   const std::size_t m = edges_.size();
   const auto place = [&](std::size_t i, int side) {
@@ -165,6 +180,16 @@ void ToothingGrid::place_columns() {
   for (std::size_t i = 0; i < m; ++i) add(place(i, 1), middle(i, 1), i);
   if (!vertex_at_gap_middle_)
     add(place(m, 1), {1, pieces.size() - 1, pieces.back().curve.end}, m - 1);
+  for (std::size_t i = 0; i < middles_.size(); ++i) {
+    const HalfEdge& e = edges_[edge_of_[i]];
+    Place at_chord = middles_[i];
+    if (at_chord.parameter == 0.5 * (e.from + e.to)) {
+      const double there = middle_of_chord(pieces[e.piece].curve, e.from, e.to);
+      if (std::abs(there - at_chord.parameter) > kUneven * std::abs(e.to - e.from))
+        at_chord.parameter = there;
+    }
+    chord_middles_.push_back(at_chord);
+  }
 }
 
 bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tolerance_mm) {
@@ -283,7 +308,10 @@ ToothingGrid::ToothRow ToothingGrid::tooth_row(int tooth, double z_mm) const {
   row.points.reserve(points_.size() + 1);
   for (const Place& place : points_) row.points.push_back(at(place, tooth, z_mm));
   row.points.push_back(at(points_.front(), (tooth + 1) % teeth_, z_mm));
-  for (const Place& place : middles_) row.middles.push_back(at(place, tooth, z_mm));
+  for (std::size_t i = 0; i < middles_.size(); ++i) {
+    row.middles.push_back(at(middles_[i], tooth, z_mm));
+    row.chord_middles.push_back(is_even(i) ? row.middles.back() : at(chord_middles_[i], tooth, z_mm));
+  }
   return row;
 }
 
@@ -320,10 +348,16 @@ double ToothingGrid::cut(double tolerance_mm) {
           return triangle_error((vector_of(pq) - p).dot(normal), (vector_of(qr) - q).dot(normal),
                                 (vector_of(rp) - r).dot(normal));
         };
-        const Point &ab = lower.middles[i], &cd = upper.middles[i], &across = middle.middles[i];
         const Point &ad = middle.points[i], &bc = middle.points[i + 1];
-        const double rising = std::max(error_of(a, b, c, ab, bc, across), error_of(a, c, d, across, cd, ad));
-        const double falling = std::max(error_of(a, b, d, ab, across, ad), error_of(b, c, d, bc, cd, across));
+        double rising = 0.0, falling = 0.0;
+        const auto look_at = [&](const Point& ab, const Point& cd, const Point& across) {
+          rising = std::max({rising, error_of(a, b, c, ab, bc, across), error_of(a, c, d, across, cd, ad)});
+          falling = std::max({falling, error_of(a, b, d, ab, across, ad), error_of(b, c, d, bc, cd, across)});
+        };
+        const Point &ab = lower.middles[i], &cd = upper.middles[i];
+        look_at(ab, cd, middle.middles[i]);
+        if (!is_even(i))
+          look_at(lower.chord_middles[i], upper.chord_middles[i], middle.chord_middles[i]);
         rises_[j][static_cast<std::size_t>(tooth) * n + i] = rising <= falling;
         const double error = std::min(rising, falling);
         largest = std::max(largest, error);
@@ -415,6 +449,7 @@ void ToothingGrid::try_strips(double tolerance_mm) {
   if (error <= tolerance_mm && strips_.size() == 2) return;
   const double section = section_error_mm_;
   edges_ = before.edges_, points_ = before.points_, middles_ = before.middles_;
+  chord_middles_ = before.chord_middles_;
   edge_of_ = before.edge_of_, rises_ = before.rises_, facet_error_mm_ = before.facet_error_mm_;
   section_error_mm_ = section;
   strips_.clear();

@@ -71,11 +71,14 @@ class ToothingGrid {
   };
   /// Points of one tooth at a height, the next tooth's first one last, and the middles of its edges.
   struct ToothRow {
-    std::vector<Point> points, middles;
+    std::vector<Point> points, middles, chord_middles;
   };
 
   [[nodiscard]] Point at(const Place& place, int tooth, double z_mm) const;
   [[nodiscard]] std::vector<int> some_teeth() const;
+  [[nodiscard]] bool is_even(std::size_t middle) const {
+    return chord_middles_[middle].parameter == middles_[middle].parameter;
+  }
   void start_columns(double tolerance_mm);
   void add_roll_breaks(double tolerance_mm);
   void place_columns();
@@ -103,6 +106,7 @@ class ToothingGrid {
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
   std::vector<Place> points_, middles_;   ///< of a whole tooth; middle i follows point i
+  std::vector<Place> chord_middles_;      ///< at the chord's middle where the parameter runs unevenly
   std::vector<std::size_t> edge_of_;      ///< half edge of middle i
   std::vector<std::vector<bool>> rises_;  ///< by layer; one tooth where they are alike
   std::vector<double> column_error_mm_, layer_error_mm_;  ///< charged by cut()
