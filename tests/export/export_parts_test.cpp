@@ -72,6 +72,35 @@ TEST(ExportParts, KeepsTheToleranceInEveryFileRoundingIncluded) {
   }
 }
 
+TEST(ExportParts, KeepsTheAssemblyOfAWheelWhoseFarSideIsRoundedInItsOwnFrame) {
+  // Beside the pinion the wheel's coordinates are small in the assembly, and 900 mm in its own frame,
+  // in which glTF holds them as floats.
+  const auto design = read_design_text(R"(format = 1
+name = "far"
+[gearbox]
+kind = "pair"
+module_mm = 6
+[pinion]
+teeth = 13
+shift = 0.2
+face_width_mm = 5
+[wheel]
+teeth = 305
+shift = 0
+face_width_mm = 5
+)", "far.toml");
+  ASSERT_TRUE(design);
+  const GearTrain train = lay_out(*design).value();
+  const PartShapes shapes = part_shapes(train).value();
+  const ScratchFolder folder;
+  const auto files = export_parts({.train = &train, .shapes = &shapes},
+                                  {.folder = folder.path(),
+                                   .formats = {FileFormat::kStl, FileFormat::kGlb},
+                                   .tolerance_mm = 0.02});
+  ASSERT_TRUE(files) << files.error().front().message;
+  for (const ReportedFile& file : *files) EXPECT_LE(file.accuracy_um, 20.0) << file.path;
+}
+
 TEST(ExportParts, MeasuresWhatItWrote) {
   const ScratchFolder folder;
   const auto files = export_parts(

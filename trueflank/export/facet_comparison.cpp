@@ -74,9 +74,13 @@ const std::array<std::uint32_t, 3>* FacetComparison::expected() {
 
 /// The larger of both kinds of file.
 double FacetComparison::largest_step_mm(const std::array<std::uint32_t, 3>& triangle) const {
+  // Some formats round in the assembly's frame, some in the part's, whose origin may be far.
+  const Placement& body = scene_.bodies[body_];
+  const auto& vertices = scene_.shapes[static_cast<std::size_t>(body.part)].mesh->vertices;
   double reach_mm = 0.0;
   for (const std::uint32_t v : triangle)
-    reach_mm = std::max(reach_mm, largest_coordinate_mm(placed_[v]));
+    reach_mm = std::max({reach_mm, largest_coordinate_mm(placed_[v]),
+                         largest_coordinate_mm(vertices[v])});
   return std::max(2.0 * kTextStep_mm, kFloatStep * reach_mm);
 }
 
