@@ -179,6 +179,29 @@ class Check(Case):
         text = PAIR.replace("backlash_mm = 0.05", "centre_distance_mm = 12.0")
         self.expect_error(run("check", self.design(text)), 2, "design.toml:6:", "centre_distance_mm")
 
+    def test_parts_that_cannot_be_built_fail_here_and_not_only_when_made(self):
+        # the ring's shift is solved: how large its root circle is shows only then
+        path = self.design("""format = 1
+[gearbox]
+kind = "simple"
+module_mm = 0.3
+planets = 3
+centre_distance_mm = 12.15
+[sun]
+teeth = 43
+face_width_mm = 3
+[planet]
+teeth = 38
+face_width_mm = 3
+[ring]
+teeth = 119
+face_width_mm = 3
+outer_diameter_mm = 36.3
+""")
+        for command in (["check", path], ["make", path, "-o", self.folder / "out"]):
+            self.expect_error(run(*command), 2, f"{path}:16: ring.outer_diameter_mm", "too thin")
+        self.assertFalse((self.folder / "out").exists())
+
     def test_environment_is_three(self):
         self.expect_error(run("check", self.folder / "none.toml"), 3, "none.toml")
         self.expect_error(run("check", DESIGN, "--json", self.folder / "no/such/r.json"), 3)

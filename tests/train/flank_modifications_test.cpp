@@ -143,6 +143,26 @@ TEST(FlankModifications, WhatCannotBeIsRefusedWithNumbers) {
             2u);
 }
 
+TEST(FlankModifications, FlanksThatMeetInTheGapStayThere) {
+  // a ring whose spaces close before its root circle has no root that could take up a difference
+  GearboxDesign design = single(GearKind::kInternal, {});
+  design.gears[0].teeth = 12;
+  design.gears[0].shift = 0.684;
+  design.rack.pressure_angle_rad = rad_from_deg(17.5);
+  ASSERT_TRUE(lay_out(design)->gears[0].profile.notes().space_closed);
+  const auto error_with = [&](const ModificationsDesign& m) {
+    design.gears[0].modifications = m;
+    const auto train = lay_out(design);
+    return train ? std::string() : train.error().front().key;
+  };
+  const double root = 2.0 * lay_out(design)->gears[0].profile.root_radius_mm();
+  EXPECT_EQ(error_with({.edge_chamfer_mm = 0.1}), "gear.modifications.edge_chamfer_mm");
+  EXPECT_EQ(error_with({.crowning_um = 3.0}), "gear.modifications.crowning_um");
+  EXPECT_EQ(error_with({.root_relief_um = 3.0, .root_relief_start_diameter_mm = root - 1.0}),
+            "gear.modifications.root_relief_um");
+  EXPECT_EQ(error_with({}), "");
+}
+
 TEST(FlankModifications, TheTipLandIsJudgedOnTheSection) {
   // half the land of 24 teeth, x 0.1, m 2 at the tip: from the involute, written out
   const double r_b = 24.0 * std::cos(rad_from_deg(20.0)), r_a = 26.2;

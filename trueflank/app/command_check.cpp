@@ -43,6 +43,9 @@ Status draw_meshes(const GearTrain& train, const std::string& folder) {
 int run_check(const CheckOptions& options) {
   const auto train = read_train(options.design, {.process = options.process, .kerf_mm = {}});
   if (!train) return report_errors(train.error());
+  // What cannot be built is no design that passes, even where only solved shifts show it.
+  const auto shapes = part_shapes(*train);
+  if (!shapes) return report_errors(located_in(options.design, shapes.error()));
   const auto strength = strength_options(
       train->design, {.material = options.material, .file = options.materials_file});
   if (!strength) return report_errors(located_in(options.design, strength.error()));
@@ -56,8 +59,7 @@ int run_check(const CheckOptions& options) {
     if (auto ok = write_document(options.json, io::report_json(report)); !ok)
       return report_errors({ok.error()});
   if (!options.html.empty()) {
-    const auto shapes = part_shapes(*train);
-    const std::string page = html_document(report, shapes ? &*shapes : nullptr);
+    const std::string page = html_document(report, &*shapes);
     if (auto ok = write_document(options.html, page); !ok) return report_errors({ok.error()});
   }
   if (!options.pictures.empty())

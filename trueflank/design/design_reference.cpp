@@ -81,7 +81,7 @@ constexpr const char* kRules = R"(
   `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
   plate.
 - Bore, bolt and rim keys are compared with the root circle where `shift` is given; where it is
-  solved, the checks do that.
+  solved, `check` and `make` say it.
 
 ## What the text may be
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
 
@@ -161,9 +162,9 @@ class DeviationBuilder {
     return field;
   }
 
-  /// The key that removes most at the tip.
-  [[nodiscard]] std::string deepest_key() const {
-    std::pair<double, const char*> deepest{mm_from_um(m_.tip_relief_um), "tip_relief_um"};
+  /// The key that removes most at an end of the flank, whose own relief is given.
+  [[nodiscard]] std::string deepest_key(const char* relief) const {
+    std::pair<double, const char*> deepest{mm_from_um(value_of(relief)), relief};
     for (const auto& other :
          {std::pair{mm_from_um(m_.profile_crowning_um), "profile_crowning_um"},
           std::pair{mm_from_um(m_.crowning_um), "crowning_um"},
@@ -176,6 +177,7 @@ class DeviationBuilder {
   }
   [[nodiscard]] double value_of(const std::string& key) const {
     if (key == "tip_relief_um") return m_.tip_relief_um;
+    if (key == "root_relief_um") return m_.root_relief_um;
     if (key == "profile_crowning_um") return m_.profile_crowning_um;
     if (key == "crowning_um") return m_.crowning_um;
     if (key == "end_relief_um") return m_.end_relief_um;
@@ -217,6 +219,21 @@ class DeviationBuilder {
                             .edge_chamfer_mm = m_.edge_chamfer_mm};
     double least = 1e300, at = 0.0;
     constexpr int kHeights = 16;
+    if (const ProfilePiece& last = profile_.pieces().back(); last.kind == PieceKind::kInvolute) {
+      // the flanks of neighbours meet in the gap's middle: what moves them there parts or crosses them
+      const ToothPlace end{.tooth = 0, .side = 1, .piece = profile_.pieces().size() - 1,
+                           .parameter = last.curve.end};
+      for (int i = 0; i <= kHeights; ++i) {
+        const double turn =
+            deviation_turn_rad(toothing, end, face_.face_width_mm * i / kHeights);
+        if (std::abs(turn) * profile_.root_radius_mm() < tolerance::kShortestPiece_mm) continue;
+        const std::string key = deepest_key("root_relief_um");
+        report(key, value_of(key),
+               "moves flanks that meet in the middle of the gap, before the root circle",
+               "none, or a rack.dedendum small enough to leave a root between them");
+        return;
+      }
+    }
     for (int i = 0; i <= kHeights; ++i) {
       const double z = face_.face_width_mm * i / kHeights;
       const double land = tip_land_half_angle_rad(toothing, z);
@@ -226,7 +243,7 @@ class DeviationBuilder {
         profile_.gear(), std::max(profile_.tip_radius_mm(), base_radius_mm(profile_.gear())));
     if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
     const double r_a = profile_.tip_radius_mm();
-    const std::string key = deepest_key();
+    const std::string key = deepest_key("tip_relief_um");
     report(key, value_of(key),
            "the modifications remove " + short_text(1e3 * r_a * (design - least)) +
                " um of arc at the tip of a flank (at z = " + short_text(at) +
