@@ -25,8 +25,7 @@ function(trueflank_library folder)
   add_library(trueflank::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${folder}
-    POSITION_INDEPENDENT_CODE ON
-    VERIFY_INTERFACE_HEADER_SETS ON)
+    POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} ${interface} cxx_std_20)
   target_sources(${target} ${interface}
     FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
