@@ -4,10 +4,12 @@
 #include "trueflank/export/packed_text.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <zlib.h>
 
 #include <random>
 #include <string>
+#include <vector>
 
 namespace trueflank::io {
 namespace {
@@ -79,6 +81,23 @@ TEST(PackedText, TextsPackedElsewhereFollowEachOther) {
   all.append(" behind");
   all.close();
   expect_holds(all, "before " + first + second + second + " behind");
+}
+
+TEST(PackedText, DoesNotDependOnWhatTheMemoryHeldBefore) {
+  mallopt(M_MMAP_THRESHOLD, 1 << 28);  // from the heap: fresh pages would be zero
+  const std::string text = sample_text(60000, true);
+  std::string first;
+  for (std::uint16_t value = 0; value <= 16; ++value) {
+    {
+      const std::vector<std::uint16_t> used(200000, value);
+      EXPECT_EQ(used.back(), value);
+    }
+    PackedText packed;
+    packed.append(text);
+    packed.close();
+    if (first.empty()) first = packed.bytes();
+    EXPECT_TRUE(packed.bytes() == first) << "on memory full of " << value;
+  }
 }
 
 TEST(PackedText, TheSameTextGivesTheSameBytes) {

@@ -34,6 +34,7 @@ void PackedText::pack() {
   const auto packer = std::make_unique_for_overwrite<Packer>();  // not cleared: 150 kB
   isal_zstream& stream = packer->stream;
   isal_deflate_stateless_init(&stream);
+  stream.hist_bits = 0;  // the whole window; the one member that is read and that init leaves as it was
   stream.level = 1;  // 2 is no smaller on our text, libdeflate a sixth smaller in twice the time
   stream.level_buf = packer->level_buffer;
   stream.level_buf_size = sizeof packer->level_buffer;
