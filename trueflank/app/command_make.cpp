@@ -14,6 +14,7 @@
 #include "trueflank/check/finding.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/export_parts.h"
+#include "trueflank/export/report_html.h"
 #include "trueflank/export/scad_templates.h"
 
 namespace trueflank::app {
@@ -88,12 +89,12 @@ ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
   return kept;
 }
 
-Status write_report(const io::Report& report, const PartShapes& shapes,
+Status write_report(const io::Report& report, const std::string& drawing,
                     const std::filesystem::path& folder) {
-  auto json = std::async(std::launch::async, [&report] { return io::report_json(report); });
-  if (auto ok = io::write_file(folder / "report.html", html_document(report, &shapes)); !ok)
+  const std::string json = io::report_json(report);
+  if (auto ok = io::write_file(folder / "report.html", io::report_html(report, json, drawing)); !ok)
     return ok;
-  return io::write_file(folder / "report.json", json.get());
+  return io::write_file(folder / "report.json", json);
 }
 
 }  // namespace
@@ -118,6 +119,9 @@ int run_make(const MakeOptions& options) {
   const auto strength = strength_options(train->design, {.material = "", .file = options.materials_file});
   if (!strength) return report_errors(located_in(options.design, strength.error()));
   io::Report report = evaluate(*train, *strength);
+  // the page's drawing does not wait for the files
+  auto drawing = std::async(std::launch::async,
+                            [report, &shapes] { return html_drawing(report, &*shapes); });
   const std::filesystem::path folder(options.folder);
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
   const bool failed = verdict(report.findings) == CheckStatus::kFail;
@@ -149,7 +153,7 @@ int run_make(const MakeOptions& options) {
     if (options.part.empty() && std::any_of(report.files.begin(), report.files.end(), scad))
       if (auto ok = io::write_scad_templates(folder, *train); !ok) return report_errors({ok.error()});
   }
-  if (auto ok = write_report(report, *shapes, folder); !ok) return report_errors({ok.error()});
+  if (auto ok = write_report(report, drawing.get(), folder); !ok) return report_errors({ok.error()});
   if (!options.quiet) {
     std::string text = io::report_text(report, standard_output_colour());
     if (failed && !options.allow_failing)

@@ -46,6 +46,7 @@ MeshWriter mesh_writer(FileFormat format) {
 }
 
 constexpr int kAssembly = -1;
+constexpr std::size_t kMeasuringCost = 4;  // of writing and reading a triangle
 double largest_chord_error_mm(const std::vector<Section>& sections) {
   double largest_mm = 0.0;
   for (const Section& section : sections)
@@ -110,7 +111,8 @@ class Exporter {
     return {};
   }
 
-  /// Jobs by the triangles of their parts: begun last, a large one would be waited for.
+  /// Jobs by the triangles of their parts, those of a file that is measured counted for what measuring
+  /// takes: begun last, a large one would be waited for.
   [[nodiscard]] std::vector<std::size_t> largest_first() const {
     const auto size_of_part = [&](int part) {
       return meshes_ ? (*meshes_)[static_cast<std::size_t>(part)].mesh.triangles.size() : 0;
@@ -118,7 +120,8 @@ class Exporter {
     std::vector<std::size_t> order, size(jobs_.size(), 0);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       order.push_back(i);
-      if (jobs_[i].part != kAssembly) size[i] = size_of_part(jobs_[i].part);
+      if (jobs_[i].part != kAssembly)
+        size[i] = size_of_part(jobs_[i].part) * (is_measured(i) ? kMeasuringCost : 1);
       else
         for (const Placement& body : shapes_.assembly) size[i] += size_of_part(body.part);
     }

@@ -13,16 +13,16 @@ namespace {
 
 /// JSON inside a script element: '<' stands only in strings, and "</script" or "<!--" there would
 /// end or confuse the element.
-std::string json_for_script(const std::string& json) {
+std::string json_for_script(std::string_view json) {
   std::string text;
   text.reserve(json.size());
-  for (char c : json) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
+  for (;;) {
+    const std::size_t at = json.find('<');
+    text += json.substr(0, at);
+    if (at == json.npos) return text;
+    text += "\\u003c";
+    json.remove_prefix(at + 1);
   }
-  return text;
 }
 
 std::string text_for_html(std::string_view plain) {
@@ -62,10 +62,16 @@ bool report_html_has_3d() { return !page::kViewer.empty(); }
 
 std::string report_html(const Report& report, const HtmlModel& model) {
   TRUEFLANK_EXPECTS(report.train != nullptr);
+  return report_html(report, report_json(report), report_model_json(report, model));
+}
+
+std::string report_html(const Report& report, std::string_view report_json_text,
+                        std::string_view model_json_text) {
+  TRUEFLANK_EXPECTS(report.train != nullptr);
   const std::string title = text_for_html(report.train->design.name);
   const std::string licence = text_for_html(page::kLicence);
-  const std::string data = json_for_script(report_json(report));
-  const std::string drawn = json_for_script(report_model_json(report, model));
+  const std::string data = json_for_script(report_json_text);
+  const std::string drawn = json_for_script(model_json_text);
   return filled<7>(page::kFrame, {{{"@TITLE@", title},
                                    {"@STYLE@", page::kStyle},
                                    {"@LICENCE@", licence},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "trueflank/export/report.h"
 #include "trueflank/solid/part_shape.h"
@@ -23,6 +24,10 @@ struct HtmlModel {
 /// Not guaranteed: the picture in 3D, which needs WebGL in the browser and three.js at build time
 /// (report_html_has_3d); without it the page says so and is whole otherwise.
 [[nodiscard]] std::string report_html(const Report& report, const HtmlModel& model = {});
+
+/// The same, of report_json(report) and report_model_json(report, model) that are there already.
+[[nodiscard]] std::string report_html(const Report& report, std::string_view report_json_text,
+                                      std::string_view model_json_text);
 
 /// Whether three.js was there when this library was built (scripts/install-dependencies).
 [[nodiscard]] bool report_html_has_3d();
