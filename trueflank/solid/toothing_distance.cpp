@@ -96,11 +96,12 @@ double ToothingDistance::chamfer_depth_mm(double z_mm) const {
   return std::max(0.0, toothing_.edge_chamfer_mm - std::max(0.0, from_end));
 }
 
-double ToothingDistance::turn_of_circle_rad(int tooth, int side, double radius_mm,
-                                            double z_mm) const {
+ToothingDistance::CircleTurn ToothingDistance::turn_of_circle(int tooth, int side,
+                                                              double radius_mm,
+                                                              double z_mm) const {
   const double r_b = base_radius_mm(outline_.profile->gear());
   const double roll = std::clamp(roll_length_mm(radius_mm, r_b) / r_b, low_roll_, high_roll_);
-  double fade = 1.0;
+  double fade = 1.0, fade_rise = 0.0;
   const double to_root = fillet_radii_mm_.empty() ? 0.0 : fillet_radii_mm_.back() - fillet_radii_mm_.front();
   const double into = fillet_radii_mm_.empty() ? -1.0 : (radius_mm - fillet_radii_mm_.front()) * to_root;
   if (into > 0.0) {
@@ -108,28 +109,33 @@ double ToothingDistance::turn_of_circle_rad(int tooth, int side, double radius_m
     const auto node = std::partition_point(
         fillet_radii_mm_.begin(), fillet_radii_mm_.end(),
         [&](double r) { return falls ? r > radius_mm : r < radius_mm; });
-    if (node == fillet_radii_mm_.end()) return 0.0;
+    if (node == fillet_radii_mm_.end()) return {};
     const auto i = static_cast<std::size_t>(node - fillet_radii_mm_.begin());
     const double before = fillet_radii_mm_[i - 1], step = fillet_radii_mm_[i] - before;
     const double share = step != 0.0 ? (radius_mm - before) / step : 0.0;
     fade = std::lerp(fillet_fades_[i - 1], fillet_fades_[i], share);
+    if (step != 0.0) fade_rise = (fillet_fades_[i] - fillet_fades_[i - 1]) / step;
   }
   const double turn = toothing_.has_deviation()
                           ? deviation_turn_rad(unchamfered_, {tooth, side, flank_, roll}, z_mm)
                           : 0.0;
-  return fade * (turn - chamfer_depth_mm(z_mm) / r_b);
+  const double whole = turn - chamfer_depth_mm(z_mm) / r_b;
+  return {fade * whole, fade_rise * whole};
 }
 
 ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turned_back,
                                                              double z_mm) const {
   // turning, a section moves square to itself by the lever of the foot about the axis
-  const auto foot_of = [&](const Point2& point) {
+  const auto foot_of = [&](const Point2& point, double rise_rad_per_mm) {
     const OutlineFoot foot = section_.foot(point);
-    if (std::abs(foot.distance_mm) < kOnSurface_mm) return SectionFoot{foot.distance_mm, 0.0};
-    return SectionFoot{foot.distance_mm,
-                       cross(foot.point, point - foot.point) / foot.distance_mm};
+    if (std::abs(foot.distance_mm) < kOnSurface_mm) return SectionFoot{foot.distance_mm};
+    const Point2 normal = (point - foot.point) / foot.distance_mm;
+    const double lever = cross(foot.point, normal);
+    if (rise_rad_per_mm == 0.0) return SectionFoot{foot.distance_mm, lever};
+    const Point2 slope = normal + lever * rise_rad_per_mm * point.normalized();
+    return SectionFoot{foot.distance_mm, lever, std::max(slope.norm(), kLeastSlope)};
   };
-  if (!deviates_) return foot_of(turned_back);
+  if (!deviates_) return foot_of(turned_back, 0.0);
   const int teeth = outline_.profile->gear().teeth;
   const double pitch = kTwoPi / teeth;
   const double angle = polar_angle_rad(turned_back);
@@ -137,11 +143,15 @@ ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turne
   const int tooth = static_cast<int>(away) % teeth;
   const int side = centred_rad(angle - away * pitch) < 0.0 ? -1 : 1;
   const double radius = turned_back.norm();
-  double turn = turn_of_circle_rad(tooth, side, radius, z_mm);
-  // the tip's land is scaled in its angle, so that its end meets the flank
+  auto [turn, rise] = turn_of_circle(tooth, side, radius, z_mm);
+  // the tip's land is scaled in its angle, so that its end meets the flank; an undercut foot may be as
+  // narrow and is no land
   const double from_middle = std::abs(centred_rad(angle - away * pitch));
-  if (from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
-  const SectionFoot foot = foot_of(rotated(turned_back, -side * turn));
+  const ToothProfile& profile = *outline_.profile;
+  const bool at_tip_end = std::abs(radius - profile.tip_radius_mm()) <
+                          std::abs(radius - profile.root_form_radius_mm());
+  if (at_tip_end && from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
+  const SectionFoot foot = foot_of(rotated(turned_back, -side * turn), -side * rise);
   const double depth = chamfer_depth_mm(z_mm);
   if (depth == 0.0 || flank_ != 1) return foot;  // trimmed and radial tips keep their height
   const bool external = outline_.profile->gear().kind == GearKind::kExternal;
@@ -170,7 +180,8 @@ double ToothingDistance::distance_mm(const Point3& point) const {
     return foot.distance_mm / std::max(slopes.norm(), kLeastSlope);
   }
   const double slope = turn_rate * foot.lever_mm;
-  return slope == 0.0 ? foot.distance_mm : foot.distance_mm / std::sqrt(1.0 + slope * slope);
+  if (slope == 0.0) return foot.distance_mm / foot.stretch;
+  return foot.distance_mm / std::hypot(foot.stretch, slope);
 }
 
 Point2 ToothingDistance::point_at_height(std::size_t piece, double parameter, int copy,

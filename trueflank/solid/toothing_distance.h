@@ -15,8 +15,8 @@ using Point3 = Eigen::Vector3d;
 /// How: a point is moved back by the displacement, turned back by the twist, and turned back by the
 /// deviation that its circle has at its height; then it is as far from the design's section as it was
 /// from the true one at its height. The distance square to the surface follows from the slope.
-/// Accuracy: 1 % of the distance for slopes of the deviation up to 1 %; distances within a tenth of the
-/// module.
+/// Accuracy: 1 % of the distance for slopes of the deviation up to 1 % on the flank, any on the fillet;
+/// distances within a tenth of the module.
 class ToothingDistance {
  public:
   explicit ToothingDistance(const ToothedOutline& outline);
@@ -42,9 +42,15 @@ class ToothingDistance {
   struct SectionFoot {
     double distance_mm = 0.0;
     double lever_mm = 0.0;  ///< of the normal about the axis
+    double stretch = 1.0;   ///< slope of the distance within the plane: circles turn differently
+  };
+  /// A circle's turn, and how it changes with the radius over the fillet.
+  struct CircleTurn {
+    double turn_rad = 0.0;
+    double rise_rad_per_mm = 0.0;
   };
   [[nodiscard]] SectionFoot section_foot(const Point2& turned_back, double z_mm) const;
-  [[nodiscard]] double turn_of_circle_rad(int tooth, int side, double radius_mm, double z_mm) const;
+  [[nodiscard]] CircleTurn turn_of_circle(int tooth, int side, double radius_mm, double z_mm) const;
   [[nodiscard]] double chamfer_depth_mm(double z_mm) const;
 
   ToothedOutline outline_;
