@@ -72,6 +72,38 @@ TEST(ExportParts, KeepsTheToleranceInEveryFileRoundingIncluded) {
   }
 }
 
+TEST(ExportParts, KeepsTheToleranceOfAFileThatIsToldByAnotherOne) {
+  // An OBJ is measured by the STL before it: both roundings count, and these are of one size here.
+  const auto design = read_design_text(R"(format = 1
+name = "small"
+[gearbox]
+kind = "gear"
+module_mm = 0.3
+helix_angle_deg = -17.36
+[rack]
+pressure_angle_deg = 17.5
+addendum = 0.878
+[gear]
+internal = true
+teeth = 26
+shift = 0.4726
+face_width_mm = 3.479
+[gear.modifications]
+end_relief_um = 1.54
+end_relief_length_mm = 0.519
+)", "small.toml");
+  ASSERT_TRUE(design);
+  const GearTrain train = lay_out(*design).value();
+  const PartShapes shapes = part_shapes(train).value();
+  const ScratchFolder folder;
+  const auto files = export_parts({.train = &train, .shapes = &shapes},
+                                  {.folder = folder.path(),
+                                   .formats = {FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj},
+                                   .tolerance_mm = 1.5e-4});
+  ASSERT_TRUE(files) << files.error().front().message;
+  for (const ReportedFile& file : *files) EXPECT_LE(file.accuracy_um, 0.15) << file.path;
+}
+
 TEST(ExportParts, KeepsTheAssemblyOfAWheelWhoseFarSideIsRoundedInItsOwnFrame) {
   // Beside the pinion the wheel's coordinates are small in the assembly, and 900 mm in its own frame,
   // in which glTF holds them as floats.

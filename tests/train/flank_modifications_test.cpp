@@ -163,6 +163,21 @@ TEST(FlankModifications, FlanksThatMeetInTheGapStayThere) {
   EXPECT_EQ(error_with({}), "");
 }
 
+TEST(FlankModifications, FlanksThatMeetInAPointedTipStayThere) {
+  GearboxDesign design = single(GearKind::kExternal, {});
+  design.gears[0].teeth = 9;
+  design.gears[0].shift = 1.0;
+  ASSERT_TRUE(lay_out(design)->gears[0].profile.notes().pointed);
+  for (const double slope_um : {2.0, -2.0}) {  // crosses them, parts them
+    design.gears[0].modifications = {.profile_slope_um = slope_um};
+    const auto train = lay_out(design);
+    ASSERT_FALSE(train) << slope_um;
+    EXPECT_EQ(train.error().front().key, "gear.modifications.profile_slope_um");
+  }
+  design.gears[0].modifications = {.root_relief_um = 2.0, .root_relief_start_diameter_mm = 19.5};
+  EXPECT_TRUE(lay_out(design)) << lay_out(design).error().front().message;
+}
+
 TEST(FlankModifications, TheTipLandIsJudgedOnTheSection) {
   // half the land of 24 teeth, x 0.1, m 2 at the tip: from the involute, written out
   const double r_b = 24.0 * std::cos(rad_from_deg(20.0)), r_a = 26.2;

@@ -146,7 +146,8 @@ class Exporter {
         reach_mm = std::max({reach_mm, slab.z_upper_mm + std::abs(move[2]),
                              extent(slab.outer).outer_radius_mm + std::hypot(move[0], move[1])});
     }
-    const double rounding_mm = 1.5 * std::max(kTextStep_mm, kFloatStep * reach_mm);
+    // a file is told by the first of its part: the rounding of that one twice, and its own
+    const double rounding_mm = 1.5 * kFloatStep * reach_mm + kTextStep_mm;
     return options_.tolerance_mm - std::min(rounding_mm, 0.3 * options_.tolerance_mm);
   }
 

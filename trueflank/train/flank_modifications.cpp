@@ -217,7 +217,7 @@ class DeviationBuilder {
     const Toothing toothing{.profile = &profile_, .twist = face_,
                             .deviation = field.empty() ? nullptr : &field,
                             .edge_chamfer_mm = m_.edge_chamfer_mm};
-    double least = 1e300, at = 0.0;
+    double least = 1e300, most = -1e300, at = 0.0;
     constexpr int kHeights = 16;
     if (const ProfilePiece& last = profile_.pieces().back(); last.kind == PieceKind::kInvolute) {
       // the flanks of neighbours meet in the gap's middle: what moves them there parts or crosses them
@@ -238,11 +238,18 @@ class DeviationBuilder {
       const double z = face_.face_width_mm * i / kHeights;
       const double land = tip_land_half_angle_rad(toothing, z);
       if (land < least) least = land, at = z;
+      most = std::max(most, land);
     }
     const double design = tooth_half_angle_rad(
         profile_.gear(), std::max(profile_.tip_radius_mm(), base_radius_mm(profile_.gear())));
-    if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
     const double r_a = profile_.tip_radius_mm();
+    if (profile_.notes().pointed && most * r_a > tolerance::kShortestPiece_mm) {
+      const std::string key = deepest_key("tip_relief_um");
+      report(key, value_of(key), "adds to flanks that meet in a pointed tip, which would cross",
+             "none, or a tip_diameter_mm below " + short_text(2.0 * r_a) + " mm, where the tooth has a land");
+      return;
+    }
+    if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
     const std::string key = deepest_key("tip_relief_um");
     report(key, value_of(key),
            "the modifications remove " + short_text(1e3 * r_a * (design - least)) +
