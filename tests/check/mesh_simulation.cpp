@@ -7,47 +7,47 @@
 namespace trueflank::test {
 namespace {
 
+/// The half tooth that `point` gives for a piece and a parameter, from the tooth's middle.
+template <class PointOf>
+std::vector<Point2> half_tooth(const ToothProfile& profile, const PointOf& point) {
+  const double module = profile.gear().normal_module_mm;
+  std::vector<Point2> half;
+  for (std::size_t k = 0; k < profile.pieces().size(); ++k) {
+    const ProfilePiece& piece = profile.pieces()[k];
+    const Curve& c = piece.curve;
+    double length = 0.0;
+    Point2 last = c.start_point();
+    for (int i = 1; i <= 32; ++i) {
+      const Point2 next = point_at(c, c.begin + (c.end - c.begin) * i / 32.0);
+      length += (next - last).norm();
+      last = next;
+    }
+    // 0.1 um of sag on a radius of 0.2 module needs 0.0126 module; long pieces are flatter
+    const double spacing = piece.kind == PieceKind::kInvolute ? 0.02 : 0.012;
+    const int n = std::max(8, static_cast<int>(std::ceil(length / (spacing * module))));
+    for (int i = half.empty() ? 0 : 1; i <= n; ++i)
+      half.push_back(point(k, c.begin + (c.end - c.begin) * i / n));
+  }
+  return half;
+}
+
 /// One whole tooth, from the middle of one gap to the middle of the next, and its edges by radius.
 class ToothPolygon {
  public:
-  explicit ToothPolygon(const ToothProfile& profile)
-      : teeth_(profile.gear().teeth),
-        external_(profile.gear().kind == GearKind::kExternal),
-        module_(profile.gear().normal_module_mm) {
-    std::vector<Point2> half;
-    for (const ProfilePiece& piece : profile.pieces()) {
-      const Curve& c = piece.curve;
-      double length = 0.0;
-      Point2 last = c.start_point();
-      for (int i = 1; i <= 32; ++i) {
-        const Point2 next = point_at(c, c.begin + (c.end - c.begin) * i / 32.0);
-        length += (next - last).norm();
-        last = next;
-      }
-      // 0.1 um of sag on a radius of 0.2 module needs 0.0126 module; long pieces are flatter
-      const double spacing = piece.kind == PieceKind::kInvolute ? 0.02 : 0.012;
-      const int n = std::max(8, static_cast<int>(std::ceil(length / (spacing * module_))));
-      for (int i = half.empty() ? 0 : 1; i <= n; ++i)
-        half.push_back(point_at(c, c.begin + (c.end - c.begin) * i / n));
-    }
-    for (auto p = half.rbegin(); p != half.rend(); ++p) points_.push_back({p->x(), -p->y()});
-    for (std::size_t i = half.front().y() == 0.0 ? 1 : 0; i < half.size(); ++i)
-      points_.push_back(half[i]);
-    low_ = 1e300;
-    for (const Point2& p : points_) {
-      radii_.push_back(p.norm());
-      low_ = std::min(low_, radii_.back());
-      high_ = std::max(high_, radii_.back());
-    }
-    const int count = static_cast<int>(std::ceil((high_ - low_) / cell())) + 1;
-    cells_.resize(static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-      const double reach_low = std::min(radii_[i], radii_[i + 1]) - window() - low_;
-      const double reach_high = std::max(radii_[i], radii_[i + 1]) + window() - low_;
-      const int from = std::max(0, static_cast<int>(std::floor(reach_low / cell())));
-      const int to = std::min(count - 1, static_cast<int>(std::floor(reach_high / cell())));
-      for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(i);
-    }
+  explicit ToothPolygon(const ToothProfile& profile) : ToothPolygon(profile.gear()) {
+    const auto half = half_tooth(profile, [&](std::size_t k, double t) {
+      return point_at(profile.pieces()[k].curve, t);
+    });
+    set_points(half, half);
+  }
+  explicit ToothPolygon(const MadeSection& made) : ToothPolygon(made.toothing.profile->gear()) {
+    const auto of_side = [&](int side) {
+      return half_tooth(*made.toothing.profile, [&](std::size_t k, double t) {
+        const Point2 p = section_point(made.toothing, {0, side, k, t}, made.z_mm);
+        return side > 0 ? p : Point2(p.x(), -p.y());
+      });
+    };
+    set_points(of_side(1), of_side(-1));
   }
 
   [[nodiscard]] double window() const { return 0.08 * module_; }
@@ -91,6 +91,34 @@ class ToothPolygon {
   }
 
  private:
+  explicit ToothPolygon(const Gear& gear)
+      : teeth_(gear.teeth),
+        external_(gear.kind == GearKind::kExternal),
+        module_(gear.normal_module_mm) {}
+
+  /// Both halves counter-clockwise; the clockwise one is mirrored here.
+  void set_points(const std::vector<Point2>& half, const std::vector<Point2>& clockwise) {
+    for (auto p = clockwise.rbegin(); p != clockwise.rend(); ++p)
+      points_.push_back({p->x(), -p->y()});
+    for (std::size_t i = half.front().y() == 0.0 ? 1 : 0; i < half.size(); ++i)
+      points_.push_back(half[i]);
+    low_ = 1e300;
+    for (const Point2& p : points_) {
+      radii_.push_back(p.norm());
+      low_ = std::min(low_, radii_.back());
+      high_ = std::max(high_, radii_.back());
+    }
+    const int count = static_cast<int>(std::ceil((high_ - low_) / cell())) + 1;
+    cells_.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+      const double reach_low = std::min(radii_[i], radii_[i + 1]) - window() - low_;
+      const double reach_high = std::max(radii_[i], radii_[i + 1]) + window() - low_;
+      const int from = std::max(0, static_cast<int>(std::floor(reach_low / cell())));
+      const int to = std::min(count - 1, static_cast<int>(std::floor(reach_high / cell())));
+      for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(i);
+    }
+  }
+
   [[nodiscard]] double cell() const { return 0.04 * module_; }
   [[nodiscard]] double middle_radius() const { return external_ ? high_ : low_; }
 
@@ -139,20 +167,9 @@ double both_ways(const ToothPolygon& gear1, double turn1, const ToothPolygon& ge
                   smallest(gear2, turn2, axis2, gear1, turn1, origin, false));
 }
 
-}  // namespace
-
-double simulate_position_mm(const GearPair& pair, double rotation1_rad, double rotation2_rad,
-                            const Point2& axis2_mm) {
-  const ToothPolygon gear1(*pair.profile1), gear2(*pair.profile2);
-  return both_ways(gear1, rotation1_rad, gear2, rotation2_rad, axis2_mm, pair.internal());
-}
-
-SimulatedClearance simulate_mesh(const GearPair& pair) {
-  const ToothPolygon gear1(*pair.profile1), gear2(*pair.profile2);
-  const double a = pair.centre_distance_mm;
+SimulatedClearance turned_through(const ToothPolygon& gear1, const ToothPolygon& gear2, double a,
+                                  bool internal, double m, double gear2_turn) {
   const int z1 = gear1.teeth(), z2 = gear2.teeth();
-  const bool internal = pair.internal();
-  const double m = pair.gear1().normal_module_mm;
   // relative travel of the far end of the engagement per turn of gear 1
   const double relative = internal ? 1.0 - static_cast<double>(z1) / z2
                                    : 1.0 + static_cast<double>(z1) / z2;
@@ -164,12 +181,43 @@ SimulatedClearance simulate_mesh(const GearPair& pair) {
   for (int i = 0; i < positions; ++i) {
     const double turn1 = pitch * i / positions;
     // tooth 1 of gear 1 on the line of centres faces a gap of gear 2
-    const double turn2 = internal ? M_PI / z2 + turn1 * z1 / z2 : M_PI + M_PI / z2 - turn1 * z1 / z2;
+    const double turn2 =
+        (internal ? M_PI / z2 + turn1 * z1 / z2 : M_PI + M_PI / z2 - turn1 * z1 / z2) + gear2_turn;
     result.clearance_mm =
         std::min(result.clearance_mm,
                  both_ways(gear1, turn1, gear2, turn2, {internal ? -a : a, 0.0}, internal));
   }
   return result;
+}
+
+}  // namespace
+
+double simulate_position_mm(const GearPair& pair, double rotation1_rad, double rotation2_rad,
+                            const Point2& axis2_mm) {
+  const ToothPolygon gear1(*pair.profile1), gear2(*pair.profile2);
+  return both_ways(gear1, rotation1_rad, gear2, rotation2_rad, axis2_mm, pair.internal());
+}
+
+double simulate_position_mm(const MadeSection& gear1, double rotation1_rad,
+                            const MadeSection& gear2, double rotation2_rad,
+                            const Point2& axis2_mm) {
+  const bool internal = gear2.toothing.profile->gear().kind == GearKind::kInternal;
+  return both_ways(ToothPolygon(gear1), rotation1_rad, ToothPolygon(gear2), rotation2_rad, axis2_mm,
+                   internal);
+}
+
+SimulatedClearance simulate_mesh(const GearPair& pair) {
+  return turned_through(ToothPolygon(*pair.profile1), ToothPolygon(*pair.profile2),
+                        pair.centre_distance_mm, pair.internal(),
+                        pair.gear1().normal_module_mm, 0.0);
+}
+
+SimulatedClearance simulate_sections(const MadeSection& gear1, const MadeSection& gear2,
+                                     double centre_distance_mm, double gear2_turn_rad) {
+  const Gear& second = gear2.toothing.profile->gear();
+  return turned_through(ToothPolygon(gear1), ToothPolygon(gear2), centre_distance_mm,
+                        second.kind == GearKind::kInternal, second.normal_module_mm,
+                        gear2_turn_rad);
 }
 
 }  // namespace trueflank::test

@@ -7,6 +7,7 @@
 
 #include "tests/support/sample_gears.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/polyline.h"
 
 namespace trueflank {
 namespace {
@@ -27,9 +28,9 @@ FlankDeviation field_of(const ToothProfile& profile, double slope_mm) {
 }
 
 /// Distance of a point from a half tooth: dense samples, then Newton-free refinement by thirds.
-double distance_to(const ToothProfile& profile, const Point2& p) {
+double distance_to(const std::vector<ProfilePiece>& pieces, const Point2& p) {
   double best = 1e300;
-  for (const ProfilePiece& piece : profile.pieces()) {
+  for (const ProfilePiece& piece : pieces) {
     double low = 0.0, high = 1.0;
     constexpr int kPlaces = 400;
     int nearest = 0;
@@ -52,44 +53,65 @@ double distance_to(const ToothProfile& profile, const Point2& p) {
 
 class Sections : public ::testing::TestWithParam<test::SampleGear> {};
 
-TEST_P(Sections, LieOnTheToothSurfaceAtTheirHeight) {
+TEST_P(Sections, LieOnTheToothSurfaceAtTheirHeightOnEitherSide) {
   const auto profile = ToothProfile::make(GetParam().gear);
   ASSERT_TRUE(profile);
-  const double r_b = base_radius_mm(profile->gear());
-  for (double slope : {0.0, 0.004}) {
+  for (double slope : {0.0, 0.004, -0.02}) {
     const FlankDeviation field = field_of(*profile, slope);
     const Toothing toothing{.profile = &*profile, .twist = {.face_width_mm = 10.0},
                             .deviation = &field};
     for (double z : {0.0, 5.0, 8.0}) {
       const ToothSection section = section_profile(toothing, z);
-      // a turned flank with relief: lean times the steepness of the relief, 2nd order
-      const double length =
-          0.4 * std::abs(profile->tip_form_roll_length_mm() - profile->root_form_roll_length_mm());
-      const double allowed = 1e-10 + std::abs(section.turn_rad) * r_b * 1.2 * 0.01 / length;
       EXPECT_FALSE(section.as_designed);
-      EXPECT_NEAR(section.turn_rad * r_b * std::cos(base_helix_angle_rad(profile->gear())),
-                  slope * (z / 10.0 - 0.5), 1e-12);
-      const auto& pieces = section.profile.pieces();
-      for (std::size_t i = 1; i < pieces.size(); ++i)
-        EXPECT_LT((pieces[i].curve.start_point() - pieces[i - 1].curve.end_point()).norm(), 1e-9)
-            << "piece " << i;
+      EXPECT_EQ(section.profile.symmetric(), slope == 0.0 || z == 5.0);
+      for (const auto* half : {&section.profile.pieces(), &section.profile.clockwise_pieces()})
+        for (std::size_t i = 1; i < half->size(); ++i)
+          EXPECT_LT(((*half)[i].curve.start_point() - (*half)[i - 1].curve.end_point()).norm(), 1e-9)
+              << "piece " << i;
       for (std::size_t i = 0; i < profile->pieces().size(); ++i) {
         const ProfilePiece& piece = profile->pieces()[i];
-        // what turns takes the fillet along in the section, and fades there on the tooth
-        if (slope != 0.0 && (piece.kind == PieceKind::kFillet || piece.kind == PieceKind::kRoot ||
-                             piece.kind == PieceKind::kTip))
-          continue;
         for (int side : {1, -1})
           for (double share : {0.02, 0.3, 0.61, 0.97}) {
             const double at = piece.curve.begin + share * (piece.curve.end - piece.curve.begin);
             const Point2 p = section_point(toothing, {0, side, i, at}, z);
-            const Point2 q = rotated(p, -section.turn_rad);
-            EXPECT_LT(distance_to(section.profile, side > 0 ? q : mirrored(q)), allowed)
+            EXPECT_LT(side > 0 ? distance_to(section.profile.pieces(), p)
+                               : distance_to(section.profile.clockwise_pieces(), mirrored(p)),
+                      1e-10)
                 << "z " << z << " piece " << i << " side " << side << " share " << share;
           }
       }
     }
   }
+}
+
+TEST_P(Sections, PolygonsAndMirrorImagesKeepTheirHalves) {
+  const auto profile = ToothProfile::make(GetParam().gear);
+  ASSERT_TRUE(profile);
+  const FlankDeviation field = field_of(*profile, 0.03);
+  const ToothProfile section =
+      section_profile({.profile = &*profile, .twist = {.face_width_mm = 10.0}, .deviation = &field},
+                      8.0)
+          .profile;
+  const ToothProfile image = section.mirror_image();
+  const SectionPolygon polygon = section_polygon(section, 2e-4);
+  const SectionPolygon mirror = section_polygon(image, 2e-4);
+  ASSERT_EQ(polygon.points_per_tooth, mirror.points_per_tooth);
+  const double pitch = kTwoPi / polygon.teeth;
+  // points of the first two teeth on the half they belong to, folded into tooth 1
+  for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(polygon.points_per_tooth); ++i) {
+    const double angle = polar_angle_rad(polygon.points[i]);
+    const Point2 folded = rotated(polygon.points[i], -pitch * std::round(angle / pitch));
+    const double off = std::min(distance_to(section.pieces(), folded),
+                                distance_to(section.clockwise_pieces(), mirrored(folded)));
+    ASSERT_LT(off, 1e-8) << i;
+  }
+  double sum = 0.0, image_sum = 0.0;
+  for (std::size_t i = 0; i < polygon.points.size(); ++i) {
+    const auto next = (i + 1) % polygon.points.size();
+    sum += 0.5 * cross(polygon.points[i], polygon.points[next]);
+    image_sum += 0.5 * cross(mirror.points[i], mirror.points[next]);
+  }
+  EXPECT_NEAR(sum, image_sum, 1e-9 * sum);
 }
 INSTANTIATE_TEST_SUITE_P(
     Of, Sections,
@@ -105,7 +127,7 @@ TEST(SectionProfile, WithoutDeviationIsTheDesignItself) {
   const ToothSection section =
       section_profile({.profile = &*profile, .twist = {.face_width_mm = 10.0}}, 3.0);
   EXPECT_TRUE(section.as_designed);
-  EXPECT_EQ(section.turn_rad, 0.0);
+  EXPECT_TRUE(section.profile.symmetric());
   // crowning alone is zero at mid face
   const FlankDeviation crowned{.deviation_mm = [](int, Flank, double, double z) {
                                  return -0.001 * (z - 5.0) * (z - 5.0);

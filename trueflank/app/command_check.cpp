@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
+#include <optional>
 
 #include "trueflank/app/commands.h"
 #include "trueflank/app/design_input.h"
@@ -8,6 +9,7 @@
 #include "trueflank/app/terminal.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/check/mesh_picture.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/tolerance_analysis.h"
 #include "trueflank/export/atomic_file.h"
 
@@ -27,9 +29,14 @@ Status add_tolerance(const GearTrain& train, const std::string& text, io::Report
 Status draw_meshes(const GearTrain& train, const std::string& folder) {
   if (auto ok = io::create_folder(folder); !ok) return ok;
   for (const TrainMesh& mesh : train.meshes) {
-    const GearPair pair = train.pair(mesh);
+    // modified flanks at the height where they come nearest
+    const bool modified = is_modified(train, mesh);
+    const MeshClearance nearest =
+        modified ? modified_state(train, mesh).centred : mesh_clearance(train.pair(mesh));
+    std::optional<MeshSection> section;
+    if (modified) section = mesh_section(train, mesh, nearest.z_mm);
     const std::string svg = mesh_picture_svg(
-        pair, mesh_clearance(pair),
+        section ? section->pair() : train.pair(mesh), nearest,
         {.name1 = train.gears[static_cast<std::size_t>(mesh.gear1)].name,
          .name2 = train.gears[static_cast<std::size_t>(mesh.gear2)].name});
     if (auto ok = io::write_file(std::filesystem::path(folder) / (mesh.name + ".svg"), svg); !ok)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/train/mesh_face.h"
@@ -25,7 +26,12 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
                   .value = value,
                   .limit = limit,
                   .margin = value - limit};
-  finding.message = "transverse " + number_text(ratios.total, 3) + " from the tip circles, " +
+  const auto ends_early = [](const ToothProfile& profile) {
+    return std::abs(profile.tip_form_radius_mm() - profile.tip_radius_mm()) > tolerance::kTouch_mm;
+  };
+  const bool form = ends_early(*pair.profile1) || ends_early(*pair.profile2);
+  finding.message = "transverse " + number_text(ratios.total, 3) +
+                    (form ? " from the tip form circles, " : " from the tip circles, ") +
                     number_text(ratios.effective, 3) + " effective";
   if (overlap > 0.0) finding.message += ", and " + number_text(overlap, 3) + " by the helix";
   const double unrelieved = modified_mesh(train, mesh).unrelieved_contact_ratio;

@@ -10,49 +10,55 @@
 namespace trueflank {
 GearDistance::GearDistance(const ToothProfile& profile)
     : pitch_rad_(kTwoPi / profile.gear().teeth),
-      outward_(profile.gear().kind == GearKind::kExternal ? 1.0 : -1.0) {
+      outward_(profile.gear().kind == GearKind::kExternal ? 1.0 : -1.0),
+      half_(half_of(profile.pieces())) {
   for (int k = 0; k < profile.gear().teeth; ++k) axes_.push_back(unit_vector(k * pitch_rad_));
-  const auto& pieces = profile.pieces();
+  if (!profile.symmetric()) clockwise_ = half_of(profile.clockwise_pieces());
+}
+
+GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces) const {
+  Half half;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Curve& curve = pieces[i].curve;
     const int index = static_cast<int>(i);
     if (const auto* arc = std::get_if<CircularArc>(&curve.shape)) {
       // run counter-clockwise, the circle's inside is on the left
       const double sign = (curve.end > curve.begin ? 1.0 : -1.0) * outward_;
-      arcs_.push_back({arc->centre, arc->radius_mm, std::min(curve.begin, curve.end),
-                       std::max(curve.begin, curve.end), sign, index});
+      half.arcs.push_back({arc->centre, arc->radius_mm, std::min(curve.begin, curve.end),
+                           std::max(curve.begin, curve.end), sign, index});
     } else if (const auto* involute = std::get_if<Involute>(&curve.shape)) {
-      flanks_.push_back({involute->base_radius_mm, involute->base_half_angle_rad,
-                         static_cast<double>(involute->sense), std::min(curve.begin, curve.end),
-                         std::max(curve.begin, curve.end), index});
+      half.flanks.push_back({involute->base_radius_mm, involute->base_half_angle_rad,
+                             static_cast<double>(involute->sense),
+                             std::min(curve.begin, curve.end), std::max(curve.begin, curve.end),
+                             index});
     } else if (const auto* line = std::get_if<StraightLine>(&curve.shape)) {
       const double sign = curve.end > curve.begin ? 1.0 : -1.0;
       const double scale = line->direction.norm();
-      lines_.push_back({point_at(curve, curve.begin), sign * line->direction / scale, 0.0,
-                        std::abs(curve.end - curve.begin) * scale, index});
+      half.lines.push_back({point_at(curve, curve.begin), sign * line->direction / scale, 0.0,
+                            std::abs(curve.end - curve.begin) * scale, index});
     } else {
-      splines_.push_back({CurveSpline(curve), index});
+      half.splines.push_back({CurveSpline(curve), index});
     }
   }
-  add_joints(profile);
+  add_joints(pieces, half);
+  return half;
 }
 
-void GearDistance::add_joints(const ToothProfile& profile) {
-  const auto& pieces = profile.pieces();
+void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& half) const {
   const auto outward = [&](const ProfilePiece& piece, double parameter) -> Point2 {
     return -outward_ * perpendicular(tangent_at(piece.curve, parameter));
   };
   const Point2 gap = unit_vector(0.5 * pitch_rad_);
   const Point2 first = outward(pieces.front(), pieces.front().curve.begin);
-  joints_.push_back({pieces.front().curve.start_point(), first + mirrored(first), 0});
+  half.joints.push_back({pieces.front().curve.start_point(), first + mirrored(first), 0});
   for (std::size_t i = 1; i < pieces.size(); ++i)
-    joints_.push_back({pieces[i].curve.start_point(),
-                       outward(pieces[i - 1], pieces[i - 1].curve.end) +
-                           outward(pieces[i], pieces[i].curve.begin),
-                       static_cast<int>(i)});
+    half.joints.push_back({pieces[i].curve.start_point(),
+                           outward(pieces[i - 1], pieces[i - 1].curve.end) +
+                               outward(pieces[i], pieces[i].curve.begin),
+                           static_cast<int>(i)});
   const Point2 last = outward(pieces.back(), pieces.back().curve.end);
   const Point2 image = 2.0 * last.dot(gap) * gap - last;
-  joints_.push_back(
+  half.joints.push_back(
       {pieces.back().curve.end_point(), last + image, static_cast<int>(pieces.size()) - 1});
 }
 
@@ -61,15 +67,42 @@ GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
   const int tooth = static_cast<int>(std::nearbyint(polar_angle_rad(point) / pitch_rad_));
   const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth) % teeth)];
   const double across = cross(axis, point);
-  const bool clockwise = across < 0.0;
+  bool clockwise = across < 0.0;
   const Point2 q(axis.dot(point), std::abs(across));
 
   Best best{std::numeric_limits<double>::infinity(), 0.0, -1, Point2::Zero()};
-  for (const Flank& flank : flanks_) measure_flank(flank, q, best);
-  for (const Arc& arc : arcs_) measure_arc(arc, q, best);
-  for (const Line& line : lines_) measure_line(line, q, best);
-  for (const Spline& spline : splines_) measure_spline(spline, q, best);
-  for (const Joint& joint : joints_) {
+  if (!clockwise_) {
+    measure(half_, q, best);
+  } else {
+    measure(clockwise ? *clockwise_ : half_, q, best);
+    measure_neighbours(q, best, clockwise);
+  }
+  return {best.signed_mm, best.piece, best.corner, clockwise, best.point};
+}
+
+void GearDistance::measure_neighbours(const Point2& q, Best& best, bool& clockwise) const {
+  const Half& other = clockwise ? half_ : *clockwise_;
+  bool taken = false;
+  // beyond the ray that parts the wedges nothing is nearer than the ray
+  const auto look_across = [&](const Point2& ray) {
+    const double along = q.dot(ray);
+    const double away = along > 0.0 ? std::abs(cross(ray, q)) : q.norm();
+    if (!(away < best.magnitude)) return;
+    const double before = best.magnitude;
+    measure(other, 2.0 * along * ray - q, best);
+    taken = taken || best.magnitude < before;
+  };
+  look_across(Point2::UnitX());
+  look_across(unit_vector(0.5 * pitch_rad_));
+  clockwise = clockwise != taken;
+}
+
+void GearDistance::measure(const Half& half, const Point2& q, Best& best) const {
+  for (const Flank& flank : half.flanks) measure_flank(flank, q, best);
+  for (const Arc& arc : half.arcs) measure_arc(arc, q, best);
+  for (const Line& line : half.lines) measure_line(line, q, best);
+  for (const Spline& spline : half.splines) measure_spline(spline, q, best);
+  for (const Joint& joint : half.joints) {
     const Point2 away = q - joint.at;
     const double square = away.squaredNorm();
     // a joint within rounding of a foot on a piece leaves the piece its better sign
@@ -78,7 +111,6 @@ GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
     best = {distance, away.dot(joint.outward) < 0.0 ? -distance : distance, joint.piece, joint.at,
             true};
   }
-  return {best.signed_mm, best.piece, best.corner, clockwise, best.point};
 }
 
 void GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) const {

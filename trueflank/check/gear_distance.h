@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "trueflank/geometry/curve_spline.h"
@@ -12,16 +13,17 @@ namespace trueflank {
 ///
 /// A point is first folded into the wedge of half a tooth. That is exact: the profile is symmetric
 /// in the middles of tooth and gap, and of a point's mirror images the one in the same wedge is never
-/// farther. Involutes, arcs and straight lines are then measured in closed form, trochoids on cubic
+/// farther. Where the halves of the teeth differ, the neighbours of that wedge are looked at too.
+/// Involutes, arcs and straight lines are then measured in closed form, trochoids on cubic
 /// pieces within 1e-9 module of the curve.
 /// Frame: the gear's own, tooth 1 on +x.
 class GearDistance {
  public:
   struct Nearest {
     double distance_mm = 0.0;  ///< from the profile; > 0 outside the material, < 0 inside
-    int piece = -1;            ///< index of the profile piece of the nearest point
+    int piece = -1;            ///< index of the nearest point's piece, of that half's pieces
     bool corner = false;          ///< it is the beginning of that piece (or the end of the last)
-    bool clockwise_half = false;  ///< on which half of its tooth the point lies
+    bool clockwise_half = false;  ///< on which half of its tooth the nearest point lies
     Point2 point = Point2::Zero();  ///< nearest point, folded into the first half tooth's wedge
   };
 
@@ -61,7 +63,20 @@ class GearDistance {
     bool corner = false;
   };
 
-  void add_joints(const ToothProfile& profile);
+  /// The pieces of one half tooth, in the counter-clockwise wedge.
+  struct Half {
+    std::vector<Joint> joints;
+    std::vector<Arc> arcs;
+    std::vector<Flank> flanks;
+    std::vector<Line> lines;
+    std::vector<Spline> splines;
+  };
+
+  [[nodiscard]] Half half_of(const std::vector<ProfilePiece>& pieces) const;
+  void add_joints(const std::vector<ProfilePiece>& pieces, Half& half) const;
+  /// Takes over what lies nearer than `best`.
+  void measure(const Half& half, const Point2& q, Best& best) const;
+  void measure_neighbours(const Point2& q, Best& best, bool& clockwise) const;
   void measure_arc(const Arc& arc, const Point2& q, Best& best) const;
   void measure_flank(const Flank& flank, const Point2& q, Best& best) const;
   void measure_line(const Line& line, const Point2& q, Best& best) const;
@@ -70,11 +85,8 @@ class GearDistance {
   double pitch_rad_;
   std::vector<Point2> axes_;  // directions of the teeth
   double outward_;  // +1: space is on the right of the direction of travel (external), -1: left
-  std::vector<Joint> joints_;
-  std::vector<Arc> arcs_;
-  std::vector<Flank> flanks_;
-  std::vector<Line> lines_;
-  std::vector<Spline> splines_;
+  Half half_;
+  std::optional<Half> clockwise_;  // where it is not the mirror image
 };
 
 }  // namespace trueflank

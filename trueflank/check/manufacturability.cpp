@@ -7,6 +7,8 @@
 
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/check/tip_thickness.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
@@ -50,7 +52,7 @@ std::optional<Feature> rim_wall(const GearTrain& train, const TrainGear& gear,
 std::vector<Feature> features_of(const GearTrain& train, const TrainGear& gear,
                                  const Process& process) {
   std::vector<Feature> features{
-      {"tooth tip", gear.profile.tip_thickness_mm(), process.least_tip_mm,
+      {"tooth tip", least_tip_thickness_mm(gear), process.least_tip_mm,
        "a larger module, or a shorter tooth (tip_diameter_mm)"},
       {"gap between teeth at the root form circle", least_gap_mm(gear.profile),
        process.least_gap_mm, "a larger module"},
@@ -84,9 +86,11 @@ Finding judge_gear(const GearTrain& train, const TrainGear& gear, const Process&
   return finding;
 }
 
-Finding judge_mesh(const TrainMesh& mesh, const Process& process) {
+Finding judge_mesh(const GearTrain& train, const TrainMesh& mesh, const Process& process) {
+  const double of_modifications = mesh.backlash_mm - modified_mesh(train, mesh).backlash_mm;
   const double least =
-      std::isnan(mesh.smallest_backlash_mm) ? mesh.backlash_mm : mesh.smallest_backlash_mm;
+      (std::isnan(mesh.smallest_backlash_mm) ? mesh.backlash_mm : mesh.smallest_backlash_mm) -
+      of_modifications;
   Finding finding{.id = "manufacturability",
                   .where = mesh.name,
                   .value = least,
@@ -141,7 +145,7 @@ Findings check_manufacturability(const GearTrain& train) {
   const Process& process = *train.design.made.process;
   for (const TrainGear& gear : train.gears) findings.push_back(judge_gear(train, gear, process));
   if (process.backlash_mm > 0.0)
-    for (const TrainMesh& mesh : train.meshes) findings.push_back(judge_mesh(mesh, process));
+    for (const TrainMesh& mesh : train.meshes) findings.push_back(judge_mesh(train, mesh, process));
   return findings;
 }
 

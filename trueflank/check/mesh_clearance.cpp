@@ -18,6 +18,7 @@
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/scalar_minimum.h"
 #include "trueflank/check/tooth_crossing.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
@@ -155,7 +156,8 @@ Sweep::Place Sweep::lowest() const {
   const auto columns = static_cast<std::size_t>(n) + 1;
 
   std::vector<double> grid(samples.size() * columns);
-  const std::size_t mate_pieces = mate_profile_.pieces().size();
+  const std::size_t mate_pieces =
+      std::max(mate_profile_.pieces().size(), mate_profile_.clockwise_pieces().size());
   std::vector<Place> best_of_kind(mover_.pieces().size() * mate_pieces * 4);
   double lowest = std::numeric_limits<double>::infinity();
   const double mate_tip = mate_profile_.tip_radius_mm();
@@ -268,15 +270,16 @@ MeshPlace Sweep::describe(const Place& place) const {
   const bool at_begin = std::abs(place.sample.parameter - curve.begin) < end;
   const bool at_end = std::abs(place.sample.parameter - curve.end) < end;
   // the corner between tip circle and flank is the tip's
-  const auto kind_of = [](const ToothProfile& profile, int piece, bool corner, double radius_mm) {
-    const bool at_tip = std::abs(radius_mm - profile.tip_radius_mm()) < tolerance::kTouch_mm;
-    return corner && at_tip ? PieceKind::kTip
-                            : profile.pieces()[static_cast<std::size_t>(piece)].kind;
+  const auto kind_of = [](const ProfilePiece& piece, bool corner, double from_tip_mm) {
+    return corner && std::abs(from_tip_mm) < tolerance::kTouch_mm ? PieceKind::kTip : piece.kind;
   };
   const PieceKind mover_piece =
-      kind_of(mover_, place.sample.piece, at_begin || at_end, place.sample.point.norm());
-  const PieceKind mate_piece =
-      kind_of(mate_profile_, near.piece, near.corner, near.point.norm());
+      kind_of(pieces[static_cast<std::size_t>(place.sample.piece)], at_begin || at_end,
+              place.sample.point.norm() - mover_.tip_radius_mm());
+  const auto& mate_half =
+      near.clockwise_half ? mate_profile_.clockwise_pieces() : mate_profile_.pieces();
+  const PieceKind mate_piece = kind_of(mate_half[static_cast<std::size_t>(near.piece)], near.corner,
+                                       near.point.norm() - mate_profile_.tip_radius_mm());
   (gear1_moves_ ? result.piece1 : result.piece2) = mover_piece;
   (gear1_moves_ ? result.piece2 : result.piece1) = mate_piece;
   (gear1_moves_ ? result.corner1 : result.corner2) = at_begin || at_end;
@@ -318,12 +321,44 @@ struct PairDistances {
   GearDistance gear1, gear2;
 };
 
-MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_rad) {
+/// A pair seen from the other side, for the sweeps of the clockwise halves.
+struct MirroredPair {
+  explicit MirroredPair(const GearPair& pair)
+      : profile1(pair.profile1->mirror_image()),
+        profile2(pair.profile2->mirror_image()),
+        distances{GearDistance(profile1), GearDistance(profile2)},
+        centre_distance_mm(pair.centre_distance_mm) {}
+  [[nodiscard]] GearPair pair() const { return {&profile1, &profile2, centre_distance_mm}; }
+
+  ToothProfile profile1, profile2;
+  PairDistances distances;
+  double centre_distance_mm;
+};
+
+bool symmetric(const GearPair& pair) {
+  return pair.profile1->symmetric() && pair.profile2->symmetric();
+}
+
+MeshClearance mirror_image(MeshClearance c) {
+  c.place.rotation1_rad = -c.place.rotation1_rad;
+  c.place.rotation2_rad = -c.place.rotation2_rad;
+  c.place.point_mm = mirrored(c.place.point_mm);
+  c.place.flank1 = c.place.flank1 == Flank::kLeft ? Flank::kRight : Flank::kLeft;
+  return c;
+}
+
+/// Both halves of both gears against each other, gear 2 turned by an angle.
+MeshClearance swept(const GearPair& pair, const PairDistances& d, double turn_rad) {
   MeshClearance result = sweep_both(pair, d.gear1, d.gear2, turn_rad, turn_rad);
-  if (turn_rad != 0.0) {
-    const MeshClearance other = sweep_both(pair, d.gear1, d.gear2, -turn_rad, -turn_rad);
-    if (other.clearance_mm < result.clearance_mm) result = other;
-  }
+  if (turn_rad == 0.0 && symmetric(pair)) return result;
+  const MirroredPair image(pair);
+  const MeshClearance other = mirror_image(sweep_both(
+      image.pair(), image.distances.gear1, image.distances.gear2, -turn_rad, -turn_rad));
+  return other.clearance_mm < result.clearance_mm ? other : result;
+}
+
+MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_rad) {
+  MeshClearance result = swept(pair, d, turn_rad);
   add_exact_verdict(pair, result);
   return result;
 }
@@ -370,7 +405,7 @@ MeshClearance mesh_clearance(const GearPair& pair, double gear2_turn_rad) {
 double sweep_clearance_mm(const GearPair& pair) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-  return sweep_both(pair, d.gear1, d.gear2, 0.0, 0.0).clearance_mm;
+  return swept(pair, d, 0.0).clearance_mm;
 }
 
 MeshClearance driving_clearance(const GearPair& pair) {
@@ -379,8 +414,12 @@ MeshClearance driving_clearance(const GearPair& pair) {
   return driving(pair, d);
 }
 
-MeshClearance closed_clearance(const GearPair& pair, double closing_rad) {
+MeshClearance closed_clearance(const GearPair& pair, Flank flank1, double closing_rad) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
+  if (flank1 == Flank::kRight) {
+    const MirroredPair image(pair);
+    return mirror_image(closed(image.pair(), image.distances, closing_rad));
+  }
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
   return closed(pair, d, closing_rad);
 }
@@ -397,14 +436,18 @@ std::vector<MeshState> mesh_states(const GearTrain& train) {
   std::vector<std::future<RadialRemoval>> removals;
   for (const TrainMesh& mesh : train.meshes) {
     const GearPair pair = train.pair(mesh);
-    turned.push_back(std::async(std::launch::async, [pair, &train, &mesh] {
-      if (is_modified(train, mesh)) return modified_state(train, mesh);
+    const bool modified = is_modified(train, mesh);
+    turned.push_back(std::async(std::launch::async, [pair, modified, &train, &mesh] {
+      if (modified) return modified_state(train, mesh);
       const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
       return MeshState{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
     }));
-    removals.push_back(pair.internal()
-                           ? std::async(std::launch::async, [pair] { return radial_removal(pair); })
-                           : std::future<RadialRemoval>());
+    removals.emplace_back();
+    if (pair.internal())
+      removals.back() = std::async(std::launch::async, [pair, modified, &train, &mesh] {
+        return modified ? modified_removal(train, mesh)
+                        : radial_removal({pair}, twist_over_face_rad(train, mesh));
+      });
   }
   std::vector<MeshState> states;
   for (std::size_t i = 0; i < turned.size(); ++i) {

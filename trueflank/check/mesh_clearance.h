@@ -43,6 +43,7 @@ struct MeshClearance {
 
 /// Turns the pair with its backlash centred through the whole engagement of a tooth: every point of
 /// both profiles at every position. Gear 2 may be turned by an angle out of the centred position.
+/// Profiles may be sections whose halves differ (section_profile.h).
 /// Guarantees: contact of the involutes is exact; other places are found on a grid of 0.05 module and
 /// refined on the exact curves. |clearance| below 1e-9 mm is told as 0.
 /// Accuracy: 0.01 um at module 1 where the place is found; tests/check/mesh_clearance_test.cpp
@@ -57,8 +58,8 @@ struct MeshClearance {
 /// driving. Below 0: something else touches first (a tip corner in a root fillet), and the teeth
 /// cannot run conjugate there. NaN where there is no backlash to take up.
 [[nodiscard]] MeshClearance driving_clearance(const GearPair& pair);
-/// The same with gear 2 turned by a given angle [rad] that closes the play of those flanks.
-[[nodiscard]] MeshClearance closed_clearance(const GearPair& pair, double closing_rad);
+/// The same with gear 2 turned by a given angle [rad] that closes the play of one side of gear 1.
+[[nodiscard]] MeshClearance closed_clearance(const GearPair& pair, Flank flank1, double closing_rad);
 
 /// What stands at a place, in words: "tip corner of sun (diameter 14.2 mm) at the root fillet of ...".
 [[nodiscard]] std::string place_text(const MeshPlace& place, const std::string& name1,
@@ -67,7 +68,7 @@ struct MeshClearance {
 /// What turning and moving the real profiles of a mesh says.
 struct MeshState {
   MeshClearance centred;
-  MeshClearance driving;
+  MeshClearance driving;  ///< of modified flanks, which differ by the side, the lower of both sides
   std::optional<RadialRemoval> removal;  ///< rings only
 };
 /// Of every mesh of a train, in its order. Where flanks are modified the sections of both gears at the

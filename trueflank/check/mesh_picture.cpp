@@ -60,6 +60,8 @@ std::string teeth(const View& view, const Drawn& gear, double chord_mm) {
   const int z = gear.profile.gear().teeth;
   const double pitch = kTwoPi / z;
   const HalfToothPolyline half = tessellate(gear.profile, chord_mm);
+  const HalfToothPolyline clockwise =
+      gear.profile.symmetric() ? half : tessellate(gear.profile.mirror_image(), chord_mm);
   const double slack = 3.0 * gear.profile.gear().normal_module_mm;
   const Point2 towards = view.centre_mm - gear.axis;
   const int middle = static_cast<int>(
@@ -68,7 +70,7 @@ std::string teeth(const View& view, const Drawn& gear, double chord_mm) {
   for (int k = middle - z / 2; k <= middle + (z - 1) / 2; ++k) {
     const double turn = gear.rotation_rad + pitch * k;
     if (!view.near(gear.axis + gear.profile.tip_radius_mm() * unit_vector(turn), slack)) continue;
-    for (auto p = half.points.rbegin(); p != half.points.rend(); ++p)
+    for (auto p = clockwise.points.rbegin(); p != clockwise.points.rend(); ++p)
       outline.push_back(gear.axis + rotated(mirrored(*p), turn));
     for (const Point2& p : half.points) outline.push_back(gear.axis + rotated(p, turn));
   }

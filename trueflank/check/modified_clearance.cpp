@@ -71,24 +71,60 @@ bool is_modified(const GearTrain& train, const TrainMesh& mesh) {
          !gear_of(train, mesh.gear2).deviation.empty();
 }
 
-MeshState modified_state(const GearTrain& train, const TrainMesh& mesh) {
+MeshSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z_mm) {
   const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
+  return {section_profile(gear1.toothing(), z_mm - gear1.z_lower_mm).profile,
+          section_profile(gear2.toothing(), z_mm - gear2.z_lower_mm).profile,
+          train.centre_distance_mm, z_mm};
+}
+
+std::vector<MeshSection> decisive_sections(const GearTrain& train, const TrainMesh& mesh) {
+  if (!is_modified(train, mesh)) {
+    const GearPair pair = train.pair(mesh);
+    return {{*pair.profile1, *pair.profile2, pair.centre_distance_mm, kNaN}};
+  }
+  std::vector<MeshSection> sections;
+  for (double z : decisive_heights(train, mesh)) sections.push_back(mesh_section(train, mesh, z));
+  return sections;
+}
+
+MeshState modified_state(const GearTrain& train, const TrainMesh& mesh) {
   const ModifiedMesh play = modified_mesh(train, mesh);
-  const double closing = play.ccw_play_mm / base_radius_mm(gear2.profile.gear());
+  const double r_b2 = base_radius_mm(gear_of(train, mesh.gear2).profile.gear());
   MeshState state;
-  for (double z : decisive_heights(train, mesh)) {
-    const ToothSection section1 = section_profile(gear1.toothing(), z - gear1.z_lower_mm);
-    const ToothSection section2 = section_profile(gear2.toothing(), z - gear2.z_lower_mm);
-    const GearPair pair{&section1.profile, &section2.profile, train.centre_distance_mm};
-    // the sections are symmetric: to which side they stand off the centre does not matter
-    const double off_centre = closing_turn_rad(train, mesh, z);
-    const bool centred =
-        std::abs(off_centre) * base_radius_mm(gear2.profile.gear()) < 1e-12;
-    keep_lower(state.centred, mesh_clearance(pair, centred ? 0.0 : std::abs(off_centre)), z);
-    if (play.ccw_play_mm > kNoPlay_mm)
-      keep_lower(state.driving, closed_clearance(pair, closing + off_centre), z);
+  for (const MeshSection& section : decisive_sections(train, mesh)) {
+    const GearPair pair = section.pair();
+    keep_lower(state.centred, mesh_clearance(pair), section.z_mm);
+    if (!(play.ccw_play_mm > kNoPlay_mm && play.cw_play_mm > kNoPlay_mm)) continue;
+    keep_lower(state.driving, closed_clearance(pair, Flank::kLeft, play.ccw_play_mm / r_b2),
+               section.z_mm);
+    keep_lower(state.driving, closed_clearance(pair, Flank::kRight, play.cw_play_mm / r_b2),
+               section.z_mm);
   }
   return state;
+}
+
+RadialRemoval modified_removal(const GearTrain& train, const TrainMesh& mesh) {
+  const std::vector<MeshSection> sections = decisive_sections(train, mesh);
+  std::vector<GearPair> pairs;
+  for (const MeshSection& section : sections) pairs.push_back(section.pair());
+  return radial_removal(pairs, twist_over_face_rad(train, mesh));
+}
+
+double worst_margin_rad(const GearTrain& train, const TrainMesh& mesh,
+                        double (*margin_rad)(const GearPair&)) {
+  if (!is_modified(train, mesh)) return margin_rad(train.pair(mesh));
+  double worst = kNaN;
+  for (const MeshSection& section : decisive_sections(train, mesh))
+    worst = std::fmin(worst, margin_rad(section.pair()));
+  return worst;
+}
+
+double modified_clearance_mm(const GearTrain& train, const TrainMesh& mesh) {
+  double least = 1e300;
+  for (const MeshSection& section : decisive_sections(train, mesh))
+    least = std::min(least, sweep_clearance_mm(section.pair()));
+  return least;
 }
 
 }  // namespace trueflank

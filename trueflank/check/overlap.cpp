@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/overlap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
@@ -21,7 +22,9 @@ bool tip_is_of_gear1(const GearPair& pair, const MeshPlace& place) {
 
 std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
   const GearPair pair = train.pair(mesh);
-  if (is_modified(train, mesh) && sweep_clearance_mm(pair) > -tolerance::kTouch_mm)
+  const double unmodified =
+      is_modified(train, mesh) ? sweep_clearance_mm(pair) : centred.clearance_mm;
+  if (is_modified(train, mesh) && unmodified > -tolerance::kTouch_mm)
     return "without their modifications these teeth clear each other: smaller slopes, or backlash_mm "
            "larger by " +
            number_text(-2.0 * centred.clearance_mm / std::cos(working_pressure_angle_rad(pair)));
@@ -30,8 +33,9 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
     return "teeth thinned by " +
            um_text(-backlash * reference_radius_mm(pair.gear1()) / pitch_radius1_mm(pair)) +
            " on the reference circle (both gears together), or shifts that fit the centre distance";
-  return cure_text(train, mesh, tip_is_of_gear1(pair, centred.place), [](const GearPair& changed) {
-    return sweep_clearance_mm(changed) + tolerance::kTouch_mm;
+  const double cost = std::max(0.0, unmodified - centred.clearance_mm);  // of the modifications
+  return cure_text(train, mesh, tip_is_of_gear1(pair, centred.place), [cost](const GearPair& changed) {
+    return sweep_clearance_mm(changed) - cost + tolerance::kTouch_mm;
   });
 }
 

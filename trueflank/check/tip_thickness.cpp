@@ -23,23 +23,9 @@ double tip_radius_for_thickness_mm(const ToothProfile& profile, double thickness
   return find_root(lacking, low, high);
 }
 
-/// At the tip, where modifications leave least of it; the edge chamfer, at the very ends, aside.
-double thickness_mm(const TrainGear& gear) {
-  double least = gear.profile.tip_thickness_mm();
-  if (gear.deviation.empty()) return least;
-  Toothing toothing = gear.toothing();
-  toothing.edge_chamfer_mm = 0.0;
-  constexpr int kHeights = 16;
-  for (int i = 0; i <= kHeights; ++i) {
-    const double z = gear.face_width_mm * i / kHeights;
-    least = std::min(least, 2.0 * gear.profile.tip_radius_mm() * tip_land_half_angle_rad(toothing, z));
-  }
-  return least;
-}
-
 Finding judge(const TrainGear& gear) {
   const double m = gear.profile.gear().normal_module_mm;
-  const double thickness = thickness_mm(gear);
+  const double thickness = least_tip_thickness_mm(gear);
   const double limit = kSmallestTipThickness * m;
   Finding finding{.id = "tip_thickness",
                   .where = gear.name,
@@ -67,6 +53,19 @@ Finding judge(const TrainGear& gear) {
 }
 
 }  // namespace
+
+double least_tip_thickness_mm(const TrainGear& gear) {
+  double least = gear.profile.tip_thickness_mm();
+  if (gear.deviation.empty()) return least;
+  Toothing toothing = gear.toothing();
+  toothing.edge_chamfer_mm = 0.0;
+  constexpr int kHeights = 16;
+  for (int i = 0; i <= kHeights; ++i) {
+    const double z = gear.face_width_mm * i / kHeights;
+    least = std::min(least, 2.0 * gear.profile.tip_radius_mm() * tip_land_half_angle_rad(toothing, z));
+  }
+  return least;
+}
 
 Findings check_tip_thickness(const GearTrain& train) {
   Findings findings;

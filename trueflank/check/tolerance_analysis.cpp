@@ -10,8 +10,10 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/mesh_clearance.h"
 #include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
@@ -48,8 +50,20 @@ struct ChangedPair {
   double backlash_mm = kNaN, clearance_mm = kNaN;
 };
 
-Result<ChangedPair> changed(const GearPair& pair, double distance_mm, double thickness1_mm,
-                            double thickness2_mm) {
+/// The same with modified flanks: the modifications go with the flanks, and the sections decide.
+ChangedPair changed_modified(const GearTrain& train, const TrainMesh& mesh, const GearPair& pair) {
+  GearTrain other = train;
+  other.centre_distance_mm = pair.centre_distance_mm;
+  other.gears[static_cast<std::size_t>(mesh.gear1)].profile = *pair.profile1;
+  other.gears[static_cast<std::size_t>(mesh.gear2)].profile = *pair.profile2;
+  TrainMesh changed = mesh;
+  changed.backlash_mm = circumferential_backlash_mm(pair);
+  return {modified_mesh(other, changed).backlash_mm, modified_clearance_mm(other, changed)};
+}
+
+Result<ChangedPair> changed(const GearTrain& train, const TrainMesh& mesh, double distance_mm,
+                            double thickness1_mm, double thickness2_mm) {
+  const GearPair pair = train.pair(mesh);
   Gear gear1 = pair.gear1(), gear2 = pair.gear2();
   gear1.thinning_mm -= thickness1_mm;
   gear2.thinning_mm -= thickness2_mm;
@@ -62,6 +76,7 @@ Result<ChangedPair> changed(const GearPair& pair, double distance_mm, double thi
                  .message = "at centre distance " + mm_text(other.centre_distance_mm) +
                             " the teeth no longer mesh",
                  .remedy = "a smaller tolerance of the centre distance"});
+  if (is_modified(train, mesh)) return changed_modified(train, mesh, other);
   return ChangedPair{circumferential_backlash_mm(other), sweep_clearance_mm(other)};
 }
 
@@ -95,7 +110,7 @@ Result<ClearanceField> clearance_field(const GearTrain& train, const TrainMesh& 
   field.thickness_mm = half1 + half2;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
-      const auto pair = changed(train.pair(mesh), (i - 1) * field.distance_mm, (k - 1) * half1,
+      const auto pair = changed(train, mesh, (i - 1) * field.distance_mm, (k - 1) * half1,
                                 (k - 1) * half2);
       if (!pair) return fail(pair.error());
       field.at[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = *pair;
@@ -197,7 +212,10 @@ Result<ToleranceResult> analyse_tolerances(const GearTrain& train, const Toleran
       error.message = mesh.name + " at the limits of its tolerances: " + error.message;
       return fail(std::move(error));
     }
-    MeshTolerance smallest{mesh.backlash_mm, mesh.backlash_mm, field->at[1][1].clearance_mm, 0.0};
+    const ChangedPair& nominal = field->at[1][1];
+    const double backlash =
+        is_modified(train, mesh) ? nominal.backlash_mm : mesh.backlash_mm;
+    MeshTolerance smallest{backlash, backlash, nominal.clearance_mm, 0.0};
     for (const auto& row : field->at)
       for (const ChangedPair& pair : row) {
         smallest.smallest_backlash_mm = std::min(smallest.smallest_backlash_mm, pair.backlash_mm);

@@ -6,6 +6,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/ring_criteria.h"
 
@@ -29,7 +30,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
     return finding;
   }
   const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
-  const double margin = trimming_margin_rad(pair);
+  const double margin = worst_margin_rad(train, mesh, trimming_margin_rad);
   const RadialRemoval& removal = *state.removal;
   if (std::isnan(margin)) {
     const double excess = pair.profile2->tip_radius_mm() - pair.profile1->tip_radius_mm();
@@ -50,11 +51,13 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   if (removal.at_every_rotation) return finding;
   finding.status = CheckStatus::kWarn;
   finding.message += axial_text(train, state);
+  const double unmodified = trimming_margin_rad(pair);
+  const double cost = std::isnan(unmodified) ? 0.0 : unmodified - margin;  // of the modifications
+  const PairMargin wanted = [cost](const GearPair& changed) {
+    return changed.internal() ? trimming_margin_rad(changed) - cost : kNaN;
+  };
   finding.cure = margin >= 0.0 ? "axial assembly; or more teeth between pinion and ring"
-                               : "axial assembly; or " +
-                                     cure_text(train, mesh, true, [](const GearPair& changed) {
-                                       return changed.internal() ? trimming_margin_rad(changed) : kNaN;
-                                     });
+                               : "axial assembly; or " + cure_text(train, mesh, true, wanted);
   return finding;
 }
 

@@ -7,6 +7,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/ring_criteria.h"
 
@@ -21,7 +22,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
     finding.message = "an external pair";
     return finding;
   }
-  const double margin = trochoid_margin_rad(pair);
+  const double margin = worst_margin_rad(train, mesh, trochoid_margin_rad);
   if (std::isinf(margin)) {
     finding.message = "the tip circles do not cross";
     return finding;
@@ -42,8 +43,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
                                       um_text(state.centred.penetration_mm())
                                 : "; the exact profiles clear each other by " +
                                       um_text(state.centred.clearance_mm);
-  finding.cure = cure_text(train, mesh, true, [](const GearPair& changed) {
-    return changed.internal() ? trochoid_margin_rad(changed) : kNaN;
+  const double cost = trochoid_margin_rad(pair) - margin;  // of the modifications
+  finding.cure = cure_text(train, mesh, true, [cost](const GearPair& changed) {
+    return changed.internal() ? trochoid_margin_rad(changed) - cost : kNaN;
   });
   return finding;
 }

@@ -41,9 +41,9 @@ std::string span_obstacle(const TrainGear& gear, int teeth_spanned) {
   const Gear& g = gear.profile.gear();
   if (g.kind == GearKind::kInternal) return "a ring has no span";
   const double needed = span_face_width_mm(g, teeth_spanned);
-  const double face = gear.twist.herringbone
-                          ? 0.5 * (gear.face_width_mm - gear.twist.relief_groove_mm)
-                          : gear.face_width_mm;
+  const double usable = gear.face_width_mm - 2.0 * gear.edge_chamfer_mm;
+  const double face =
+      gear.twist.herringbone ? 0.5 * (usable - gear.twist.relief_groove_mm) : usable;
   if (face > needed) return {};
   return "the span over " + std::to_string(teeth_spanned) + " teeth needs a face width above " +
          mm_digits(needed) + " mm, " + (gear.twist.herringbone ? "a half has " : "there are ") +

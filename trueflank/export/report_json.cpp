@@ -140,6 +140,7 @@ Json mesh_json(const Report& report, std::size_t index) {
   json["overlap_ratio"] = overlap_ratio(train, mesh);
   json["total_contact_ratio"] = ratios.effective + overlap_ratio(train, mesh);
   json["unrelieved_contact_ratio"] = modified.unrelieved_contact_ratio;
+  json["carrying_face_width_mm"] = common_face(train, mesh).carrying_mm;
   json["backlash_mm"] = mesh.backlash_mm;
   json["modified_backlash_mm"] = modified.backlash_mm;
   json["implied_backlash_mm"] = mesh.implied_backlash_mm;

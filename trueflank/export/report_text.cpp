@@ -156,6 +156,22 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return result + "\n";
 }
 
+/// The face that carries, where edge chamfers or a relief groove leave less than all of it.
+std::string carrying_text(const GearTrain& train) {
+  std::string text;
+  for (const TrainMesh& mesh : train.meshes) {
+    const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
+    const TrainGear& gear2 = train.gears[static_cast<std::size_t>(mesh.gear2)];
+    const double whole = std::min(gear1.face_width_mm, gear2.face_width_mm);
+    const double carrying = common_face(train, mesh).carrying_mm;
+    if (!(carrying < whole - 1e-9)) continue;
+    text += (text.empty() ? "carrying face width: " : ", ") + mesh.name + " " +
+            formatted("%.2f", carrying) + " of " + formatted("%.2f", whole) + " mm";
+  }
+  if (text.empty()) return text;
+  return wrapped(text + " (less edge chamfers and relief groove)", 0) + "\n";
+}
+
 /// Hands, overlap and axial forces; nothing for spur teeth.
 std::string helix_table(const Report& report) {
   const GearTrain& train = *report.train;
@@ -246,7 +262,7 @@ std::string report_text(const Report& report, TextColour colour) {
     failures += finding.status == CheckStatus::kFail;
   }
   std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
-                     helix_table(report) +
+                     carrying_text(*report.train) + helix_table(report) +
                      thickness_table(*report.train) +
                      check_table(report, colour) + file_table(report);
   text += "verdict: " + coloured(verdict(report.findings), colour);

@@ -175,18 +175,55 @@ HalfToothPolyline tessellate(const ToothProfile& profile, double asked_tolerance
   return line;
 }
 
-SectionPolygon section_polygon(const ToothProfile& profile, double tolerance_mm,
-                               double rotation_rad) {
-  const HalfToothPolyline half = tessellate(profile, tolerance_mm);
-  SectionPolygon section;
-  section.teeth = profile.gear().teeth;
-  section.chord_error_mm = half.chord_error_mm;
+HalfToothPolyline with_middles(HalfToothPolyline half, const ToothProfile& profile) {
+  if (!half.vertex_at_tooth_middle) {
+    const Point2 middle(half.points.front().norm(), 0.0);
+    half.points.insert(half.points.begin(), middle);
+    half.edges.insert(half.edges.begin(), {0, profile.pieces().front().curve.begin,
+                                           half.edges.empty() ? 0.0 : half.edges.front().from});
+  }
+  if (!half.vertex_at_gap_middle) {
+    const Curve& root = profile.pieces().back().curve;
+    half.points.push_back(half.points.back().norm() * unit_vector(kPi / profile.gear().teeth));
+    half.edges.push_back({static_cast<int>(profile.pieces().size()) - 1,
+                          half.edges.empty() ? root.begin : half.edges.back().to, root.end});
+  }
+  half.vertex_at_tooth_middle = half.vertex_at_gap_middle = true;
+  return half;
+}
+
+namespace {
+
+/// One tooth from the clockwise gap's middle on; the next tooth supplies its end.
+std::vector<Point2> tooth_points(const ToothProfile& profile, double tolerance_mm,
+                                 double& chord_error_mm) {
+  HalfToothPolyline half = tessellate(profile, tolerance_mm);
+  chord_error_mm = half.chord_error_mm;
   std::vector<Point2> tooth;
-  for (auto p = half.points.rbegin(); p != half.points.rend(); ++p) tooth.push_back(mirrored(*p));
-  // a vertex in the gap's middle belongs to the tooth that starts there; the next one supplies its end
+  if (profile.symmetric()) {
+    for (auto p = half.points.rbegin(); p != half.points.rend(); ++p) tooth.push_back(mirrored(*p));
+  } else {
+    const ToothProfile image = profile.mirror_image();
+    const HalfToothPolyline other = with_middles(tessellate(image, tolerance_mm), image);
+    chord_error_mm = std::max(chord_error_mm, other.chord_error_mm);
+    for (auto p = other.points.rbegin(); p != other.points.rend(); ++p)
+      tooth.push_back(mirrored(*p));
+    half = with_middles(std::move(half), profile);
+  }
+  // a vertex in the gap's middle belongs to the tooth that starts there
   for (std::size_t i = half.vertex_at_tooth_middle ? 1 : 0; i < half.points.size(); ++i)
     tooth.push_back(half.points[i]);
   if (half.vertex_at_gap_middle) tooth.pop_back();
+  return tooth;
+}
+
+}  // namespace
+
+SectionPolygon section_polygon(const ToothProfile& profile, double tolerance_mm,
+                               double rotation_rad) {
+  SectionPolygon section;
+  section.teeth = profile.gear().teeth;
+  const std::vector<Point2> tooth = tooth_points(profile, tolerance_mm, section.chord_error_mm);
   section.points_per_tooth = static_cast<int>(tooth.size());
   section.points.reserve(tooth.size() * static_cast<std::size_t>(section.teeth));
   for (int k = 0; k < section.teeth; ++k) {

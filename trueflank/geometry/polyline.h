@@ -25,7 +25,7 @@ struct HalfToothPolyline {
 
 /// Closed polygon of a whole gear or ring section, counter-clockwise, one tooth after the other.
 /// Tooth k (0-based) owns points [k n, (k + 1) n), n = points_per_tooth, starting at the clockwise
-/// gap's end of the tooth, symmetric about its middle.
+/// gap's end of the tooth, symmetric about its middle where the profile is.
 struct SectionPolygon {
   std::vector<Point2> points;
   int teeth = 0;
@@ -39,6 +39,10 @@ struct SectionPolygon {
 /// Requires: tolerance_mm > 0.
 /// Guarantees: distance polyline to curve and curve to polyline <= tolerance, both ways.
 [[nodiscard]] HalfToothPolyline tessellate(const ToothProfile& profile, double tolerance_mm);
+
+/// The half tooth with vertices in the middles of tooth and gap, whatever its arcs ask for: halves that
+/// are no mirror images join there.
+[[nodiscard]] HalfToothPolyline with_middles(HalfToothPolyline half, const ToothProfile& profile);
 
 /// All teeth. Frame: gear axis at the origin, tooth 1 centred on the direction `rotation_rad`.
 [[nodiscard]] SectionPolygon section_polygon(const ToothProfile& profile, double tolerance_mm,

@@ -45,86 +45,83 @@ Curve turned(const Curve& curve, double turn) {
   return result;
 }
 
-class SectionBuilder {
- public:
-  SectionBuilder(const Toothing& toothing, double z_mm)
-      : profile_(*toothing.profile), z_mm_(z_mm) {
-    const FlankDeviation field = *toothing.deviation;
-    const GearKind kind = profile_.gear().kind;
-    const Flank up = flank_side(Flank::kLeft, kind) > 0 ? Flank::kLeft : Flank::kRight;
-    const Flank down = up == Flank::kLeft ? Flank::kRight : Flank::kLeft;
-    const double mid =
-        0.5 * (profile_.root_form_roll_length_mm() + profile_.tip_form_roll_length_mm());
-    const double leaning =
-        0.5 * (field.deviation_mm(0, up, mid, z_mm) - field.deviation_mm(0, down, mid, z_mm));
-    turn_ = leaning / (base_radius_mm(profile_.gear()) *
-                       std::cos(base_helix_angle_rad(profile_.gear())));
-    alike_ = std::make_shared<const FlankDeviation>(
-        FlankDeviation{.deviation_mm =
-                           [field, up, leaning](int, Flank, double roll, double z) {
-                             return field.deviation_mm(0, up, roll, z) - leaning;
-                           },
-                       .roll_breaks_mm = field.roll_breaks_mm});
-    toothing_ = {.profile = &profile_, .twist = toothing.twist, .deviation = alike_.get()};
-  }
+/// What the halves of a section are made of; shared, as a section outlives the toothing it is of.
+struct SectionSource {
+  ToothProfile profile;
+  FlankDeviation deviation;
+  FaceTwist twist;
+  double z_mm = 0.0;
 
-  ToothSection build() {
-    const auto& pieces = profile_.pieces();
-    const double r_b = base_radius_mm(profile_.gear());
+  [[nodiscard]] Toothing toothing() const {
+    return {.profile = &profile, .twist = twist, .deviation = &deviation};
+  }
+};
+
+/// One half of the tooth, the clockwise one mirrored.
+class HalfBuilder {
+ public:
+  HalfBuilder(std::shared_ptr<const SectionSource> source, int side)
+      : source_(std::move(source)), toothing_(source_->toothing()), side_(side) {
+    const auto& pieces = source_->profile.pieces();
     const auto flank = std::find_if(pieces.begin(), pieces.end(), [](const ProfilePiece& p) {
       return p.kind == PieceKind::kInvolute;
     });
     TRUEFLANK_EXPECTS(flank != pieces.end());
     flank_ = static_cast<std::size_t>(flank - pieces.begin());
-    const double tip_turn = turn_of(flank_, flank->curve.begin);
-    const double root_turn = turn_of(flank_, flank->curve.end);
-    const bool alike_all_over = is_constant(flank->curve, tip_turn);
-    if (alike_all_over && std::abs(tip_turn) * r_b < kNothing_mm)
-      return {profile_, turn_, std::abs(turn_) * r_b < kNothing_mm};
+    tip_turn_ = turn_of(flank->curve.begin);
+    root_turn_ = turn_of(flank->curve.end);
+    turned_as_a_whole_ = is_constant(flank->curve);
+  }
+
+  [[nodiscard]] bool as_designed() const {
+    return turned_as_a_whole_ && std::abs(tip_turn_) * base_radius_mm(gear()) < kNothing_mm;
+  }
+
+  [[nodiscard]] std::vector<ProfilePiece> build() const {
+    const auto& pieces = source_->profile.pieces();
+    if (as_designed()) return pieces;
     std::vector<ProfilePiece> section;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const ProfilePiece& piece = pieces[i];
       if (piece.kind == PieceKind::kTip) {
         Curve land = piece.curve;
-        land.end += tip_turn;
+        land.end += tip_turn_;
         section.push_back({piece.kind, land});
-      } else if (i < flank_) {
-        section.push_back({piece.kind, turned(piece.curve, tip_turn)});
-      } else if (i == flank_ && alike_all_over) {
-        section.push_back({piece.kind, turned(piece.curve, tip_turn)});
+      } else if (i < flank_ || (i == flank_ && turned_as_a_whole_)) {
+        section.push_back({piece.kind, turned(piece.curve, tip_turn_)});
       } else if (i == flank_) {
         add_flank(piece.curve, section);
-      } else if (piece.kind == PieceKind::kFillet && root_turn != 0.0) {
+      } else if (i == flank_ + 1 && piece.kind == PieceKind::kFillet && root_turn_ != 0.0) {
         section.push_back({piece.kind, deviated(i, piece.curve.begin, piece.curve.end)});
       } else {
         section.push_back(piece);
       }
     }
-    return {profile_.with_pieces(std::move(section)), turn_, false};
+    return section;
   }
 
  private:
-  [[nodiscard]] double turn_of(std::size_t piece, double parameter) const {
-    return deviation_turn_rad(toothing_, {0, 1, piece, parameter}, z_mm_);
+  [[nodiscard]] const Gear& gear() const { return source_->profile.gear(); }
+
+  [[nodiscard]] double turn_of(double parameter) const {
+    return deviation_turn_rad(toothing_, {0, side_, flank_, parameter}, source_->z_mm);
   }
 
-  [[nodiscard]] bool is_constant(const Curve& flank, double turn) const {
+  [[nodiscard]] bool is_constant(const Curve& flank) const {
     constexpr int kPlaces = 32;
-    const double r_b = base_radius_mm(profile_.gear());
+    const double r_b = base_radius_mm(gear());
     for (int i = 0; i <= kPlaces; ++i) {
       const double at = flank.begin + (flank.end - flank.begin) * i / kPlaces;
-      if (std::abs(turn_of(flank_, at) - turn) * r_b > kNothing_mm) return false;
+      if (std::abs(turn_of(at) - tip_turn_) * r_b > kNothing_mm) return false;
     }
     return true;
   }
 
-  /// Holds what it needs: the section outlives the toothing it was made of.
   [[nodiscard]] Curve deviated(std::size_t piece, double begin, double end) const {
-    auto profile = std::make_shared<const ToothProfile>(profile_);
     return point_curve(
-        [profile, field = alike_, twist = toothing_.twist, piece, z = z_mm_](double t) {
-          return section_point({.profile = profile.get(), .twist = twist, .deviation = field.get()},
-                               {0, 1, piece, t}, z);
+        [source = source_, side = side_, piece](double t) {
+          const Point2 point = section_point(source->toothing(), {0, side, piece, t}, source->z_mm);
+          return side > 0 ? point : mirrored(point);
         },
         begin, end);
   }
@@ -132,13 +129,14 @@ class SectionBuilder {
   /// The flank in smooth pieces. A break of the field shows on the circle to which the deviation
   /// takes its point.
   void add_flank(const Curve& flank, std::vector<ProfilePiece>& section) const {
-    const double r_b = base_radius_mm(profile_.gear());
-    const double sense = profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
-    const double to_transverse = 1.0 / std::cos(base_helix_angle_rad(profile_.gear()));
+    const double r_b = base_radius_mm(gear());
+    const double sense = gear().kind == GearKind::kExternal ? 1.0 : -1.0;
+    const double to_transverse = 1.0 / std::cos(base_helix_angle_rad(gear()));
+    const Flank which = flank_side(Flank::kLeft, gear().kind) == side_ ? Flank::kLeft : Flank::kRight;
     std::vector<double> ends{flank.begin, flank.end};
-    for (double roll : alike_->roll_breaks_mm) {
-      const double moved =
-          (roll + sense * to_transverse * alike_->deviation_mm(0, Flank::kLeft, roll, z_mm_)) / r_b;
+    for (double roll : source_->deviation.roll_breaks_mm) {
+      const double deviation = source_->deviation.deviation_mm(0, which, roll, source_->z_mm);
+      const double moved = (roll + sense * to_transverse * deviation) / r_b;
       if ((moved - flank.begin) * (moved - flank.end) < 0.0) ends.push_back(moved);
     }
     std::sort(ends.begin(), ends.end());
@@ -147,21 +145,42 @@ class SectionBuilder {
       section.push_back({PieceKind::kInvolute, deviated(flank_, ends[i], ends[i + 1])});
   }
 
-  const ToothProfile& profile_;
-  double z_mm_;
-  double turn_ = 0.0;
-  std::shared_ptr<const FlankDeviation> alike_;
+  std::shared_ptr<const SectionSource> source_;
   Toothing toothing_;
+  int side_;
   std::size_t flank_ = 0;
+  double tip_turn_ = 0.0, root_turn_ = 0.0;
+  bool turned_as_a_whole_ = false;
 };
+
+/// Whether both flanks deviate alike at a height.
+bool flanks_alike(const SectionSource& source) {
+  constexpr int kPlaces = 32;
+  const double root = source.profile.root_form_roll_length_mm();
+  const double tip = source.profile.tip_form_roll_length_mm();
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double roll = root + (tip - root) * i / kPlaces;
+    const auto of = [&](Flank flank) {
+      return source.deviation.deviation_mm(0, flank, roll, source.z_mm);
+    };
+    if (std::abs(of(Flank::kLeft) - of(Flank::kRight)) > kNothing_mm) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
 ToothSection section_profile(const Toothing& toothing, double z_mm) {
   TRUEFLANK_EXPECTS(toothing.profile != nullptr);
-  if (!toothing.has_deviation()) return {*toothing.profile, 0.0, true};
+  if (!toothing.has_deviation()) return {*toothing.profile, true};
   TRUEFLANK_EXPECTS(!toothing.deviation->varies_by_tooth);
-  return SectionBuilder(toothing, z_mm).build();
+  const auto source = std::make_shared<const SectionSource>(
+      SectionSource{*toothing.profile, *toothing.deviation, toothing.twist, z_mm});
+  const HalfBuilder half(source, 1);
+  if (flanks_alike(*source))
+    return {half.as_designed() ? source->profile : source->profile.with_pieces(half.build()),
+            half.as_designed()};
+  return {source->profile.with_pieces(half.build(), HalfBuilder(source, -1).build()), false};
 }
 
 }  // namespace trueflank

@@ -154,9 +154,17 @@ Status ProfileBuilder::round_tip() {
 
 Result<ToothProfile> ToothProfile::make(const Gear& gear) { return ProfileBuilder(gear).build(); }
 
-ToothProfile ToothProfile::with_pieces(std::vector<ProfilePiece> pieces) const {
+ToothProfile ToothProfile::with_pieces(std::vector<ProfilePiece> pieces,
+                                       std::vector<ProfilePiece> clockwise) const {
   ToothProfile other = *this;
   other.pieces_ = std::move(pieces);
+  other.clockwise_ = std::move(clockwise);
+  return other;
+}
+
+ToothProfile ToothProfile::mirror_image() const {
+  ToothProfile other = *this;
+  if (!symmetric()) std::swap(other.pieces_, other.clockwise_);
   return other;
 }
 
@@ -167,9 +175,10 @@ double ToothProfile::tip_form_roll_length_mm() const {
   return roll_length_mm(tip_form_radius_mm_, base_radius_mm(gear_));
 }
 double ToothProfile::tip_thickness_mm() const {
-  const ProfilePiece& first = pieces_.front();
-  if (first.kind != PieceKind::kTip) return 0.0;
-  return 2.0 * tip_radius_mm_ * (first.curve.end - first.curve.begin);
+  const ProfilePiece &first = pieces_.front(), &other = clockwise_pieces().front();
+  if (first.kind != PieceKind::kTip || other.kind != PieceKind::kTip) return 0.0;
+  return tip_radius_mm_ *
+         ((first.curve.end - first.curve.begin) + (other.curve.end - other.curve.begin));
 }
 
 }  // namespace trueflank

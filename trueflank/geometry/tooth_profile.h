@@ -54,12 +54,22 @@ class ToothProfile {
   /// tests/geometry/tooth_profile_test.cpp, helical teeth in helical_generation_test.cpp.
   [[nodiscard]] static Result<ToothProfile> make(const Gear& gear);
 
-  /// The same gear with another half tooth: the section of a modified toothing (section_profile.h).
-  /// Circles and form circles stay those of the design.
-  [[nodiscard]] ToothProfile with_pieces(std::vector<ProfilePiece> pieces) const;
+  /// The same gear with other half teeth: the section of a modified toothing (section_profile.h).
+  /// Circles and form circles stay those of the design. `clockwise`: see clockwise_pieces(); empty
+  /// where the halves are mirror images.
+  [[nodiscard]] ToothProfile with_pieces(std::vector<ProfilePiece> pieces,
+                                         std::vector<ProfilePiece> clockwise = {}) const;
+  /// Seen from the other side: the halves change places.
+  [[nodiscard]] ToothProfile mirror_image() const;
 
   [[nodiscard]] const Gear& gear() const { return gear_; }
   [[nodiscard]] const std::vector<ProfilePiece>& pieces() const { return pieces_; }
+  /// The clockwise half, mirrored into the counter-clockwise one: the same pieces on a gear as designed,
+  /// others where a section's flanks deviate unlike.
+  [[nodiscard]] const std::vector<ProfilePiece>& clockwise_pieces() const {
+    return symmetric() ? pieces_ : clockwise_;
+  }
+  [[nodiscard]] bool symmetric() const { return clockwise_.empty(); }
   [[nodiscard]] const ProfileNotes& notes() const { return notes_; }
 
   /// Radius where the tooth really ends: the tip circle, or where a pointed tooth ends.
@@ -81,7 +91,7 @@ class ToothProfile {
  private:
   friend class ProfileBuilder;
   Gear gear_;
-  std::vector<ProfilePiece> pieces_;
+  std::vector<ProfilePiece> pieces_, clockwise_;
   ProfileNotes notes_;
   double tip_radius_mm_ = 0.0, root_radius_mm_ = 0.0;
   double root_form_radius_mm_ = 0.0, tip_form_radius_mm_ = 0.0;

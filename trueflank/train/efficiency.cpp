@@ -6,6 +6,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/train/efficiency_sliding.h"
+#include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
@@ -25,11 +26,8 @@ MeshEfficiency mesh_efficiency(const GearTrain& train, const TrainMesh& mesh, do
                         .base_helix_angle_rad = base_helix_angle_rad(pair.gear1())},
                        friction);
   result.formula_applies = contact_ratio_formula_applies(ratios.approach, ratios.recess);
-  const double face_width = std::min(train.gears[mesh.gear1].face_width_mm,
-                                     train.gears[mesh.gear2].face_width_mm);
   // the halves of a herringbone run alike: one of them tells
-  const FaceTwist& twist = train.gears[mesh.gear1].twist;
-  const double helix_width = (face_width - twist.relief_groove_mm) * (twist.herringbone ? 0.5 : 1.0);
+  const double helix_width = common_face(train, mesh).helix_mm;
   sliding = sliding_efficiency(contact_path(pair, helix_width), friction, LoadSharing::kEqual);
   result.by_path_integral = sliding.gear1_driving;
   return result;

@@ -32,32 +32,68 @@ double deviation_of(const TrainGear& gear, Flank flank, double roll_mm, double z
              : gear.deviation.deviation_mm(0, flank, roll_mm, z_mm - gear.z_lower_mm);
 }
 
-double play_mm(const GearTrain& train, const TrainMesh& mesh, int side1, double z_mm) {
-  const GearPair pair = train.pair(mesh);
-  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
-  const LineOfAction line = line_of_action(pair);
-  const double working = working_pressure_angle_rad(pair);
-  const double span = pair.centre_distance_mm * std::sin(working);
-  const double half = 0.5 * mesh.backlash_mm * std::cos(working);
-  const double cos_b = std::cos(base_helix_angle_rad(pair.gear1()));
-  const TouchingFlanks flanks = touching(pair, side1);
-  double least = 1e300;
-  const auto look = [&](double roll1) {
-    const double roll2 = pair.internal() ? roll1 + span : span - roll1;
-    least = std::min(least, half - (deviation_of(gear1, flanks.flank1, roll1, z_mm) +
-                                    deviation_of(gear2, flanks.flank2, roll2, z_mm)) /
-                                       cos_b);
-  };
+/// What both flanks that touch at a roll of gear 1 have, transverse; `gap_mm`: what parts them along the
+/// line of action there.
+class TouchingMaterial {
+ public:
+  TouchingMaterial(const GearTrain& train, const TrainMesh& mesh, int side1, double z_mm)
+      : gear1_(gear_of(train, mesh.gear1)),
+        gear2_(gear_of(train, mesh.gear2)),
+        internal_(gear2_.profile.gear().kind == GearKind::kInternal),
+        z_mm_(z_mm) {
+    const GearPair pair = train.pair(mesh);
+    const double working = working_pressure_angle_rad(pair);
+    span_mm_ = pair.centre_distance_mm * std::sin(working);
+    to_transverse_ = 1.0 / std::cos(base_helix_angle_rad(pair.gear1()));
+    flanks_ = touching(pair, side1);
+  }
+
+  [[nodiscard]] double at(double roll1_mm, double gap_mm = 0.0) const {
+    const double roll2 =
+        internal_ ? roll1_mm + span_mm_ + gap_mm : span_mm_ - roll1_mm - gap_mm;
+    return (deviation_of(gear1_, flanks_.flank1, roll1_mm, z_mm_) +
+            deviation_of(gear2_, flanks_.flank2, roll2, z_mm_)) *
+           to_transverse_;
+  }
+  /// Rolls of gear 1 at which either field bends, where nothing parts the flanks.
+  [[nodiscard]] std::vector<double> breaks() const {
+    std::vector<double> rolls = gear1_.deviation.roll_breaks_mm;
+    for (double roll : gear2_.deviation.roll_breaks_mm)
+      rolls.push_back(internal_ ? roll - span_mm_ : span_mm_ - roll);
+    return rolls;
+  }
+
+ private:
+  const TrainGear &gear1_, &gear2_;
+  bool internal_;
+  double z_mm_, span_mm_ = 0.0, to_transverse_ = 1.0;
+  TouchingFlanks flanks_{};
+};
+
+/// Most material that meets on the path of contact.
+double most_material_mm(const TouchingMaterial& material, const LineOfAction& line, double gap_mm) {
+  double most = -1e300;
   constexpr int kPlaces = 200;
   const double length = line.effective_end_mm - line.effective_start_mm;
-  for (int i = 0; i <= kPlaces; ++i) look(line.effective_start_mm + length * i / kPlaces);
-  const auto at_break = [&](double roll1) {
-    if (roll1 > line.effective_start_mm && roll1 < line.effective_end_mm) look(roll1);
-  };
-  for (double roll : gear1.deviation.roll_breaks_mm) at_break(roll);
-  for (double roll : gear2.deviation.roll_breaks_mm)
-    at_break(pair.internal() ? roll - span : span - roll);
-  return least;
+  for (int i = 0; i <= kPlaces; ++i)
+    most = std::max(most, material.at(line.effective_start_mm + length * i / kPlaces, gap_mm));
+  for (double roll : material.breaks())
+    if (roll > line.effective_start_mm && roll < line.effective_end_mm)
+      most = std::max(most, material.at(roll, gap_mm));
+  return most;
+}
+
+/// A flank's point with a deviation d lies d further along the line of action than the involute's, and the
+/// mate's the rest of the gap away: play = half backlash - (d1 + d2), read where the flanks touch.
+double play_mm(const GearTrain& train, const TrainMesh& mesh, int side1, double z_mm) {
+  const GearPair pair = train.pair(mesh);
+  const LineOfAction line = line_of_action(pair);
+  const double half = 0.5 * mesh.backlash_mm * std::cos(working_pressure_angle_rad(pair));
+  const TouchingMaterial material(train, mesh, side1, z_mm);
+  double play = half - most_material_mm(material, line, 0.0);
+  for (int i = 0; i < 3; ++i)  // contracts by the slope of the deviations
+    play = half - most_material_mm(material, line, half - play);
+  return play;
 }
 
 /// In the groove between herringbone halves there are no teeth.
@@ -110,18 +146,63 @@ double unrelieved_ratio(const GearTrain& train, const TrainMesh& mesh) {
   return std::max(0.0, end - start) / line.base_pitch_mm;
 }
 
+/// The range on one side of the teeth at a height.
+ActivePath active_path_at(const TouchingMaterial& material, const LineOfAction& line) {
+  constexpr double kEqual_mm = 1e-9;
+  const double pitch = line.base_pitch_mm;
+  const auto touches = [&](double roll) {
+    const double own = material.at(roll);
+    for (int sign : {1, -1})
+      for (double other = roll + sign * pitch;
+           other > line.effective_start_mm && other < line.effective_end_mm; other += sign * pitch)
+        if (material.at(other) > own + kEqual_mm) return false;
+    return true;
+  };
+  constexpr int kPlaces = 400;
+  // from one end inwards to the first place that touches
+  const auto first = [&](double from, double to) {
+    double before = from;
+    for (int i = 0; i <= kPlaces; ++i) {
+      double at = from + (to - from) * i / kPlaces;
+      if (!touches(at)) {
+        before = at;
+        continue;
+      }
+      for (int k = 0; i > 0 && k < 40; ++k) {
+        const double middle = 0.5 * (before + at);
+        (touches(middle) ? at : before) = middle;
+      }
+      return at;
+    }
+    return to;
+  };
+  return {first(line.start_mm, line.end_mm), first(line.end_mm, line.start_mm)};
+}
+
 }  // namespace
 
 CommonFace common_face(const GearTrain& train, const TrainMesh& mesh) {
   const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
   CommonFace face;
-  face.lower_mm = std::max(gear1.z_lower_mm, gear2.z_lower_mm);
-  face.upper_mm = std::min(gear1.z_lower_mm + gear1.face_width_mm,
-                           gear2.z_lower_mm + gear2.face_width_mm);
+  const auto lower = [](const TrainGear& g) { return g.z_lower_mm + g.edge_chamfer_mm; };
+  const auto upper = [](const TrainGear& g) {
+    return g.z_lower_mm + g.face_width_mm - g.edge_chamfer_mm;
+  };
+  face.lower_mm = std::max(lower(gear1), lower(gear2));
+  face.upper_mm = std::min(upper(gear1), upper(gear2));
   face.carrying_mm =
       std::max(0.0, face.upper_mm - face.lower_mm - gear1.twist.relief_groove_mm);
   face.helix_mm = gear1.twist.herringbone ? 0.5 * face.carrying_mm : face.carrying_mm;
   return face;
+}
+
+double twist_over_face_rad(const GearTrain& train, const TrainMesh& mesh) {
+  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
+  const double width =
+      std::min(gear1.z_lower_mm + gear1.face_width_mm, gear2.z_lower_mm + gear2.face_width_mm) -
+      std::max(gear1.z_lower_mm, gear2.z_lower_mm);
+  return std::abs(gear1.twist.turn_rad_per_mm) * std::max(0.0, width) *
+         (gear1.twist.herringbone ? 0.5 : 1.0);
 }
 
 double overlap_ratio(const GearTrain& train, const TrainMesh& mesh) {
@@ -157,21 +238,6 @@ std::vector<double> section_heights_mm(const GearTrain& train, const TrainMesh& 
   return heights;
 }
 
-double closing_turn_rad(const GearTrain& train, const TrainMesh& mesh, double z_mm) {
-  const GearPair pair = train.pair(mesh);
-  const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
-  const auto leaning = [&](const TrainGear& gear, Flank touching_flank) {
-    const Flank other = touching_flank == Flank::kLeft ? Flank::kRight : Flank::kLeft;
-    const double mid = 0.5 * (gear.profile.root_form_roll_length_mm() +
-                              gear.profile.tip_form_roll_length_mm());
-    return 0.5 * (deviation_of(gear, touching_flank, mid, z_mm) -
-                  deviation_of(gear, other, mid, z_mm));
-  };
-  const TouchingFlanks flanks = touching(pair, 1);
-  return (leaning(gear1, flanks.flank1) + leaning(gear2, flanks.flank2)) /
-         (base_radius_mm(pair.gear2()) * std::cos(base_helix_angle_rad(pair.gear1())));
-}
-
 ModifiedMesh modified_mesh(const GearTrain& train, const TrainMesh& mesh) {
   ModifiedMesh result;
   result.modified = !gear_of(train, mesh.gear1).deviation.empty() ||
@@ -193,6 +259,21 @@ ModifiedMesh modified_mesh(const GearTrain& train, const TrainMesh& mesh) {
       (result.ccw_play_mm + result.cw_play_mm) / std::cos(working_pressure_angle_rad(pair));
   result.unrelieved_contact_ratio = unrelieved_ratio(train, mesh);
   return result;
+}
+
+ActivePath active_path(const GearTrain& train, const TrainMesh& mesh) {
+  const LineOfAction line = line_of_action(train.pair(mesh));
+  if (gear_of(train, mesh.gear1).deviation.empty() && gear_of(train, mesh.gear2).deviation.empty())
+    return {line.start_mm, line.end_mm};
+  const CommonFace face = common_face(train, mesh);
+  ActivePath path{line.end_mm, line.start_mm};
+  for (int side : {1, -1}) {
+    const double z = height_of_least_play(train, mesh, side, face);
+    const ActivePath of = active_path_at(TouchingMaterial(train, mesh, side, z), line);
+    path.start_mm = std::min(path.start_mm, of.start_mm);
+    path.end_mm = std::max(path.end_mm, of.end_mm);
+  }
+  return path;
 }
 
 }  // namespace trueflank

@@ -8,13 +8,17 @@
 // What a mesh is along its face: the width that carries, and what modifications make of its play.
 namespace trueflank {
 
-/// The face both gears of a mesh have, in the assembly.
+/// The face both gears of a mesh have, in the assembly, without the edge chamfers of either: the usable
+/// face width of ISO 21771.
 struct CommonFace {
   double lower_mm = 0.0, upper_mm = 0.0;
   double carrying_mm = 0.0;  ///< width less the relief groove; 0 where they do not face each other
   double helix_mm = 0.0;     ///< of one helix: half of it for herringbone teeth
 };
 [[nodiscard]] CommonFace common_face(const GearTrain& train, const TrainMesh& mesh);
+
+/// Angle by which gear 1's sections turn over the whole common face, chamfers included.
+[[nodiscard]] double twist_over_face_rad(const GearTrain& train, const TrainMesh& mesh);
 
 /// Overlap ratio of one helix: its width over the axial pitch, b sin(beta) / (pi m_n); 0 for spur.
 /// Source: ISO 21771; a herringbone's halves carry side by side and do not add.
@@ -24,7 +28,7 @@ struct CommonFace {
 struct ModifiedMesh {
   bool modified = false;
   /// From the centred position to the touch of gear 1's counter-clockwise (clockwise) flanks, along the
-  /// line of action, smallest over face and path of contact.
+  /// line of action, smallest over face and path of contact. Accuracy: 1e-8 mm on the involutes.
   double ccw_play_mm = kNaN, cw_play_mm = kNaN;
   double backlash_mm = kNaN;  ///< both, circumferential at the working pitch circle
   /// Transverse contact ratio between the starts of the reliefs, where involute runs on involute.
@@ -37,8 +41,12 @@ struct ModifiedMesh {
 /// varies along it.
 [[nodiscard]] std::vector<double> section_heights_mm(const GearTrain& train, const TrainMesh& mesh);
 
-/// How far helix slopes close the play of gear 1's counter-clockwise flanks at a height, as a turn of
-/// gear 2 [rad].
-[[nodiscard]] double closing_turn_rad(const GearTrain& train, const TrainMesh& mesh, double z_mm);
+/// Where modified flanks touch without load, as roll lengths of gear 1, between the ends that the tip form
+/// circles set: there no neighbouring pair of teeth, a base pitch away, has more material. Of both sides of
+/// the teeth the larger range. Without modifications that of line_of_action, from tip to tip.
+struct ActivePath {
+  double start_mm = kNaN, end_mm = kNaN;
+};
+[[nodiscard]] ActivePath active_path(const GearTrain& train, const TrainMesh& mesh);
 
 }  // namespace trueflank

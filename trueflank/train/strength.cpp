@@ -38,9 +38,7 @@ struct MeshGeometry {
 
 MeshGeometry geometry_of(const GearTrain& train, const TrainMesh& mesh) {
   MeshGeometry g{.pair = train.pair(mesh)};
-  g.face_width_mm = std::min(train.gears[mesh.gear1].face_width_mm,
-                             train.gears[mesh.gear2].face_width_mm) -
-                    train.gears[mesh.gear1].twist.relief_groove_mm;
+  g.face_width_mm = common_face(train, mesh).carrying_mm;
   g.contact_ratio = std::max(1.0, contact_ratios(g.pair).effective);
   g.overlap_ratio = overlap_ratio(train, mesh);
   g.count = train.design.kind == TrainKind::kPair ? 1 : train.design.planets;
