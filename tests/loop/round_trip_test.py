@@ -200,6 +200,40 @@ amount_um = "side * v * (1 + cos(angle))"
         self.assertGreater(numpy.count_nonzero(on_flank), 3000)
         self.assertLess(numpy.abs(distance[on_flank]).max(), 0.8)
 
+    def test_what_a_compensated_part_still_lacks_is_corrected_on_top(self):
+        (self.folder / "own.toml").write_text("[process.wide]\nhorizontal_expansion_mm = 0.03\n")
+        (self.folder / "design.toml").write_text('tools = "own.toml"\n' + DESIGN +
+                                                 '[made]\nprocess = "wide"\n')
+        def make(name, *options, code=0):
+            done = run("make", self.folder / "design.toml", "-o", self.folder / name, "--formats", "stl,step",
+                       "--tolerance-um", "0.3", *options, code=code)
+            return done if code else triangles(self.folder / name / "gear.stl")
+        def closed(mesh):
+            points = scan(mesh, 30000, 4)
+            radius = numpy.hypot(points[:, 0], points[:, 1])
+            write_xyz(self.folder / "scan.xyz", points[(radius > 11.4) & (radius < 12.9)])
+            run("loop", self.folder / "design.toml", self.folder / "scan.xyz", "--aligned", "-o",
+                self.folder / "loop", "--quiet")
+            return [e["id"] for e in json.loads((self.folder / "loop/loop.json").read_text())["effects"]]
+        both = ("--compensate", "--correct", self.folder / "loop/loop.json")
+        grown = growing_process(make("moved", "--compensate"))
+        found = closed(grown)
+        corrected = make("corrected", *both)
+        before, after = rms(flank_errors(grown)), rms(flank_errors(growing_process(corrected)))
+        print(f"compensated: {found} {before:.2f} -> {after:.2f} um rms")
+        self.assertIn("helix_error", found)
+        self.assertGreater(before, 8.0)
+        self.assertLess(after, before / 8)
+        # without the compensation the corrected part would be too thick by all of the expansion
+        self.assertGreater(rms(flank_errors(growing_process(make("alone", *both[1:])))), 25.0)
+        files = json.loads((self.folder / "corrected/report.json").read_text())["files"]
+        self.assertEqual([(f["format"], f["compensated_for"]) for f in files], [("stl", "wide")])
+        # a part made without it shows the expansion, which must not be taken away twice
+        found = closed(growing_process(make("plain")))
+        self.assertTrue({"tooth_thickness", "contour_offset"} & set(found), found)
+        self.assertIn("made without --compensate", make("twice", *both, code=2).stderr)
+        self.assertLess(rms(flank_errors(growing_process(make("alone", *both[1:])))), before / 8)
+
     def test_wrong_files_of_effects_are_refused_with_line_and_remedy(self):
         write_xyz(self.folder / "scan.xyz", scan(self.made, 2000, 5))
         for text, words in (("", "declares no effect"),
@@ -232,6 +266,16 @@ amount_um = "side * v * (1 + cos(angle))"
         run("loop", self.folder / "design.toml", half, "--aligned", "-o", self.folder / "l")
         notes = json.loads((self.folder / "l/loop.json").read_text())["notes"]
         self.assertTrue(any("half.xyz" in note for note in notes), notes)
+
+
+def growing_process(mesh):
+    """Flanks come out 30 um too far outwards, and turned with height by 25 um over the face."""
+    x, y, z = mesh.reshape(-1, 3).T
+    base = 0.5 * MODULE * TEETH * math.cos(ALPHA)
+    off = (numpy.arctan2(y, x) + math.pi / TEETH) % (2 * math.pi / TEETH) - math.pi / TEETH
+    turn = (0.030 * numpy.sign(off) + 0.025 * (z / FACE - 0.5)) / base
+    return numpy.column_stack([x * numpy.cos(turn) - y * numpy.sin(turn),
+                               x * numpy.sin(turn) + y * numpy.cos(turn), z]).reshape(-1, 3, 3)
 
 
 def process_of_declared(points):

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <future>
 
 #include "trueflank/app/commands.h"
@@ -47,11 +48,6 @@ Errors usage_errors(const MakeOptions& options) {
                       .key = "--kerf-mm",
                       .value = std::to_string(*options.kerf_mm),
                       .remedy = "0 to 20"});
-  if (options.compensate && !options.correct.empty())
-    errors.push_back({.code = ErrorCode::kUsage,
-                      .message = "a correction from measured parts holds the process's effects",
-                      .key = "--compensate",
-                      .remedy = "either --compensate or --correct"});
   return errors;
 }
 
@@ -126,12 +122,20 @@ int run_make(const MakeOptions& options) {
   if (auto ok = io::create_folder(folder); !ok) return report_errors({ok.error()});
   const bool failed = verdict(report.findings) == CheckStatus::kFail;
   if (!failed || options.allow_failing) {
+    std::optional<CompensatedShapes> compensated_shapes;  // which corrections displace
     CorrectedParts corrected;
     if (!options.correct.empty()) {
-      auto made = corrected_parts(*train, *shapes, options.correct, mm_from_um(options.tolerance_um));
+      if (options.compensate) {
+        auto walls = compensated_walls(*shapes, *train->design.made.process, told);
+        if (!walls) return report_errors(located_in(options.design, {walls.error()}));
+        compensated_shapes = std::move(*walls);
+      }
+      const auto* walls = compensated_shapes ? &*compensated_shapes : nullptr;
+      auto made = corrected_parts(*train, *shapes, walls, options.correct,
+                                  mm_from_um(options.tolerance_um));
       if (!made) return report_errors(made.error());
       corrected = std::move(*made);
-      formats = formats_of_corrected(*formats, corrected);
+      formats = formats_of_corrected(*formats, options.compensate, corrected);
       told += corrected.text;
     }
     auto files = exported_files({.train = &*train,
@@ -142,11 +146,13 @@ int run_make(const MakeOptions& options) {
                                  .tolerance_mm = mm_from_um(options.tolerance_um),
                                  .kerf_mm = train->design.made.kerf_mm.value_or(0.0),
                                  .part = options.part},
-                                options.compensate, told);
+                                options.compensate && options.correct.empty(), told);
     if (!files) {
       const bool of_design = files.error().front().key.starts_with("made.");
       return report_errors(of_design ? located_in(options.design, files.error()) : files.error());
     }
+    if (compensated_shapes)
+      for (io::ReportedFile& file : *files) file.compensated_for = train->design.made.process->name;
     report.tolerance_um = options.tolerance_um;
     report.files = std::move(*files);
     const auto scad = [](const io::ReportedFile& file) { return file.format == "scad"; };

@@ -36,9 +36,32 @@ Errors located(Error error, const std::string& file) {
   return {error};
 }
 
+std::string um(double length_mm) {
+  return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
+}
+
+/// A compensated part comes out as designed but for what the process does otherwise than expected: a part
+/// whose walls stand outside by more than half of what was to be compensated was not compensated.
+Errors compensated_twice(const loop::Correction& correction, const Process& process,
+                         const std::string& file) {
+  const double found = correction.walls_outside_mm(), expected = process.horizontal_expansion_mm;
+  if (!(std::abs(found - expected) < std::abs(found))) return {};
+  return {{.code = ErrorCode::kInconsistent,
+           .message = "the walls of the measured part stand " + um(found) + " outside, and " +
+                      process.name + " puts them " + um(expected) +
+                      " outside: it was made without --compensate, and what the process does would be "
+                      "taken away twice",
+           .key = "--compensate",
+           .remedy = "--correct alone; where the part was compensated all the same, a "
+                     "horizontal_expansion_mm of the process that is larger by " + um(found) +
+                     ", and a part made with it",
+           .file = file}};
+}
+
 }  // namespace
 
 ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShapes& shapes,
+                                          const CompensatedShapes* compensated,
                                           const std::string& loop_json_file, double tolerance_mm) {
   const auto text = loop::read_whole_file(loop_json_file);
   if (!text) return fail_all({text.error()});
@@ -51,16 +74,23 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
                       .key = "gear",
                       .value = *name,
                       .file = loop_json_file}});
-  const loop::FlankGeometry geometry(gear->profile, gear->face_width_mm, 0.0,
-                                     train.design.herringbone);
+  // the walls to displace are those that are written
+  const ToothProfile& profile =
+      compensated ? *compensated->moved.at(&gear->profile) : gear->profile;
+  const loop::FlankGeometry geometry(profile, gear->face_width_mm, 0.0, train.design.herringbone);
   const auto correction = loop::Correction::make(*text, geometry);
   if (!correction) return fail_all(located(correction.error(), loop_json_file));
-  CorrectedParts result{.shapes = shapes, .meshes = {}, .displacement = nullptr, .text = {}};
+  if (compensated)
+    if (Errors errors = compensated_twice(*correction, *train.design.made.process, loop_json_file);
+        !errors.empty())
+      return fail_all(std::move(errors));
+  CorrectedParts result{.shapes = compensated ? compensated->shapes : shapes,
+                        .meshes = {}, .displacement = nullptr, .text = {}};
   const auto on_teeth = std::make_shared<const loop::Correction>(correction->without_scale());
   if (!on_teeth->empty()) {
     result.displacement = std::make_shared<const Displacement>(
         [on_teeth](const std::array<double, 3>& point) { return on_teeth->displacement_mm(point); });
-    for_toothings(result.shapes, gear->profile, [&](std::size_t, ToothedOutline& teeth) {
+    for_toothings(result.shapes, profile, [&](std::size_t, ToothedOutline& teeth) {
       teeth.displacement = result.displacement.get();
     });
   }
@@ -69,7 +99,7 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
     for (const PartShape& part : result.shapes.parts)
       result.meshes.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
     std::set<std::size_t> done;  // a groove parts the teeth of one gear
-    for_toothings(result.shapes, gear->profile, [&](std::size_t part, const ToothedOutline& teeth) {
+    for_toothings(result.shapes, profile, [&](std::size_t part, const ToothedOutline& teeth) {
       if (!done.insert(part).second) return;
       TriangleMesh& mesh = result.meshes[part].mesh;
       if (teeth.rotation_rad != 0.0) turn(mesh, -teeth.rotation_rad);
@@ -88,8 +118,9 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
 namespace {
 
 /// Why neither STEP nor drawings can carry a correction; empty where they can.
-std::string reason_for_meshes_only(const CorrectedParts& corrected,
+std::string reason_for_meshes_only(const CorrectedParts& corrected, bool compensated,
                                    const std::vector<io::FileFormat>& formats) {
+  if (compensated) return "only meshes are compensated";
   if (!corrected.meshes.empty()) return "a scale of the part goes into meshes only";
   const bool asked = std::any_of(formats.begin(), formats.end(), [](io::FileFormat format) {
     return format == io::FileFormat::kStep || format == io::FileFormat::kDxf ||
@@ -105,8 +136,8 @@ std::string reason_for_meshes_only(const CorrectedParts& corrected,
 }  // namespace
 
 std::vector<io::FileFormat> formats_of_corrected(const std::vector<io::FileFormat>& formats,
-                                                 CorrectedParts& corrected) {
-  const std::string reason = reason_for_meshes_only(corrected, formats);
+                                                 bool compensated, CorrectedParts& corrected) {
+  const std::string reason = reason_for_meshes_only(corrected, compensated, formats);
   std::vector<io::FileFormat> kept;
   std::string dropped;
   for (const io::FileFormat format : formats) {

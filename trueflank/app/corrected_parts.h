@@ -8,6 +8,7 @@
 #include "trueflank/base/result.h"
 #include "trueflank/export/export_parts.h"
 #include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/process_compensation.h"
 
 namespace trueflank::app {
 
@@ -20,15 +21,20 @@ struct CorrectedParts {
   std::string text;  ///< what was corrected, what was left and why: lines for a person
 };
 
-/// Errors: of the file, and where its gear is not of this design.
+/// `compensated`: parts with walls moved against the design's process, of which the measured ones were
+/// made; the correction comes on top. nullptr: parts as designed.
+/// Errors: of the file, where its gear is not of this design, and where the measured part shows the
+/// process's expansion, which is then that of a part made without compensation.
 [[nodiscard]] ResultAll<CorrectedParts> corrected_parts(const GearTrain& train,
                                                         const PartShapes& shapes,
+                                                        const CompensatedShapes* compensated,
                                                         const std::string& loop_json_file,
                                                         double tolerance_mm);
 
 /// The formats that can carry a correction: all but OpenSCAD; meshes only, where it is of the whole
-/// part or bends teeth too sharply for splines. What was asked for beside them is told in its text.
+/// part, bends teeth too sharply for splines or is of compensated parts. What was asked for beside them
+/// is told in its text.
 [[nodiscard]] std::vector<io::FileFormat> formats_of_corrected(
-    const std::vector<io::FileFormat>& formats, CorrectedParts& corrected);
+    const std::vector<io::FileFormat>& formats, bool compensated, CorrectedParts& corrected);
 
 }  // namespace trueflank::app

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueflank/solid/process_compensation.h"
-
 namespace trueflank::app {
 namespace {
 
@@ -24,7 +22,23 @@ std::string um(double length_mm) {
   return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
 }
 
+std::string compensation_text(const Process& process) {
+  std::string text = "meshes are compensated for " + process.name + ": walls " +
+                     um(process.horizontal_expansion_mm) + " inwards";
+  if (process.elephant_foot_mm > 0.0)
+    text += "; not for its elephant foot of " + um(process.elephant_foot_mm) +
+            ", which is the slicer's";
+  return text + "\n";
+}
+
 }  // namespace
+
+Result<CompensatedShapes> compensated_walls(const PartShapes& shapes, const Process& process,
+                                            std::string& told) {
+  auto moved = compensated(shapes, process);
+  if (moved) told += compensation_text(process);
+  return moved;
+}
 
 ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& model,
                                                         io::ExportOptions options, bool compensate,
@@ -49,12 +63,7 @@ ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& m
     if (!made) return made;
     for (io::ReportedFile& file : *made) file.compensated_for = process->name;
     files = std::move(*made);
-    told += "meshes are compensated for " + process->name + ": walls " +
-            um(process->horizontal_expansion_mm) + " inwards";
-    if (process->elephant_foot_mm > 0.0)
-      told += "; not for its elephant foot of " + um(process->elephant_foot_mm) +
-              ", which is the slicer's";
-    told += "\n";
+    told += compensation_text(*process);
   }
   if (others.formats.empty()) return files;
   auto made = io::export_parts(model, others);

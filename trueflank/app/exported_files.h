@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trueflank/export/export_parts.h"
+#include "trueflank/solid/process_compensation.h"
 
 namespace trueflank::app {
 
@@ -15,5 +16,10 @@ namespace trueflank::app {
                                                                       io::ExportOptions options,
                                                                       bool compensate,
                                                                       std::string& told);
+
+/// compensated(), and a line for a person.
+[[nodiscard]] Result<CompensatedShapes> compensated_walls(const PartShapes& shapes,
+                                                          const Process& process,
+                                                          std::string& told);
 
 }  // namespace trueflank::app

@@ -114,19 +114,27 @@ std::vector<Edge> outline_near_mesh(const OutlineHalves& halves, int teeth, doub
   const double pitch = kTwoPi / teeth;
   const int first = static_cast<int>(std::ceil((-reach_rad - rotation_rad) / pitch));
   const int last = static_cast<int>(std::floor((reach_rad - rotation_rad) / pitch));
+  const HalfToothPolyline& half = halves.half;
+  const HalfToothPolyline& other = halves.clockwise ? *halves.clockwise : half;
   for (int k = first; k <= last; ++k) {
-    const double turn = rotation_rad + pitch * k;
-    const HalfToothPolyline& half = halves.half;
-    const HalfToothPolyline& other = halves.clockwise ? *halves.clockwise : half;
-    for (std::size_t i = 0; i + 1 < half.points.size(); ++i)
-      edges.push_back({centre_mm + rotated(half.points[i], turn),
-                       centre_mm + rotated(half.points[i + 1], turn)});
-    for (std::size_t i = 0; i + 1 < other.points.size(); ++i)
-      edges.push_back({centre_mm + rotated(mirrored(other.points[i + 1]), turn),
-                       centre_mm + rotated(mirrored(other.points[i]), turn)});
+    const Point2 axis = unit_vector(rotation_rad + pitch * k), across = perpendicular(axis);
+    const auto placed = [&](double x, double y) -> Point2 {
+      return centre_mm + x * axis + y * across;
+    };
+    Point2 last_point = placed(half.points.front().x(), half.points.front().y());
     if (!half.vertex_at_tooth_middle)
-      edges.push_back({centre_mm + rotated(mirrored(half.points.front()), turn),
-                       centre_mm + rotated(half.points.front(), turn)});
+      edges.push_back({placed(half.points.front().x(), -half.points.front().y()), last_point});
+    for (std::size_t i = 1; i < half.points.size(); ++i) {
+      const Point2 next = placed(half.points[i].x(), half.points[i].y());
+      edges.push_back({last_point, next});
+      last_point = next;
+    }
+    last_point = placed(other.points.front().x(), -other.points.front().y());
+    for (std::size_t i = 1; i < other.points.size(); ++i) {
+      const Point2 next = placed(other.points[i].x(), -other.points[i].y());
+      edges.push_back({next, last_point});
+      last_point = next;
+    }
   }
   return edges;
 }

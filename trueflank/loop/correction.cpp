@@ -257,6 +257,19 @@ bool Correction::moves_whole_part() const {
                      [](const Part& p) { return p.effect.family->id == "scale"; });
 }
 
+double Correction::walls_outside_mm() const {
+  double outside = 0.0;
+  for (const Part& part : parts_) {
+    const std::string& id = part.effect.family->id;
+    if (id == "contour_offset") outside += mm_from_um(part.coefficients[0]);
+    // both flanks of the tooth, from the reference circle to the flank's normal
+    if (id == "tooth_thickness")
+      outside += 0.5 * mm_from_um(part.coefficients[0]) * geometry_.base_radius_mm() /
+                 geometry_.reference_radius_mm();
+  }
+  return outside;
+}
+
 TriangleMesh Correction::apply(const TriangleMesh& mesh, double z_lower_mm) const {
   const double b = geometry_.face_width_mm();
   TriangleMesh result = mesh;

@@ -42,6 +42,9 @@ class Correction {
   /// the two, some hundredths of a micrometre.
   [[nodiscard]] Correction scale_alone() const { return only(true); }
   [[nodiscard]] Correction without_scale() const { return only(false); }
+  /// How far all walls were found to stand outside the model [mm], normal to them: contour offset and
+  /// tooth thickness, the two that a process's horizontal expansion shows as.
+  [[nodiscard]] double walls_outside_mm() const;
   [[nodiscard]] bool empty() const { return parts_.empty(); }
   [[nodiscard]] const std::vector<std::string>& corrected() const { return corrected_; }
   /// What stays, and why: one sentence each.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "trueflank/base/units.h"
@@ -54,21 +53,20 @@ class Compensator {
       return {};
     }
     auto& toothed = std::get<ToothedOutline>(outline);
-    if (const auto known = moved_.find(toothed.profile); known != moved_.end()) {
+    if (const auto known = result_.moved.find(toothed.profile); known != result_.moved.end()) {
       toothed.profile = known->second;
       return {};
     }
     auto profile = ToothProfile::make(offset_gear(toothed.profile->gear(), inwards));
     if (!profile) return fail(does_not_exist(part, inwards, profile.error().message));
     result_.profiles.push_back(std::move(*profile));
-    moved_[toothed.profile] = &result_.profiles.back();
+    result_.moved[toothed.profile] = &result_.profiles.back();
     toothed.profile = &result_.profiles.back();
     return {};
   }
 
   const Process& process_;
   CompensatedShapes result_;
-  std::map<const ToothProfile*, const ToothProfile*> moved_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 
 #include "trueflank/base/result.h"
 #include "trueflank/solid/part_shape.h"
@@ -13,6 +14,8 @@ namespace trueflank {
 struct CompensatedShapes {
   PartShapes shapes;                  ///< assembly and names as they were
   std::deque<ToothProfile> profiles;  ///< of the shapes' outlines; they move along with it
+  /// From the profiles of the shapes it was made of to those in `profiles`.
+  std::map<const ToothProfile*, const ToothProfile*> moved = {};
 };
 
 /// Every wall moved into the material by the process's horizontal expansion (outwards where that is

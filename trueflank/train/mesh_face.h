@@ -8,8 +8,8 @@
 // What a mesh is along its face: the width that carries, and what modifications make of its play.
 namespace trueflank {
 
-/// The face both gears of a mesh have, in the assembly, without the edge chamfers of either: the usable
-/// face width of ISO 21771.
+/// The face both gears of a mesh have, in the assembly, without the edge chamfers of either: where
+/// flanks can touch.
 struct CommonFace {
   double lower_mm = 0.0, upper_mm = 0.0;
   double carrying_mm = 0.0;  ///< width less the relief groove; 0 where they do not face each other
