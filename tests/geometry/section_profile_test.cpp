@@ -51,6 +51,15 @@ double distance_to(const std::vector<ProfilePiece>& pieces, const Point2& p) {
   return best;
 }
 
+/// Two pieces of fillet: the involute of the protuberance's side and the trochoid.
+Gear protuberant_gear() {
+  Gear gear = test::external_gear(24, 0.1);
+  gear.rack.dedendum = 1.4;
+  gear.rack.protuberance = 0.05;
+  gear.rack.protuberance_angle_rad = rad_from_deg(10.0);
+  return gear;
+}
+
 class Sections : public ::testing::TestWithParam<test::SampleGear> {};
 
 TEST_P(Sections, LieOnTheToothSurfaceAtTheirHeightOnEitherSide) {
@@ -117,6 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
     Of, Sections,
     ::testing::Values(test::SampleGear{"external", test::external_gear(24, 0.1, 2.0)},
                       test::SampleGear{"ring", test::ring_gear(60, 0.2)},
+                      test::SampleGear{"protuberant", protuberant_gear()},
                       test::SampleGear{"rounded", test::with_tip_rounding(test::external_gear(24, 0.1), 0.15)},
                       test::SampleGear{"trimmed", test::shaped_ring(36, 0.0, {30, 0.0, 0.2})}),
     [](const auto& tested) { return tested.param.name; });

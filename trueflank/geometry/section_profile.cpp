@@ -91,7 +91,7 @@ class HalfBuilder {
         section.push_back({piece.kind, turned(piece.curve, tip_turn_)});
       } else if (i == flank_) {
         add_flank(piece.curve, section);
-      } else if (i == flank_ + 1 && piece.kind == PieceKind::kFillet && root_turn_ != 0.0) {
+      } else if (piece.kind == PieceKind::kFillet && root_turn_ != 0.0) {
         section.push_back({piece.kind, deviated(i, piece.curve.begin, piece.curve.end)});
       } else {
         section.push_back(piece);
