@@ -16,6 +16,7 @@
 #include "trueflank/geometry/involute.h"
 #include "trueflank/geometry/section_profile.h"
 #include "trueflank/train/mesh_face.h"
+#include "trueflank/train/strength.h"
 
 namespace trueflank::test {
 namespace {
@@ -118,6 +119,39 @@ TEST(ModifiedCriteria, TipReliefClearsThePrototypesFilletAndMaterialAtTheTipDoes
   EXPECT_EQ(finding_of(thick, "fillet_interference", "planet1-ring1").status, CheckStatus::kFail);
 }
 
+TEST(ModifiedContactRatio, IsBetweenTheTipFormCirclesOfRoundedTips) {
+  GearboxDesign design = pair_design(25, 40, false);
+  gear(design, "pinion").shift = gear(design, "wheel").shift = 0.0;
+  for (const char* name : {"pinion", "wheel"}) gear(design, name).modifications.tip_rounding_mm = 0.15;
+  const GearTrain train = laid_out(design);
+  // unshifted: a = m (z1 + z2) / 2, r_a = m (z / 2 + 1); the rounding meets the flank, on the tangent of the
+  // base circle, rho beyond the arc's centre
+  const double alpha = kPi / 9.0, rho = 0.15;
+  const auto form_roll = [&](int z) {
+    const double r_a = 0.5 * z + 1.0, r_b = 0.5 * z * std::cos(alpha);
+    return std::sqrt((r_a - rho) * (r_a - rho) - r_b * r_b) + rho;
+  };
+  const double expected = (form_roll(25) + form_roll(40) - 32.5 * std::sin(alpha)) / (kPi * std::cos(alpha));
+  const ContactRatios ratios = contact_ratios(train.pair(train.meshes[0]));
+  EXPECT_NEAR(ratios.total, expected, 1e-9);
+  const Finding finding = only(check_gearbox(train), "contact_ratio");
+  EXPECT_NEAR(finding.value, expected, 1e-9);
+  EXPECT_NE(finding.message.find("from the tip form circles"), std::string::npos) << finding.message;
+}
+
+TEST(ModifiedCriteria, ProcessesSeeModifiedTipsAndBacklash) {
+  GearboxDesign design = pair_design(23, 37, false, 0.2);
+  design.made.process = *ProcessTable().find("fdm-0.4");
+  const auto backlash_of = [](const GearboxDesign& d) {
+    return finding_of(d, "manufacturability", "pinion-wheel").value;
+  };
+  EXPECT_NEAR(backlash_of(design), 0.2, 1e-12);
+  gear(design, "pinion").modifications.helix_slope_um = 30.0;
+  const GearTrain train = laid_out(design);
+  const double cosine = std::cos(working_pressure_angle_rad(train.pair(train.meshes[0])));
+  EXPECT_NEAR(backlash_of(design), 0.2 - 0.030 / cosine, 1e-9);
+}
+
 TEST(ModifiedCriteria, TipMarginsFallByWhatTheTipsGain) {
   GearboxDesign design = pair_design(30, 42, true, 0.05);
   const GearTrain plain = laid_out(design);
@@ -134,6 +168,20 @@ TEST(ModifiedCriteria, TipMarginsFallByWhatTheTipsGain) {
   EXPECT_NEAR(worst_margin_rad(train, mesh, trimming_margin_rad), trimming - gained, 1e-3 * gained);
   const Finding finding = only(check_gearbox(train), "trochoid_interference");
   EXPECT_NEAR(finding.value, deg_from_rad(trochoid - gained), deg_from_rad(1e-3 * gained));
+}
+
+TEST(ModifiedCriteria, HelixSlopesThatMatchCostTheTipsNothing) {
+  GearboxDesign design = pair_design(30, 42, true, 0.05);
+  const GearTrain plain = laid_out(design);
+  const GearPair pair = plain.pair(plain.meshes[0]);
+  // both sections turn the same way: what the pinion's leading corner gains the ring's other side lacks
+  for (const char* name : {"pinion", "wheel"}) gear(design, name).modifications.helix_slope_um = 16.0;
+  const GearTrain train = laid_out(design);
+  const double slack = 1e-3 * 0.008 / base_radius_mm(pair.gear2());
+  EXPECT_NEAR(worst_margin_rad(train, train.meshes[0], trochoid_margin_rad),
+              trochoid_margin_rad(pair), slack);
+  EXPECT_NEAR(worst_margin_rad(train, train.meshes[0], trimming_margin_rad),
+              trimming_margin_rad(pair), slack);
 }
 
 TEST(ModifiedCriteria, TrochoidAgreesWithTurningTheModifiedTips) {
@@ -284,6 +332,17 @@ TEST(CarryingFace, LosesTheEdgeChamfersOfBothGears) {
   train = laid_out(design);
   EXPECT_NEAR(common_face(train, train.meshes[0]).lower_mm, 0.3, 1e-12);
   EXPECT_NEAR(common_face(train, train.meshes[0]).upper_mm, 9.8, 1e-12);
+}
+
+TEST(CarryingFace, CarriesTheLoad) {
+  GearboxDesign design = pair_design(23, 37, false, 0.1);
+  const auto whole = strength(laid_out(design));
+  gear(design, "wheel").modifications.edge_chamfer_mm = 0.25;
+  const auto chamfered = strength(laid_out(design));
+  ASSERT_TRUE(whole && chamfered);
+  EXPECT_NEAR(chamfered->meshes[0].tooth1.bending_force_n,
+              0.95 * whole->meshes[0].tooth1.bending_force_n, 1e-9);
+  EXPECT_NEAR(chamfered->meshes[0].contact_force_n, 0.95 * whole->meshes[0].contact_force_n, 1e-9);
 }
 
 TEST(CarryingFace, IsWhereHelixSlopesAreJudged) {
