@@ -58,7 +58,7 @@ py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, doub
   {
     py::gil_scoped_release unlocked;
     app::CorrectedParts corrected =
-        value_or_throw(app::corrected_parts(self.train(), self.shapes(), file, tolerance_mm));
+        value_or_throw(app::corrected_parts(self.train(), self.shapes(), nullptr, file, tolerance_mm));
     made = std::move(corrected.meshes);
     if (made.empty())
       for (const PartShape& part : corrected.shapes.parts)
