@@ -18,10 +18,14 @@ struct ClosedLoop {
   loop::GearLoop closed;
 };
 
-/// One path or several.
+/// One path or several, or those of several parts by the parts' names.
 std::vector<std::string> paths_of(const py::object& data) {
   std::vector<std::string> files;
-  if (py::isinstance<py::str>(data) || py::hasattr(data, "__fspath__"))
+  if (py::isinstance<py::dict>(data)) {
+    for (const auto& [part, paths] : py::reinterpret_borrow<py::dict>(data))
+      for (const std::string& file : paths_of(py::reinterpret_borrow<py::object>(paths)))
+        files.push_back(py::cast<std::string>(part) + "=" + file);
+  } else if (py::isinstance<py::str>(data) || py::hasattr(data, "__fspath__"))
     files.push_back(path_text(data));
   else
     for (const py::handle file : data) files.push_back(path_text(py::reinterpret_borrow<py::object>(file)));
@@ -125,7 +129,8 @@ void bind_loop(py::module_& module) {
   auto type = py::reinterpret_borrow<py::class_<Gearbox, std::shared_ptr<Gearbox>>>(gearbox);
   type.def("close_loop", &close_loop, py::arg("gear"), py::arg("data"), py::arg("aligned") = false,
            py::arg("effects") = py::none(),
-           "Closes the loop of one gear with measured files (a path or several): scans, inspection, sizes.\n"
+           "Closes the loop of one gear with measured files (a path or several): scans, inspection, sizes;\n"
+           "of several parts: {part: path or paths}, or \"part=path\".\n"
            "`aligned`: scans stand in the gear's own frame. `effects`: a file with effects of your own.")
       .def("close_drive_loop", &close_drive_loop, py::arg("data"),
            "Closes the loop of the whole drive with bench files (a path or several).")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Types of the compiled module. tests/python/stubs_test.py holds it against the module."""
 import os
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -57,7 +57,7 @@ class Gearbox:
     def close_loop(
         self,
         gear: str,
-        data: Union[_Path, Iterable[_Path]],
+        data: Union[_Path, Iterable[_Path], Mapping[str, Union[_Path, Iterable[_Path]]]],
         aligned: bool = False,
         effects: Optional[_Path] = None,
     ) -> ClosedLoop: ...

@@ -78,6 +78,7 @@ inline const loop::Parameter& parameter(const loop::FoundEffect& effect, const s
 /// The effects in one line, for messages of failing tests.
 inline std::string list(const loop::LoopResult& result) {
   std::string text = to_text(result.verdict);
+  if (result.verdict == loop::Verdict::kPartlyExplained) text += " (" + result.structure_left + ")";
   for (const auto& effect : result.effects) {
     text += "; " + effect.id + " " + effect.flank;
     for (const auto& p : effect.parameters) text += " " + p.name + "=" + std::to_string(p.value);

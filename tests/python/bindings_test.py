@@ -199,6 +199,32 @@ class Bindings(unittest.TestCase):
                                           tolerance_um=5.1)["same"])
         self.assertGreater(trueflank.compare(gearbox.mesh("gear", 5), corrected["gear"])["max_um"], 25)
 
+    def test_loop_of_several_parts_and_own_effects_is_the_programs(self):
+        design = OUTPUT / "parts.toml"
+        design.write_text('format = 1\nname = "g"\n[gearbox]\nkind = "gear"\nmodule_mm = 1.0\n[gear]\n'
+                          "teeth = 20\nshift = 0.0\nface_width_mm = 10.0\n")
+        mine = OUTPUT / "mine.toml"
+        mine.write_text('[split]\ndescription = "halves"\n[split.form]\n'
+                        'amount_um = "step(sin(theta))"\n')
+        files = {}
+        for part, seed in (("a", 5), ("b", 6)):
+            random = np.random.default_rng(seed)
+            rows = ["# zero = common", "record,tooth,flank,diameter_mm,z_mm,deviation_um"]
+            for tooth in range(1, 21):
+                for flank in ("left", "right"):
+                    value = 20.0 * (np.sin(2 * np.pi * (tooth - 1) / 20) > 0) + random.normal()
+                    rows.append(f"index,{tooth},{flank},20,5,{value:.4f}")
+            files[part] = OUTPUT / f"{part}.csv"
+            files[part].write_text("\n".join(rows) + "\n")
+        arguments = [f"{part}={path}" for part, path in files.items()]
+        self.assertEqual(program("loop", design, *arguments, "--effects", mine, "-o", OUTPUT / "parts",
+                                 "-q").returncode, 0)
+        text = (OUTPUT / "parts/loop.json").read_text()
+        self.assertIn("split", [e["id"] for e in json.loads(text)["effects"]])
+        gearbox = trueflank.read(design)
+        for data in (files, {"a": [files["a"]], "b": files["b"]}, arguments):
+            self.assertEqual(gearbox.close_loop("gear", data, effects=mine).json_text(), text)
+
     def test_drive_loop_is_the_programs(self):
         random, ratio = np.random.default_rng(4), self.report["train"]["ratio"]
         rows = ["direction,input_speed_rpm,input_torque_nm,output_torque_nm"]

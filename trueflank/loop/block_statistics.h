@@ -17,6 +17,13 @@ class BlockStatistics {
   /// Makes a group's columns model columns; returns the first of them. One pass over the values.
   int add_group(int group);
 
+  /// @name Values used, and what is fitted to them, less the weighted mean of each trace's zero
+  /// @{
+  [[nodiscard]] const std::vector<int>& used() const { return order_; }
+  [[nodiscard]] const Eigen::VectorXd& value() const { return value_; }
+  [[nodiscard]] const Eigen::MatrixXd& model() const { return model_; }
+  [[nodiscard]] const CandidateMatrix& candidates() const { return candidates_; }
+  /// @}
   [[nodiscard]] int model_columns() const { return static_cast<int>(model_.cols()); }
   [[nodiscard]] int units() const { return units_; }
   [[nodiscard]] int folds() const { return folds_; }

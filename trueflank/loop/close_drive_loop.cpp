@@ -71,6 +71,9 @@ class Loop {
           table_.points[i].driven_nm - predicted_nm(model_, curve_, table_.points[i]);
   }
 
+  /// Of what hangs together some is left when units were merged: a quarter of the level makes up for it.
+  [[nodiscard]] double share_of_level() const { return table_.drifts ? 0.25 : 1.0; }
+
   template <class Predicate>
   bool ban(const Predicate& which) {
     bool any = false;
@@ -83,8 +86,7 @@ class Loop {
     const DriveContext here = context();
     DiscoveryOptions options;
     options.banned = banned;
-    // Of what hangs together some is left when units were merged: half the level makes up for it.
-    options.first_level = table_.drifts ? 0.5 * options_.level : options_.level;
+    options.first_level = share_of_level() * options_.level;
     Outcome outcome;
     outcome.discovery = discover(drive_problem(here, value_, candidates_), options);
     for (const ChosenGroup& chosen : outcome.discovery.chosen)
@@ -329,7 +331,7 @@ class Loop {
     const DiscoveryResult& d = outcome.discovery;
     const bool left = d.p_left <= kLeft && d.likest_left >= 0;
     if (outcome.effects.empty())
-      r.verdict = d.first_p_value <= kLeft ? Verdict::kPartlyExplained : Verdict::kNoEffect;
+      r.verdict = d.first_p_value <= share_of_level() * kLeft ? Verdict::kPartlyExplained : Verdict::kNoEffect;
     else
       r.verdict = left ? Verdict::kPartlyExplained : Verdict::kExplained;
     if (left)

@@ -263,6 +263,7 @@ class Selection {
         const CandidateGroup& a = problem_.groups[chosen_[i].record.group];
         const CandidateGroup& b = problem_.groups[chosen_[k].record.group];
         const CrossValidation model(problem_, statistics_, active(i, k));
+        // A name for one flank may stand for a name for both and what the other flank lacks of it.
         const int limit = std::min(a.preference, b.preference);
         const int most = std::max(a.preference, b.preference);
         const double earned = (model.base_errors() - full).sum();
@@ -270,7 +271,8 @@ class Selection {
         double best_loss = 1e300;
         for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
           const CandidateGroup& group = problem_.groups[g];
-          if (!allowed(g) || group.local_family >= 0 || group.preference > limit ||
+          if (!allowed(g) || group.local_family >= 0 ||
+              group.preference > (group.named && a.named != b.named ? most : limit) ||
               group.columns >= a.columns + b.columns)
             continue;
           const FoldErrors loss = model.errors_with(g) - full;

@@ -20,6 +20,7 @@ struct CandidateGroup {
   /// Groups of one family that each live in one unit (one tooth) are judged against each other.
   int local_family = -1;   ///< -1: not local
   int kin = -1;            ///< groups that are one effect at other shape parameters; -1: none
+  bool named = true;       ///< false: free form, which is given no cause
   double complexity = 0.0; ///< of candidates of one preference and size the simplest wins
 };
 
@@ -35,6 +36,8 @@ struct DiscoveryProblem {
   /// take no part in standard errors; -1: none.
   int anchor_fold = -1;
   std::vector<int> zero;            ///< n: values that share an unknown constant; -1: none
+  /// n: values of one trace or flank, whose parts may be units; -1: none. Empty: none at all.
+  std::vector<int> whole;
 };
 
 struct DiscoveryOptions {
@@ -66,9 +69,10 @@ struct DiscoveryResult {
 /// Forward selection with joint refit.
 /// Test of structure: sign flips of whole units, the largest group statistic against the largest of
 /// every flip (each flip makes a decoy of every candidate), each group scaled by its own flips, so that
-/// correlation within a unit costs power, not validity. Choice: cross-validated error over folds; of
-/// candidates within one standard error of the best the one preferred; then replacement, merging of two
-/// into one, and removal of what does not earn one standard error.
+/// correlation within a unit costs power, not validity. Of few traces or flanks, whose signs are soon all
+/// tried, also how much they agree: an F test of each group over whole traces (agreement.h). Choice:
+/// cross-validated error over folds; of candidates within one standard error of the best the one preferred;
+/// then replacement, merging of two into one, and removal of what does not earn one standard error.
 /// Errors of units must be symmetric and independent; nothing else is assumed.
 [[nodiscard]] DiscoveryResult discover(const DiscoveryProblem& problem,
                                        const DiscoveryOptions& options);

@@ -31,7 +31,7 @@ std::vector<Shape> free_shapes(const FlankGeometry& g) {
   for (int i = 0; i <= kMostProfileDegree; ++i)
     for (int j = 0; j <= kMostFaceDegree; ++j) {
       if (i + j > 4) continue;
-      const int most = std::min(half, i + j == 0 ? 20 : i + j <= 2 ? 6 : 3);
+      const int most = std::min(half, i + j == 0 ? 60 : i + j <= 2 ? 6 : 3);
       for (int n = 0; n <= most; ++n)
         for (const int flanks : {0, 1}) {
           if (i + j == 0 && n == 0 && flanks == 1) continue;  // a turn: no effect

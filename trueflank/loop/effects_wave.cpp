@@ -25,7 +25,7 @@ EffectFamily pitch_wave() {
   f.parameters = {"amplitude_um", "phase_deg"};
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;
-  f.shapes = [](const FlankGeometry& g) { return orders(1, std::min(24, (g.teeth() - 1) / 2)); };
+  f.shapes = [](const FlankGeometry& g) { return orders(1, std::min(60, (g.teeth() - 1) / 2)); };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
@@ -75,8 +75,9 @@ EffectFamily ghost_order() {
   f.form = ParameterForm::kWave;
   f.preference = 1;
   f.shapes = [](const FlankGeometry& g) {
-    // Below, a wave is lobing or pitch; above a few per tooth it is finer than the patches.
-    return orders(std::max(4, g.teeth() / 3), std::min(3 * g.teeth(), 160));
+    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer than
+    // the patches.
+    return orders(3, std::min(3 * g.teeth(), 160));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const Shape& shape, double* c) {
     c[0] = c[1] = 0.0;

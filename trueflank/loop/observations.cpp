@@ -6,6 +6,7 @@
 #include <map>
 
 #include "trueflank/geometry/tooth_span.h"
+#include "trueflank/loop/measured_lands.h"
 #include "trueflank/loop/text_table.h"
 
 namespace trueflank::loop {
@@ -129,6 +130,7 @@ class TableBuilder {
     const double chamfer = geometry_.edge_chamfer_mm();
     const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1) + chamfer;
     const double b = geometry_.face_width_mm();
+    const MeasuredLands lands(geometry_, scan, pose, reach);
     std::size_t unused = 0;
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
       const auto p = pose(scan.points_mm[i]);
@@ -136,7 +138,8 @@ class TableBuilder {
       // Without normals, points at the very ends of the face may lie on the end faces.
       const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
       const bool usable = placed.place.surface != Surface::kNone && p[2] > inside &&
-                          p[2] < b - inside && looks_outwards(scan, i, pose, placed.place);
+                          p[2] < b - inside && looks_outwards(scan, i, pose, placed.place) &&
+                          !(placed.place.surface == Surface::kFlank && lands.covers(placed.place, p));
       if (!usable) {
         ++unused;
         continue;

@@ -12,6 +12,10 @@
 namespace trueflank::loop {
 namespace {
 
+/// Level of a second effect, and of a part's own beside what is of all: smaller than the engine's, for
+/// spurious ones of a tenth of the noise are many.
+constexpr double kNextLevel = 0.005;
+
 /// Order around the gear of a named effect, and how much of what it explains may stay unexplained at that
 /// order before the name is doubted; 0: no wave.
 struct Kin {
@@ -39,6 +43,7 @@ PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options op
 void PartLoop::run() {
   patches_ = make_patches(geometry_, table_);
   ban_what_cannot_be_seen();
+  unseen_ = banned_;
   ban_given();
   for (int round = 0; round < 5; ++round) {
     select();
@@ -51,6 +56,7 @@ void PartLoop::run() {
   }
   if (!is_rounding()) look_at_single_teeth();
   look_at_sizes();
+  if (!is_rounding() && !options_.joined) look_at_neighbours();
 }
 
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
@@ -65,16 +71,34 @@ bool PartLoop::is_rounding() const {
 /// profile only; in values one a tooth every order looks like a lower one.
 void PartLoop::ban_what_cannot_be_seen() {
   bool along_profile = false, along_face = false;
+  // A product of both shows where flanks were scanned, or traced at several heights or diameters.
+  constexpr double kSeveral = 0.2;
+  double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
+  bool scanned = false;
   for (const Observation& row : table_.rows) {
     const bool scan = row.kind == ObservationKind::kScanFlank;
+    scanned = scanned || scan;
+    const double u = geometry_.profile_coordinate(table_.place(row).roll_mm);
+    const double v = geometry_.face_coordinate(table_.place(row).z_mm);
+    if (row.kind == ObservationKind::kHelix) {
+      least_u = std::min(least_u, u);
+      most_u = std::max(most_u, u);
+    }
+    if (row.kind == ObservationKind::kProfile) {
+      least_v = std::min(least_v, v);
+      most_v = std::max(most_v, v);
+    }
     along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
     along_face = along_face || scan || row.kind == ObservationKind::kHelix;
   }
+  const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const std::string& id = candidates_[g].family->id;
     const auto& shape = candidates_[g].shape;
     if (!along_profile && (id == "ghost_order" || id == "flank_twist" || id == "flank_wear" ||
                            id == "tip_relief" || (id == "unnamed" && shape[0] > 0.0)))
+      banned_[g] = true;
+    if (!crossed && (id == "flank_twist" || (id == "unnamed" && shape[0] > 0.0 && shape[1] > 0.0)))
       banned_[g] = true;
     if (!along_face && (id == "flank_twist" || (id == "unnamed" && shape[1] > 0.0)))
       banned_[g] = true;
@@ -104,8 +128,10 @@ void PartLoop::select() {
     add_nuisance(problem, make_problem(geometry_, table_, patches_, options_.given));
   DiscoveryOptions options;
   options.banned = banned_;
-  options.first_level /= options_.tables;
-  options.next_level /= options_.tables;
+  // What no flip reaches is as sure as flips can say.
+  options.next_level = std::max(kNextLevel / options_.tables, 1.01 / (options.flips + 1.0));
+  // With effects given, something was found already.
+  options.first_level = options_.given.empty() ? options.first_level / options_.tables : options.next_level;
   options.local_level /= options_.tables;
   discovery_ = discover(problem, options);
   if (is_rounding()) {
@@ -157,7 +183,7 @@ bool PartLoop::linearise() {
 std::vector<std::string> PartLoop::not_observable() const {
   std::vector<std::string> seen, hidden;
   for (std::size_t g = 0; g < candidates_.size(); ++g)
-    if (g < discovery_.observable.size() && discovery_.observable[g])
+    if (g < discovery_.observable.size() && discovery_.observable[g] && !unseen_[g])
       seen.push_back(candidates_[g].family->id);
   for (const Effect& given : options_.given) seen.push_back(given.family->id);
   const auto look = [&](const EffectFamily& family) {
@@ -279,13 +305,44 @@ void PartLoop::look_at_sizes() {
   }
 }
 
+/// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor is it a
+/// single tooth where the teeth beside it share it.
+void PartLoop::look_at_neighbours() {
+  std::vector<Effect> common;
+  for (const Effect& effect : effects_)
+    if (!effect.family->local) common.push_back(effect);
+  const auto shared_without = [&](const std::vector<Effect>& effects) {
+    std::vector<float> before_um, after_um;
+    PointFit(geometry_, table_, patches_, effects).residuals(before_um, after_um);
+    return shared_by_neighbours(geometry_, patches_, after_um);
+  };
+  neighbours_ = shared_without(common);
+  if (common.size() == effects_.size()) return;
+  if (!neighbours_share()) {
+    neighbours_ = shared_without(effects_);
+    return;
+  }
+  const int z = geometry_.teeth();
+  for (std::size_t e = effects_.size(); e-- > options_.given.size();) {
+    if (!effects_[e].family->local) continue;
+    const int off = std::abs(static_cast<int>(effects_[e].shape[0]) - neighbours_.tooth);
+    if (std::min(off, z - off) > 1) continue;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+  }
+}
+
+bool PartLoop::neighbours_share() const { return neighbours_.p_value <= 0.002 / options_.tables; }
+
 bool PartLoop::structure_is_left() const {
-  constexpr double kLeft = 0.02, kLeftOfNothing = 0.01;
+  constexpr double kLeft = 0.01, kLeftOfNothing = 0.01;
+  if (neighbours_share()) return true;
   if (effects_.empty()) return discovery_.first_p_value <= kLeftOfNothing / options_.tables;
   return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
 }
 
 std::string PartLoop::structure_left() const {
+  if (neighbours_share()) return words_for(neighbours_);
   if (!structure_is_left() || discovery_.likest_left < 0)
     return "nothing beyond the measurement's own noise was found";
   return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);

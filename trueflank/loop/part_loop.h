@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trueflank/loop/close_loop.h"
+#include "trueflank/loop/neighbour_teeth.h"
 #include "trueflank/loop/point_fit.h"
 
 namespace trueflank::loop {
@@ -16,6 +17,7 @@ class PartLoop {
     DeclaredFamilies declared = nullptr;
     /// Effects that are in the model from the start (with free coefficients): found on other data.
     std::vector<Effect> given = {};
+    bool joined = false;  ///< parts in one table: what is one part's own is looked at there
     int tables = 1;  ///< of how many this is one: the false alarm rate is shared among them
   };
   PartLoop(const FlankGeometry& geometry, Observations table, Options options);
@@ -45,6 +47,8 @@ class PartLoop {
   [[nodiscard]] bool ban_wrong_signs();
   void look_at_single_teeth();
   void look_at_sizes();
+  void look_at_neighbours();
+  [[nodiscard]] bool neighbours_share() const;
   void leave_out_across_steps();
 
   const FlankGeometry& geometry_;
@@ -53,9 +57,10 @@ class PartLoop {
   Observations table_;
   Patches patches_;
   std::vector<Effect> candidates_;
-  std::vector<bool> banned_;
+  std::vector<bool> banned_, unseen_;
   DiscoveryResult discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;
+  SharedByNeighbours neighbours_;
 };
 
 /// Columns of effects that are fitted whatever is selected.

@@ -169,6 +169,7 @@ class PatchMaker {
     for (std::size_t i = 0; i < keys_.size(); ++i)
       members[{keys_[i][0], keys_[i][1], 0}].insert(id_of(i));
     std::map<std::array<int, 4>, int> numbers;
+    std::map<std::array<int, 3>, int> wholes;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       Patches::Patch& patch = result_.patches[i];
       const int count = static_cast<int>(members[{keys_[i][0], keys_[i][1], 0}].size());
@@ -184,24 +185,36 @@ class PatchMaker {
           std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
           static_cast<int>(numbers.size()));
       patch.unit = found->second;
+      if (is_trace(patch.kind) || patch.kind == ObservationKind::kScanFlank)
+        patch.whole = wholes.emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
+                                     static_cast<int>(wholes.size())).first->second;
     }
     result_.units = static_cast<int>(numbers.size());
   }
 
   void assign_folds() {
-    std::set<int> teeth;
+    // Traces are often of three or four teeth, an index of all: each is shared out by itself, lest the
+    // lock takes most of the traces.
+    std::set<int> trace_teeth, single_teeth;
     std::set<int> traces;
-    for (const auto& patch : result_.patches)
-      if (is_trace(patch.kind) || patch.kind == ObservationKind::kIndex ||
-          patch.kind == ObservationKind::kRadial) {
-        teeth.insert(patch.places.front().place.tooth);
-        traces.insert(patch.zero);
+    for (const auto& patch : result_.patches) {
+      const int tooth = patch.places.front().place.tooth;
+      if (is_trace(patch.kind)) {
+        trace_teeth.insert(tooth);
+        traces.insert(patch.whole);
+      } else if (patch.kind == ObservationKind::kIndex || patch.kind == ObservationKind::kRadial) {
+        single_teeth.insert(tooth);
       }
+    }
     const std::vector<int> order = shuffled(geometry_.teeth());
     // Rank of each measured tooth in shuffled order: folds of equal size whatever was measured.
-    std::map<int, int> rank;
-    for (const int number : order)
-      if (teeth.contains(number + 1)) rank.emplace(number + 1, static_cast<int>(rank.size()));
+    const auto ranks_of = [&](const std::set<int>& teeth) {
+      std::map<int, int> rank;
+      for (const int number : order)
+        if (teeth.contains(number + 1)) rank.emplace(number + 1, static_cast<int>(rank.size()));
+      return rank;
+    };
+    const std::map<int, int> trace_rank = ranks_of(trace_teeth), single_rank = ranks_of(single_teeth);
     const auto fold_of_class = [](int c) { return c == 0 || c == 5 ? 0 : c < 5 ? c : c - 1; };
     int single = 0;
     for (std::size_t i = 0; i < result_.patches.size(); ++i) {
@@ -212,10 +225,12 @@ class PatchMaker {
         patch.fold = fold_of_class((order[place.tooth - 1] + 2 * band) % 10);
       } else if (is_trace(patch.kind) || patch.kind == ObservationKind::kIndex ||
                  patch.kind == ObservationKind::kRadial) {
-        if (teeth.size() >= 10) patch.fold = fold_of_class(rank[place.tooth] % 10);
-        else if (teeth.size() >= 5) patch.fold = rank[place.tooth] % 5;
-        else if (traces.size() >= 5) patch.fold = keys_[i][2] % 5;
-        else patch.fold = 1 + keys_[i][2] % 4;
+        const auto& rank = is_trace(patch.kind) ? trace_rank : single_rank;
+        if (rank.size() >= 10) patch.fold = fold_of_class(rank.at(place.tooth) % 10);
+        else if (rank.size() >= 5) patch.fold = rank.at(place.tooth) % 5;
+        else if (!is_trace(patch.kind)) patch.fold = 1 + keys_[i][5] % 4;
+        else if (traces.size() >= 5) patch.fold = patch.whole % 5;
+        else patch.fold = 1 + patch.whole % 4;
         patch.fold = std::max(0, patch.fold);
       } else if (patch.kind == ObservationKind::kScanBore) {
         patch.fold = 1 + single++ % kFolds;
@@ -364,6 +379,7 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
     group.preference = effect.family->preference +
                        (effect.flank != FlankChoice::kBoth && !effect.family->local ? 2 : 0);
     if (traces_only && effect.family->id == "scale") ++group.preference;
+    group.named = effect.family->named;
     // Low degrees first, low orders among them.
     if (effect.family->id == "unnamed")
       group.complexity = effect.shape[0] + effect.shape[1] + 0.01 * effect.shape[2];
@@ -388,6 +404,7 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
     problem.unit.push_back(patch.unit);
     problem.fold.push_back(patch.fold);
     problem.zero.push_back(patch.zero);
+    problem.whole.push_back(patch.whole);
     row.setZero();
     pose.setZero();
     for (const WeightedPlace& place : patch.places) {

@@ -20,6 +20,7 @@ struct Patches {
     double weight = 0.0;
     double z_low_mm = 1e300, z_high_mm = -1e300;  ///< of its values
     int unit = 0, fold = 0, zero = -1, source = 0;
+    int whole = -1;  ///< the trace or flank it is a piece of; -1: a single value, tip, root or bore
     ObservationKind kind = ObservationKind::kScanFlank;
   };
   std::vector<Patch> patches;

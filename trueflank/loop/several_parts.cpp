@@ -72,7 +72,7 @@ class PartsLoop {
     const int tests = count() + 1;
     together_ = std::make_unique<PartLoop>(
         geometry_, joined_table(tables),
-        PartLoop::Options{.declared = options_.declared, .tables = tests});
+        PartLoop::Options{.declared = options_.declared, .joined = true, .tables = tests});
     together_->run();
     add_members(*together_, 0, -1);
     const std::vector<Effect> given = together_->effects();

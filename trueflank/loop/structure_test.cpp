@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "trueflank/loop/agreement.h"
 #include "trueflank/loop/distributions.h"
 
 namespace trueflank::loop {
@@ -39,6 +40,7 @@ StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatist
     : problem_(problem), statistics_(statistics) {
   project(columns);
   test_by_flips(flips, banned);
+  test_wholes(columns, banned);
   test_local(banned);
 }
 
@@ -69,6 +71,8 @@ void StructureTest::project(const std::vector<int>& columns) {
                     cross.transpose() * coefficients(Eigen::all, seq);
     flipped_[g] = projected_[g] - statistics_.zero_loss(static_cast<int>(g));
   }
+  absorbed_ = coefficients;
+  fitted_ = fitted;
   unit_scores_.resize(p, statistics_.units());
   for (int unit = 0; unit < statistics_.units(); ++unit) {
     const auto& sums = statistics_.unit(unit);
@@ -143,6 +147,29 @@ void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
   }
   p_value_ = group_p_values_[likest_];
   likest_single_p_value_ = std::exp(-own[likest_]);
+}
+
+/// The groups that live in few whole traces or flanks, by how much these agree.
+void StructureTest::test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned) {
+  const std::vector<double> single = agreement_of_wholes(
+      problem_, statistics_, {columns, absorbed_, fitted_}, projected_, observable_);
+  if (single.empty()) return;
+  double tested = 0.0;
+  // Two tests are made of one question: each has half of the level.
+  constexpr double kTests = 2.0;
+  p_value_ = std::min(1.0, kTests * p_value_);
+  for (double& p : group_p_values_) p = std::min(1.0, kTests * p);
+  for (std::size_t g = 0; g < single.size(); ++g)
+    if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
+  for (std::size_t g = 0; g < single.size(); ++g) {
+    if (!(single[g] < 1.0) || (!banned.empty() && banned[g])) continue;
+    const double p = std::min(1.0, kTests * tested * single[g]);
+    group_p_values_[g] = std::min(group_p_values_[g], p);
+    if (p >= p_value_) continue;
+    p_value_ = p;
+    likest_ = static_cast<int>(g);
+    likest_single_p_value_ = std::min(likest_single_p_value_, single[g]);
+  }
 }
 
 /// Each local group against the others of its family: studentised with itself left out.

@@ -11,6 +11,8 @@ namespace trueflank::loop {
 /// under no structure the scores of independent, symmetric errors are as likely with any signs.
 /// Source: Hemerik, Goeman, Finos 2020, doi 10.1111/rssb.12369 (sign flips of effective scores), here
 /// with the mean spread each group loses to the fitted columns put back.
+/// Of few traces or flanks all signs are soon tried: candidates that differ between them fit any signs. There
+/// whether they agree is asked, too: an F test (agreement.h) with Bonferroni's correction.
 class StructureTest {
  public:
   StructureTest(const DiscoveryProblem& problem, const BlockStatistics& statistics,
@@ -31,11 +33,14 @@ class StructureTest {
  private:
   void project(const std::vector<int>& columns);
   void test_by_flips(int flips, const std::vector<bool>& banned);
+  void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
   Eigen::MatrixXd unit_scores_;                ///< P x units
+  Eigen::MatrixXd absorbed_;                   ///< M x P: coefficients of the candidates on the model
+  Eigen::VectorXd fitted_;                     ///< M: of the value
   std::vector<Eigen::MatrixXd> projected_;     ///< per group: Gram matrix after projection
   std::vector<Eigen::MatrixXd> flipped_;       ///< per group: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;
