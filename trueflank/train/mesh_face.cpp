@@ -71,12 +71,12 @@ class TouchingMaterial {
 };
 
 /// Most material that meets on the path of contact.
-double most_material_mm(const TouchingMaterial& material, const LineOfAction& line, double gap_mm) {
+double most_material_mm(const TouchingMaterial& material, const LineOfAction& line, double gap_mm,
+                        int places = 200) {
   double most = -1e300;
-  constexpr int kPlaces = 200;
   const double length = line.effective_end_mm - line.effective_start_mm;
-  for (int i = 0; i <= kPlaces; ++i)
-    most = std::max(most, material.at(line.effective_start_mm + length * i / kPlaces, gap_mm));
+  for (int i = 0; i <= places; ++i)
+    most = std::max(most, material.at(line.effective_start_mm + length * i / places, gap_mm));
   for (double roll : material.breaks())
     if (roll > line.effective_start_mm && roll < line.effective_end_mm)
       most = std::max(most, material.at(roll, gap_mm));
@@ -107,8 +107,11 @@ double height_of_least_play(const GearTrain& train, const TrainMesh& mesh, int s
                             const CommonFace& face) {
   constexpr int kHeights = 32;
   const double step = (face.upper_mm - face.lower_mm) / kHeights;
+  const LineOfAction line = line_of_action(train.pair(mesh));
   const auto play_at = [&](double z) {
-    return in_groove(face, z) ? 1e300 : play_mm(train, mesh, side1, z);
+    if (in_groove(face, z)) return 1e300;
+    // what runs over the face adds to what runs over the profile: few places tell the height
+    return -most_material_mm(TouchingMaterial(train, mesh, side1, z), line, 0.0, 24);
   };
   double best = face.lower_mm, least = 1e300;
   for (int i = 0; i <= kHeights; ++i) {
@@ -266,7 +269,7 @@ ActivePath active_path(const GearTrain& train, const TrainMesh& mesh) {
   if (gear_of(train, mesh.gear1).deviation.empty() && gear_of(train, mesh.gear2).deviation.empty())
     return {line.start_mm, line.end_mm};
   const CommonFace face = common_face(train, mesh);
-  ActivePath path{line.end_mm, line.start_mm};
+  ActivePath path{line.end_mm, line.start_mm};  // grows to what either side has
   for (int side : {1, -1}) {
     const double z = height_of_least_play(train, mesh, side, face);
     const ActivePath of = active_path_at(TouchingMaterial(train, mesh, side, z), line);
