@@ -422,6 +422,21 @@ class New(Case):
                        "--formats", "stl")
             self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
 
+    def test_a_name_must_name_something(self):
+        for name in ["", "..", ".toml", str(self.folder) + "/"]:
+            result = run("new", name, cwd=self.folder)
+            self.expect_error(result, 2, "NAME", "a name")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_the_next_command_runs_whatever_the_name(self):
+        result = run("new", "it's a $gear", "--kind", "gear", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        command = result.stdout.split("next: trueflank ")[1].strip()
+        made = subprocess.run(f"{PROGRAM} {command} --formats svg", shell=True, cwd=self.folder,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertTrue((self.folder / "it's a $gear" / "gear.svg").exists())
+
     def test_it_never_replaces_a_file(self):
         (self.folder / "mine.toml").write_text("mine")
         self.expect_error(run("new", "mine", cwd=self.folder), 2, "mine.toml")
