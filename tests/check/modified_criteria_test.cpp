@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "tests/check/check_designs.h"
 #include "tests/check/mesh_simulation.h"
@@ -182,6 +184,45 @@ TEST(ModifiedCriteria, HelixSlopesThatMatchCostTheTipsNothing) {
               trochoid_margin_rad(pair), slack);
   EXPECT_NEAR(worst_margin_rad(train, train.meshes[0], trimming_margin_rad),
               trimming_margin_rad(pair), slack);
+}
+
+TEST(ModifiedCriteria, WithMoreMaterialNothingIsJudgedSafer) {
+  int compared = 0;
+  for (unsigned seed = 300; compared < 8; ++seed) {
+    std::optional<GearTrain> less;
+    try {
+      less = random_modified_pair(seed);
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+    // the same with less taken away
+    GearboxDesign design = less->design;
+    std::mt19937 engine(seed);
+    for (GearDesign& g : design.gears)
+      for (double* removed : {&g.modifications.tip_relief_um, &g.modifications.root_relief_um,
+                              &g.modifications.profile_crowning_um, &g.modifications.crowning_um,
+                              &g.modifications.end_relief_um, &g.modifications.edge_chamfer_mm})
+        *removed *= std::uniform_real_distribution<double>(0.2, 1.0)(engine);
+    const auto more = lay_out(design);
+    if (!more) continue;
+    ++compared;
+    const TrainMesh &mesh1 = less->meshes[0], &mesh2 = more->meshes[0];
+    constexpr double kSlack_mm = 2e-6;  // of the sweeps' refinement
+    EXPECT_LE(modified_clearance_mm(*more, mesh2), modified_clearance_mm(*less, mesh1) + kSlack_mm)
+        << seed;
+    EXPECT_LE(modified_mesh(*more, mesh2).backlash_mm,
+              modified_mesh(*less, mesh1).backlash_mm + kSlack_mm)
+        << seed;
+    if (!less->pair(mesh1).internal()) continue;
+    for (auto* margin : {trochoid_margin_rad, trimming_margin_rad}) {
+      const double with_more = worst_margin_rad(*more, mesh2, margin);
+      const double with_less = worst_margin_rad(*less, mesh1, margin);
+      if (!std::isfinite(with_less)) continue;
+      EXPECT_LE(with_more, with_less + 1e-8) << seed;
+    }
+    EXPECT_LE(modified_removal(*more, mesh2).free_share, modified_removal(*less, mesh1).free_share)
+        << seed;
+  }
 }
 
 TEST(ModifiedCriteria, TrochoidAgreesWithTurningTheModifiedTips) {

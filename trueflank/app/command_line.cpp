@@ -51,7 +51,8 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->add_option("--materials", options.materials_file,
                       "file with more [material.NAME] tables");
   command->add_flag("--compensate", options.compensate,
-                    "meshes with walls moved against the process's horizontal expansion");
+                    "meshes with walls moved against the process's horizontal expansion; with "
+                    "--correct as those of the measured part were");
   command->add_option("--kerf-mm", options.kerf_mm,
                       "DXF files of parts hold the path of a wire or beam that cuts this width");
   command->add_option("--process", options.process,
