@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One tooth passes the whole mesh: every point of its counter-clockwise half, at every position,
+// against the mate. First on a grid, then the lowest places of every kind are refined on the exact
+// curves.
+#include "trueflank/check/tooth_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "trueflank/base/tolerance.h"
+#include "trueflank/check/scalar_minimum.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kGridStep = 0.05;     // of the module, along the path and along the profile
+constexpr double kSagOfGrid = 2e-4;    // of the module: finer where the profile bends
+constexpr double kReachMargin = 0.3;   // of the module, beyond the mate's tip circle
+constexpr double kFlankStep = 0.1;     // of the module, along the involute
+// A valley with a radius of curvature of 0.1 module lies at most 0.003 module below its grid.
+constexpr double kRefineBand = 0.01;   // of the module above the lowest grid value
+constexpr std::size_t kMostRefined = 24;
+
+/// A point of the half tooth that is swept.
+struct Sample {
+  Point2 point;
+  int piece;
+  double parameter, low, high;  // neighbours on the piece, for refinement; equal for a corner
+};
+
+std::vector<Sample> samples_of(const ToothProfile& profile) {
+  const double m = profile.gear().normal_module_mm;
+  std::vector<Sample> samples;
+  const auto& pieces = profile.pieces();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Curve& curve = pieces[k].curve;
+    double length = 0.0;
+    constexpr int kRough = 16;
+    for (int i = 0; i < kRough; ++i) {
+      const double u = curve.begin + (curve.end - curve.begin) * i / kRough;
+      length += (point_at(curve, u + (curve.end - curve.begin) / kRough) - point_at(curve, u)).norm();
+    }
+    const double wanted = pieces[k].kind == PieceKind::kInvolute ? kFlankStep : kGridStep;
+    const double sag = chord_error_mm(curve, curve.begin, curve.end);
+    const int n = static_cast<int>(std::clamp(
+        std::ceil(std::max(length / (wanted * m), std::sqrt(sag / (kSagOfGrid * m)))), 2.0, 400.0));
+    const double step = (curve.end - curve.begin) / n;
+    const int piece = static_cast<int>(k);
+    samples.push_back({curve.start_point(), piece, curve.begin, curve.begin, curve.begin});
+    for (int i = 0; i <= n; ++i) {
+      const double u = i == n ? curve.end : curve.begin + step * i;
+      const double low = i == 0 ? curve.begin : u - step, high = i == n ? curve.end : u + step;
+      samples.push_back({point_at(curve, u), piece, u, low, high});
+    }
+  }
+  const Curve& last = pieces.back().curve;
+  samples.push_back(
+      {last.end_point(), static_cast<int>(pieces.size()) - 1, last.end, last.end, last.end});
+  return samples;
+}
+
+/// Sweep of one gear's half tooth (the mover) against the other gear (the mate).
+class Sweep {
+ public:
+  /// `mate_turn_rad`: how far the mate is turned out of the centred position.
+  Sweep(const GearPair& pair, const GearDistance& mate, bool gear1_moves, double mate_turn_rad)
+      : mover_(gear1_moves ? *pair.profile1 : *pair.profile2),
+        mate_profile_(gear1_moves ? *pair.profile2 : *pair.profile1),
+        mate_(mate),
+        internal_(pair.internal()),
+        gear1_moves_(gear1_moves),
+        mate_turn_(mate_turn_rad),
+        distance_(pair.centre_distance_mm) {
+    const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
+    ratio_ = (internal_ ? 1.0 : -1.0) * z / z_mate;
+    half_pitch_mate_ = kPi / z_mate;
+    // axis of the mate as the mover sees it, and the direction from the mate's axis to the mesh
+    axis_ = internal_ && gear1_moves_ ? -distance_ : distance_;
+    mate_faces_ = internal_ ? 0.0 : kPi;
+  }
+
+  struct Place {
+    double clearance = std::numeric_limits<double>::infinity();
+    Sample sample{};
+    double angle = 0.0;
+  };
+
+  [[nodiscard]] Place lowest() const;
+  [[nodiscard]] MeshPlace describe(const Place& place) const;
+
+ private:
+  /// The point in the mate's frame with the mover's tooth turned by an angle from the mesh.
+  [[nodiscard]] Point2 in_mate(const Point2& p, double angle) const {
+    const Point2 rel = rotated(p, angle) - Point2(axis_, 0.0);
+    return rotated(rel, half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_);
+  }
+  [[nodiscard]] double clearance(const Point2& p, double angle) const {
+    return mate_.nearest(in_mate(p, angle)).distance_mm;
+  }
+  [[nodiscard]] double reach_rad() const;
+  [[nodiscard]] Place refined(const Place& start, double step) const;
+
+  const ToothProfile& mover_;
+  const ToothProfile& mate_profile_;
+  const GearDistance& mate_;
+  bool internal_, gear1_moves_;
+  double mate_turn_, distance_;
+  double ratio_ = 0.0, half_pitch_mate_ = 0.0, axis_ = 0.0, mate_faces_ = 0.0;
+};
+
+/// Angle on either side of the line of centres within which the tooth is near the mate's teeth.
+double Sweep::reach_rad() const {
+  const double m = mover_.gear().normal_module_mm;
+  const double r = mover_.tip_radius_mm(), a = distance_;
+  const bool mate_is_ring = mate_profile_.gear().kind == GearKind::kInternal;
+  const double r_mate = mate_profile_.tip_radius_mm() + (mate_is_ring ? -1.0 : 1.0) * kReachMargin * m;
+  double cosine = (a * a + r * r - r_mate * r_mate) / (2.0 * a * r);
+  if (mate_is_ring) cosine = -cosine;  // near where the distance from the ring's axis is large
+  return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover_.gear().teeth, kPi);
+}
+
+/// How many columns ahead a distance stays above a limit that it exceeds by `above_mm`, where its
+/// point moves by `first_mm` a column at first and by at most `growth_mm` more with every column.
+std::size_t columns_without(double above_mm, double first_mm, double growth_mm) {
+  if (!(above_mm > 0.0)) return 0;
+  // k columns: k first + k^2 growth / 2
+  const double k =
+      (std::sqrt(first_mm * first_mm + 2.0 * growth_mm * above_mm) - first_mm) / growth_mm;
+  return static_cast<std::size_t>(std::clamp(std::floor(k * (1.0 - 1e-9)), 0.0, 1e6));
+}
+
+Sweep::Place Sweep::lowest() const {
+  const double m = mover_.gear().normal_module_mm;
+  const std::vector<Sample> samples = samples_of(mover_);
+  const double reach = reach_rad();
+  // relative speed = relative turning times the distance from the pitch point
+  const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
+  const double pitch_radius = distance_ * z / (internal_ ? std::abs(z_mate - z) : z + z_mate);
+  const double lever =
+      (mover_.tip_radius_mm() * unit_vector(reach) - Point2(pitch_radius, 0.0)).norm() + m;
+  const double turning = std::abs(1.0 - ratio_);
+  const int n = static_cast<int>(
+      std::clamp(std::ceil(2.0 * reach * turning * lever / (kGridStep * m)), 48.0, 4000.0));
+  const double step = 2.0 * reach / n;
+  const auto columns = static_cast<std::size_t>(n) + 1;
+
+  std::vector<double> grid(samples.size() * columns);
+  const std::size_t mate_pieces =
+      std::max(mate_profile_.pieces().size(), mate_profile_.clockwise_pieces().size());
+  std::vector<Place> best_of_kind(mover_.pieces().size() * mate_pieces * 4);
+  double lowest = std::numeric_limits<double>::infinity();
+  const double mate_tip = mate_profile_.tip_radius_mm();
+  const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
+  // A distance falls by no more than its point moves: columns within which it cannot come down to
+  // what is looked for are passed over, with a value that is surely too high.
+  std::vector<std::size_t> next_column(samples.size(), 0);
+  for (std::size_t j = 0; j < columns; ++j) {
+    const double angle = -reach + step * static_cast<double>(j);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double turn = half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_;
+    const double c2 = std::cos(turn), s2 = std::sin(turn);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      double& value = grid[i * columns + j];
+      if (j < next_column[i]) {
+        value = std::numeric_limits<double>::infinity();
+        continue;
+      }
+      const Point2& p = samples[i].point;
+      const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
+      const double from_pitch_point = std::hypot(x + axis_ - pitch_radius, y);
+      const auto pass_over = [&](double distance_mm) {
+        next_column[i] = j + 1 + columns_without(distance_mm - (lowest + kRefineBand * m),
+                                                 step * turning * from_pitch_point,
+                                                 step * step * turning * p.norm());
+      };
+      // farther beyond the mate's tip circle than the lowest place so far: cannot matter
+      const double beyond = mate_outward * (std::hypot(x, y) - mate_tip);
+      if (beyond > lowest + kRefineBand * m) {
+        value = beyond;
+        pass_over(beyond);
+        continue;
+      }
+      const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y});
+      value = near.distance_mm;
+      lowest = std::min(lowest, near.distance_mm);
+      pass_over(near.distance_mm);
+      const std::size_t kind = (static_cast<std::size_t>(samples[i].piece) * mate_pieces +
+                                static_cast<std::size_t>(near.piece)) * 4 +
+                               (near.corner ? 2u : 0u) + (near.clockwise_half ? 1u : 0u);
+      Place& best = best_of_kind[kind];
+      if (near.distance_mm < best.clearance) best = {near.distance_mm, samples[i], angle};
+    }
+  }
+
+  std::vector<Place> starts;
+  for (const Place& place : best_of_kind)
+    if (std::isfinite(place.clearance)) starts.push_back(place);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples[i].low != samples[i].high) continue;
+    for (std::size_t j = 1; j + 1 < columns; ++j) {  // every valley along a corner's path
+      const double* f = &grid[i * columns + j];
+      if (f[0] <= f[-1] && f[0] < f[1])
+        starts.push_back({f[0], samples[i], -reach + step * static_cast<double>(j)});
+    }
+  }
+  std::sort(starts.begin(), starts.end(),
+            [](const Place& a, const Place& b) { return a.clearance < b.clearance; });
+  Place best;
+  for (std::size_t k = 0; k < std::min(starts.size(), kMostRefined); ++k) {
+    if (starts[k].clearance > lowest + kRefineBand * m) break;
+    const Place place = refined(starts[k], step);
+    if (place.clearance < best.clearance) best = place;
+  }
+  return best;
+}
+
+Sweep::Place Sweep::refined(const Place& start, double step) const {
+  const Curve& curve = mover_.pieces()[static_cast<std::size_t>(start.sample.piece)].curve;
+  Place best = start;
+  const auto at_angle = [&](double angle) {
+    if (start.sample.low == start.sample.high) return clearance(start.sample.point, angle);
+    const double low = std::min(start.sample.low, start.sample.high);
+    const double high = std::max(start.sample.low, start.sample.high);
+    const ScalarMinimum inner = find_minimum(
+        [&](double u) { return clearance(point_at(curve, u), angle); }, low, high,
+        1e-6 * (high - low));
+    if (inner.value < best.clearance) {
+      best.clearance = inner.value;
+      best.angle = angle;
+      best.sample.parameter = inner.at;
+      best.sample.point = point_at(curve, inner.at);
+    }
+    return inner.value;
+  };
+  const ScalarMinimum outer =
+      find_minimum(at_angle, start.angle - step, start.angle + step, 1e-6 * step);
+  if (outer.value < best.clearance) {
+    best.clearance = outer.value;
+    best.angle = outer.at;
+  }
+  return best;
+}
+
+MeshPlace Sweep::describe(const Place& place) const {
+  const auto near = mate_.nearest(in_mate(place.sample.point, place.angle));
+  const double mover_angle = gear1_moves_ ? place.angle : place.angle + mate_faces_;
+  // the mate's tooth 1 stands half a pitch from the gap that faces the mover
+  double mate_angle = ratio_ * place.angle + mate_turn_ - half_pitch_mate_;
+  if (gear1_moves_) mate_angle += mate_faces_;
+  MeshPlace result;
+  result.rotation1_rad = gear1_moves_ ? mover_angle : mate_angle;
+  result.rotation2_rad = gear1_moves_ ? mate_angle : mover_angle;
+  const Point2 axis2(internal_ ? -distance_ : distance_, 0.0);
+  result.point_mm = gear1_moves_ ? rotated(place.sample.point, mover_angle)
+                                 : Point2(axis2 + rotated(place.sample.point, mover_angle));
+  const auto& pieces = mover_.pieces();
+  const Curve& curve = pieces[static_cast<std::size_t>(place.sample.piece)].curve;
+  const double end = 1e-6 * std::abs(curve.end - curve.begin);
+  const bool at_begin = std::abs(place.sample.parameter - curve.begin) < end;
+  const bool at_end = std::abs(place.sample.parameter - curve.end) < end;
+  // the corner between tip circle and flank is the tip's
+  const auto kind_of = [](const ProfilePiece& piece, bool corner, double from_tip_mm) {
+    return corner && std::abs(from_tip_mm) < tolerance::kTouch_mm ? PieceKind::kTip : piece.kind;
+  };
+  const PieceKind mover_piece =
+      kind_of(pieces[static_cast<std::size_t>(place.sample.piece)], at_begin || at_end,
+              place.sample.point.norm() - mover_.tip_radius_mm());
+  const auto& mate_half =
+      near.clockwise_half ? mate_profile_.clockwise_pieces() : mate_profile_.pieces();
+  const PieceKind mate_piece = kind_of(mate_half[static_cast<std::size_t>(near.piece)], near.corner,
+                                       near.point.norm() - mate_profile_.tip_radius_mm());
+  (gear1_moves_ ? result.piece1 : result.piece2) = mover_piece;
+  (gear1_moves_ ? result.piece2 : result.piece1) = mate_piece;
+  (gear1_moves_ ? result.corner1 : result.corner2) = at_begin || at_end;
+  (gear1_moves_ ? result.corner2 : result.corner1) = near.corner;
+  (gear1_moves_ ? result.radius1_mm : result.radius2_mm) = place.sample.point.norm();
+  (gear1_moves_ ? result.radius2_mm : result.radius1_mm) = near.point.norm();
+  const bool clockwise1 = gear1_moves_ ? false : near.clockwise_half;
+  result.flank1 = clockwise1 ? Flank::kRight : Flank::kLeft;
+  return result;
+}
+
+}  // namespace
+
+MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2,
+                         double turn_rad, double turn_for_gear2_moving_rad) {
+  const Sweep first(pair, gear2, true, turn_rad);
+  // seen from gear 2, gear 1 is turned back by the same motion at the pitch circle
+  const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth;
+  const double back = (pair.internal() ? -1.0 : 1.0) * turn_for_gear2_moving_rad * z2 / z1;
+  const Sweep second(pair, gear1, false, back);
+  const auto place1 = first.lowest();
+  const auto place2 = second.lowest();
+  MeshClearance result;
+  const bool use_first = place1.clearance <= place2.clearance;
+  result.clearance_mm = use_first ? place1.clearance : place2.clearance;
+  if (std::abs(result.clearance_mm) < kZero_mm) result.clearance_mm = 0.0;
+  result.place = use_first ? first.describe(place1) : second.describe(place2);
+  return result;
+}
+
+}  // namespace trueflank
