@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 
 #include "trueflank/loop/found_effects.h"
+#include "trueflank/loop/part_frame.h"
 #include "trueflank/loop/part_loop.h"
 #include "trueflank/loop/several_parts.h"
 #include "trueflank/loop/shape_refinement.h"
@@ -75,6 +77,23 @@ std::vector<T> of_part(const std::vector<T>& files, const std::string& part) {
   return kept;
 }
 
+/// Deviations that no gear of this design can have are another unit's or another gear's.
+void doubt_unit_and_gear(const FlankGeometry& geometry, const MeasuredData& data, LoopResult& result) {
+  constexpr double kFinest_um = 0.02, kLargeInModules = 0.08;
+  const double rms = result.before.rms, module_um = 1e3 * geometry.gear().normal_module_mm;
+  char text[160];
+  if (data.scans.empty() && rms > 1e-4 && rms < kFinest_um)
+    std::snprintf(text, sizeof text,
+                  "deviations of %.2g um rms are finer than any machine measures: are they in millimetres?", rms);
+  else if (rms > kLargeInModules * module_um)
+    std::snprintf(text, sizeof text,
+                  "deviations of %.3g um rms are large for a module of %.4g mm: is this the gear of the design?",
+                  rms, 1e-3 * module_um);
+  else
+    return;
+  result.notes.push_back(text);
+}
+
 Errors too_few(const Observations& table, const std::string& part) {
   constexpr std::size_t kFewest = 3;
   if (table.rows.size() >= kFewest) return {};
@@ -141,7 +160,10 @@ ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_n
   if (const GearDesign* design = find_gear(train.design, gear_name))
     if (design->bore.kind == BoreKind::kRound) bore_radius = 0.5 * design->bore.diameter_mm;
   const FlankGeometry geometry(*gear, bore_radius);
-  return close_loop(geometry, gear_name, *data, options);
+  if (options.aligned) move_into_gear_frame(train, *gear, geometry, *data);
+  auto closed = close_loop(geometry, gear_name, *data, options);
+  if (closed) doubt_unit_and_gear(geometry, *data, closed->result);
+  return closed;
 }
 
 }  // namespace trueflank::loop

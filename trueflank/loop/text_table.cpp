@@ -29,6 +29,8 @@ Result<std::string> read_whole_file(const std::string& path) {
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (stream.bad())
     return fail({.code = ErrorCode::kDisk, .message = "the file cannot be read", .file = path});
+  // Spreadsheets put a byte order mark before the first column's name.
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
 }
 
