@@ -175,6 +175,20 @@ class Kerf(unittest.TestCase):
         self.assertAlmostEqual(lost / (5 * 0.02 * length), 1, delta=0.01)
         self.assertIn("needs a process", make("none", "--compensate", expect=2))
 
+    def test_the_face_on_the_bed_is_chamfered_against_the_elephant_foot(self):
+        told = make("foot", "--formats", "stl,step", "--process", "fdm-0.4", "--compensate")
+        self.assertIn("chamfered by 150 um at the face that lies on the bed (z = 0", told)
+        raw = (OUTPUT / "foot" / "gear.stl").read_bytes()
+        facets = np.frombuffer(raw[84:], dtype=np.dtype([("f", "<f4", 12), ("a", "<u2")]))["f"]
+        points = facets[:, 3:].reshape(-1, 3).astype(float)
+        radii = np.hypot(points[:, 0], points[:, 1])
+        tip = max(np.hypot(*line.T).max() for line in self.outline)
+        for z, inwards in ((0.0, 0.05 + 0.15), (0.4, 0.05), (points[:, 2].max(), 0.05)):
+            self.assertAlmostEqual(radii[np.abs(points[:, 2] - z) < 1e-5].max(), tip - inwards, delta=2e-5)
+        for name in ("gear.stl", "gear.step"):
+            files = json.loads((OUTPUT / "foot" / "report.json").read_text())["files"]
+            self.assertLess(next(f["accuracy_um"] for f in files if f["path"] == name), 1.0)
+
     def test_process_warns_and_the_parts_are_made(self):
         told = make("printed", "--process", "fdm-0.4",
                     design=DESIGN.replace("module_mm = 1.0", "module_mm = 0.5").replace(

@@ -13,6 +13,7 @@
 
 #include "tests/solid/random_toothing.h"
 #include "trueflank/design/design_file.h"
+#include "trueflank/solid/bed_chamfer.h"
 #include "trueflank/solid/gear_mesh.h"
 #include "trueflank/solid/mesh_validity.h"
 
@@ -101,6 +102,34 @@ TEST(MeshExact, TwistedModifiedAndDisplacedTeethBoundSolidsAlsoIn32Bits) {
     expect_boundary_of_a_solid(mesh);
     expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
     ++made;
+  }
+}
+
+TEST(MeshExact, ChamferedAtTheBedPartsBoundSolidsAlsoIn32Bits) {
+  int made = 0;
+  const auto expect_chamfered_solid = [&](PartShape& part, double module_mm, double tolerance_mm) {
+    std::deque<InsetProfile> profiles;
+    const auto note = add_bed_chamfer(part, 0.2 * module_mm, 0.5 * module_mm, profiles);
+    if (bed_depth_mm(part) == 0.0) return;
+    SCOPED_TRACE(note.value_or("as deep as asked"));
+    const TriangleMesh mesh = part_mesh(part, {.tolerance_mm = tolerance_mm}).mesh;
+    expect_boundary_of_a_solid(mesh);
+    expect_boundary_of_a_solid(rounded_to_32_bits(mesh));
+    ++made;
+  };
+  for (std::uint64_t seed = 8200; made < 12; ++seed) {
+    auto random = test::random_part(seed);
+    if (!random || random->train->gears[0].profile.gear().teeth > 60) continue;
+    SCOPED_TRACE(random->text);
+    expect_chamfered_solid(random->part, random->train->gears[0].profile.gear().normal_module_mm,
+                           std::max(random->tolerance_mm, 1e-3));
+  }
+  for (std::uint64_t seed = 9200; made < 18; ++seed) {
+    auto random = test::random_toothing(seed, {.deviation = seed % 2 == 0});
+    if (!random || random->train->gears[0].profile.gear().teeth > 30) continue;
+    SCOPED_TRACE(random->text);
+    expect_chamfered_solid(random->part, random->train->gears[0].profile.gear().normal_module_mm,
+                           4.0 * random->tolerance_mm);
   }
 }
 

@@ -22,13 +22,15 @@ std::string um(double length_mm) {
   return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
 }
 
-std::string compensation_text(const Process& process) {
+std::string compensation_text(const Process& process, const CompensatedShapes& moved) {
   std::string text = "meshes are compensated for " + process.name + ": walls " +
                      um(process.horizontal_expansion_mm) + " inwards";
   if (process.elephant_foot_mm > 0.0)
-    text += "; not for its elephant foot of " + um(process.elephant_foot_mm) +
-            ", which is the slicer's";
-  return text + "\n";
+    text += ", chamfered by " + um(process.elephant_foot_mm) +
+            " at the face that lies on the bed (z = 0 of each part)";
+  text += "\n";
+  for (const std::string& note : moved.notes) text += note + "\n";
+  return text;
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ std::string compensation_text(const Process& process) {
 Result<CompensatedShapes> compensated_walls(const PartShapes& shapes, const Process& process,
                                             std::string& told) {
   auto moved = compensated(shapes, process);
-  if (moved) told += compensation_text(process);
+  if (moved) told += compensation_text(process, *moved);
   return moved;
 }
 
@@ -63,7 +65,7 @@ ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& m
     if (!made) return made;
     for (io::ReportedFile& file : *made) file.compensated_for = process->name;
     files = std::move(*made);
-    told += compensation_text(*process);
+    told += compensation_text(*process, *moved);
   }
   if (others.formats.empty()) return files;
   auto made = io::export_parts(model, others);

@@ -106,6 +106,31 @@ HalfPoint half_point(const Toothing& t, const ToothPlace& place, double z_mm) {
   return {corner.norm() * unit_vector(angle), turn * share};
 }
 
+/// As half_point, where the bed chamfer moves walls into the material by a depth: the parallel flank,
+/// turned by the deviation of the place it comes from.
+HalfPoint inset_half_point(const Toothing& t, const ToothPlace& place, double depth_mm, double z_mm) {
+  const auto& pieces = t.profile->pieces();
+  const Point2 point = t.bed->point(place.piece, place.parameter, depth_mm);
+  if (!t.has_deviation()) return {point, 0.0};
+  const std::size_t flank = involute_piece(*t.profile);
+  const double r_b = base_radius_mm(t.profile->gear());
+  const auto turn_at = [&](double parameter) {
+    const double foot = t.bed->foot(flank, parameter, depth_mm);
+    return flank_turn_rad(t, place.tooth, place.side, r_b * foot, z_mm);
+  };
+  const Curve& involute = pieces[flank].curve;
+  const ProfilePiece& piece = pieces[place.piece];
+  if (place.piece == flank) return {point, turn_at(place.parameter)};
+  if (place.piece > flank) {
+    if (piece.kind != PieceKind::kFillet) return {point, 0.0};
+    return {point, turn_at(involute.end) * fillet_turn_share(*t.profile, place.piece, place.parameter)};
+  }
+  const double turn = turn_at(involute.begin);
+  if (piece.kind != PieceKind::kTip) return {point, turn};
+  const double end = polar_angle_rad(t.bed->point(place.piece, piece.curve.end, depth_mm));
+  return {point, end > 0.0 ? turn * polar_angle_rad(point) / end : turn};
+}
+
 }  // namespace
 
 FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone,
@@ -132,7 +157,9 @@ double deviation_turn_rad(const Toothing& toothing, const ToothPlace& place, dou
 Point2 section_point(const Toothing& toothing, const ToothPlace& place, double z_mm) {
   TRUEFLANK_EXPECTS(toothing.profile != nullptr && place.piece < toothing.profile->pieces().size());
   HalfPoint half;
-  if (toothing.has_deviation() || toothing.edge_chamfer_mm != 0.0)
+  if (const double depth = toothing.bed_depth_mm(z_mm); depth > 0.0)
+    half = inset_half_point(toothing, place, depth, z_mm);
+  else if (toothing.has_deviation() || toothing.edge_chamfer_mm != 0.0)
     half = half_point(toothing, place, z_mm);
   else
     half.point = point_at(toothing.profile->pieces()[place.piece].curve, place.parameter);

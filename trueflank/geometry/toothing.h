@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "trueflank/geometry/flank_deviation.h"
+#include "trueflank/geometry/inset_profile.h"
 #include "trueflank/geometry/tooth_profile.h"
 
 // The tooth surface over the whole face. Everything that needs a point of a real tooth (meshes,
@@ -40,11 +41,20 @@ struct Toothing {
   /// is left.
   double edge_chamfer_mm = 0.0;
   const Displacement* displacement = nullptr;  ///< not owned; comes last; nullptr: none
+  /// Bed chamfer: every section's walls lie inside the material by this profile's deepest at z = 0, by
+  /// less and less up to bed_height_mm. Not together with edge_chamfer_mm.
+  const InsetProfile* bed = nullptr;  ///< of `profile`; not owned; nullptr: none
+  double bed_height_mm = 0.0;
 
+  /// How far the walls lie inside the material at a height.
+  [[nodiscard]] double bed_depth_mm(double z_mm) const {
+    if (bed == nullptr || z_mm >= bed_height_mm) return 0.0;
+    return bed->deepest_mm() * (1.0 - (z_mm > 0.0 ? z_mm / bed_height_mm : 0.0));
+  }
   [[nodiscard]] bool has_deviation() const { return deviation != nullptr && !deviation->empty(); }
   [[nodiscard]] bool prismatic() const {
     return twist.turn_rad_per_mm == 0.0 && edge_chamfer_mm == 0.0 && displacement == nullptr &&
-           !(has_deviation() && deviation->varies_along_face);
+           bed == nullptr && !(has_deviation() && deviation->varies_along_face);
   }
 };
 

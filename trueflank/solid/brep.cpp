@@ -10,6 +10,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/spline_basis.h"
+#include "trueflank/solid/bed_chamfer.h"
 #include "trueflank/solid/brep_wall.h"
 #include "trueflank/solid/outline_loop.h"
 
@@ -160,6 +161,11 @@ Status add_flat_faces(Brep& brep, std::vector<WallEnd> ends, double z_mm, const 
 }  // namespace
 
 Result<Brep> brep_of(const PartShape& part, const PathTolerance& tolerance) {
+  if (bed_depth_mm(part) > 0.0)
+    return fail({.code = ErrorCode::kUnsupported,
+                 .message = "part " + part.name + ": its chamfer at the bed of a printer is no B-rep",
+                 .key = part.name,
+                 .remedy = "a mesh format"});
   TRUEFLANK_EXPECTS(!part.slabs.empty());
   for (std::size_t i = 0; i < part.slabs.size(); ++i) {
     TRUEFLANK_EXPECTS(part.slabs[i].z_upper_mm > part.slabs[i].z_lower_mm);

@@ -104,7 +104,7 @@ struct Brep {
 /// Requires: slabs stacked without gaps, each of positive height.
 /// Errors: kUnsupported where outlines of neighbouring slabs cross or touch, where a deviation parts
 /// the flanks of a pointed tooth, where a displacement moves the end faces out of their planes, where
-/// splines of 64 spans stay farther than 1e-5 mm from the true surface.
+/// splines of 64 spans stay farther than 1e-5 mm from the true surface, where it has a bed chamfer.
 /// Guarantees: every edge is used twice, once in each direction; vertices and edges are shared.
 [[nodiscard]] Result<Brep> brep_of(const PartShape& part, const PathTolerance& tolerance = {});
 

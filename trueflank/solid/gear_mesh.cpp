@@ -12,6 +12,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/solid/bed_rows.h"
 #include "trueflank/solid/cap_triangulation.h"
 #include "trueflank/solid/flank_strips.h"
 #include "trueflank/solid/toothing_grid.h"
@@ -71,8 +72,13 @@ class StackMesher {
   /// height where it is met first stands for it where only its size is asked for.
   void add_loop(int loop, double tolerance_mm) {
     grids_.emplace_back();
+    beds_.emplace_back();
     const auto* toothed = std::get_if<ToothedOutline>(outlines_[at(loop)]);
-    if (toothed == nullptr || is_plain_prism(*toothed)) {
+    if (toothed == nullptr && bed_height_mm(*outlines_[at(loop)]) > 0.0) {
+      beds_.back() = bed_rows(*outlines_[at(loop)], tolerance_mm);
+      loops_.push_back(loop_at_height(loop, 0.0));
+      loops_.back().chord_error_mm = beds_.back()->chord_error_mm;
+    } else if (toothed == nullptr || is_plain_prism(*toothed)) {
       loops_.push_back(outline_loop(*outlines_[at(loop)], tolerance_mm));
     } else {
       std::vector<double> levels;
@@ -82,22 +88,32 @@ class StackMesher {
             if (levels.empty() || z != levels.back() + toothed->z_lower_mm)
               levels.push_back(z - toothed->z_lower_mm);
       grids_.back().emplace(*toothed, levels, tolerance_mm);
-      loops_.push_back(loop_at_height(loop, levels.front()));
+      loops_.push_back(loop_at_height(loop, levels.front() + toothed->z_lower_mm));
       loops_.back().chord_error_mm = grids_.back()->chord_error_mm();
     }
     result_.chord_error_mm = std::max(result_.chord_error_mm, loops_.back().chord_error_mm);
   }
 
-  /// A grid's row as a loop; height in the gear's frame.
+  [[nodiscard]] bool is_prism(int loop) const { return !grids_[at(loop)] && !beds_[at(loop)]; }
+
+  /// The loop at a height of the part.
   [[nodiscard]] OutlineLoop loop_at_height(int loop, double z_mm) const {
+    if (beds_[at(loop)])
+      return loop_through(bed_row(loop, z_mm), extent(*outlines_[at(loop)]).centre);
+    if (!grids_[at(loop)]) return loops_[at(loop)];
     const ToothingGrid& grid = *grids_[at(loop)];
     std::vector<Point2> points;
-    for (const auto& p : grid.row(z_mm)) points.push_back({p[0], p[1]});
+    for (const auto& p : grid.row(height_in_gear(loop, z_mm))) points.push_back({p[0], p[1]});
     OutlineLoop result = loop_through(std::move(points));
     result.teeth = grid.teeth();
     result.points_per_tooth = grid.points_per_tooth();
     result.teeth_alike = grid.teeth_alike();
     return result;
+  }
+  /// At the bed, or above the chamfer.
+  [[nodiscard]] const std::vector<Point2>& bed_row(int loop, double z_mm) const {
+    const BedRows& bed = *beds_[at(loop)];
+    return z_mm > 0.0 ? bed.rows.back() : bed.rows.front();
   }
   [[nodiscard]] double height_in_gear(int loop, double z_mm) const {
     return z_mm - std::get<ToothedOutline>(*outlines_[at(loop)]).z_lower_mm;
@@ -134,7 +150,7 @@ class StackMesher {
       if (grids_[at(loop)])
         add_row(*grids_[at(loop)], height_in_gear(loop, z_of(level)), {});
       else
-        for (const Point2& p : loops_[at(loop)].points) add_vertex(p, z_of(level));
+        add_row(beds_[at(loop)] ? bed_row(loop, z_of(level)) : loops_[at(loop)].points, z_of(level));
     }
     return static_cast<std::uint32_t>(first);
   }
@@ -149,6 +165,11 @@ class StackMesher {
     }
     for (std::size_t v = 0; v < row.size(); ++v)
       if (kept[v % kept.size()] != kNone) vertices.push_back(row[v]);
+    return first;
+  }
+  std::uint32_t add_row(const std::vector<Point2>& points, double z_mm) {
+    const auto first = static_cast<std::uint32_t>(result_.mesh.vertices.size());
+    for (const Point2& p : points) add_vertex(p, z_mm);
     return first;
   }
   void add_vertex(const Point2& p, double z_mm) {
@@ -168,9 +189,23 @@ class StackMesher {
         ++s;
       if (grids_[at(loop)])
         add_grid(loop, begin, s, hole);
+      else if (beds_[at(loop)] && begin == 0)
+        add_bed(loop, s, hole);
       else
         add_strip(loops_[at(loop)].points.size(), row(loop, begin), row(loop, s), hole);
     }
+  }
+
+  /// The wall of a circle or bore from its bed chamfer to an interface.
+  void add_bed(int loop, std::size_t last_level, bool hole) {
+    const BedRows& bed = *beds_[at(loop)];
+    std::uint32_t lower = row(loop, 0);
+    for (std::size_t k = 1; k < bed.rows.size(); ++k) {
+      const std::uint32_t upper = add_row(bed.rows[k], bed.heights_mm[k]);
+      add_strip(bed.rows[k].size(), lower, upper, hole);
+      lower = upper;
+    }
+    add_strip(bed.rows.back().size(), lower, row(loop, last_level), hole);
   }
 
   /// A row of a grid in the mesh. Between whole rows the columns within flank strips have no vertex.
@@ -329,9 +364,7 @@ class StackMesher {
   }
 
   CapTriangulation cap_of(const std::vector<int>& boundary, std::size_t level) {
-    const bool turned = std::any_of(boundary.begin(), boundary.end(),
-                                    [&](int loop) { return grids_[at(loop)].has_value(); });
-    if (!turned) {  // the same at every height
+    if (std::all_of(boundary.begin(), boundary.end(), [&](int loop) { return is_prism(loop); })) {  // the same at every height
       auto [entry, is_new] = caps_.try_emplace(boundary);
       if (is_new) {
         std::vector<const OutlineLoop*> holes;
@@ -341,9 +374,7 @@ class StackMesher {
       return entry->second;
     }
     std::vector<OutlineLoop> loops;
-    for (int loop : boundary)
-      loops.push_back(grids_[at(loop)] ? loop_at_height(loop, height_in_gear(loop, z_of(level)))
-                                       : loops_[at(loop)]);
+    for (int loop : boundary) loops.push_back(loop_at_height(loop, z_of(level)));
     std::vector<const OutlineLoop*> holes;
     for (std::size_t i = 1; i < loops.size(); ++i) holes.push_back(&loops[i]);
     return triangulate_cap(loops[0], holes);
@@ -373,6 +404,7 @@ class StackMesher {
   std::vector<Section> sections_;
   std::vector<OutlineLoop> loops_;
   std::vector<std::optional<ToothingGrid>> grids_;  ///< of toothings that are no prisms
+  std::vector<std::optional<BedRows>> beds_;  ///< of outlines without teeth that have a bed chamfer
   std::vector<int> rows_;
   std::map<std::vector<int>, CapTriangulation> caps_;
   PartMesh result_;

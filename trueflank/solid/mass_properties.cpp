@@ -84,8 +84,26 @@ SectionMoments moments(const ToothProfile& profile) {
 
 /// Whether a toothing's section, but for its turn, is the same at every height.
 bool is_uniform(const ToothedOutline& outline) {
-  return outline.edge_chamfer_mm == 0.0 && outline.displacement == nullptr &&
+  return outline.edge_chamfer_mm == 0.0 && outline.displacement == nullptr && outline.bed == nullptr &&
          !(outline.toothing().has_deviation() && outline.deviation->varies_along_face);
+}
+
+/// A circle or bore, whose bed chamfer changes its section as a square of the height.
+SectionMoments integrated_plain(const Outline& outline, double z_lower_mm, double z_upper_mm) {
+  SectionMoments sum;
+  const double bed = std::clamp(bed_height_mm(outline), z_lower_mm, z_upper_mm);
+  const auto add = [&](double z_mm, double height_mm) {
+    const Outline here = outline_at_height(outline, z_mm);
+    const auto* circle = std::get_if<CircleOutline>(&here);
+    const SectionMoments m = circle != nullptr ? moments(*circle) : moments(outline_loop(here, kChordError_mm));
+    sum.area_mm2 += m.area_mm2 * height_mm;
+    sum.polar_mm4 += m.polar_mm4 * height_mm;
+  };
+  add(z_upper_mm, z_upper_mm - bed);
+  if (bed > z_lower_mm)
+    for (std::size_t k = 0; k < kGaussPlaces.size(); ++k)
+      add(std::lerp(z_lower_mm, bed, kGaussPlaces[k]), kGaussWeights[k] * (bed - z_lower_mm));
+  return sum;
 }
 
 /// Moments of an outline's section integrated over a slab's height: area to volume. A twist turns
@@ -96,16 +114,13 @@ SectionMoments integrated(const Outline& outline, double z_lower_mm, double z_up
     sum.area_mm2 += section.area_mm2 * height_mm;
     sum.polar_mm4 += section.polar_mm4 * height_mm;
   };
-  if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
-    add(moments(*circle), z_upper_mm - z_lower_mm);
-    return sum;
-  }
   const auto* toothed = std::get_if<ToothedOutline>(&outline);
-  if (toothed != nullptr && is_uniform(*toothed) && !toothed->toothing().has_deviation()) {
+  if (toothed == nullptr) return integrated_plain(outline, z_lower_mm, z_upper_mm);
+  if (is_uniform(*toothed) && !toothed->toothing().has_deviation()) {
     add(moments(*toothed->profile), z_upper_mm - z_lower_mm);
     return sum;
   }
-  if (toothed == nullptr || is_uniform(*toothed)) {
+  if (is_uniform(*toothed)) {
     add(moments(outline_loop(outline, kChordError_mm)), z_upper_mm - z_lower_mm);
     return sum;
   }
@@ -115,7 +130,7 @@ SectionMoments integrated(const Outline& outline, double z_lower_mm, double z_up
   const auto add_break = [&](double z) {
     if (z > lower && z < upper) breaks.push_back(z);
   };
-  for (const double z : {toothed->edge_chamfer_mm, 0.5 * face, face - toothed->edge_chamfer_mm})
+  for (const double z : {toothed->edge_chamfer_mm, toothed->bed_height_mm, 0.5 * face, face - toothed->edge_chamfer_mm})
     add_break(z);
   if (toothed->toothing().has_deviation())
     for (const double z : toothed->deviation->z_breaks_mm) add_break(z);

@@ -13,7 +13,7 @@
 #include "trueflank/solid/outline_distance.h"
 #include "trueflank/solid/outline_loop.h"
 #include "trueflank/solid/segment_fan.h"
-#include "trueflank/solid/toothing_distance.h"
+#include "trueflank/solid/wall_surface.h"
 
 namespace trueflank {
 namespace {
@@ -27,6 +27,8 @@ constexpr double kSamplesPerChord = 2.0;
 constexpr int kLeastSamples = 5, kMostSamples = 4000;
 /// Heights, as shares of a slab, at which a mesh is cut whose sections differ: in no simple ratio.
 constexpr std::array kCutShares = {0.013, 0.171, 0.337, 0.523, 0.689, 0.854, 0.987};
+/// The same over the height of a bed chamfer.
+constexpr std::array kBedShares = {0.07, 0.41, 0.83};
 /// At each of these heights one sample in so many of the true curve is looked at, at the next the next.
 constexpr std::size_t kSampleStride = 3;
 /// Edges on a twisted wall longer than this part of its radius are looked at in three places.
@@ -38,7 +40,7 @@ constexpr std::size_t kFacetsPerMiddle = 4;
 struct Wall {
   OutlineDistance curves;
   bool hole = false;
-  std::optional<ToothingDistance> toothing = {};  ///< of teeth that are no prism
+  std::optional<WallSurface> surface = {};  ///< of a wall that is no prism
   std::vector<std::vector<Segment>> cuts = {};    ///< one a height of the slab's
   double error_mm = 0.0;  ///< largest found from the facets' side
   Point2 error_foot = Point2::Zero();  ///< where on the curve
@@ -51,11 +53,30 @@ struct SlabWalls {
   std::vector<double> cut_heights_mm = {};
 };
 
-Wall wall_of(const Outline& outline, bool hole) {
-  Wall wall{.curves = OutlineDistance(outline), .hole = hole};
-  const auto* toothed = std::get_if<ToothedOutline>(&outline);
-  if (toothed != nullptr && !is_plain_prism(*toothed)) wall.toothing.emplace(*toothed);
-  return wall;
+double bed_height_mm(const Slab& slab) {
+  double height = bed_height_mm(slab.outer) - slab.z_lower_mm;
+  for (const Outline& hole : slab.holes) height = std::max(height, bed_height_mm(hole) - slab.z_lower_mm);
+  return std::max(0.0, height);
+}
+
+SlabWalls walls_of(const Slab& slab) {
+  SlabWalls result{slab.z_lower_mm, slab.z_upper_mm, {}};
+  const auto add = [&](const Outline& outline, bool hole) {
+    result.walls.push_back({.curves = OutlineDistance(outline), .hole = hole,
+                            .surface = wall_surface(outline, slab.z_lower_mm)});
+    result.prismatic = result.prismatic && !result.walls.back().surface;
+  };
+  add(slab.outer, false);
+  for (const Outline& hole : slab.holes) add(hole, true);
+  auto& heights = result.cut_heights_mm;
+  if (result.prismatic) heights = {0.5 * (slab.z_lower_mm + slab.z_upper_mm)};
+  else
+    for (const double share : kCutShares)
+      heights.push_back(std::lerp(slab.z_lower_mm, slab.z_upper_mm, share));
+  if (const double bed = bed_height_mm(slab); bed > 0.0)
+    for (const double share : kBedShares) heights.push_back(slab.z_lower_mm + share * bed);
+  for (Wall& wall : result.walls) wall.cuts.resize(heights.size());
+  return result;
 }
 
 struct NearestWall {
@@ -69,18 +90,8 @@ class Measurement {
   Measurement(const TriangleMesh& mesh, const PartShape& shape) : mesh_(mesh) {
     TRUEFLANK_EXPECTS(!shape.slabs.empty());
     for (const Slab& slab : shape.slabs) {
-      SlabWalls walls{slab.z_lower_mm, slab.z_upper_mm, {}};
-      walls.walls.push_back(wall_of(slab.outer, false));
-      for (const Outline& hole : slab.holes) walls.walls.push_back(wall_of(hole, true));
-      for (const Wall& wall : walls.walls) walls.prismatic = walls.prismatic && !wall.toothing;
-      if (walls.prismatic)
-        walls.cut_heights_mm = {0.5 * (slab.z_lower_mm + slab.z_upper_mm)};
-      else
-        for (const double share : kCutShares)
-          walls.cut_heights_mm.push_back(std::lerp(slab.z_lower_mm, slab.z_upper_mm, share));
-      for (Wall& wall : walls.walls) wall.cuts.resize(walls.cut_heights_mm.size());
       planes_mm_.push_back(slab.z_lower_mm);
-      slabs_.push_back(std::move(walls));
+      slabs_.push_back(walls_of(slab));
     }
     planes_mm_.push_back(shape.slabs.back().z_upper_mm);
     measured_.assign(mesh.vertices.size(), -1);
@@ -115,9 +126,9 @@ class Measurement {
     if (nearest == 0.0) return nearest;
     // the edge of a face goes with displaced teeth
     for (const Wall& wall : slabs_[slab_at(p.z())].walls)
-      if (wall.toothing)
+      if (wall.surface)
         for (double plane : planes_mm_)
-          nearest = std::min(nearest, std::abs(wall.toothing->undisplaced_z_mm(p) - plane));
+          nearest = std::min(nearest, std::abs(undisplaced_z_mm(*wall.surface, p) - plane));
     return nearest;
   }
   [[nodiscard]] double outside_stack_mm(double z_mm) const {
@@ -129,9 +140,9 @@ class Measurement {
     NearestWall nearest{.wall = 0, .excess_mm = std::numeric_limits<double>::infinity()};
     for (std::size_t w = 0; w < slab.walls.size(); ++w) {
       const Wall& wall = slab.walls[w];
-      if (wall.toothing) {
-        if (wall.toothing->lower_bound_mm(point) >= std::abs(nearest.excess_mm)) continue;
-        const double distance = wall.toothing->distance_mm(point);
+      if (wall.surface) {
+        if (lower_bound_mm(*wall.surface, point) >= std::abs(nearest.excess_mm)) continue;
+        const double distance = distance_mm(*wall.surface, point);
         if (std::abs(distance) < std::abs(nearest.excess_mm))
           nearest = {w, wall.hole ? -distance : distance, p};
         continue;
@@ -155,10 +166,10 @@ class Measurement {
       return;
     }
     if (!slabs_[slab].prismatic) {
-      bool toothed = true;
+      bool no_prism = true;
       for (std::size_t i = 0; i < 3; ++i)
-        toothed = slabs_[slab].walls[wall_of_corner(t[i], slab)].toothing && toothed;
-      if (toothed) {
+        no_prism = slabs_[slab].walls[wall_of_corner(t[i], slab)].surface && no_prism;
+      if (no_prism) {
         measure_twisted_facet(corner, slab);
         last_wall_ = vertex_walls_[t[0]];
         cut_triangle(corner, slab);
@@ -182,7 +193,7 @@ class Measurement {
     return vertex_walls_[v];
   }
 
-  /// A facet of teeth that are no prism, its corners measured: places along the edges, where all
+  /// A facet of a wall that is no prism, its corners measured: places along the edges, where all
   /// surfaces but domes are farthest, and of some facets the middle. An edge has two facets: it is looked
   /// at with the one that runs it upwards in the order of its coordinates.
   void measure_twisted_facet(const std::array<Point3, 3>& corner, std::size_t slab) {
@@ -298,15 +309,15 @@ class Measurement {
     const SegmentFan& fan;
     double z_mm;
     [[nodiscard]] Point2 place(std::size_t piece, double parameter, int copy) const {
-      if (wall.toothing) return wall.toothing->point_at_height(piece, parameter, copy, z_mm);
+      if (wall.surface) return point_at_height(*wall.surface, piece, parameter, copy, z_mm);
       return wall.curves.to_outline(point_at(wall.curves.pieces()[piece].curve, parameter), copy);
     }
     /// Square to the surface; where even the distance within the plane is less than `least_mm`, that.
     [[nodiscard]] double distance_mm(std::size_t piece, double parameter, int copy,
                                      double least_mm) const {
       const double within = fan.distance_mm(place(piece, parameter, copy));
-      if (!wall.toothing || within <= least_mm) return within;
-      return within * wall.toothing->slope_share(piece, parameter, copy, z_mm);
+      if (!wall.surface || within <= least_mm) return within;
+      return within * slope_share(*wall.surface, piece, parameter, copy, z_mm);
     }
   };
 
@@ -331,7 +342,7 @@ class Measurement {
     for (std::size_t i = 0; i < wall.curves.pieces().size(); ++i) sample(curves, height, i, worst);
     refine(curves, worst);
     surface_is_off(worst.distance_mm, curves.place(worst.piece, worst.parameter, worst.copy), z_mm);
-    if (!wall.toothing)
+    if (!wall.surface)
       surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, z_mm);
     wall.cuts[height].clear();
   }
@@ -356,9 +367,9 @@ class Measurement {
       const double parameter = piece.curve.begin + span * i / samples;
       const Point2 on_piece = point_at(piece.curve, parameter);
       for (int copy = 0; copy < wall.curves.copies(); ++copy) {
-        if (wall.toothing && (static_cast<std::size_t>(i + copy) + height) % kSampleStride != 0)
+        if (wall.surface && (static_cast<std::size_t>(i + copy) + height) % kSampleStride != 0)
           continue;
-        const double distance = wall.toothing
+        const double distance = wall.surface
                                     ? curves.distance_mm(index, parameter, copy, worst.distance_mm)
                                     : curves.fan.distance_mm(wall.curves.to_outline(on_piece, copy));
         if (distance > worst.distance_mm)

@@ -81,28 +81,47 @@ OutlineLoop loop_of(const BoreOutline& outline, double tolerance_mm, int least_s
   return loop;
 }
 
+BoreDesign grown_bore(BoreDesign bore, double by_mm) {
+  bore.diameter_mm += 2.0 * by_mm;
+  if (bore.kind == BoreKind::kKeyway) bore.keyway_width_mm += 2.0 * by_mm;
+  if (bore.kind == BoreKind::kDFlat) bore.d_flat_mm += 2.0 * by_mm;
+  return bore;
+}
+
 OutlineExtent extent_of(const ToothedOutline& outline) {
-  const double tip = outline.profile->tip_radius_mm(), root = outline.profile->root_radius_mm();
+  const double tip = outline.profile->tip_radius_mm();
+  double root = outline.profile->root_radius_mm();
+  if (outline.bed != nullptr)
+    root += tip < root ? outline.bed->deepest_mm() : -outline.bed->deepest_mm();
   return {Point2::Zero(), std::min(tip, root), std::max(tip, root)};
 }
 OutlineExtent extent_of(const CircleOutline& outline) {
-  return {outline.centre, outline.radius_mm, outline.radius_mm};
+  const double at_bed = outline.radius_mm + outline.bed.grow_mm;
+  return {outline.centre, std::min(outline.radius_mm, at_bed), std::max(outline.radius_mm, at_bed)};
 }
 OutlineExtent extent_of(const BoreOutline& outline) {
-  double inner = 0.5 * outline.bore.diameter_mm;
-  if (outline.bore.kind == BoreKind::kDFlat) inner = outline.bore.d_flat_mm - inner;
-  return {Point2::Zero(), inner, largest_radius_mm(outline.bore)};
+  const auto of = [](const BoreDesign& bore) {
+    double inner = 0.5 * bore.diameter_mm;
+    if (bore.kind == BoreKind::kDFlat) inner = bore.d_flat_mm - inner;
+    return OutlineExtent{Point2::Zero(), inner, largest_radius_mm(bore)};
+  };
+  const OutlineExtent here = of(outline.bore), at_bed = of(grown_bore(outline.bore, outline.bed.grow_mm));
+  return {Point2::Zero(), std::min(here.inner_radius_mm, at_bed.inner_radius_mm),
+          std::max(here.outer_radius_mm, at_bed.outer_radius_mm)};
 }
 
 bool same(const ToothedOutline& a, const ToothedOutline& b) {
   return a.profile == b.profile && a.rotation_rad == b.rotation_rad &&
          a.z_lower_mm == b.z_lower_mm && a.twist == b.twist && a.deviation == b.deviation &&
-         a.edge_chamfer_mm == b.edge_chamfer_mm && a.displacement == b.displacement;
+         a.edge_chamfer_mm == b.edge_chamfer_mm && a.displacement == b.displacement &&
+         a.bed == b.bed && a.bed_height_mm == b.bed_height_mm;
 }
 bool same(const CircleOutline& a, const CircleOutline& b) {
-  return a.centre == b.centre && a.radius_mm == b.radius_mm;
+  return a.centre == b.centre && a.radius_mm == b.radius_mm && a.bed == b.bed;
 }
-bool same(const BoreOutline& a, const BoreOutline& b) { return a.bore == b.bore; }
+bool same(const BoreOutline& a, const BoreOutline& b) {
+  return a.bore == b.bore && a.bed == b.bed;
+}
 
 }  // namespace
 
@@ -117,6 +136,28 @@ bool is_plain_prism(const ToothedOutline& outline) {
 
 OutlineExtent extent(const Outline& outline) {
   return std::visit([](const auto& o) { return extent_of(o); }, outline);
+}
+
+Outline grown(Outline outline, double by_mm) {
+  if (auto* circle = std::get_if<CircleOutline>(&outline)) circle->radius_mm += by_mm;
+  else if (auto* bore = std::get_if<BoreOutline>(&outline)) bore->bore = grown_bore(bore->bore, by_mm);
+  else TRUEFLANK_EXPECTS(false);
+  return outline;
+}
+
+Outline outline_at_height(const Outline& outline, double z_mm) {
+  Outline here = outline;
+  BedChamfer bed;
+  if (auto* circle = std::get_if<CircleOutline>(&here)) std::swap(bed, circle->bed);
+  if (auto* bore = std::get_if<BoreOutline>(&here)) std::swap(bed, bore->bed);
+  return grown(std::move(here), bed.grow_at_mm(z_mm));
+}
+
+double bed_height_mm(const Outline& outline) {
+  if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
+    return toothed->bed != nullptr ? toothed->bed_height_mm : 0.0;
+  if (const auto* circle = std::get_if<CircleOutline>(&outline)) return circle->bed.height_mm;
+  return std::get<BoreOutline>(outline).bed.height_mm;
 }
 
 bool same_outline(const Outline& a, const Outline& b) {
@@ -184,8 +225,9 @@ OutlineLoop outline_loop(const Outline& outline, double tolerance_mm, int least_
   return loop;
 }
 
-OutlineLoop loop_through(std::vector<Point2> points) {
+OutlineLoop loop_through(std::vector<Point2> points, const Point2& centre) {
   OutlineLoop loop;
+  loop.centre = centre;
   loop.points = std::move(points);
   set_radii(loop);
   return loop;

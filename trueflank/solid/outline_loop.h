@@ -33,6 +33,15 @@ struct OutlineExtent {
 };
 [[nodiscard]] OutlineExtent extent(const Outline& outline);
 
+/// A circle or bore moved outwards (inwards where negative); corners stay sharp.
+/// Requires: no teeth.
+[[nodiscard]] Outline grown(Outline outline, double by_mm);
+/// A circle or bore as it is at a height of the part: its bed chamfer is in its size.
+/// Requires: no teeth.
+[[nodiscard]] Outline outline_at_height(const Outline& outline, double z_mm);
+/// Up to which height of the part the bed chamfer of an outline reaches; 0: none.
+[[nodiscard]] double bed_height_mm(const Outline& outline);
+
 /// True where two outlines are one and the same curve.
 [[nodiscard]] bool same_outline(const Outline& a, const Outline& b);
 
@@ -55,7 +64,8 @@ struct BoreEdge {
 [[nodiscard]] OutlineLoop outline_loop(const Outline& outline, double tolerance_mm,
                                        int least_segments = 8);
 
-/// The loop about the origin through points that are known, with its radii.
-[[nodiscard]] OutlineLoop loop_through(std::vector<Point2> points);
+/// The loop about a centre through points that are known, with its radii.
+[[nodiscard]] OutlineLoop loop_through(std::vector<Point2> points,
+                                       const Point2& centre = Point2::Zero());
 
 }  // namespace trueflank

@@ -13,6 +13,18 @@
 // B-rep, drawings and OpenSCAD are all made from this one description.
 namespace trueflank {
 
+/// Chamfer of a whole outline where the part lies on the bed of a printer, at z = 0.
+struct BedChamfer {
+  double grow_mm = 0.0;  ///< moves the outline at z = 0: + outwards, as a hole does; linear to 0
+  double height_mm = 0.0;
+
+  [[nodiscard]] double grow_at_mm(double z_mm) const {
+    if (!(z_mm < height_mm)) return 0.0;
+    return grow_mm * (1.0 - (z_mm > 0.0 ? z_mm / height_mm : 0.0));
+  }
+  bool operator==(const BedChamfer&) const = default;
+};
+
 /// All teeth of a gear: outer outline of an external gear, hole of a ring.
 struct ToothedOutline {
   const ToothProfile* profile = nullptr;  ///< not owned; lives in the GearTrain
@@ -22,18 +34,22 @@ struct ToothedOutline {
   const FlankDeviation* deviation = nullptr;  ///< not owned; lives in the GearTrain
   double edge_chamfer_mm = 0.0;
   const Displacement* displacement = nullptr;  ///< not owned; in the gear's frame
+  const InsetProfile* bed = nullptr;  ///< bed chamfer of the gear's lower face, see Toothing; not owned
+  double bed_height_mm = 0.0;
 
   [[nodiscard]] Toothing toothing() const {
-    return {profile, twist, deviation, edge_chamfer_mm, displacement};
+    return {profile, twist, deviation, edge_chamfer_mm, displacement, bed, bed_height_mm};
   }
 };
 struct CircleOutline {
   Point2 centre = Point2::Zero();
   double radius_mm = 1.0;
+  BedChamfer bed = {};
 };
 /// A bore of any kind, about the origin; keyway, flat and the first hex flat face +x.
 struct BoreOutline {
   BoreDesign bore;
+  BedChamfer bed = {};
 };
 using Outline = std::variant<ToothedOutline, CircleOutline, BoreOutline>;
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "trueflank/base/units.h"
+#include "trueflank/solid/bed_chamfer.h"
+#include "trueflank/solid/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -32,24 +34,26 @@ class Compensator {
         for (Outline& hole : slab.holes)
           if (auto ok = offset(part.name, hole, true); !ok) return fail(std::move(ok.error()));
       }
+    if (process_.elephant_foot_mm > 0.0) add_bed_chamfers();
     return std::move(result_);
   }
 
  private:
+  void add_bed_chamfers() {
+    const double depth = process_.elephant_foot_mm;
+    const double height = process_.elephant_foot_height_mm > 0.0 ? process_.elephant_foot_height_mm : depth;
+    for (PartShape& part : result_.shapes.parts)
+      if (auto note = add_bed_chamfer(part, depth, height, result_.bed_profiles))
+        result_.notes.push_back(std::move(*note));
+  }
+
   Status offset(const std::string& part, Outline& outline, bool hole) {
     const double inwards = process_.horizontal_expansion_mm;
     const double outwards = hole ? inwards : -inwards;  // from the outline's own inside
-    if (auto* circle = std::get_if<CircleOutline>(&outline)) {
-      circle->radius_mm += outwards;
-      if (!(circle->radius_mm > 0.0)) return fail(does_not_exist(part, inwards, "a hole closes"));
-      return {};
-    }
-    if (auto* bore = std::get_if<BoreOutline>(&outline)) {
-      BoreDesign& b = bore->bore;
-      b.diameter_mm += 2.0 * outwards;
-      if (b.kind == BoreKind::kKeyway) b.keyway_width_mm += 2.0 * outwards;
-      if (b.kind == BoreKind::kDFlat) b.d_flat_mm += 2.0 * outwards;
-      if (!(b.diameter_mm > 0.0)) return fail(does_not_exist(part, inwards, "the bore closes"));
+    if (!std::holds_alternative<ToothedOutline>(outline)) {
+      outline = grown(std::move(outline), outwards);
+      if (!(extent(outline).inner_radius_mm > 0.0))
+        return fail(does_not_exist(part, inwards, "a hole closes"));
       return {};
     }
     auto& toothed = std::get<ToothedOutline>(outline);

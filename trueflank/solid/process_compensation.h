@@ -3,6 +3,8 @@
 
 #include <deque>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "trueflank/base/result.h"
 #include "trueflank/solid/part_shape.h"
@@ -16,10 +18,14 @@ struct CompensatedShapes {
   std::deque<ToothProfile> profiles;  ///< of the shapes' outlines; they move along with it
   /// From the profiles of the shapes it was made of to those in `profiles`.
   std::map<const ToothProfile*, const ToothProfile*> moved = {};
+  std::deque<InsetProfile> bed_profiles;  ///< of their bed chamfers; likewise
+  std::vector<std::string> notes;     ///< where a bed chamfer is not as the process wants it
 };
 
 /// Every wall moved into the material by the process's horizontal expansion (outwards where that is
-/// negative), in the plane of the sections; heights do not change. The elephant foot is not built.
+/// negative), in the plane of the sections; heights do not change. Then the lowest face of every part,
+/// which lies on the bed, gets a chamfer as deep and high as the process's elephant foot (45 degrees
+/// where it gives no height; add_bed_chamfer()).
 /// Teeth stay exact: the offset of a gear is the gear of a tool that is wider, deeper and rounder by
 /// the offset. Bores, rims and holes are offset exactly but for the corners of keyways, flats and
 /// hexagons, which stay sharp.

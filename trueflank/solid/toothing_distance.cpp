@@ -84,7 +84,7 @@ double ToothingDistance::undisplaced_z_mm(const Point3& point) const {
 double ToothingDistance::lower_bound_mm(const Point3& point) const {
   // a deviation turns points about the axis: their radii stay
   const double bound = section_.lower_bound_mm(point.head<2>()) - toothing_.edge_chamfer_mm -
-                       2.0 * largest_displacement_mm_;
+                       toothing_.bed_depth_mm(0.0) - 2.0 * largest_displacement_mm_;
   const Gear& gear = outline_.profile->gear();
   const double slope = toothing_.twist.turn_rad_per_mm *
                        std::max(base_radius_mm(gear), outline_.profile->root_radius_mm());
@@ -123,6 +123,25 @@ ToothingDistance::CircleTurn ToothingDistance::turn_of_circle(int tooth, int sid
   return {fade * whole, fade_rise * whole};
 }
 
+ToothingDistance::CircleTurn ToothingDistance::turn_back(const Point2& place, double z_mm) const {
+  const int teeth = outline_.profile->gear().teeth;
+  const double pitch = kTwoPi / teeth;
+  const double angle = polar_angle_rad(place);
+  const double away = std::round(wrapped_rad(angle) / pitch);
+  const int tooth = static_cast<int>(away) % teeth;
+  const int side = centred_rad(angle - away * pitch) < 0.0 ? -1 : 1;
+  const double radius = place.norm();
+  auto [turn, rise] = turn_of_circle(tooth, side, radius, z_mm);
+  // the tip's land is scaled in its angle, so that its end meets the flank; an undercut foot may be as
+  // narrow and is no land
+  const double from_middle = std::abs(centred_rad(angle - away * pitch));
+  const ToothProfile& profile = *outline_.profile;
+  const bool at_tip_end = std::abs(radius - profile.tip_radius_mm()) <
+                          std::abs(radius - profile.root_form_radius_mm());
+  if (at_tip_end && from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
+  return {-side * turn, -side * rise};
+}
+
 ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turned_back,
                                                              double z_mm) const {
   // turning, a section moves square to itself by the lever of the foot about the axis
@@ -136,27 +155,23 @@ ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turne
     return SectionFoot{foot.distance_mm, lever, std::max(slope.norm(), kLeastSlope)};
   };
   if (!deviates_) return foot_of(turned_back, 0.0);
-  const int teeth = outline_.profile->gear().teeth;
-  const double pitch = kTwoPi / teeth;
-  const double angle = polar_angle_rad(turned_back);
-  const double away = std::round(wrapped_rad(angle) / pitch);
-  const int tooth = static_cast<int>(away) % teeth;
-  const int side = centred_rad(angle - away * pitch) < 0.0 ? -1 : 1;
-  const double radius = turned_back.norm();
-  auto [turn, rise] = turn_of_circle(tooth, side, radius, z_mm);
-  // the tip's land is scaled in its angle, so that its end meets the flank; an undercut foot may be as
-  // narrow and is no land
-  const double from_middle = std::abs(centred_rad(angle - away * pitch));
-  const ToothProfile& profile = *outline_.profile;
-  const bool at_tip_end = std::abs(radius - profile.tip_radius_mm()) <
-                          std::abs(radius - profile.root_form_radius_mm());
-  if (at_tip_end && from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
-  const SectionFoot foot = foot_of(rotated(turned_back, -side * turn), -side * rise);
+  const auto turned_by = [&](const CircleTurn& turn) {
+    return foot_of(rotated(turned_back, turn.turn_rad), turn.rise_rad_per_mm);
+  };
+  SectionFoot foot;
+  if (toothing_.bed_depth_mm(z_mm) == 0.0) {
+    foot = turned_by(turn_back(turned_back, z_mm));
+  } else {  // deep in the material: the deviation is that of the place on the design straight over it
+    Point2 over = turned_back;
+    for (int i = 0; i < 2; ++i)
+      over = section_.foot(rotated(turned_back, turn_back(over, z_mm).turn_rad)).point;
+    foot = turned_by(turn_back(over, z_mm));
+  }
   const double depth = chamfer_depth_mm(z_mm);
   if (depth == 0.0 || flank_ != 1) return foot;  // trimmed and radial tips keep their height
   const bool external = outline_.profile->gear().kind == GearKind::kExternal;
   const double lowered = outline_.profile->tip_radius_mm() + (external ? -depth : depth);
-  const double over_tip = radius - lowered;
+  const double over_tip = turned_back.norm() - lowered;
   const bool at_tip = external ? over_tip > foot.distance_mm : over_tip < foot.distance_mm;
   return at_tip ? SectionFoot{over_tip, 0.0} : foot;
 }
@@ -170,14 +185,20 @@ double ToothingDistance::distance_mm(const Point3& point) const {
                         place.z());
   };
   const SectionFoot foot = section_at(p);
-  if (chamfer_depth_mm(p.z()) > 0.0) {
+  const double shrinks = outline_.profile->gear().kind == GearKind::kExternal ? 1.0 : -1.0;
+  const auto distance_at = [&](const Point3& place) {
+    return section_at(place).distance_mm + shrinks * toothing_.bed_depth_mm(place.z());
+  };
+  if (chamfer_depth_mm(p.z()) > 0.0 || toothing_.bed_depth_mm(p.z()) > 0.0) {
     // a chamfer turns circles so differently that the way back stretches: by its slopes in space
+    const double distance = foot.distance_mm + shrinks * toothing_.bed_depth_mm(p.z());
+    if (std::abs(distance) < kOnSurface_mm) return distance;
     Point3 slopes;
     for (int k = 0; k < 3; ++k) {
       const Point3 step = kStep_mm * Point3::Unit(k);
-      slopes[k] = (section_at(p + step).distance_mm - section_at(p - step).distance_mm) / (2.0 * kStep_mm);
+      slopes[k] = (distance_at(p + step) - distance_at(p - step)) / (2.0 * kStep_mm);
     }
-    return foot.distance_mm / std::max(slopes.norm(), kLeastSlope);
+    return distance / std::max(slopes.norm(), kLeastSlope);
   }
   const double slope = turn_rate * foot.lever_mm;
   if (slope == 0.0) return foot.distance_mm / foot.stretch;

@@ -87,9 +87,9 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   TRUEFLANK_EXPECTS(tolerance_mm > 0.0 && !levels_mm_.empty());
   teeth_ = toothing_.profile->gear().teeth;
   const bool deviates = toothing_.has_deviation(), moved = toothing_.displacement != nullptr;
-  plain_ = !deviates && !moved && toothing_.edge_chamfer_mm == 0.0;
+  plain_ = !deviates && !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr;
   teeth_alike_ = !moved && !(deviates && toothing_.deviation->varies_by_tooth);
-  layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 &&
+  layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr &&
                   !(deviates && toothing_.deviation->varies_along_face);
   const double aim = kAim * tolerance_mm;
   start_columns(plain_ ? aim : kRoomForDeviation * aim);
@@ -249,6 +249,7 @@ void ToothingGrid::start_layers(double tolerance_mm) {
     add(toothing_.edge_chamfer_mm);
     add(twist.face_width_mm - toothing_.edge_chamfer_mm);
   }
+  if (toothing_.bed != nullptr) add(toothing_.bed_height_mm);
   if (toothing_.has_deviation())
     for (const double z : toothing_.deviation->z_breaks_mm) add(z);
   breaks = sorted_heights(std::move(breaks));
