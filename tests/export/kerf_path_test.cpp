@@ -137,6 +137,66 @@ TEST(KerfPath, IsTheTrueOffsetOfTeeth) {
   }
 }
 
+/// Tip and root relief as parabolas in the roll length, and profile crowning.
+FlankDeviation relieved(const ToothProfile& profile) {
+  const double root = profile.root_form_roll_length_mm(), tip = profile.tip_form_roll_length_mm();
+  const double middle = std::lerp(root, tip, 0.5);
+  FlankDeviation field;
+  field.deviation_mm = [=](int, Flank, double roll, double) {
+    const double u = (roll - middle) / (tip - middle);
+    return -0.004 * u * u - (u > 0.0 ? 0.02 * u * u : 0.0);
+  };
+  field.roll_breaks_mm = {middle};
+  return field;
+}
+
+TEST(KerfPath, IsTheTrueOffsetOfModifiedProfiles) {
+  for (const Gear& gear : {test::external_gear(24, 0.1), test::external_gear(8, 0.1), test::ring_gear(40, 0.2),
+                           test::with_tip_rounding(test::external_gear(30, 0.0), 0.1)}) {
+    const auto profile = ToothProfile::make(gear);
+    ASSERT_TRUE(profile);
+    const FlankDeviation field = relieved(*profile);
+    const bool ring = gear.kind == GearKind::kInternal;
+    const ToothedOutline teeth{.profile = &*profile, .rotation_rad = 0.2,
+                               .twist = {.face_width_mm = 5.0}, .deviation = &field};
+    expect_true_offset(std::to_string(gear.teeth) + " teeth, relieved", teeth, ring, 0.25);
+    // and not that of the unmodified teeth
+    const auto made = kerf_path(teeth, ring, 0.25, kTolerance_mm);
+    const auto plain = kerf_path(ToothedOutline{.profile = &*profile, .rotation_rad = 0.2}, ring, 0.25,
+                                 kTolerance_mm);
+    ASSERT_TRUE(made && plain);
+    const Edges path = edges_of(plain->path);
+    double apart = 0.0;
+    for (std::size_t i = 0; i < made->path.vertices.size() / static_cast<std::size_t>(gear.teeth); ++i) {
+      double nearest = 1e9;
+      for (std::size_t k = 0; k < path.edges.size(); ++k)
+        nearest = std::min(nearest, distance_mm(path.edges[k], path.end(k), made->path.vertices[i].point));
+      apart = std::max(apart, nearest);
+    }
+    EXPECT_GT(apart, 0.015);
+  }
+}
+
+TEST(KerfPath, IsRefusedForWhatNoStraightWireCuts) {
+  const auto profile = ToothProfile::make(test::external_gear(24, 0.1));
+  ASSERT_TRUE(profile);
+  FlankDeviation crowned = relieved(*profile);
+  crowned.varies_along_face = true;
+  const ToothedOutline straight{.profile = &*profile, .twist = {.face_width_mm = 5.0}};
+  ToothedOutline helical = straight, bowed = straight, edged = straight;
+  helical.twist.turn_rad_per_mm = 0.01;
+  bowed.deviation = &crowned;
+  edged.edge_chamfer_mm = 0.2;
+  for (const auto& [teeth, word] : {std::pair{helical, "cannot cut helical teeth"},
+                                    std::pair{bowed, "cannot cut flanks that change along the face"},
+                                    std::pair{edged, "cannot cut an edge chamfer"}}) {
+    const auto made = kerf_path(teeth, false, 0.25, kTolerance_mm);
+    ASSERT_FALSE(made) << word;
+    EXPECT_EQ(made.error().key, "made.kerf_mm");
+    EXPECT_NE(made.error().message.find(word), std::string::npos) << made.error().message;
+  }
+}
+
 TEST(KerfPath, IsTheTrueOffsetOfBores) {
   const BoreDesign keyway{.diameter_mm = 8.0, .kind = BoreKind::kKeyway, .keyway_width_mm = 3.0,
                           .keyway_depth_mm = 1.4};

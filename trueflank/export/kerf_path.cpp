@@ -10,10 +10,11 @@
 #include <optional>
 
 #include "trueflank/base/units.h"
+#include "trueflank/export/kerf_element.h"
 #include "trueflank/geometry/biarc.h"
 #include "trueflank/geometry/scalar_root.h"
+#include "trueflank/geometry/section_profile.h"
 #include "trueflank/solid/outline_distance.h"
-#include "trueflank/solid/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
@@ -26,79 +27,14 @@ constexpr double kFitShare = 0.9;
 /// Corners that turn by less are smooth.
 constexpr double kSmooth_rad = 1e-7;
 
-/// One piece of the half outline, or an arc about one of its corners, and its offset.
-struct Element {
-  Curve curve;  ///< the outline's piece; of a corner: a circle of no radius about it
-  double offset_mm = 0.0;  ///< along the outward normal
-  bool corner = false;
-
-  [[nodiscard]] double parameter(double u) const { return curve.begin + u * (curve.end - curve.begin); }
-  [[nodiscard]] Point2 tangent(double u) const {
-    if (!corner) return tangent_at(curve, parameter(u));
-    // at a corner the normal turns, from the piece before to the piece after
-    return perpendicular(unit_vector(parameter(u)));
-  }
-  [[nodiscard]] Point2 normal(double u) const {
-    if (corner) return unit_vector(parameter(u));
-    return -perpendicular(tangent(u));
-  }
-  [[nodiscard]] Point2 foot(double u) const {
-    return corner ? std::get<CircularArc>(curve.shape).centre : point_at(curve, parameter(u));
-  }
-  [[nodiscard]] Point2 point(double u) const { return foot(u) + offset_mm * normal(u); }
-};
-
-/// A stretch of an element that the wire's middle runs.
-struct Stretch {
-  const Element* element = nullptr;
-  double from = 0.0, to = 1.0;
-};
-
-Curve line_from(const Point2& a, const Point2& b) {
-  const double length = (b - a).norm();
-  return {StraightLine{a, (b - a) / length}, 0.0, length};
-}
-
-/// The half of a bore above the x axis, from +x to -x.
-std::vector<Curve> half_bore(const BoreDesign& bore) {
-  std::vector<Curve> half;
-  for (const BoreEdge& edge : bore_edges(bore)) {
-    if (edge.arc) {
-      const double begin = polar_angle_rad(edge.from);
-      double angle = wrapped_rad(polar_angle_rad(edge.to) - begin);
-      if (angle == 0.0) angle = kTwoPi;
-      const double from = std::max(begin, 0.0), to = std::min(begin + angle, kPi);
-      if (to > from)
-        half.push_back({CircularArc{Point2::Zero(), 0.5 * bore.diameter_mm}, from, to});
-      continue;
-    }
-    Point2 a = edge.from, b = edge.to;
-    if (a.y() <= 0.0 && b.y() <= 0.0) continue;
-    const auto on_axis = [&] { return Point2(a + (b - a) * (a.y() / (a.y() - b.y()))); };
-    if (a.y() < 0.0) a = Point2(on_axis().x(), 0.0);
-    else if (b.y() < 0.0) b = Point2(on_axis().x(), 0.0);
-    half.push_back(line_from(a, b));
-  }
-  std::sort(half.begin(), half.end(), [](const Curve& p, const Curve& q) {
-    const auto middle = [](const Curve& c) {
-      return polar_angle_rad(point_at(c, 0.5 * (c.begin + c.end)));
-    };
-    return middle(p) < middle(q);
-  });
-  return half;
-}
-
 class PathBuilder {
  public:
   PathBuilder(const Outline& outline, bool hole, double kerf_mm, double tolerance_mm)
       : distance_(unturned(outline)), hole_(hole), radius_mm_(0.5 * kerf_mm),
-        tolerance_mm_(tolerance_mm) {
+        tolerance_mm_(tolerance_mm), half_(half_outline(outline)) {
     if (const auto* toothed = std::get_if<ToothedOutline>(&outline)) {
       copies_ = toothed->profile->gear().teeth;
       rotation_rad_ = toothed->rotation_rad;
-      for (const ProfilePiece& piece : toothed->profile->pieces()) half_.push_back(piece.curve);
-    } else {
-      half_ = half_bore(std::get<BoreOutline>(outline).bore);
     }
     sector_rad_ = kPi / copies_;
   }
@@ -380,6 +316,31 @@ Error does_not_fit(double kerf_mm) {
           .remedy = "a thinner wire, or a larger hole"};
 }
 
+constexpr const char* kUnlike = "the path of a wire is not built for teeth or flanks that differ";
+
+Error not_built(double kerf_mm, std::string why) {
+  return {.code = ErrorCode::kUnsupported,
+          .message = std::move(why),
+          .key = "made.kerf_mm",
+          .value = std::to_string(kerf_mm),
+          .remedy = "no kerf, or straight teeth whose modifications are of the profile alone (tip and "
+                    "root relief, profile crowning and slope, tip rounding)"};
+}
+
+/// A straight wire leaves the same section at every height.
+Status straight_wire_cuts(const ToothedOutline& teeth, double kerf_mm) {
+  const Toothing toothing = teeth.toothing();
+  std::string what;
+  if (toothing.twist.turn_rad_per_mm != 0.0) what = "helical teeth";
+  else if (toothing.edge_chamfer_mm != 0.0) what = "an edge chamfer";
+  else if (toothing.has_deviation() && toothing.deviation->varies_along_face)
+    what = "flanks that change along the face (crowning, helix slope, end relief)";
+  if (!what.empty()) return fail(not_built(kerf_mm, "a straight wire or beam cannot cut " + what));
+  const bool by_tooth = toothing.has_deviation() && toothing.deviation->varies_by_tooth;
+  if (by_tooth || !toothing.prismatic()) return fail(not_built(kerf_mm, kUnlike));
+  return {};
+}
+
 }  // namespace
 
 Result<KerfPath> kerf_path(const Outline& outline, bool hole, double kerf_mm, double tolerance_mm) {
@@ -391,58 +352,24 @@ Result<KerfPath> kerf_path(const Outline& outline, bool hole, double kerf_mm, do
     result.as_cut.circle = circle;
     return result;
   };
+  const auto path_of = [&](const Outline& section) -> Result<KerfPath> {
+    auto path = PathBuilder(section, hole, kerf_mm, tolerance_mm).build();
+    if (!path) return fail(does_not_fit(kerf_mm));
+    return std::move(*path);
+  };
   if (const auto* circle = std::get_if<CircleOutline>(&outline)) return of_circle(*circle);
   if (const auto* bore = std::get_if<BoreOutline>(&outline))
     if (bore->bore.kind == BoreKind::kRound)
       return of_circle({Point2::Zero(), 0.5 * bore->bore.diameter_mm});
-  if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
-    if (!toothed->toothing().prismatic() || toothed->toothing().has_deviation())
-      return fail(Error{.code = ErrorCode::kUnsupported,
-                        .message = "the path of a wire is built for straight teeth without "
-                                   "modifications and chamfers only",
-                        .key = "made.kerf_mm",
-                        .value = std::to_string(kerf_mm),
-                        .remedy = "no kerf for this design"});
-  auto path = PathBuilder(outline, hole, kerf_mm, tolerance_mm).build();
-  if (!path) return fail(does_not_fit(kerf_mm));
-  return std::move(*path);
-}
-
-Result<KerfSections> kerf_sections(const PartShape& part, double kerf_mm, double tolerance_mm) {
-  KerfSections result;
-  const std::string suffix = "_KERF_" + std::to_string(std::lround(um_from_mm(kerf_mm))) + "UM";
-  for (const Slab& slab : part.slabs) {
-    Section section{"section " + std::to_string(result.sections.size() + 1), slab.z_lower_mm,
-                    slab.z_upper_mm, {}};
-    SectionBody path{part.name + suffix, part.name, {}, {}};
-    SectionBody as_cut{part.name + "_AS_CUT", part.name, {}, {}};
-    as_cut.frozen = true;
-    std::size_t unreached = 0;
-    const auto add = [&](const Outline& outline, bool hole) -> Status {
-      auto made = kerf_path(outline, hole, kerf_mm, tolerance_mm);
-      if (!made) return fail(std::move(made.error()));
-      unreached += made->corners.size();
-      result.deviation_mm = std::max(result.deviation_mm, made->deviation_mm);
-      for (const UnreachedCorner& corner : made->corners)
-        result.left_mm = std::max(result.left_mm, corner.left_mm);
-      if (hole) {
-        path.holes.push_back(std::move(made->path));
-        as_cut.holes.push_back(std::move(made->as_cut));
-      } else {
-        path.outer = std::move(made->path);
-        as_cut.outer = std::move(made->as_cut);
-      }
-      return {};
-    };
-    if (auto ok = add(slab.outer, false); !ok) return fail(std::move(ok.error()));
-    for (const Outline& hole : slab.holes)
-      if (auto ok = add(hole, true); !ok) return fail(std::move(ok.error()));
-    section.bodies.push_back(std::move(path));
-    if (unreached > 0) section.bodies.push_back(std::move(as_cut));
-    result.unreached += unreached;
-    result.sections.push_back(std::move(section));
+  if (const auto* toothed = std::get_if<ToothedOutline>(&outline)) {
+    if (auto cut = straight_wire_cuts(*toothed, kerf_mm); !cut) return fail(std::move(cut.error()));
+    if (toothed->toothing().has_deviation()) {
+      const ToothSection section = section_profile(toothed->toothing(), 0.5 * toothed->twist.face_width_mm);
+      if (!section.profile.symmetric()) return fail(not_built(kerf_mm, kUnlike));
+      return path_of(ToothedOutline{.profile = &section.profile, .rotation_rad = toothed->rotation_rad});
+    }
   }
-  return result;
+  return path_of(outline);
 }
 
 }  // namespace trueflank::io

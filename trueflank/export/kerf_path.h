@@ -28,8 +28,10 @@ struct KerfPath {
 /// the path is at least half the kerf from the whole outline. Convex corners are rounded about
 /// the corner, as the wire goes.
 /// Requires: kerf_mm > 0, tolerance_mm > 0.
+/// Teeth with modifications of the profile: of their modified section.
 /// Errors, key made.kerf_mm: kInfeasible where the wire does not fit into the hole; kUnsupported for
-/// helical or modified teeth.
+/// helical teeth and those that change along the face, which no straight wire cuts, and for teeth
+/// that differ.
 /// Accuracy: deviation_mm <= tolerance_mm, measured against OutlineDistance, tested against an offset
 /// of the dense polygon in tests/export/kerf_path_test.cpp.
 [[nodiscard]] Result<KerfPath> kerf_path(const Outline& outline, bool hole, double kerf_mm,

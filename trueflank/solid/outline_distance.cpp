@@ -122,7 +122,8 @@ void OutlineDistance::add(const Curve& curve) {
   form.start = curve.start_point();
   form.end = curve.end_point();
   if (std::holds_alternative<RackTrochoid>(curve.shape) ||
-      std::holds_alternative<CutterTrochoid>(curve.shape))
+      std::holds_alternative<CutterTrochoid>(curve.shape) ||
+      std::holds_alternative<PointCurve>(curve.shape))
     form.spline.emplace(curve);
   form.low = form.high = form.start;
   for (int i = 1; i < kNodes; ++i) {

@@ -45,7 +45,7 @@ class OutlineDistance {
     Point2 low = Point2::Zero(), high = Point2::Zero();  ///< box around it
     Point2 start = Point2::Zero(), end = Point2::Zero();
     Point2 start_normal = Point2::Zero(), end_normal = Point2::Zero();  ///< pointing out of the enclosed area; mean of both pieces
-    std::optional<CurveSpline> spline;  ///< of a trochoid
+    std::optional<CurveSpline> spline;  ///< of a trochoid or a deviated flank
   };
   void add(const Curve& curve);
   void finish();
