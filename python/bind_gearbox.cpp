@@ -142,20 +142,8 @@ py::dict efficiency_dict(const Gearbox& self, std::optional<double> friction, co
   return dict;
 }
 
-/// Refuses what the program refuses: formats that cannot hold this design's teeth.
-void require_format(const Gearbox& self, io::FileFormat format) {
-  const auto missing = app::formats_not_built(self.train().design);
-  if (std::find(missing.begin(), missing.end(), format) != missing.end())
-    throw Failure({.code = ErrorCode::kUnsupported,
-                   .message = "an OpenSCAD file cannot carry modified flanks",
-                   .key = "formats",
-                   .value = io::to_text(format),
-                   .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"});
-}
-
 std::string step(const Gearbox& self, const std::string& part) {
   py::gil_scoped_release unlocked;
-  require_format(self, io::FileFormat::kStep);
   const auto stepped = [](const PartShape& shape) {
     const io::Colour colour = io::part_colour(shape.name);
     return io::StepPart{.name = shape.name,
@@ -176,7 +164,6 @@ py::list export_files(const Gearbox& self, const py::object& folder, const std::
   {
     py::gil_scoped_release unlocked;
     const auto wanted = value_or_throw(io::parse_formats(formats));
-    for (const io::FileFormat format : wanted) require_format(self, format);
     auto written = io::export_parts({.train = &self.train(), .shapes = &self.shapes()},
                                     {.folder = path, .formats = wanted, .tolerance_mm = tolerance_mm,
                                      .kerf_mm = self.train().design.made.kerf_mm.value_or(0.0), .part = part});

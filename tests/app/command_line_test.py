@@ -346,15 +346,14 @@ class Make(Case):
                 self.assertGreater(file["accuracy_um"], 1.0, file)
                 self.assertLessEqual(file["accuracy_um"], 2.0, file)
 
-    def test_formats_that_cannot_hold_modified_flanks_are_refused_by_name(self):
+    def test_every_format_holds_modified_flanks(self):
         design = self.design(PAIR + "[pinion.modifications]\ncrowning_um = 20\n")
-        self.expect_error(run("make", design, "-o", self.folder / "out", "--formats", "stl,scad"), 2,
-                          "--formats", "scad", "modified flanks")
-        self.assertFalse((self.folder / "out").exists())
         result = run("make", design, "-o", self.folder / "out", "--tolerance-um", "20")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("not written: scad", result.stdout)
-        self.assertFalse(list((self.folder / "out").glob("*.scad")))
+        self.assertNotIn("not written", result.stdout)
+        scad = (self.folder / "out" / "pinion.scad").read_text()
+        self.assertIn("modified_rows(", scad.split("// ---")[0])
+        self.assertLess(len(scad), 40000)
 
     def test_folder_that_is_a_file_is_three(self):
         (self.folder / "taken").write_text("mine")

@@ -63,28 +63,6 @@ Errors part_errors(const MakeOptions& options, const PartShapes& shapes) {
            .remedy = joined(names)}};
 }
 
-/// Formats that can hold the design. Those that cannot are refused where they were asked for by name,
-/// and told where all were asked for.
-ResultAll<std::vector<io::FileFormat>> formats_for(const MakeOptions& options,
-                                                   const GearboxDesign& design, std::string& told) {
-  const auto asked = io::parse_formats(options.formats).value();
-  const auto missing = formats_not_built(design);
-  std::vector<io::FileFormat> kept;
-  std::vector<std::string> dropped;
-  for (const io::FileFormat format : asked)
-    if (std::find(missing.begin(), missing.end(), format) == missing.end()) kept.push_back(format);
-    else dropped.emplace_back(io::to_text(format));
-  if (dropped.empty()) return kept;
-  if (!options.formats.empty())
-    return fail_all({{.code = ErrorCode::kUnsupported,
-                      .message = "an OpenSCAD file cannot carry modified flanks",
-                      .key = "--formats",
-                      .value = joined(dropped),
-                      .remedy = "stl, 3mf, obj, ply, glb, step, dxf or svg"}});
-  told += "not written: " + joined(dropped) + " (an OpenSCAD file cannot carry modified flanks)\n";
-  return kept;
-}
-
 Status write_report(const io::Report& report, const std::string& drawing,
                     const std::filesystem::path& folder) {
   const std::string json = io::report_json(report);
@@ -109,7 +87,7 @@ int run_make(const MakeOptions& options) {
                            .remedy = "--process NAME, or [made] process in the design"}});
 
   std::string told;  // what was left out, and what was corrected
-  auto formats = formats_for(options, train->design, told);
+  auto formats = io::parse_formats(options.formats);
   if (!formats) return report_errors(formats.error());
 
   const auto strength = strength_options(train->design, {.material = "", .file = options.materials_file});

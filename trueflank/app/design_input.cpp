@@ -73,14 +73,6 @@ void add_drive(const GearTrain& train, const StrengthOptions& strength_options,
 
 }  // namespace
 
-std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design) {
-  const bool modified = std::any_of(design.gears.begin(), design.gears.end(), [](const GearDesign& gear) {
-    return deviates(gear.modifications) || gear.modifications.edge_chamfer_mm > 0.0;
-  });
-  if (modified) return {io::FileFormat::kScad};
-  return {};
-}
-
 io::Report evaluate(const GearTrain& train, const StrengthOptions& strength_options) {
   io::Report report;
   report.train = &train;

@@ -25,9 +25,6 @@ struct MadeOptions {
 /// Errors of later stations with file and line of their keys in the design file.
 [[nodiscard]] Errors located_in(const std::string& path, Errors errors);
 
-/// Formats that this version does not write of a design: OpenSCAD of modified flanks.
-[[nodiscard]] std::vector<io::FileFormat> formats_not_built(const GearboxDesign& design);
-
 /// Every check, sweep and efficiency of a train. The report refers to the train.
 [[nodiscard]] io::Report evaluate(const GearTrain& train, const StrengthOptions& strength = {});
 /// What the command line says of materials.

@@ -63,6 +63,74 @@ function tooth(curves, tolerance, slack) =
   concat([for (j = [n - 1:-1:1]) mirrored(half[j])], [for (j = [0:n - 2]) half[j]],
          closes ? [] : [half[n - 1]]);
 
+// ------------------------------------------------------------------ modified flanks
+// m: [first, last curve of the flank, turns over the roll angle of the counter-clockwise flank, of the
+// clockwise one, shares of the fade at the fillets' ends]; degrees towards the flank's own side. h, at a height: [turns of the two, depth of an
+// edge chamfer]. Fillets fade to their undeviated end, the tip's land goes with the flank.
+function flank_turn(curves, m, h, side, t) =
+  lookup(t, m[2 + side]) + h[side] - h[2]/curves[m[0]][3]*180/PI;
+function lowered_tip(c, depth) =
+  let (r = norm(curve_point(c, c[1])) + c[5]*depth) sqrt(max(0, r*r/(c[3]*c[3]) - 1))*180/PI;
+// the flank ends lower where an edge chamfer takes the tip's corner
+function flank_roll(curves, m, h, t) =
+  h[2] == 0 || m[0] != 1 ? t :
+  let (tip = curves[m[0]][1], root = curves[m[1]][2])
+  root + (t - root)*(lowered_tip(curves[m[0]], h[2]) - root)/(tip - root);
+function modified_point(curves, m, h, side, slack, i, share) =
+  let (c = curves[i], t = c[1] + (c[2] - c[1])*share, flank = curves[m[0]])
+  i > m[1] + len(m[4])
+    ? let (from = c[1] - (about_axis(c) ? slack : 0))
+      thinned_point(c, from + (c[2] - from)*share, slack) :
+  i > m[1]
+    ? let (ends = m[4][i - m[1] - 1], s = ends[0] + (ends[1] - ends[0])*share, fade = 1 - s*s*(3 - 2*s))
+      turned(curve_point(c, t), flank_turn(curves, m, h, side, curves[m[1]][2])*fade - slack) :
+  i >= m[0]
+    ? let (roll = flank_roll(curves, m, h, t))
+      turned(curve_point(c, roll), flank_turn(curves, m, h, side, roll) - slack) :
+  let (tip = flank_roll(curves, m, h, flank[1]), turn = flank_turn(curves, m, h, side, tip) - slack)
+  !about_axis(c) ? turned(curve_point(c, t), turn) :
+  let (corner = m[0] == 1 ? curve_point(flank, tip) : curve_point(c, c[2]))
+  norm(corner)*direction(share*(atan2(corner[1], corner[0]) + turn));
+function modified_height(curves, m, h, side, i, a, b) =
+  let (p = modified_point(curves, m, h, side, 0, i, a), d = modified_point(curves, m, h, side, 0, i, b) - p,
+       q = modified_point(curves, m, h, side, 0, i, (a + b)/2) - p)
+  norm(d) == 0 ? 0 : abs(d[0]*q[1] - d[1]*q[0])/norm(d);
+// chords of every curve, enough at all the heights
+function modified_chords(curves, m, heights, tolerance) =
+  [for (i = [0:len(curves) - 1])
+     let (highest = max([for (h = heights) for (side = [0, 1]) for (k = [0:15])
+                           modified_height(curves, m, h, side, i, k/16, (k + 1)/16)]))
+     max(1, ceil(16*1.06*sqrt(highest/tolerance)))];
+function modified_half(curves, m, h, side, counts, slack) =
+  [for (i = [0:len(curves) - 1]) for (j = [i == 0 ? 0 : 1:counts[i]])
+     modified_point(curves, m, h, side, slack, i, j/counts[i])];
+function modified_outline(curves, m, h, counts, teeth, rotation, slack) =
+  assert(slack == 0 || about_axis(curves[0]), "a pointed tooth cannot be thinned here")
+  let (left = modified_half(curves, m, h, 0, counts, slack), right = modified_half(curves, m, h, 1, counts, slack),
+       n = len(left), closes = slack == 0 || about_axis(curves[len(curves) - 1]),
+       one = concat([for (j = [n - 1:-1:1]) mirrored(right[j])], [for (j = [0:n - 2]) left[j]],
+                    closes ? [] : [left[n - 1]]))
+  [for (k = [0:teeth - 1]) for (p = one) turned(p, rotation + 360*k/teeth)];
+// f: over the share of a slab's height [turns of the two flanks, chamfer's depth, where they bend]
+function face_at(f, u) = [lookup(u, f[0]), lookup(u, f[1]), lookup(u, f[2])];
+function faces(f) = [for (u = f[3]) face_at(f, u)];
+function face_bulge(f, a, b) =
+  max([for (k = [0:15]) for (side = [0, 1])
+         let (p = a + (b - a)*k/16, q = p + (b - a)/16)
+         abs(lookup((p + q)/2, f[side]) - (lookup(p, f[side]) + lookup(q, f[side]))/2)]);
+function face_rows(f, a, b, height, rate, radius, tolerance) =
+  let (twist = abs(rate)*height*(b - a)/(2*acos(max(0, 1 - tolerance/radius))),
+       face = 16*1.06*sqrt(face_bulge(f, a, b)*PI/180*radius/tolerance),
+       chamfer = lookup(a, f[2]) == lookup(b, f[2]) ? 0 : 2)
+  max(1, ceil(sqrt(twist*twist + face*face + chamfer*chamfer)));
+// rows of a slab whose section changes: [share of the height, turn, outline]
+function modified_rows(height, start, rate, apex, radius, tolerance, curves, m, f, counts, teeth, rotation, slack) =
+  [for (i = [0:len(f[3]) - 2])
+     let (a = f[3][i], b = f[3][i + 1], n = face_rows(f, a, b, height, rate, radius, tolerance))
+     for (k = [i == 0 ? 0 : 1:n])
+       let (u = a + (b - a)*k/n, turn = start + rate*height*(u <= apex ? u : 2*apex - u))
+       [u, turn, modified_outline(curves, m, face_at(f, u), counts, teeth, rotation + turn, slack)]];
+
 // ------------------------------------------------------------------ outlines, counter-clockwise
 function gear_outline(curves, teeth, rotation, tolerance, slack) =
   let (one = tooth(curves, tolerance, slack))
@@ -146,7 +214,8 @@ function rows_of(slab) = len(slab) > 3 ? slab[3] : straight;
 
 // walls of slabs [height, outline, points a tooth, rows] and where their rows begin
 function slab_loops(slabs) =
-  [for (s = slabs) for (r = rows_of(s)) r[1] == 0 ? s[1] : [for (p = s[1]) turned(p, r[1])]];
+  [for (s = slabs) for (r = rows_of(s))
+     len(r) > 2 ? r[2] : r[1] == 0 ? s[1] : [for (p = s[1]) turned(p, r[1])]];
 function slab_heights(slabs) =
   [for (i = [0:len(slabs) - 1]) for (r = rows_of(slabs[i])) heights_before(slabs, i) + r[0]*slabs[i][0]];
 function rows_before(slabs, i) = i == 0 ? 0 : rows_before(slabs, i - 1) + len(rows_of(slabs[i - 1]));
@@ -154,7 +223,7 @@ function slab_walls(slabs, first, inwards = false) =
   [for (i = [0:len(slabs) - 1])
      let (b = rows_before(slabs, i), r = rows_of(slabs[i]))
      for (k = [0:len(r) - 2])
-       for (f = r[k][1] == r[k + 1][1]
+       for (f = r[k][1] == r[k + 1][1] && len(r[k]) < 3
                 ? wall(first[b + k], first[b + k + 1], len(slabs[i][1]), inwards)
                 : turned_wall(slabs[i][1], first[b + k], first[b + k + 1], r[k + 1][1] - r[k][1], inwards)) f];
 

@@ -6,38 +6,12 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/number_text.h"
-#include "trueflank/export/scene.h"
+#include "trueflank/export/scad_flanks.h"
+#include "trueflank/export/scad_text.h"
 #include "trueflank/solid/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
-
-std::string number(double value) {
-  std::string text;
-  append_shortest(text, value);
-  return text;
-}
-/// For parameters that people read: to a nanometre.
-std::string short_number(double value) {
-  std::string text;
-  append_decimal(text, value);
-  return text;
-}
-std::string degrees(double angle_rad) { return number(deg_from_rad(angle_rad)); }
-
-/// Text without what would end a comment's line.
-std::string one_line(std::string text) {
-  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  return text;
-}
-
-template <class... Fields>
-std::string list(const Fields&... fields) {
-  std::string text;
-  ((text += (text.empty() ? "" : ", ") + fields), ...);
-  return "[" + text + "]";
-}
 
 // A curve as the library knows it: kind, interval, then the numbers of its struct in their order.
 std::string curve_list(const CircularArc& c, const Curve& curve) {
@@ -108,24 +82,36 @@ class PartText {
     std::vector<std::string> hole_names, hole_points;
   };
 
+  /// Whether an outline changes from row to row.
   static bool is_twisted(const Outline& outline) {
     const auto* toothed = std::get_if<ToothedOutline>(&outline);
-    return toothed != nullptr && toothed->twist.turn_rad_per_mm != 0.0;
+    return toothed != nullptr && !toothed->toothing().prismatic();
   }
 
   /// Rows of a slab's twisted teeth: turn at its lower face, rate, and the share of the height above
   /// which a herringbone turns back.
-  static std::string rows_text(const Outline& outline, const Slab& slab, const std::string& height,
-                               const std::string& name) {
+  std::string rows_text(const Outline& outline, const Slab& slab, const std::string& height,
+                        const std::string& name) {
     if (!is_twisted(outline)) return {};
     const auto& toothed = std::get<ToothedOutline>(outline);
     const FaceTwist& twist = toothed.twist;
     const double lower = slab.z_lower_mm - toothed.z_lower_mm, width = slab.z_upper_mm - slab.z_lower_mm;
     const double apex = !twist.herringbone ? 1.0 : (0.5 * twist.face_width_mm - lower) / width;
-    return "rows(" + height + ", " + degrees(section_turn_rad(twist, lower)) + ", " +
-           degrees(twist.turn_rad_per_mm) + ", " + number(std::clamp(apex, 0.0, 1.0)) +
-           ", largest_radius(" + name + "), tolerance)";
+    const std::string twisted = "rows(" + height + ", " + degrees(section_turn_rad(twist, lower)) + ", " +
+                                degrees(twist.turn_rad_per_mm) + ", " +
+                                number(std::clamp(apex, 0.0, 1.0)) + ", largest_radius(" + name +
+                                "), tolerance";
+    if (!is_modified(toothed)) return twisted + ")";
+    const std::string face = fresh(name + "_face");
+    data_ += face + " = " + scad_face(toothed, lower, lower + width) + ";\n";
+    return "modified_" + twisted + ",\n  " + name + "_curves, " + name + "_flanks, " + face + ", " + name +
+           "_chords, " + std::to_string(toothed.profile->gear().teeth) + ", " +
+           degrees(toothed.rotation_rad) + ", " + slack_text(toothed) + ")";
   }
+  static std::string slack_text(const ToothedOutline& teeth) {
+    return "extra_thinning_um/2000/" + number(reference_radius_mm(teeth.profile->gear())) + "*180/PI";
+  }
+
 
   void add_size(const std::string& name, double value_mm, const char* comment) {
     sizes_ += std::string("// ") + comment + "\n" + name + " = " + short_number(value_mm) + ";\n";
@@ -183,13 +169,26 @@ class PartText {
     data_ += "// " + std::to_string(gear.teeth) + " teeth, module " +
              short_number(gear.normal_module_mm) + ", profile shift " + short_number(gear.shift) +
              "\n" + name + "_curves = [\n";
-    for (const ProfilePiece& piece : outline.profile->pieces())
-      data_ += "  " +
-               std::visit([&](const auto& c) { return curve_list(c, piece.curve); }, piece.curve.shape) +
-               ",\n";
-    data_ += "];\n" + name + " = gear_outline(" + name + "_curves, " + std::to_string(gear.teeth) +
-             ", " + degrees(outline.rotation_rad) + ", tolerance,\n  extra_thinning_um/2000/" +
-             number(reference_radius_mm(gear)) + "*180/PI);\n";
+    const auto flanks = is_modified(outline) ? scad_flanks(outline) : std::nullopt;
+    std::vector<Curve> curves;
+    if (flanks) curves = flanks->curves;
+    else
+      for (const ProfilePiece& piece : outline.profile->pieces()) curves.push_back(piece.curve);
+    for (const Curve& curve : curves)
+      data_ += "  " + std::visit([&](const auto& c) { return curve_list(c, curve); }, curve.shape) + ",\n";
+    data_ += "];\n";
+    const std::string common = std::to_string(gear.teeth) + ", " + degrees(outline.rotation_rad);
+    if (!flanks) {
+      data_ += name + " = gear_outline(" + name + "_curves, " + common + ", tolerance,\n  " +
+               slack_text(outline) + ");\n";
+      return name;
+    }
+    // all heights that any slab has: chords are the same in all rows
+    data_ += "// modified flanks\n" + name + "_flanks = " + flanks->profile + ";\n" + name + "_chords = modified_chords(" +
+             name + "_curves, " + name + "_flanks, faces(" +
+             scad_face(outline, 0.0, outline.twist.face_width_mm) + "), tolerance);\n" + name +
+             " = modified_outline(" + name + "_curves, " + name + "_flanks, [0, 0, 0], " + name + "_chords, " +
+             common + ",\n  " + slack_text(outline) + ");\n";
     return name;
   }
 
@@ -335,59 +334,25 @@ class PartText {
   std::vector<std::string> names_;
 };
 
-/// Turns of a body about its own axis, and of its axis about the sun's, per turn of the sun.
-struct BodySpeeds {
-  double own = 0.0, orbit = 0.0;
-};
-
-BodySpeeds speeds_of(const GearTrain& train, const std::string& body) {
-  const MemberSpeeds speeds = member_speeds(train);
-  if (body == "sun" || body == "pinion" || body == "gear") return {speeds.sun, 0.0};
-  // the carrier's bodies turn with their places
-  if (body.starts_with("carrier")) return {0.0, speeds.carrier};
-  if (body.starts_with("planet")) return {speeds.planet - speeds.carrier, speeds.carrier};
-  return {body == "ring2" ? speeds.ring2 : speeds.ring1, 0.0};
-}
-
-std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
-  std::string text = "// " + one_line(train.design.name) +
-                     " in mesh, written by Trueflank; uses the files of the parts beside it.\n"
-                     "// Preview (F5) is quick; View > Animate turns it.\n\n"
-                     "/* [View] */\n// turn of the sun (pinion)\nturn = 0; // [0:1:3600]\n"
-                     "// distance between the layers\nexplode = 0; // [0:1:100]\nshow = \"all\"; // [all";
-  for (const PartShape& part : shapes.parts) text += ", " + part.name;
-  text += "]\n\n";
-  for (const PartShape& part : shapes.parts) text += "use <" + part.name + ".scad>\n";
-  text += "\nangle = turn + 360*$t;\n"
-          "module body(part, orbit, place, rotation, shift)\n"
-          "  if (show == \"all\" || show == part)\n"
-          "    rotate(orbit*angle) translate(place + [0, 0, shift*explode]) rotate(rotation) children();\n\n";
-  for (const Placement& body : shapes.assembly) {
-    const std::string& part = shapes.parts[body.part].name;
-    const BodySpeeds speeds = speeds_of(train, body.name);
-    const auto& move = body.translation_mm;
-    const std::string rotation = degrees(centred_rad(body.rotation_rad));
-    const bool upper = move[2] > 0.0;
-    const int layer = part.starts_with("planet") ? 1 : upper ? 2 : part.starts_with("sun") ? 3 : 0;
-    text += "color(\"" + hex_text(part_colour(part)) + "\") body(\"" + part + "\", " +
-            number(speeds.orbit) + ", " +
-            list(number(move[0]), number(move[1]), number(move[2])) + ",\n  " +
-            rotation + " + " + number(speeds.own) + "*angle, " +
-            std::to_string(layer) + ") " + part + "();  // " + body.name + "\n";
-  }
-  return text;
+bool can_write_scad(const Outline& outline) {
+  const auto* toothed = std::get_if<ToothedOutline>(&outline);
+  return toothed == nullptr || !is_modified(*toothed) || scad_flanks(*toothed).has_value();
 }
 
 }  // namespace
 
 Status write_scad(const std::filesystem::path& path, const std::string& design_name,
                   const PartShape& part, double tolerance_mm) {
+  for (const Slab& slab : part.slabs) {
+    if (!can_write_scad(slab.outer) || !std::all_of(slab.holes.begin(), slab.holes.end(), can_write_scad))
+      return fail(Error{.code = ErrorCode::kUnsupported,
+                        .message = part.name + ": an OpenSCAD file holds modifications of all teeth "
+                                               "alike, and no corrections",
+                        .key = "--formats",
+                        .value = "scad",
+                        .remedy = "stl, 3mf, obj, ply or glb"});
+  }
   return write_file(path, PartText(part, tolerance_mm).build(design_name));
-}
-
-Status write_scad_assembly(const std::filesystem::path& path, const GearTrain& train,
-                           const PartShapes& shapes) {
-  return write_file(path, assembly_text(train, shapes));
 }
 
 }  // namespace trueflank::io

@@ -15,8 +15,10 @@ namespace trueflank::io {
 /// the true curves of a half tooth below, evaluated when rendered. One `linear_extrude` of one `polygon`
 /// with holes, or one `polyhedron` for a stack of sections: no boolean operation in space, so it renders
 /// in well under a second. Stacks whose sections are not nested are a union of prisms.
-/// Modules: `<name>()` and `<name>_section()` (of the lowest section).
-/// Errors: as AtomicFile's.
+/// Modified flanks: tables of what a design's modifications turn the flank by; a section that changes
+/// along the face is made row by row.
+/// Modules: `<name>()` and `<name>_section()` (of the lowest section; of modified teeth at mid face).
+/// Errors: as AtomicFile's; kUnsupported for corrections of measured parts (scad_flanks()).
 [[nodiscard]] Status write_scad(const std::filesystem::path& path, const std::string& design_name,
                                 const PartShape& part, double tolerance_mm);
 
