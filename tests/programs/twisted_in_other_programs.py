@@ -8,6 +8,7 @@ import subprocess
 import unittest
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 TOLERANCE_UM = 10
 
@@ -32,34 +33,17 @@ outer_diameter_mm = 56
 {ring}
 """
 BOLTS = "bolt_count = 4\nbolt_circle_diameter_mm = 50\nbolt_hole_diameter_mm = 2\n"
-# a part's module has the part's name: none of the library's may have it
-PLANETARY = """format = 1
-name = "planetary"
-[gearbox]
-kind = "simple"
-planets = 3
-module_mm = 1.0
-backlash_mm = 0.1
-helix_angle_deg = 20.0
-[sun]
-teeth = 18
-face_width_mm = 8.0
-[planet]
-teeth = 18
-face_width_mm = 8.0
-[ring]
-teeth = 54
-face_width_mm = 8.0
-"""
 DESIGNS = {
-    "planetary": PLANETARY,
-    "helical": PAIR.format(more="", ring=""),
-    "herringbone": PAIR.format(more="herringbone = true", ring=""),
     "groove": PAIR.format(more="herringbone = true\nrelief_groove_mm = 1.0", ring=BOLTS),
     "modified": PAIR.format(more="", ring="[pinion.modifications]\ncrowning_um = 30\n"
                                           "tip_relief_um = 20\ntip_relief_start_diameter_mm = 19.5\n"
                                           "edge_chamfer_mm = 0.3\n"),
 }
+# in all of these a part's module has the part's name: none of the library's may have it
+EXAMPLES = ["helical_planetary", "herringbone_pair", "relieved_3k"]
+PARTS = {"groove": ["pinion", "wheel"], "modified": ["pinion", "wheel"],
+         "helical_planetary": ["sun", "planet", "ring"], "herringbone_pair": ["pinion", "wheel"],
+         "relieved_3k": ["sun", "planet", "ring1", "ring2"]}
 
 
 def run(*command):
@@ -74,12 +58,14 @@ class Twisted(unittest.TestCase):
         OUTPUT.mkdir(parents=True, exist_ok=True)
         for name, text in DESIGNS.items():
             (OUTPUT / f"{name}.toml").write_text(text)
-            run(PROGRAM, "make", OUTPUT / f"{name}.toml", "-o", OUTPUT / name, "-q",
-                "--tolerance-um", TOLERANCE_UM, "--formats", "stl,scad")
+        for name in PARTS:
+            design = SOURCE / "examples" / name / "design.toml" if name in EXAMPLES else OUTPUT / f"{name}.toml"
+            run(PROGRAM, "make", design, "-o", OUTPUT / name, "-q", "--tolerance-um", TOLERANCE_UM,
+                "--formats", "stl,scad")
 
     def test_openscad_renders_the_same_solid(self):
-        for name in DESIGNS:
-            for part in ["ring"] if name == "planetary" else ["pinion", "wheel"]:
+        for name, parts in PARTS.items():
+            for part in parts:
                 with self.subTest(f"{name}/{part}"):
                     rendered = OUTPUT / f"{name}.{part}.stl"
                     text = run("openscad", "-o", rendered, "--export-format", "binstl",
@@ -90,8 +76,8 @@ class Twisted(unittest.TestCase):
                         "--tolerance-um", 2 * TOLERANCE_UM)
 
     def test_prusa_slicer_and_admesh_find_whole_parts(self):
-        for name in DESIGNS:
-            for part in ["ring"] if name == "planetary" else ["pinion", "wheel"]:
+        for name, parts in PARTS.items():
+            for part in parts:
                 with self.subTest(f"{name}/{part}"):
                     file = OUTPUT / name / f"{part}.stl"
                     info = run("prusa-slicer", "--info", file)

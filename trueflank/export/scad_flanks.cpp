@@ -59,56 +59,70 @@ std::string table(const Function& turn_rad, const std::vector<double>& breaks, d
   return text + "]";
 }
 
-/// The turns of a toothing's flanks, its chamfer apart.
+/// What a toothing's deviation turns its flanks by, the chamfer apart: at the place a point comes from.
 class Turns {
  public:
   explicit Turns(const ToothedOutline& teeth) : toothing_(teeth.toothing()) {
-    toothing_.edge_chamfer_mm = 0.0;
     const auto& pieces = teeth.profile->pieces();
     while (pieces[flank_].kind != PieceKind::kInvolute) ++flank_;
-    const Curve& curve = pieces[flank_].curve;
-    mid_roll_ = 0.5 * (curve.begin + curve.end);
+    mid_roll_ = 0.5 * (curve().begin + curve().end);
     mid_z_ = 0.5 * toothing_.twist.face_width_mm;
   }
   [[nodiscard]] std::size_t flank() const { return flank_; }
   [[nodiscard]] double base_radius() const { return base_radius_mm(toothing_.profile->gear()); }
-  [[nodiscard]] double at(int side, double roll, double z_mm) const {
-    return deviation_turn_rad(toothing_, {0, side, flank_, roll}, z_mm);
-  }
   [[nodiscard]] double along_profile(int side, double roll) const { return at(side, roll, mid_z_); }
   [[nodiscard]] double along_face(int side, double z_mm) const {
     return at(side, mid_roll_, z_mm) - at(side, mid_roll_, mid_z_);
   }
-  /// Where the flank bends: a break of the field on the circle its point is taken to.
-  [[nodiscard]] std::vector<double> roll_breaks() const {
-    const Curve& curve = toothing_.profile->pieces()[flank_].curve;
-    const double sense = toothing_.profile->gear().kind == GearKind::kExternal ? 1.0 : -1.0;
-    std::vector<double> breaks{curve.begin, curve.end};
-    if (toothing_.has_deviation())
-      for (const double roll_mm : toothing_.deviation->roll_breaks_mm) {
-        const double moved = toothing_.deviation->deviation_mm(0, Flank::kLeft, roll_mm, mid_z_) /
-                             std::cos(base_helix_angle_rad(toothing_.profile->gear()));
-        const double at = (roll_mm + sense * moved) / base_radius();
-        if ((at - curve.begin) * (at - curve.end) < 0.0) breaks.push_back(at);
-      }
-    std::sort(breaks.begin(), breaks.end());
-    if (curve.begin > curve.end) std::reverse(breaks.begin(), breaks.end());
-    return breaks;
+  /// Roll angles of the field: its breaks on the flank, and as far beyond either end as points come from.
+  [[nodiscard]] std::vector<double> field_breaks() const {
+    double reach = 0.0;
+    for (const int side : {1, -1})
+      for (int i = 0; i < kLooks; ++i)
+        for (int j = 0; j < kLooks; ++j) reach = std::max(reach, std::abs(at(side, roll_at(i), z_at(j))));
+    const double outwards = std::copysign(2.0 * reach, curve().end - curve().begin);
+    return with_breaks(curve().begin - outwards, curve().end + outwards, 0.0);
+  }
+  /// Roll angles between which the section's flank is smooth: on the circles its points are taken to.
+  [[nodiscard]] std::vector<double> flank_breaks() const {
+    return with_breaks(curve().begin, curve().end,
+                       toothing_.profile->gear().kind == GearKind::kExternal ? 1.0 : -1.0);
   }
   [[nodiscard]] bool is_sum() const {
-    const Curve& curve = toothing_.profile->pieces()[flank_].curve;
     for (const int side : {1, -1})
       for (int i = 0; i < kLooks; ++i)
         for (int j = 0; j < kLooks; ++j) {
-          const double roll = std::lerp(curve.begin, curve.end, i / (kLooks - 1.0));
-          const double z = toothing_.twist.face_width_mm * j / (kLooks - 1.0);
-          const double off = at(side, roll, z) - along_profile(side, roll) - along_face(side, z);
+          const double off = at(side, roll_at(i), z_at(j)) - along_profile(side, roll_at(i)) -
+                             along_face(side, z_at(j));
           if (std::abs(off) * base_radius() > kSum_mm) return false;
         }
     return true;
   }
 
  private:
+  [[nodiscard]] const Curve& curve() const { return toothing_.profile->pieces()[flank_].curve; }
+  [[nodiscard]] double roll_at(int i) const { return std::lerp(curve().begin, curve().end, i / (kLooks - 1.0)); }
+  [[nodiscard]] double z_at(int j) const { return toothing_.twist.face_width_mm * j / (kLooks - 1.0); }
+  [[nodiscard]] double at(int side, double roll, double z_mm) const {
+    if (!toothing_.has_deviation()) return 0.0;
+    const Gear& gear = toothing_.profile->gear();
+    const Flank flank = flank_side(Flank::kLeft, gear.kind) == side ? Flank::kLeft : Flank::kRight;
+    return toothing_.deviation->deviation_mm(0, flank, base_radius() * roll, z_mm) /
+           (std::cos(base_helix_angle_rad(gear)) * base_radius());
+  }
+  [[nodiscard]] std::vector<double> with_breaks(double begin, double end, double moved) const {
+    std::vector<double> breaks{begin, end};
+    if (toothing_.has_deviation())
+      for (const double roll_mm : toothing_.deviation->roll_breaks_mm) {
+        const double roll = roll_mm / base_radius();
+        const double place = roll + moved * along_profile(1, roll);
+        if ((place - begin) * (place - end) < 0.0) breaks.push_back(place);
+      }
+    std::sort(breaks.begin(), breaks.end());
+    if (begin > end) std::reverse(breaks.begin(), breaks.end());
+    return breaks;
+  }
+
   Toothing toothing_;
   std::size_t flank_ = 0;
   double mid_roll_ = 0.0, mid_z_ = 0.0;
@@ -147,7 +161,7 @@ std::optional<ScadFlanks> scad_flanks(const ToothedOutline& teeth) {
   ScadFlanks result;
   result.along_face = teeth.edge_chamfer_mm > 0.0 ||
                       (toothing.has_deviation() && teeth.deviation->varies_along_face);
-  const std::vector<double> breaks = turns.roll_breaks();
+  const std::vector<double> breaks = turns.flank_breaks();
   const auto& pieces = teeth.profile->pieces();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (i != turns.flank()) {
@@ -160,8 +174,8 @@ std::optional<ScadFlanks> scad_flanks(const ToothedOutline& teeth) {
   result.profile = "[" + std::to_string(turns.flank()) + ", " +
                    std::to_string(turns.flank() + breaks.size() - 2);
   for (const int side : {1, -1})
-    result.profile += ",\n  " + table([&](double roll) { return turns.along_profile(side, roll); }, breaks,
-                                      kTable_mm / turns.base_radius(), deg_from_rad);
+    result.profile += ",\n  " + table([&](double roll) { return turns.along_profile(side, roll); },
+                                      turns.field_breaks(), kTable_mm / turns.base_radius(), deg_from_rad);
   result.profile += ",\n  " + fades(*teeth.profile) + "]";
   return result;
 }

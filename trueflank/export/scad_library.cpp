@@ -67,8 +67,11 @@ function tooth(curves, tolerance, slack) =
 // m: [first, last curve of the flank, turns over the roll angle of the counter-clockwise flank, of the
 // clockwise one, shares of the fade at the fillets' ends]; degrees towards the flank's own side. h, at a height: [turns of the two, depth of an
 // edge chamfer]. Fillets fade to their undeviated end, the tip's land goes with the flank.
+// a point that ends on the circle of the roll angle t started on the flank's normal, a deviation away
+function deviation_turn(m, h, side, t, sense, steps) =
+  lookup(steps == 0 ? t : t + sense*deviation_turn(m, h, side, t, sense, steps - 1), m[2 + side]) + h[side];
 function flank_turn(curves, m, h, side, t) =
-  lookup(t, m[2 + side]) + h[side] - h[2]/curves[m[0]][3]*180/PI;
+  let (c = curves[m[0]]) deviation_turn(m, h, side, t, c[5], 4) - h[2]/c[3]*180/PI;
 function lowered_tip(c, depth) =
   let (r = norm(curve_point(c, c[1])) + c[5]*depth) sqrt(max(0, r*r/(c[3]*c[3]) - 1))*180/PI;
 // the flank ends lower where an edge chamfer takes the tip's corner
