@@ -22,7 +22,15 @@ function circlePoints(x, y, radius) {
     return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
   });
 }
-/** Closed, counter-clockwise points of an outline, and how it twists with height. */
+/** All teeth of a gear from the outline of one. */
+function allTeeth(tooth, teeth, rotation) {
+  const points = [];
+  for (let k = 0; k < teeth; ++k)
+    for (let i = 0; i < tooth.length; i += 2)
+      points.push(turned([tooth[i], tooth[i + 1]], rotation + 2 * Math.PI * k / teeth));
+  return points;
+}
+/** Closed, counter-clockwise points of an outline, and how it twists or changes with height. */
 function outlinePoints(outline) {
   if (outline.circle) return {points: circlePoints(...outline.circle), twist: 0};
   if (outline.polygon) {
@@ -30,19 +38,21 @@ function outlinePoints(outline) {
     for (let i = 0; i < outline.polygon.length; i += 2) points.push([outline.polygon[i], outline.polygon[i + 1]]);
     return {points, twist: 0};
   }
-  const gear = model.gears[outline.gear], tooth = gear.coarse_tooth, points = [];
-  for (let k = 0; k < gear.teeth; ++k)
-    for (let i = 0; i < tooth.length; i += 2)
-      points.push(turned([tooth[i], tooth[i + 1]], outline.rotation + 2 * Math.PI * k / gear.teeth));
-  return {points, twist: gear.twist_rad_per_mm, herringbone: gear.herringbone, width: gear.width};
+  const gear = model.gears[outline.gear];
+  const points = allTeeth(gear.coarse_tooth, gear.teeth, outline.rotation);
+  const rows = gear.rows?.map(({z, tooth}) =>
+    ({height: outline.z_lower + z, points: allTeeth(tooth, gear.teeth, outline.rotation)}));
+  return {points, rows, twist: gear.twist_rad_per_mm, herringbone: gear.herringbone, width: gear.width};
 }
-/** Heights at which an outline needs points, with its twist there. */
+/** Heights at which an outline needs points, with these. */
 function layers(outline, [lower, upper]) {
-  if (!outline.twist) return [[lower, 0], [upper, 0]];
+  const {points, rows} = outline;
+  if (rows) return rows.filter(({height}) => height > lower - 1e-4 && height < upper + 1e-4);
+  if (!outline.twist) return [{height: lower, points}, {height: upper, points}];
   const height = upper - lower, n = 2 * Math.max(1, Math.ceil(Math.abs(outline.twist * height) / 0.1));
   return Array.from({length: n + 1}, (_, i) => {
-    const z = height * i / n;
-    return [lower + z, outline.twist * (outline.herringbone ? Math.min(z, height - z) : z)];
+    const z = height * i / n, twist = outline.twist * (outline.herringbone ? Math.min(z, height - z) : z);
+    return {height: lower + z, points: points.map((p) => turned(p, twist))};
   });
 }
 
@@ -55,39 +65,47 @@ class SolidBuilder {
   }
   /** Walls of an outline; `outward` is -1 for a hole. */
   walls(outline, z, outward) {
-    const steps = layers(outline, z), {points} = outline, n = points.length;
-    const direction = points.map((p, i) => {
-      const q = points[(i + 1) % n], d = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
-      return [(q[0] - p[0]) / d, (q[1] - p[1]) / d];
+    const steps = layers(outline, z), n = steps[0].points.length;
+    const rows = steps.map(({height, points}) => {
+      const direction = points.map((p, i) => {
+        const q = points[(i + 1) % n], d = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
+        return [(q[0] - p[0]) / d, (q[1] - p[1]) / d];
+      });
+      const normal = (d) => [outward * d[1], -outward * d[0]];
+      // smooth across a small turn, sharp across an edge
+      const blended = (i, j, own) => {
+        const [a, b] = [direction[i], direction[j]];
+        if (a[0] * b[0] + a[1] * b[1] < 0.85) return normal(direction[own]);
+        const sum = [a[0] + b[0], a[1] + b[1]], d = Math.hypot(...sum);
+        return normal([sum[0] / d, sum[1] / d]);
+      };
+      return {points: points.map((p) => [...p, height]),
+              before: points.map((_, i) => blended((i + n - 1) % n, i, i)),
+              after: points.map((_, i) => blended(i, (i + 1) % n, i))};
     });
-    const normal = (d) => [outward * d[1], -outward * d[0]];
-    // smooth across a small turn, sharp across an edge
-    const blended = (i, j, own) => {
-      const [a, b] = [direction[i], direction[j]];
-      if (a[0] * b[0] + a[1] * b[1] < 0.85) return normal(direction[own]);
-      const sum = [a[0] + b[0], a[1] + b[1]], d = Math.hypot(...sum);
-      return normal([sum[0] / d, sum[1] / d]);
+    // square to the wall's rise from one row to the next, too
+    const rising = (normal, lo, hi) => {
+      const up = hi[2] - lo[2] || 1;
+      const slope = -(normal[0] * (hi[0] - lo[0]) + normal[1] * (hi[1] - lo[1])) / up;
+      const d = Math.hypot(1, slope);
+      return [normal[0] / d, normal[1] / d, slope / d];
     };
-    for (let k = 0; k + 1 < steps.length; ++k) for (let i = 0; i < n; ++i) {
-      const j = (i + 1) % n;
-      const n0 = blended((i + n - 1) % n, i, i), n1 = blended(i, j, i);
-      const at = (p, [height, twist]) => [...turned(p, twist), height];
-      const no = (v, [, twist]) => [...turned(v, twist), 0];
-      const [lo, hi] = [steps[k], steps[k + 1]];
-      const [a, b, c, d] = [at(points[i], lo), at(points[j], lo), at(points[j], hi), at(points[i], hi)];
-      const [na, nb, nc, nd] = [no(n0, lo), no(n1, lo), no(n1, hi), no(n0, hi)];
+    for (let k = 0; k + 1 < rows.length; ++k) for (let i = 0; i < n; ++i) {
+      const j = (i + 1) % n, lo = rows[k], hi = rows[k + 1];
+      const [a, b, c, d] = [lo.points[i], lo.points[j], hi.points[j], hi.points[i]];
+      const [na, nb] = [rising(lo.before[i], a, d), rising(lo.after[i], b, c)];
+      const [nc, nd] = [rising(hi.after[i], b, c), rising(hi.before[i], a, d)];
       if (outward > 0) { this.triangle(a, b, c, na, nb, nc); this.triangle(a, c, d, na, nc, nd); }
       else { this.triangle(b, a, d, nb, na, nd); this.triangle(b, d, c, nb, nd, nc); }
     }
-    for (const [height, twist] of [steps[0], steps[steps.length - 1]])
-      for (let i = 0; i < n; ++i)
-        this.lines.push(...turned(points[i], twist), height, ...turned(points[(i + 1) % n], twist), height);
+    for (const {points} of [rows[0], rows[rows.length - 1]])
+      for (let i = 0; i < n; ++i) this.lines.push(...points[i], ...points[(i + 1) % n]);
   }
   /** A plane face at a height; `up` is 1 or -1. */
   face(outline, holes, z, height, up) {
     const flat = (o) => {
-      const twist = layers(o, z).find(([at]) => Math.abs(at - height) < 1e-9)?.[1] ?? 0;
-      return o.points.map((p) => new Vector2(...turned(p, twist)));
+      const {points} = layers(o, z).find((layer) => Math.abs(layer.height - height) < 1e-4) ?? o;
+      return points.map((p) => new Vector2(...p));
     };
     const contour = flat(outline), cuts = holes.map(flat);
     const all = [...contour, ...cuts.flat()], normal = [0, 0, up];

@@ -63,6 +63,39 @@ TEST(ReportHtml, NeedsNothingFromOutside) {
   EXPECT_LT(page.size(), 2u << 20);
 }
 
+TEST(ReportHtml, ModifiedTeethAreDrawnAsTheyAreMade) {
+  GearboxDesign design = pair_train("crowned").design;
+  design.gears[0].modifications = {.tip_relief_um = 30, .tip_relief_start_diameter_mm = 20.0,
+                                   .crowning_um = 50, .edge_chamfer_mm = 0.3};
+  const auto train = lay_out(design);
+  ASSERT_TRUE(train);
+  const auto model = nlohmann::json::parse(script_text(report_html(report_of(*train)), "model-data"));
+  EXPECT_TRUE(model["gears"][1]["rows"].is_null());
+  const auto& rows = model["gears"][0]["rows"];
+  ASSERT_GE(rows.size(), 5u);  // ends, chamfers, middle
+  const auto reach = [&](const nlohmann::json& tooth) {
+    double tip = 0.0;
+    for (std::size_t i = 0; i < tooth.size(); i += 2)
+      tip = std::max(tip, std::hypot(tooth[i].get<double>(), tooth[i + 1].get<double>()));
+    return tip;
+  };
+  const double tip_mm = train->gears[0].profile.tip_radius_mm();
+  EXPECT_NEAR(reach(rows.front()["tooth"]), tip_mm - 0.3, 2e-5);
+  EXPECT_NEAR(reach(rows[rows.size() / 2]["tooth"]), tip_mm, 2e-5);
+  EXPECT_EQ(rows.back()["z"], train->gears[0].face_width_mm);
+  // the drawing of the mesh is that of mid face: relieved there, narrower at the tip than the design
+  const auto plain = nlohmann::json::parse(script_text(report_html(report_of(pair_train("plain"))), "model-data"));
+  const auto land = [&](const nlohmann::json& tooth) {
+    double half = 0.0;
+    for (std::size_t i = 0; i < tooth.size(); i += 2)
+      if (std::hypot(tooth[i].get<double>(), tooth[i + 1].get<double>()) > tip_mm - 1e-4)
+        half = std::max(half, tooth[i + 1].get<double>());
+    return half;
+  };
+  const double turned_mm = 0.030 * tip_mm / base_radius_mm(train->gears[0].profile.gear());
+  EXPECT_NEAR(land(plain["gears"][0]["tooth"]) - land(model["gears"][0]["tooth"]), turned_mm, 0.002);
+}
+
 TEST(ReportHtml, ANameCannotBreakOutOfThePage) {
   const std::string name = "</script><script>alert(1)</script><!-- \"&";
   const GearTrain train = pair_train(name);

@@ -26,6 +26,9 @@ module_mm = 0.4
 teeth = 17
 face_width_mm = 6.0
 bore_mm = 2.0
+[gear.modifications]
+crowning_um = 12
+edge_chamfer_mm = 0.1
 """
 
 

@@ -8,6 +8,8 @@
 #include "trueflank/export/scene.h"
 #include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/geometry/polyline.h"
+#include "trueflank/geometry/section_profile.h"
+#include "trueflank/solid/toothing_grid.h"
 
 namespace trueflank::io {
 namespace {
@@ -26,10 +28,35 @@ Json points_json(const std::vector<Point2>& points, std::size_t count) {
   return list;
 }
 
-/// The outline of tooth 1; the page turns copies of it.
+/// The outline of tooth 1, modified as at mid face; the page turns copies of it.
 Json tooth_json(const ToothProfile& profile, double chord_error_mm) {
   const SectionPolygon polygon = section_polygon(profile, chord_error_mm);
   return points_json(polygon.points, static_cast<std::size_t>(polygon.points_per_tooth));
+}
+
+/// Of modified teeth: height and outline of tooth 1 there, twist included, row by row of a mesh of the
+/// true surface. Null where the outline of one section says all.
+Json rows_json(const TrainGear& gear, double chord_error_mm) {
+  if (gear.deviation.empty() && gear.edge_chamfer_mm == 0.0) return nullptr;
+  const double middle = 0.5 * gear.face_width_mm, groove = 0.5 * gear.twist.relief_groove_mm;
+  std::vector<double> levels{0.0, gear.face_width_mm};
+  if (groove > 0.0) levels = {0.0, middle - groove, middle + groove, gear.face_width_mm};
+  const ToothedOutline teeth{.profile = &gear.profile,
+                             .twist = gear.twist,
+                             .deviation = gear.deviation.empty() ? nullptr : &gear.deviation,
+                             .edge_chamfer_mm = gear.edge_chamfer_mm};
+  const ToothingGrid grid(teeth, levels, chord_error_mm);
+  Json rows = Json::array();
+  for (const double z : grid.heights_mm()) {
+    Json points = Json::array();
+    const auto row = grid.row(z);
+    for (int i = 0; i < grid.points_per_tooth(); ++i) {
+      points.push_back(drawn(row[static_cast<std::size_t>(i)][0]));
+      points.push_back(drawn(row[static_cast<std::size_t>(i)][1]));
+    }
+    rows.push_back({{"z", drawn(z)}, {"tooth", std::move(points)}});
+  }
+  return rows;
 }
 
 Json tolerances_json(const TrainGear& gear) {
@@ -71,8 +98,10 @@ Json gear_json(const GearTrain& train, const TrainGear& gear, const HtmlModel& m
   json["base_half_angle"] = base_half_angle_rad(g);
   json["tip_radius"] = gear.profile.tip_radius_mm();
   json["root_radius"] = gear.profile.root_radius_mm();
-  json["tooth"] = tooth_json(gear.profile, model.mesh_chord_error_mm);
+  const ToothSection section = section_profile(gear.toothing(), 0.5 * gear.face_width_mm);
+  json["tooth"] = tooth_json(section.profile, model.mesh_chord_error_mm);
   json["coarse_tooth"] = tooth_json(gear.profile, model.solid_chord_error_mm);
+  json["rows"] = rows_json(gear, model.solid_chord_error_mm);
   json["iso1328"] = tolerances_json(gear);
   return json;
 }
@@ -178,7 +207,9 @@ std::vector<Point2> bore_points(const BoreDesign& bore, double chord_error_mm) {
 /// A toothing by its gear, anything else as a circle or a polygon.
 Json outline_json(const GearTrain& train, const Outline& outline, double chord_error_mm) {
   if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
-    return {{"gear", gear_index(train, toothed->profile)}, {"rotation", toothed->rotation_rad}};
+    return {{"gear", gear_index(train, toothed->profile)},
+            {"rotation", toothed->rotation_rad},
+            {"z_lower", toothed->z_lower_mm}};
   if (const auto* circle = std::get_if<CircleOutline>(&outline))
     return {{"circle", {circle->centre.x(), circle->centre.y(), circle->radius_mm}}};
   const BoreDesign& bore = std::get<BoreOutline>(outline).bore;
