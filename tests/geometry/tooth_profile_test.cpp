@@ -245,6 +245,16 @@ TEST(ToothProfile, RingTipInsideTheBaseCircleIsRadial) {
   EXPECT_NEAR(profile->tip_form_radius_mm(), base_radius_mm(profile->gear()), 1e-12);
 }
 
+TEST(ToothProfile, RingWithoutSpacesIsRefused) {
+  Gear gear = ring_gear(500, -10.0);
+  gear.rack.pressure_angle_rad = rad_from_deg(14.5);
+  gear.rack.dedendum = 3.0;
+  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
+  const auto profile = ToothProfile::make(gear);
+  ASSERT_FALSE(profile);
+  EXPECT_EQ(profile.error().key, "shift");
+}
+
 TEST(ToothProfile, RefusesWhatCannotBeMade) {
   const auto error_of = [](const Gear& gear) {
     const auto profile = ToothProfile::make(gear);

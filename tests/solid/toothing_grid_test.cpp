@@ -5,6 +5,7 @@
 
 #include "tests/solid/random_toothing.h"
 #include "tests/train/prototype_design.h"
+#include "trueflank/solid/brep.h"
 #include "trueflank/solid/flank_strips.h"
 #include "trueflank/solid/gear_mesh.h"
 #include "trueflank/solid/mesh_accuracy.h"
@@ -115,6 +116,22 @@ TEST(ToothingGrid, KeepsTheToleranceWhereTheInvoluteStartsOnTheBaseCircle) {
     const PartMesh result = part_mesh(shapes->parts[0], {.tolerance_mm = tolerance_mm});
     EXPECT_LE(measure_accuracy(result.mesh, shapes->parts[0]).largest_mm(), tolerance_mm);
   }
+}
+
+TEST(ToothingGrid, LandsOfSharpRootsGoWithTheFlanks) {
+  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {60});
+  design.rack.root_radius = 0.0;
+  design.gears[0].kind = GearKind::kInternal;
+  design.gears[0].face_width_mm = 8.0;
+  design.gears[0].modifications = {.crowning_um = 10.0, .edge_chamfer_mm = 0.1};
+  const auto train = lay_out(design);
+  ASSERT_TRUE(train);
+  const auto shapes = part_shapes(*train);
+  const PartMesh result = part_mesh(shapes->parts[0], {.tolerance_mm = 1e-3});
+  EXPECT_TRUE(mesh_validity(result.mesh).valid());
+  EXPECT_LE(measure_accuracy(result.mesh, shapes->parts[0]).largest_mm(), 1e-3);
+  const auto solid = brep_of(shapes->parts[0]);
+  EXPECT_TRUE(solid) << solid.error().message;
 }
 
 TEST(FlankStrips, CoverTheirPatchOnceWithNodesOfTheBorderAlone) {

@@ -20,14 +20,14 @@ Status ProfileBuilder::ring_ends() {
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "the ring's tip circle lies outside its root circle",
                          "a tip diameter below " + profile_number(2.0 * p_.root_radius_mm_)));
+  if (psi >= gap_angle())
+    return fail(no_tooth("shift", g().shift, "the ring's tooth spaces are closed",
+                         "a larger profile shift"));
   if (psi + involute_function(pressure_angle_at_radius_rad(p_.root_radius_mm_, r_b)) >=
       gap_angle()) {
     p_.notes_.space_closed = true;
     p_.root_radius_mm_ = r_b / std::cos(inverse_involute_rad(gap_angle() - psi));
   }
-  if (psi >= gap_angle())
-    return fail(no_tooth("shift", g().shift, "the ring's tooth spaces are closed",
-                         "a larger profile shift"));
   const double tip_half = tooth_half_angle_rad(g(), std::max(p_.tip_radius_mm_, r_b));
   if (tip_half < 0.0) {
     p_.notes_.pointed = true;

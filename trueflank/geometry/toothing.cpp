@@ -81,7 +81,14 @@ HalfPoint half_point(const Toothing& t, const ToothPlace& place, double z_mm) {
   };
   const Curve& curve = piece.curve;
   if (place.piece > flank) {  // fillet, root
-    if (piece.kind != PieceKind::kFillet) return {point_at(curve, place.parameter), 0.0};
+    if (piece.kind != PieceKind::kFillet) {
+      const Point2 point = point_at(curve, place.parameter);
+      if (place.piece != flank + 1) return {point, 0.0};
+      // A sharp root: the land is scaled in its angle from the gap's middle, as the tip's is.
+      const double gap = kPi / profile.gear().teeth;
+      const double whole = gap - polar_angle_rad(curve.start_point());
+      return {point, turn_at(pieces[flank].curve.end) * (gap - polar_angle_rad(point)) / whole};
+    }
     return {point_at(curve, place.parameter),
             turn_at(pieces[flank].curve.end) *
                 fillet_turn_share(profile, place.piece, place.parameter)};

@@ -39,6 +39,9 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
   while (pieces[flank_].kind != PieceKind::kInvolute) ++flank_;
   if (pieces.front().kind == PieceKind::kTip)
     tip_half_angle_rad_ = polar_angle_rad(pieces.front().curve.end_point());
+  if (flank_ + 1 < pieces.size() && pieces[flank_ + 1].kind == PieceKind::kRoot)
+    root_half_angle_rad_ =
+        kPi / outline.profile->gear().teeth - polar_angle_rad(pieces[flank_ + 1].curve.start_point());
   low_roll_ = std::min(pieces[flank_].curve.begin, pieces[flank_].curve.end);
   high_roll_ = std::max(pieces[flank_].curve.begin, pieces[flank_].curve.end);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -139,6 +142,9 @@ ToothingDistance::CircleTurn ToothingDistance::turn_back(const Point2& place, do
   const bool at_tip_end = std::abs(radius - profile.tip_radius_mm()) <
                           std::abs(radius - profile.root_form_radius_mm());
   if (at_tip_end && from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
+  const double from_gap = 0.5 * pitch - from_middle;  // the land of a sharp root alike
+  if (root_half_angle_rad_ > 0.0 && !at_tip_end && from_gap < root_half_angle_rad_ - turn)
+    turn *= from_gap / (root_half_angle_rad_ - turn);
   return {-side * turn, -side * rise};
 }
 

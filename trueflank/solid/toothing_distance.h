@@ -62,6 +62,7 @@ class ToothingDistance {
   std::size_t flank_ = 0;
   double low_roll_ = 0.0, high_roll_ = 0.0;  ///< roll angles of the flank's ends
   double tip_half_angle_rad_ = 0.0;
+  double root_half_angle_rad_ = 0.0;  ///< of a root that meets the flank without a fillet
   bool deviates_ = false;
   double largest_displacement_mm_ = 0.0;
   std::vector<double> fillet_radii_mm_, fillet_fades_;  ///< from the root form circle on
