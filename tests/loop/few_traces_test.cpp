@@ -37,6 +37,30 @@ TEST(FewTraces, OneFlankOfFourTeethIsEnough) {
   EXPECT_NEAR(parameter(*found, "slope_um").value, 6.0, 0.5);
 }
 
+TEST(FewTraces, AHollowOnOneFlankIsFound) {
+  const MadeGear gear = spur(24);
+  const auto hollow = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 ? -8.0 * std::exp(-std::pow((s.u + 0.3) / 0.36, 2)) : 0.0;
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(hollow)}, sheet(gear, 4, 8)));
+  const auto* found = find(result, "flank_wear");
+  ASSERT_NE(found, nullptr) << list(result);
+  EXPECT_EQ(found->flank, "left");
+  EXPECT_NEAR(parameter(*found, "depth_um").value, 8.0, 0.8);
+}
+
+TEST(FewTraces, WavesThatFourTeethCannotShowAreNoCandidates) {
+  // Of order 4 four teeth show the cosine alone; a fitted sine of rounding would be of any size.
+  const MadeGear gear = spur(24);
+  const auto slope = [](auto&, const FlankSpot& s, auto&) { return 4.0 * s.v * s.side; };
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(slope)}, sheet(gear, 4, 40 + seed)));
+    ASSERT_NE(find(result, "helix_error"), nullptr) << list(result);
+    for (const auto& effect : result.effects)
+      for (const auto& p : effect.parameters) EXPECT_LT(std::abs(p.value), 1e3) << list(result);
+  }
+}
+
 TEST(FewTraces, ThreeTeethToo) {
   const MadeGear gear = ring(54);
   const auto crowned = [](auto&, const FlankSpot& s, auto&) { return -6.0 * s.v * s.v; };

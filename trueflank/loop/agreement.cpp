@@ -19,8 +19,8 @@ constexpr double kInWholes = 0.9, kNone = 1e-3;
 
 /// What a trace shows about its own course counts as so many more traces, from so many values on.
 constexpr double kOwnDegrees = 4.0;
-constexpr Eigen::Index kFewestValues = 12;
-constexpr int kCourse = 5;  ///< coefficients of a trace's own course
+constexpr Eigen::Index kFewestValues = 16;
+constexpr int kCourse = 9;  ///< coefficients of a trace's own course
 
 /// Orthonormal polynomials over n places in a row, n x kCourse.
 Eigen::MatrixXd courses(Eigen::Index n) {
