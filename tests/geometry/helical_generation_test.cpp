@@ -138,7 +138,7 @@ TEST(HelicalGeneration, ExternalGearsAreWhatTheInclinedRackCuts) {
   for (const Gear& gear :
        {helical_gear(12, -0.1, 15.0), helical_gear(39, 0.335, -15.0), helical_gear(8, 0.0, 20.0),
         helical_gear(5, 0.5, 30.0), helical_gear(17, 0.0, -45.0), helical_gear(32, 1.5, 8.0),
-        helical_gear(120, 0.0, -30.0), helical_gear(12, 0.3, 25.0, 0.0),
+        helical_gear(120, 0.0, -30.0), helical_gear(40, 0.1, 60.0), helical_gear(12, 0.3, 25.0, 0.0),
         helical_gear(9, 0.0, -25.0, 0.0), helical_gear(25, 0.0, 35.0, 0.6),
         with_protuberance(helical_gear(25, 0.0, 20.0), 0.06, 10, 0.04),
         with_protuberance(helical_gear(12, 0.0, -28.0), 0.05, 10, 0.0)}) {

@@ -17,10 +17,10 @@ Status check_values(const Gear& g) {
   if (!(g.normal_module_mm > 0.0) || !std::isfinite(g.normal_module_mm))
     return fail(impossible_value("module_mm", g.normal_module_mm, "a module above 0"));
   const double a = g.rack.pressure_angle_rad;
-  if (!(a > rad_from_deg(1.0) && a < rad_from_deg(45.0)))
+  if (!(a > rad_from_deg(1.0) && a <= rad_from_deg(45.0)))
     return fail(
         impossible_value("rack.pressure_angle_deg", deg_from_rad(a), "between 1 and 45 degrees"));
-  if (!(std::abs(g.helix_angle_rad) < rad_from_deg(60.0)))
+  if (!(std::abs(g.helix_angle_rad) <= rad_from_deg(60.0)))
     return fail(impossible_value("helix_angle_deg", deg_from_rad(g.helix_angle_rad),
                                  "within +-60 degrees"));
   if (!(g.rack.root_radius >= 0.0))
