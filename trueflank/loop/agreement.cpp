@@ -13,7 +13,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kFewest = 4, kMost = 24;
+constexpr std::size_t kFewest = 4, kMost = 16;
 /// Share of a group's information that must lie in whole traces, and below which a trace holds none of it.
 constexpr double kInWholes = 0.9, kNone = 1e-3;
 

@@ -12,9 +12,8 @@
 namespace trueflank::loop {
 namespace {
 
-/// Level of a second effect, and of a part's own beside what is of all: smaller than the engine's, for
-/// spurious ones of a tenth of the noise are many.
-constexpr double kNextLevel = 0.005;
+/// Level of a second effect, and of a part's own beside what is of all.
+constexpr double kNextLevel = 0.01;
 
 /// Order around the gear of a named effect, and how much of what it explains may stay unexplained at that
 /// order before the name is doubted; 0: no wave.
