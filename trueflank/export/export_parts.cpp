@@ -76,15 +76,9 @@ class Exporter {
       return std::any_of(jobs_.begin(), jobs_.end(), [&](const Job& j) { return j.format == format; });
     };
     if (has(FileFormat::kStep)) make_solids();
-    const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
-    if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) make_meshes();
-    if (has(FileFormat::k3mf)) pack_meshes();
     files_.resize(jobs_.size());
     readings_.resize(jobs_.size());
-    if (errors_.empty()) {
-      const std::vector<std::size_t> order = largest_first();
-      run_jobs(order.size(), [&](std::size_t i) { return keep_error(run(order[i])); });
-    }
+    if (errors_.empty()) make_files(has(FileFormat::k3mf));
     if (!errors_.empty()) return fail_all(std::move(errors_));
     add_accuracies();
     return std::move(files_);
@@ -111,19 +105,73 @@ class Exporter {
     return {};
   }
 
-  /// Jobs by the triangles of their parts, those of a file that is measured counted for what measuring
-  /// takes: begun last, a large one would be waited for.
-  [[nodiscard]] std::vector<std::size_t> largest_first() const {
-    const auto size_of_part = [&](int part) {
-      return meshes_ ? (*meshes_)[static_cast<std::size_t>(part)].mesh.triangles.size() : 0;
+  /// Meshes, what 3MF files hold of them, and files; each as soon as there is what it needs.
+  void make_files(bool packed) {
+    const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
+    std::vector<QueuedJob> queue;
+    const auto add = [&](std::vector<std::size_t> needs, std::function<bool()> work) {
+      queue.push_back({std::move(work), std::move(needs)});
+      return queue.size() - 1;
     };
+    std::vector<std::vector<std::size_t>> prepared(shapes_.parts.size());  // the last job of each part
+    if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) {
+      own_meshes_.resize(shapes_.parts.size());
+      meshes_ = &own_meshes_;
+      for (const std::size_t i : parts_largest_first())
+        prepared[i] = {add({}, [this, i, tolerance_mm = mesh_tolerance_mm()] {
+          own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = tolerance_mm});
+          return true;
+        })};
+    }
+    if (packed) {
+      packed_meshes_.resize(shapes_.parts.size());
+      for (const std::size_t i : parts_largest_first())
+        prepared[i] = {add(prepared[i], [this, i] {
+          packed_meshes_[i] = packed_3mf_mesh((*meshes_)[i].mesh);
+          return true;
+        })};
+    }
+    for (const std::size_t i : files_largest_first()) {
+      std::vector<std::size_t> needs;
+      if (is_mesh(jobs_[i]))
+        for (std::size_t part = 0; part < prepared.size(); ++part)
+          if (jobs_[i].part == kAssembly || jobs_[i].part == static_cast<int>(part))
+            needs.insert(needs.end(), prepared[part].begin(), prepared[part].end());
+      add(std::move(needs), [this, i] { return keep_error(run(i)); });
+    }
+    run_jobs(queue);
+  }
+
+  /// About what a part costs: its facets are those of its teeth.
+  [[nodiscard]] std::size_t cost(std::size_t part) const {
+    std::size_t teeth = 1;
+    const auto count = [&](const Outline& outline) {
+      if (const auto* toothed = std::get_if<ToothedOutline>(&outline))
+        teeth += static_cast<std::size_t>(toothed->profile->gear().teeth);
+    };
+    for (const Slab& slab : shapes_.parts[part].slabs) {
+      count(slab.outer);
+      for (const Outline& hole : slab.holes) count(hole);
+    }
+    return teeth;
+  }
+  /// Parts of which there are files to write. Begun last, a large one would be waited for.
+  [[nodiscard]] std::vector<std::size_t> parts_largest_first() const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < shapes_.parts.size(); ++i)
+      if (options_.part.empty() || shapes_.parts[i].name == options_.part) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
+    return order;
+  }
+  [[nodiscard]] std::vector<std::size_t> files_largest_first() const {
     std::vector<std::size_t> order, size(jobs_.size(), 0);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       order.push_back(i);
       if (jobs_[i].part != kAssembly)
-        size[i] = size_of_part(jobs_[i].part) * (is_measured(i) ? kMeasuringCost : 1);
+        size[i] = cost(static_cast<std::size_t>(jobs_[i].part)) * (is_measured(i) ? kMeasuringCost : 1);
       else
-        for (const Placement& body : shapes_.assembly) size[i] += size_of_part(body.part);
+        for (const Placement& body : shapes_.assembly) size[i] += cost(static_cast<std::size_t>(body.part));
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
@@ -151,40 +199,22 @@ class Exporter {
     return options_.tolerance_mm - std::min(rounding_mm, 0.3 * options_.tolerance_mm);
   }
 
-  void make_meshes() {
-    const double tolerance_mm = mesh_tolerance_mm();
-    own_meshes_.resize(shapes_.parts.size());
-    run_jobs(own_meshes_.size(), [&](std::size_t i) {
-      if (options_.part.empty() || shapes_.parts[i].name == options_.part)
-        own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = tolerance_mm});
-      return true;
-    });
-    meshes_ = &own_meshes_;
-  }
-
-  /// Packing serves the files of the parts and that of the assembly.
-  void pack_meshes() {
-    packed_meshes_.resize(shapes_.parts.size());
-    run_jobs(packed_meshes_.size(), [&](std::size_t i) {
-      if (options_.part.empty() || shapes_.parts[i].name == options_.part)
-        packed_meshes_[i] = packed_3mf_mesh((*meshes_)[i].mesh);
-      return true;
-    });
-  }
-
   /// Solids serve the files of the parts and that of the assembly.
   void make_solids() {
     solids_.resize(shapes_.parts.size());
-    run_jobs(solids_.size(), [&](std::size_t i) {
-      const PartShape& shape = shapes_.parts[i];
-      if (!options_.part.empty() && shape.name != options_.part) return true;
-      auto solid = brep_of(shape);
-      if (!solid) return keep_error(fail(std::move(solid.error())));
-      const Colour colour = part_colour(shape.name);
-      solids_[i] = {shape.name, std::move(*solid),
-                    {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}};
-      return true;
-    });
+    std::vector<QueuedJob> queue;
+    for (const std::size_t i : parts_largest_first())
+      queue.push_back({[this, i] { return keep_error(make_solid(i)); }, {}});
+    run_jobs(queue);
+  }
+  Status make_solid(std::size_t i) {
+    const PartShape& shape = shapes_.parts[i];
+    auto solid = brep_of(shape);
+    if (!solid) return fail(std::move(solid.error()));
+    const Colour colour = part_colour(shape.name);
+    solids_[i] = {shape.name, std::move(*solid),
+                  {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}};
+    return {};
   }
 
   Status run(std::size_t index) {
