@@ -4,11 +4,17 @@
 #include <isa-l.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "trueflank/base/contract.h"
 
 namespace trueflank::io {
+namespace {
+
+constexpr std::size_t kSampleBytes = 16 * 1024;  // of a block
+
+}  // namespace
 
 void PackedText::append(std::string_view text) {
   open_ += text;
@@ -29,22 +35,25 @@ void PackedText::pack() {
   if (open_.empty()) return;
   struct Packer {
     isal_zstream stream;
-    std::uint8_t level_buffer[ISAL_DEF_LVL1_SMALL];
+    isal_huff_histogram histogram;
+    isal_hufftables code;
   };
-  const auto packer = std::make_unique_for_overwrite<Packer>();  // not cleared: 150 kB
+  const auto packer = std::make_unique<Packer>();  // cleared: isa-l leaves members as they were
   isal_zstream& stream = packer->stream;
   isal_deflate_stateless_init(&stream);
-  stream.hist_bits = 0;  // the whole window; the one member that is read and that init leaves as it was
-  stream.level = 1;  // 2 is no smaller on our text, libdeflate a sixth smaller in twice the time
-  stream.level_buf = packer->level_buffer;
-  stream.level_buf_size = sizeof packer->level_buffer;
+  auto* const text = reinterpret_cast<std::uint8_t*>(open_.data());
+  // Level 0 with a code of its own: what levels 1 and 2 find depends, once in a hundred times, on where
+  // the memory lies. The code has all symbols, so a part of the text may stand for all.
+  isal_update_histogram(text, static_cast<int>(std::min(open_.size(), kSampleBytes)), &packer->histogram);
+  isal_create_hufftables(&packer->code, &packer->histogram);
+  stream.hufftables = &packer->code;
   stream.flush = FULL_FLUSH;
   stream.end_of_stream = 0;
   const std::size_t before = bytes_.size();
   // what cannot be packed is stored, in pieces of 64 kB with a header of 5 bytes
   const std::size_t most = open_.size() + 5 * (open_.size() / 65535 + 1) + 64;
   bytes_.resize(before + most);
-  stream.next_in = reinterpret_cast<std::uint8_t*>(open_.data());
+  stream.next_in = text;
   stream.avail_in = static_cast<std::uint32_t>(open_.size());
   stream.next_out = reinterpret_cast<std::uint8_t*>(bytes_.data()) + before;
   stream.avail_out = static_cast<std::uint32_t>(most);
