@@ -190,18 +190,19 @@ OutlineFoot OutlineDistance::foot(const Point2& point) const {
   return result;
 }
 
-double OutlineDistance::to_box_mm(std::size_t index, const Point2& point) const {
+double OutlineDistance::to_box_mm2(std::size_t index, const Point2& point) const {
   const Form& form = forms_[index];
-  return (form.low - point).cwiseMax(point - form.high).cwiseMax(0.0).norm();
+  return (form.low - point).cwiseMax(point - form.high).cwiseMax(0.0).squaredNorm();
 }
 
 OutlineFoot OutlineDistance::foot_on_half_tooth(const Point2& point) const {
   std::size_t first = 0;  // most likely the nearest: the others will not be looked at
-  for (std::size_t i = 1; i < pieces_.size(); ++i)
-    if (to_box_mm(i, point) < to_box_mm(first, point)) first = i;
+  double least_mm2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < pieces_.size() && least_mm2 > 0.0; ++i)
+    if (const double to_box = to_box_mm2(i, point); to_box < least_mm2) least_mm2 = to_box, first = i;
   OutlineFoot best = foot_on_piece(first, point, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    if (i == first || to_box_mm(i, point) > std::abs(best.distance_mm)) continue;
+    if (i == first || to_box_mm2(i, point) > best.distance_mm * best.distance_mm) continue;
     const OutlineFoot candidate = foot_on_piece(i, point, std::abs(best.distance_mm));
     if (std::abs(candidate.distance_mm) < std::abs(best.distance_mm)) best = candidate;
   }

@@ -51,7 +51,7 @@ class OutlineDistance {
   void finish();
   [[nodiscard]] Point2 from_tooth(const Point2& p, std::size_t tooth) const;
   [[nodiscard]] OutlineFoot foot_on_half_tooth(const Point2& point) const;
-  [[nodiscard]] double to_box_mm(std::size_t index, const Point2& point) const;
+  [[nodiscard]] double to_box_mm2(std::size_t index, const Point2& point) const;
   [[nodiscard]] OutlineFoot foot_on_piece(std::size_t index, const Point2& point,
                                           double limit_mm) const;
 
