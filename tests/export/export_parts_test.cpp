@@ -72,9 +72,24 @@ TEST(ExportParts, KeepsTheToleranceInEveryFileRoundingIncluded) {
   }
 }
 
+/// All files of a design keep the tolerance.
+void expect_kept(const std::string& text, std::vector<FileFormat> formats, double tolerance_um) {
+  const auto design = read_design_text(text, "design.toml");
+  ASSERT_TRUE(design);
+  const GearTrain train = lay_out(*design).value();
+  const PartShapes shapes = part_shapes(train).value();
+  const ScratchFolder folder;
+  const auto files = export_parts({.train = &train, .shapes = &shapes},
+                                  {.folder = folder.path(),
+                                   .formats = std::move(formats),
+                                   .tolerance_mm = mm_from_um(tolerance_um)});
+  ASSERT_TRUE(files) << files.error().front().message;
+  for (const ReportedFile& file : *files) EXPECT_LE(file.accuracy_um, tolerance_um) << file.path;
+}
+
 TEST(ExportParts, KeepsTheToleranceOfAFileThatIsToldByAnotherOne) {
-  // An OBJ is measured by the STL before it: both roundings count, and these are of one size here.
-  const auto design = read_design_text(R"(format = 1
+  // One file of a part is measured and tells the others: both roundings count, of one size here.
+  expect_kept(R"(format = 1
 name = "small"
 [gearbox]
 kind = "gear"
@@ -91,23 +106,13 @@ face_width_mm = 3.479
 [gear.modifications]
 end_relief_um = 1.54
 end_relief_length_mm = 0.519
-)", "small.toml");
-  ASSERT_TRUE(design);
-  const GearTrain train = lay_out(*design).value();
-  const PartShapes shapes = part_shapes(train).value();
-  const ScratchFolder folder;
-  const auto files = export_parts({.train = &train, .shapes = &shapes},
-                                  {.folder = folder.path(),
-                                   .formats = {FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj},
-                                   .tolerance_mm = 1.5e-4});
-  ASSERT_TRUE(files) << files.error().front().message;
-  for (const ReportedFile& file : *files) EXPECT_LE(file.accuracy_um, 0.15) << file.path;
+)", {FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj}, 0.15);
 }
 
 TEST(ExportParts, KeepsTheAssemblyOfAWheelWhoseFarSideIsRoundedInItsOwnFrame) {
   // Beside the pinion the wheel's coordinates are small in the assembly, and 900 mm in its own frame,
   // in which glTF holds them as floats.
-  const auto design = read_design_text(R"(format = 1
+  expect_kept(R"(format = 1
 name = "far"
 [gearbox]
 kind = "pair"
@@ -120,17 +125,7 @@ face_width_mm = 5
 teeth = 305
 shift = 0
 face_width_mm = 5
-)", "far.toml");
-  ASSERT_TRUE(design);
-  const GearTrain train = lay_out(*design).value();
-  const PartShapes shapes = part_shapes(train).value();
-  const ScratchFolder folder;
-  const auto files = export_parts({.train = &train, .shapes = &shapes},
-                                  {.folder = folder.path(),
-                                   .formats = {FileFormat::kStl, FileFormat::kGlb},
-                                   .tolerance_mm = 0.02});
-  ASSERT_TRUE(files) << files.error().front().message;
-  for (const ReportedFile& file : *files) EXPECT_LE(file.accuracy_um, 20.0) << file.path;
+)", {FileFormat::kStl, FileFormat::kGlb}, 20.0);
 }
 
 TEST(ExportParts, MeasuresWhatItWrote) {

@@ -240,16 +240,8 @@ void expect_cutter_generates(const ToothProfile& profile) {
   const double half_r = 0.25 * kPi * m - g.shift * m * tan_n;
   const double psi_c = (half_c / std::cos(beta) + 0.5 * g.thinning_mm) / r_c + inv;
   const double psi_r = (half_r / std::cos(beta) - 0.5 * g.thinning_mm) / r_r - inv;
-  const auto play = [&](double a_w) {
-    const double i = std::tan(a_w) - a_w;
-    return (kPi / g.teeth - psi_r - i) * base_r - (psi_c - i) * base_c;
-  };
-  double low = 1e-6, high = 1.4;
-  for (int i = 0; i < 200; ++i) {
-    const double mid = 0.5 * (low + high);
-    (play(mid) > 0.0 ? low : high) = mid;
-  }
-  const double centre_distance = (base_r - base_c) / std::cos(low);
+  const double centre_distance =
+      testing::shaping_distance(base_c, psi_c, base_r, psi_r, g.teeth);
   const PinionTool tool{base_c, psi_c,
                         r_r + m * (g.rack.dedendum + g.shift) - centre_distance,
                         profile.root_radius_coefficient() * m};

@@ -164,20 +164,10 @@ void expect_cutter_generates(const ToothProfile& profile) {
   const double base_c = r_c * std::cos(alpha), base_r = r_r * std::cos(alpha);
   const double psi_c = 0.5 * kPi / c.teeth + 2.0 * c.shift * std::tan(alpha) / c.teeth + inv +
                        0.5 * g.thinning_mm / r_c;
-  // space of the ring at radius r: 2 (pi/z - psi_r - inv a); equal to the cutter's tooth at the pitch
-  // circles when there is no backlash
   const double psi_r = 0.5 * kPi / g.teeth - 2.0 * g.shift * std::tan(alpha) / g.teeth - inv -
                        0.5 * g.thinning_mm / r_r;
-  const auto play = [&](double a_w) {
-    const double i = std::tan(a_w) - a_w;
-    return (kPi / g.teeth - psi_r - i) * base_r - (psi_c - i) * base_c;
-  };
-  double low = 1e-6, high = 1.4;
-  for (int i = 0; i < 200; ++i) {
-    const double mid = 0.5 * (low + high);
-    (play(mid) > 0.0 ? low : high) = mid;
-  }
-  const double centre_distance = (base_r - base_c) / std::cos(low);
+  const double centre_distance =
+      testing::shaping_distance(base_c, psi_c, base_r, psi_r, g.teeth);
   const double root = r_r + m * (g.rack.dedendum + g.shift);
   const PinionTool tool{base_c, psi_c, root - centre_distance,
                         profile.root_radius_coefficient() * m};

@@ -108,6 +108,22 @@ struct PinionTool {
   }
 };
 
+/// Centre distance without backlash of a ring (2) and its cutter (1): where the ring's space is as wide as the
+/// cutter's tooth on the pitch circles. By bisection of the pressure angle.
+inline double shaping_distance(double base1, double half_angle1, double base2, double half_angle2,
+                               int teeth2) {
+  const auto play = [&](double a_w) {
+    const double i = std::tan(a_w) - a_w;
+    return (kPi / teeth2 - half_angle2 - i) * base2 - (half_angle1 - i) * base1;
+  };
+  double low = 1e-6, high = 1.4;
+  for (int i = 0; i < 200; ++i) {
+    const double mid = 0.5 * (low + high);
+    (play(mid) > 0.0 ? low : high) = mid;
+  }
+  return (base2 - base1) / std::cos(low);
+}
+
 /// As rack_miss, for a ring shaped by a pinion cutter; the gap's middle on +x.
 inline double pinion_miss(const PinionTool& tool, double centre_distance, double ratio,
                           const Point2& p, double range) {

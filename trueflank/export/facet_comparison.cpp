@@ -11,11 +11,9 @@ using Point = std::array<double, 3>;
 
 constexpr double kSureStep_mm2 = 16.0 * kTextStep_mm * kTextStep_mm;  // no facet's step is less
 
-Point difference(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-
 double squared_mm2(const Point& p, const Point& q) {
-  const Point d = difference(p, q);
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+  return x * x + y * y + z * z;
 }
 
 double largest_coordinate_mm(const Point& p) {
@@ -25,7 +23,7 @@ double largest_coordinate_mm(const Point& p) {
 }  // namespace
 
 void FacetComparison::take(const Facet& facet) {
-  add_volume(facet);
+  volume_.add(facet[0], facet[1], facet[2]);
   ++facets_;
   while (!differs_) {
     const auto* triangle = expected();
@@ -91,18 +89,6 @@ bool FacetComparison::may_be_missing(const std::array<std::uint32_t, 3>& triangl
     shortest_mm2 = std::min(shortest_mm2,
                             squared_mm2(placed_[triangle[k]], placed_[triangle[(k + 1) % 3]]));
   return shortest_mm2 <= std::pow(2.0 * largest_step_mm(triangle), 2);
-}
-
-void FacetComparison::add_volume(const Facet& facet) {
-  if (facets_ == 0) origin_ = facet[0];
-  const Point a = difference(facet[0], origin_), b = difference(facet[1], origin_),
-              c = difference(facet[2], origin_);
-  const double six_volumes = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                             a[2] * (b[0] * c[1] - b[1] * c[0]);
-  const double term = six_volumes - carry_;  // compensated: terms of both signs cancel
-  const double sum = six_volumes_ + term;
-  carry_ = (sum - six_volumes_) - term;
-  six_volumes_ = sum;
 }
 
 }  // namespace trueflank::io

@@ -8,6 +8,7 @@
 
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/scene.h"
+#include "trueflank/solid/enclosed_volume.h"
 
 namespace trueflank::io {
 
@@ -30,7 +31,7 @@ class FacetComparison {
 
   /// Facets taken, and the volume they enclose [mm^3], to 1e-12 of the box around them.
   [[nodiscard]] std::size_t facets() const { return facets_; }
-  [[nodiscard]] double volume_mm3() const { return six_volumes_ / 6.0; }
+  [[nodiscard]] double volume_mm3() const { return volume_.mm3(); }
 
  private:
   using Point = std::array<double, 3>;
@@ -39,7 +40,6 @@ class FacetComparison {
   const std::array<std::uint32_t, 3>* expected();
   [[nodiscard]] bool may_be_missing(const std::array<std::uint32_t, 3>& triangle) const;
   [[nodiscard]] double largest_step_mm(const std::array<std::uint32_t, 3>& triangle) const;
-  void add_volume(const Facet& facet);
 
   const Scene& scene_;
   std::size_t body_ = 0, next_ = 0;  ///< of the scene's facet that comes next
@@ -48,8 +48,7 @@ class FacetComparison {
   double farthest_mm_ = 0.0;
   bool differs_ = false;
   std::size_t facets_ = 0;
-  Point origin_{};
-  double six_volumes_ = 0.0, carry_ = 0.0;
+  EnclosedVolume volume_;
 };
 
 }  // namespace trueflank::io
