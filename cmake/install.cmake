@@ -34,6 +34,6 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/trueflankConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/trueflankConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/trueflank)
-install(FILES ${PROJECT_SOURCE_DIR}/shell/trueflank.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${PROJECT_SOURCE_DIR}/shell/trueflank.bash
+install(FILES ${PROJECT_SOURCE_DIR}/app/shell/trueflank.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${PROJECT_SOURCE_DIR}/app/shell/trueflank.bash
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME trueflank)

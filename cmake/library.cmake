@@ -27,8 +27,14 @@ function(trueflank_library folder)
     EXPORT_NAME ${folder}
     POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} ${interface} cxx_std_20)
+  # The folders stand at the top level and are included as trueflank/<folder>/..., in the tree as after
+  # installation: a link in the build folder makes it so.
+  set(include_root ${PROJECT_BINARY_DIR}/include)
+  file(MAKE_DIRECTORY ${include_root}/trueflank)
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/trueflank/${folder} SYMBOLIC)
+  list(TRANSFORM arg_HEADERS PREPEND ${include_root}/trueflank/${folder}/)
   target_sources(${target} ${interface}
-    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
+    FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${arg_HEADERS})
   foreach(dependency IN LISTS arg_DEPENDS)
     target_link_libraries(${target} ${interface} trueflank::${dependency})
   endforeach()

@@ -23,7 +23,7 @@ def is_first_of_its_source(header):
     if not source.exists():
         return False
     first = re.search(r'^#include [<"](.*)[">]', source.read_text(), re.M)
-    return first is not None and SOURCE / first.group(1) == header
+    return first is not None and SOURCE / first.group(1).removeprefix("trueflank/") == header
 
 
 def flags_by_folder():
@@ -39,15 +39,18 @@ def flags_by_folder():
     return flags
 
 
+FOLDERS = ("base", "geometry", "train", "check", "solid", "export", "design", "loop", "app")
+
+
 def main():
-    headers = sorted((SOURCE / "trueflank").rglob("*.h"))
+    headers = sorted(h for folder in FOLDERS for h in (SOURCE / folder).rglob("*.h"))
     others = [h for h in headers if not is_first_of_its_source(h)]
     flags = flags_by_folder()
 
     def compile_alone(header):
         # base has no source, hence no flags of its own
-        directory, command = flags.get(header.parent) or flags[SOURCE / "trueflank" / "geometry"]
-        text = f'#include "{header.relative_to(SOURCE)}"\n'
+        directory, command = flags.get(header.parent) or flags[SOURCE / "geometry"]
+        text = f'#include "trueflank/{header.relative_to(SOURCE)}"\n'
         return header, subprocess.run([*command, "-fsyntax-only", "-x", "c++", "-"], input=text, text=True,
                                       cwd=directory, capture_output=True)
 

@@ -42,6 +42,9 @@ THIRD_PARTY = {
     "CLI11": (r"CLI/", ["app"], []),
 }
 
+# folders at the top level that hold no code of the library
+OUTSIDE = ("bench", "build", "cmake", "docs", "examples", "python", "scripts", "templates", "tests")
+
 SPDX = "SPDX-License-Identifier: GPL-3.0-or-later"
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 LINES = {".h": 300, ".cpp": 600}  # beyond: a warning, is it still one thing?
@@ -95,25 +98,29 @@ def sources_below(top):
     return sorted(p for p in top.rglob("*") if p.suffix in (".h", ".cpp") and p.is_file())
 
 
+def library_folders(root):
+    """The folders at the top level that hold code of the library or the program."""
+    return sorted(p for p in root.iterdir()
+                  if p.is_dir() and p.name not in OUTSIDE and not p.name.startswith(".") and sources_below(p))
+
+
 def check(root):
     """All complaints, then all warnings, about the tree at `root`."""
     complaints, warnings = [], []
-    library = root / "trueflank"
-    for path in sources_below(library):
+    for path in (p for folder in library_folders(root) for p in sources_below(folder)):
         shown = path.relative_to(root)
         text = path.read_text(encoding="utf-8")
-        folder = path.relative_to(library).parts[0]
+        folder = shown.parts[0]
         if folder not in LAYERS:
-            complaints.append(f"{shown}: trueflank/{folder} is in no row of the include table")
+            complaints.append(f"{shown}: {folder}/ is in no row of the include table")
             continue
         complaints += check_includes(shown, folder, text)
         if path.suffix == ".h" and "#pragma once" not in text:
             complaints.append(f"{shown}: no #pragma once")
-        if path.relative_to(library / folder).as_posix() not in listed_files(
-                library / folder / "CMakeLists.txt"):
-            complaints.append(f"{shown}: not listed in trueflank/{folder}/CMakeLists.txt")
-    for top in ("trueflank", "tests", "examples", "bench"):
-        for path in sources_below(root / top):
+        if path.relative_to(root / folder).as_posix() not in listed_files(root / folder / "CMakeLists.txt"):
+            complaints.append(f"{shown}: not listed in {folder}/CMakeLists.txt")
+    for top in (*library_folders(root), *(root / folder for folder in ("tests", "examples", "bench"))):
+        for path in sources_below(top):
             shown = path.relative_to(root)
             text = path.read_text(encoding="utf-8")
             if not first_line_is_licence(text):

@@ -11,6 +11,8 @@ import pathlib
 import re
 import sys
 
+import check_layers
+
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 # A declaration begins after one of ; { } : or a preprocessor line. What stands before the return
 # type (attributes, static, inline, a template head) is group 1.
@@ -27,7 +29,7 @@ def blank(match):
 
 def check(root):
     complaints = []
-    for path in sorted((root / "trueflank").rglob("*.h")):
+    for path in sorted(p for folder in check_layers.LAYERS for p in (root / folder).rglob("*.h")):
         text = COMMENT.sub(blank, path.read_text(encoding="utf-8"))
         # a preprocessor line ends what went before
         text = re.sub(r"^[ \t]*#[^\n]*", lambda m: ";" + " " * (len(m.group(0)) - 1), text,

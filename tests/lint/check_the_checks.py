@@ -38,41 +38,41 @@ class Layers(Tree):
         self.assertIn(part, complaints[0])
 
     def test_a_good_tree_has_no_complaint(self):
-        self.write("trueflank/geometry/gear.h", HEADER + '#include <Eigen/Core>\n#include <vector>\n')
-        self.write("trueflank/solid/cut.cpp", LICENCE + '#include "trueflank/solid/cut.h"\n'
+        self.write("geometry/gear.h", HEADER + '#include <Eigen/Core>\n#include <vector>\n')
+        self.write("solid/cut.cpp", LICENCE + '#include "trueflank/solid/cut.h"\n'
                    '#include <CGAL/Surface_mesh.h>\n#include "trueflank/geometry/gear.h"\n')
         self.assertEqual(check_layers.check(self.root), ([], []))
 
     def test_a_wrong_folder(self):
-        self.write("trueflank/geometry/gear.h", HEADER + '#include "trueflank/train/train.h"\n')
+        self.write("geometry/gear.h", HEADER + '#include "trueflank/train/train.h"\n')
         self.assert_one("gear.h:3: geometry/ may not include train/")
 
     def test_an_unknown_folder(self):
-        self.write("trueflank/utils/text.h", HEADER)
+        self.write("utils/text.h", HEADER)
         self.assert_one("no row")
 
     def test_an_include_of_an_unknown_folder(self):
-        self.write("trueflank/base/text.h", HEADER + '#include "trueflank/utils/text.h"\n')
+        self.write("base/text.h", HEADER + '#include "trueflank/utils/text.h"\n')
         self.assert_one("no folder trueflank/utils")
 
     def test_a_kernel_in_a_header(self):
-        self.write("trueflank/solid/cut.h", HEADER + "#include <CGAL/Surface_mesh.h>\n")
+        self.write("solid/cut.h", HEADER + "#include <CGAL/Surface_mesh.h>\n")
         self.assert_one("CGAL never appears in a header")
 
     def test_a_kernel_in_a_folder_without_it(self):
-        self.write("trueflank/train/cut.cpp", LICENCE + "#include <CGAL/Surface_mesh.h>\n")
+        self.write("train/cut.cpp", LICENCE + "#include <CGAL/Surface_mesh.h>\n")
         self.assert_one("train/ may not use CGAL")
 
     def test_opencascade_anywhere(self):
-        self.write("trueflank/export/step.cpp", LICENCE + "#include <STEPControl_Writer.hxx>\n")
+        self.write("export/step.cpp", LICENCE + "#include <STEPControl_Writer.hxx>\n")
         self.assert_one("may not use OpenCASCADE")
 
     def test_an_include_of_tests(self):
-        self.write("trueflank/base/text.cpp", LICENCE + '#include "tests/support/text.h"\n')
+        self.write("base/text.cpp", LICENCE + '#include "tests/support/text.h"\n')
         self.assert_one("nobody includes tests/")
 
     def test_a_short_path(self):
-        self.write("trueflank/base/text.cpp", LICENCE + '#include "text.h"\n')
+        self.write("base/text.cpp", LICENCE + '#include "text.h"\n')
         self.assert_one("whole path")
 
     def test_no_licence(self):
@@ -80,22 +80,22 @@ class Layers(Tree):
         self.assert_one("first line must be")
 
     def test_no_pragma_once(self):
-        self.write("trueflank/base/text.h", LICENCE)
+        self.write("base/text.h", LICENCE)
         self.assert_one("#pragma once")
 
     def test_a_file_nobody_builds(self):
-        self.write("trueflank/base/text.cpp", LICENCE, listed=False)
+        self.write("base/text.cpp", LICENCE, listed=False)
         self.assert_one("not listed")
 
     def test_a_long_file_is_only_a_warning(self):
-        self.write("trueflank/base/text.h", HEADER + "\n" * 400)
+        self.write("base/text.h", HEADER + "\n" * 400)
         complaints, warnings = check_layers.check(self.root)
         self.assertEqual((complaints, len(warnings)), ([], 1))
 
 
 class Nodiscard(Tree):
     def names(self, declarations):
-        self.write("trueflank/base/x.h", HEADER + declarations)
+        self.write("base/x.h", HEADER + declarations)
         return [c.split(": ")[1].split()[0] for c in check_nodiscard.check(self.root)]
 
     def test_declarations_without_it_are_found(self):

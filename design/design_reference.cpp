@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# The design file
 
-<!-- Made from the tables in trueflank/design/*_keys.cpp; tests/design keeps the two equal.
+<!-- Made from the tables in design/*_keys.cpp; tests/design keeps the two equal.
      After a change there: TRUEFLANK_UPDATE=1 ctest --preset dev -R DesignReference -->
 
 A gearbox is described in one [TOML](https://toml.io) file of UTF-8 text. Lengths are in
