@@ -2,13 +2,17 @@
 #include "trueflank/app/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
 #include "trueflank/app/command_search.h"
 #include "trueflank/app/commands.h"
 #include "trueflank/app/error_text.h"
+#include "trueflank/app/suggestion.h"
 #include "trueflank/app/terminal.h"
+#include "trueflank/export/file_formats.h"
+#include "trueflank/session/new_design_file.h"
 
 namespace trueflank::app {
 namespace {
@@ -29,6 +33,7 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
                       "how the parts are made: warns of what that cannot make (docs/made.md)");
   command->add_option("--pictures", options.pictures,
                       "draw each mesh at its worst place, an SVG in this folder");
+  command->add_flag("--verbose,-v", options.verbose, "the checks that passed too, each in its line");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_check(options); });
 }
@@ -40,7 +45,7 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->add_option("--output,-o", options.folder, "folder for the files; created if need be")
       ->required();
   command->add_option("--formats", options.formats,
-                      "comma-separated: stl,3mf,obj,ply,glb,step,dxf,svg,scad (default: all)")
+                      "comma-separated: " + io::format_names(",") + " (default: all)")
       ->delimiter(',');
   command->add_option("--tolerance-um", options.tolerance_um,
                       "largest distance of a facet from the true surface")
@@ -59,6 +64,7 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
                       "how the parts are made: warns of what that cannot make (docs/made.md)");
   command->add_flag("--allow-failing", options.allow_failing,
                     "write the parts though a check failed (the exit code is still 1)");
+  command->add_flag("--verbose,-v", options.verbose, "the checks that passed too, each in its line");
   command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
   command->callback([&] { code = run_make(options); });
 }
@@ -77,6 +83,16 @@ void add_search(CLI::App& program, SearchOptions& options, int& code) {
   command->add_option("--merge", options.merge, "folders of all parts: their answer as one");
   command->add_flag("--quiet,-q", options.quiet, "no summary, no progress");
   command->callback([&] { code = run_search(options); });
+}
+
+void add_fix(CLI::App& program, FixOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand("fix", "the smallest change of a design after which every check passes");
+  command->add_option("DESIGN", options.design, "design file (TOML)")->required();
+  command->add_option("--output,-o", options.output,
+                      "the mended design file, with its comments (- is standard output)")
+      ->required();
+  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->callback([&] { code = run_fix(options); });
 }
 
 void add_compare(CLI::App& program, CompareOptions& options, int& code) {
@@ -115,7 +131,7 @@ void add_loop(CLI::App& program, LoopOptions& options, int& code) {
 void add_new(CLI::App& program, NewOptions& options, int& code) {
   CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
-  command->add_option("--kind", options.kind, "3k, simple, pair or gear")->capture_default_str();
+  command->add_option("--kind", options.kind, new_design_kinds())->capture_default_str();
   command->callback([&] { code = run_new(options); });
 }
 
@@ -137,6 +153,71 @@ std::string wrapped(const std::string& text) {
   return result;
 }
 
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// `trueflank help` and `trueflank help COMMAND` as the same with --help. Arguments in order.
+std::vector<std::string> with_help_asked(const CLI::App& program, int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.resize(std::min<std::size_t>(words.size(), words.empty() || words.front() == "help" ? 0 : 1));
+  const auto commands = command_names(program);
+  const bool known = words.empty() || std::find(commands.begin(), commands.end(), words.front()) != commands.end();
+  if (known) words.push_back("--help");  // else the word alone is told to be no command
+  return words;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// An error about a word that is no command: the nearest one, or all.
+Error no_such_command(const CLI::App& program, const std::string& word) {
+  const std::vector<std::string> commands = command_names(program);
+  Error error{.code = ErrorCode::kUsage, .message = "no such command", .key = word};
+  if (const std::string nearest = nearest_word(word, commands); !nearest.empty())
+    error.message += "; did you mean " + nearest + "?";
+  else if (word.ends_with(".toml"))
+    error.message += "; did you mean trueflank check " + word + "?";
+  else
+    error.remedy = joined(commands);
+  return error;
+}
+
+/// An error about an option that a command does not have.
+Error no_such_option(const CLI::App& command, const std::string& word) {
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  Error error{.code = ErrorCode::kUsage,
+              .message = "trueflank " + command.get_name() + " has no such option",
+              .key = word,
+              .remedy = "see trueflank " + command.get_name() + " --help"};
+  if (const std::string nearest = nearest_word(word.substr(0, word.find('=')), options); !nearest.empty()) {
+    error.message += "; did you mean " + nearest + "?";
+    error.remedy.clear();
+  }
+  return error;
+}
+
+/// What a person who mistyped needs to know.
+Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
+  const auto chosen = program.get_subcommands();
+  // a word that starts with no dash comes first: what follows a mistyped command is not to blame
+  for (const std::string& word : program.remaining(true)) {
+    if (word.empty() || word == "--") continue;
+    if (chosen.empty() && word.front() != '-') return no_such_command(program, word);
+    if (!chosen.empty() && word.starts_with("--")) return no_such_option(*chosen.front(), word);
+  }
+  return {.code = ErrorCode::kUsage, .message = error.what(), .remedy = "see trueflank --help"};
+}
+
 }  // namespace
 
 std::string welcome_text() {
@@ -144,45 +225,48 @@ std::string welcome_text() {
          "\n"
          "  trueflank new mydrive --kind 3k         a commented design file to start from\n"
          "  trueflank check mydrive.toml            will it fit, turn and last?\n"
+         "  trueflank fix mydrive.toml -o fixed.toml\n"
+         "                                          the smallest change that mends it\n"
          "  trueflank make mydrive.toml -o parts    STL, 3MF, STEP and more, with a report\n"
          "  trueflank search needs.toml -o designs  find tooth numbers and profile shifts\n"
          "  trueflank loop mydrive.toml scan.stl --gear sun -o loop\n"
          "                                          what the made part tells\n"
          "  trueflank compare golden.stl new.stl    same shape? for continuous integration\n"
          "\n"
-         "trueflank COMMAND --help tells more.\n";
+         "trueflank help COMMAND tells more.\n";
 }
 
 int run_command_line(int argc, char** argv) {
   CLI::App program("Gear geometry: checked, made, measured and corrected.", "trueflank");
   program.set_version_flag("--version", "trueflank " TRUEFLANK_VERSION);
   program.require_subcommand(0, 1);
+  program.footer("trueflank help COMMAND tells of one command.");
   int code = 0;
   CheckOptions check;
   MakeOptions make;
+  FixOptions fix;
   CompareOptions compare;
   NewOptions fresh;
   LoopOptions loop;
   SearchOptions search;
   add_check(program, check, code);
   add_make(program, make, code);
+  add_fix(program, fix, code);
   add_compare(program, compare, code);
   add_new(program, fresh, code);
   add_loop(program, loop, code);
   add_search(program, search, code);
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> words = with_help_asked(program, argc, argv);
+    std::reverse(words.begin(), words.end());  // as the parser takes them
+    program.parse(std::move(words));
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream text;
     const int asked_code = program.exit(asked, text, std::cerr);
     if (auto ok = print(wrapped(text.str())); !ok) return report_errors({ok.error()});
     return asked_code;
   } catch (const CLI::ParseError& error) {
-    std::cerr << error_text({.code = ErrorCode::kUsage,
-                             .message = error.what(),
-                             .remedy = "see trueflank --help"})
-              << "\n";
-    return 2;
+    return report_errors({usage_error(program, error)});
   }
   if (program.get_subcommands().empty()) {
     if (auto ok = print(welcome_text()); !ok) return report_errors({ok.error()});

@@ -18,6 +18,7 @@ struct CheckOptions {
   std::string materials_file;  ///< more [material.NAME]; empty: none
   std::string process;    ///< what the parts are made by; empty: the design's
   std::string pictures;   ///< folder for an SVG of each mesh at its worst place; empty: none
+  bool verbose = false;   ///< the checks that passed too
   bool quiet = false;
 };
 int run_check(const CheckOptions& options);
@@ -34,9 +35,17 @@ struct MakeOptions {
   std::string process;  ///< what the parts are made by; empty: the design's
   std::string materials_file;  ///< more [material.NAME]; empty: none
   bool allow_failing = false;
+  bool verbose = false;  ///< the checks that passed too
   bool quiet = false;
 };
 int run_make(const MakeOptions& options);
+
+struct FixOptions {
+  std::string design;
+  std::string output;  ///< the mended design file; "-": standard output
+  bool quiet = false;
+};
+int run_fix(const FixOptions& options);
 
 struct CompareOptions {
   std::string golden, fresh;

@@ -12,7 +12,6 @@
 #include "trueflank/app/command_search.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
-#include "trueflank/export/atomic_file.h"
 
 namespace trueflank::app {
 namespace {
@@ -38,18 +37,18 @@ int agreed(int code) {
 }
 
 int run_rank(SearchOptions options, int rank, int ranks) {
-  auto task = prepare_search(options);
+  auto task = prepare_search(options.requirements, options.materials);
   int code = 0;
   // wrong input is wrong on every rank: one tells
   if (!task) code = rank == 0 ? report_errors(task.error()) : 2;
   if (!code && rank == 0)
-    if (auto ok = io::create_folder(options.folder); !ok) code = report_errors({ok.error()});
+    if (auto ok = create_output_folder(options.folder); !ok) code = report_errors({ok.error()});
   if ((code = agreed(code))) return code;
 
   if (options.threads == 0) options.threads = 1;  // a rank is a core
   const bool quiet = options.quiet;
   options.quiet = quiet || rank != 0;
-  const auto records = run_search_part(*task, {rank + 1, ranks}, options);
+  const auto records = run_part(*task, {rank + 1, ranks}, options);
   if (!records) code = report_errors(records.error());
   if ((code = agreed(code))) return code;
 
@@ -65,7 +64,7 @@ int run_rank(SearchOptions options, int rank, int ranks) {
       std::sort(read->begin(), read->end(), [](const SearchRecord& p, const SearchRecord& q) {
         return p.index < q.index;
       });
-      code = finish_search(*task, *read, options);
+      code = conclude(*task, *read, options);
     }
   }
   return agreed(code);

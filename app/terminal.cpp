@@ -46,13 +46,18 @@ Status write_document(const std::string& path, std::string_view text) {
   return path == "-" ? print(text) : io::write_file(path, text);
 }
 
+std::string open_text(const std::string& page) { return "open " + page + " in a browser\n"; }
+
+Status create_output_folder(const std::string& folder) { return io::create_folder(folder); }
+
 void install_interrupt_handlers() {
   struct sigaction action{};
   action.sa_handler = stop_cleanly;
   sigemptyset(&action.sa_mask);
   for (int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  // a closed pipe is an error of the write, told as one
+  // a closed pipe and the limit of a file's size are errors of the write, told as such
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace trueflank::app

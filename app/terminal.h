@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/report.h"
+#include "trueflank/session/evaluate.h"
 
 namespace trueflank::app {
 
@@ -17,6 +17,11 @@ namespace trueflank::app {
 
 /// Writes a document to a file, or to standard output for "-".
 [[nodiscard]] Status write_document(const std::string& path, std::string_view text);
+
+[[nodiscard]] Status create_output_folder(const std::string& folder);
+
+/// The last line of a command that wrote a page: how to see it.
+[[nodiscard]] std::string open_text(const std::string& page);
 
 /// SIGINT, SIGTERM and SIGHUP remove half-written files and end the program with code 3.
 void install_interrupt_handlers();

@@ -30,10 +30,13 @@ double departure_rad(const std::vector<double>& positions_rad) {
 }
 
 /// How many different places there are for a planet, and how far apart.
-std::string places_text(const AssemblyCondition& condition) {
+std::string places_text(const GearTrain& train) {
+  const AssemblyCondition& condition = train.assembly;
+  if (std::isnan(condition.angle_step_rad)) return " Identical planets mesh at any angle.";
   return " Identical planets mesh at multiples of " +
          number_text(deg_from_rad(condition.angle_step_rad), 4) + " deg (" +
-         number_text(std::round(kTwoPi / condition.angle_step_rad), 0) + " places round the sun).";
+         number_text(std::round(kTwoPi / condition.angle_step_rad), 0) + " places round the " +
+         (train.sun() ? "sun" : "axis") + ").";
 }
 
 std::string order_text(const GearTrain& train, const std::vector<MeshState>& states) {
@@ -42,19 +45,30 @@ std::string order_text(const GearTrain& train, const std::vector<MeshState>& sta
            " sun and ring cannot move apart: this set can only be assembled from halves. Planets round"
            " the sun first, radially; then each ring in two halves, split at the apex, closed over them"
            " (or whole rings, and the sun in two halves from either side).";
-  const bool compound = train.design.kind == TrainKind::k3k;
-  std::string text = " Order: planets on the carrier at their angles and marks, then the sun along the axis";
-  if (compound) {
-    const double room = train.centre_distance_mm - train.find("planet2")->profile.tip_radius_mm();
-    text += train.find("sun")->profile.tip_radius_mm() < room ? " from either side"
-                                                              : " from below (planet2 bars it above)";
-    text += ", ring1 along the axis from below, ring2 from above";
+  const Topology& topology = train.topology();
+  const std::vector<int> planet_gears = topology.gears_of(topology.first_planet());
+  std::string text = " Order: planets on the carrier at their angles and marks";
+  const TrainGear* sun = train.sun();
+  if (sun) text += ", then the sun along the axis";
+  if (planet_gears.size() > 1) {
+    const TrainGear& upper = train.gear(planet_gears.back());
+    const double room = train.centre_distance_mm - upper.profile.tip_radius_mm();
+    if (sun)
+      text += sun->profile.tip_radius_mm() < room ? " from either side"
+                                                  : " from below (" + upper.name + " bars it above)";
+    bool first = true;
+    for (const TrainGear& ring : train.gears) {
+      if (ring.profile.gear().kind != GearKind::kInternal) continue;
+      text += ", " + ring.name + (first ? " along the axis" : "") +
+              (ring.layer == 1 ? " from below" : " from above");
+      first = false;
+    }
   } else {
     text += ", then the ring along the axis";
   }
   for (std::size_t i = 0; i < states.size(); ++i)
     if (states[i].removal && states[i].removal->at_every_rotation)
-      text += "; without the sun in place, " + gear1_name(train, train.meshes[i]) +
+      text += std::string(sun ? "; without the sun in place, " : "; ") + gear1_name(train, train.meshes[i]) +
               " also goes into " + gear2_name(train, train.meshes[i]) + " radially";
   return text + ".";
 }
@@ -65,7 +79,7 @@ Finding without_planets(const GearTrain& train) {
                   .where = "train",
                   .status = CheckStatus::kNotApplicable,
                   .message = "there are no planets to assemble"};
-  if (train.design.kind == TrainKind::kPair && train.design.herringbone && train.pair(train.meshes[0]).internal()) {
+  if (!train.meshes.empty() && train.design.herringbone && train.pair(train.meshes[0]).internal()) {
     finding.status = CheckStatus::kWarn;
     finding.message = "herringbone teeth do not slide into a ring along the axis: this pair can only be "
                       "assembled from halves.";
@@ -83,8 +97,11 @@ Finding by_closed_form(const GearTrain& train) {
     finding.message = count + " identical planets mesh with all gears at equal spacing.";
   } else if (condition.equal_spacing) {
     finding.status = CheckStatus::kWarn;
-    finding.message = count + " planets mesh at equal spacing, but their bodies differ: planet2 ahead "
-                      "of planet1, against body 1, by " +
+    const Topology& topology = train.topology();
+    const std::vector<int> gears = topology.gears_of(topology.first_planet());
+    finding.message = count + " planets mesh at equal spacing, but their bodies differ: " +
+                      train.gear(gears[1]).name + " ahead of " + train.gear(gears[0]).name +
+                      ", against body 1, by " +
                       list_text(condition.planet_offsets_rad) + ".";
     finding.cure = "mark the bodies and mount each in its place";
     if (!condition.nearest_angles_rad.empty())
@@ -101,16 +118,14 @@ Finding by_closed_form(const GearTrain& train) {
     }
   }
   finding.margin = -finding.value;
-  finding.message += places_text(condition);
+  finding.message += places_text(train);
   return finding;
 }
 
 }  // namespace
 
 Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& states) {
-  const bool planetary =
-      train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
-  if (!planetary)
+  if (!train.topology().has_planets())
     return {without_planets(train)};
   Finding finding = by_closed_form(train);
   const TrainTurning turning = turn_train(train, states);

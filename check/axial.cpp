@@ -14,15 +14,16 @@ struct Reach {
   double inner_mm = 0.0, outer_mm = 0.0;
 };
 
+/// The topology's member that a gear belongs to.
+int member_of(const GearTrain& train, const TrainGear& gear) {
+  return train.topology().gears[static_cast<std::size_t>(&gear - train.gears.data())].member;
+}
+
 Reach reach_of(const GearTrain& train, const TrainGear& gear) {
   const double tip = gear.profile.tip_radius_mm(), a = train.centre_distance_mm;
   if (gear.profile.gear().kind == GearKind::kInternal) return {tip, 1e300};  // the rim is unbounded here
-  if (gear.name.starts_with("planet")) return {a - tip, a + tip};
+  if (train.topology().is_planet(member_of(train, gear))) return {a - tip, a + tip};
   return {0.0, tip};
-}
-
-bool same_body(const TrainGear& a, const TrainGear& b) {
-  return a.name.starts_with("planet") && b.name.starts_with("planet");
 }
 
 /// Largest of the gaps that keep a gear and a plate apart, along the axis or across it.
@@ -39,14 +40,16 @@ double plate_gap_mm(const GearTrain& train, const TrainGear& gear, const Carrier
 /// All parts are round about the axis or turn with the carrier: what is clear here is clear at every
 /// position.
 Finding judge_carrier(const GearTrain& train, const CarrierLayout& carrier) {
-  Finding finding{.id = "axial", .where = "carrier", .limit = 0.0, .unit = "mm"};
+  const Topology& topology = train.topology();
+  const std::string name = topology.name_of(topology.carrier_of(topology.first_planet()));
+  Finding finding{.id = "axial", .where = name, .limit = 0.0, .unit = "mm"};
   for (const TrainGear& gear : train.gears) {
     for (const bool lower : {true, false}) {
       const double gap = plate_gap_mm(train, gear, carrier,
                                       lower ? carrier.lower_plate : carrier.upper_plate);
       if (gap >= finding.value) continue;  // NaN: the first one
       finding.value = finding.margin = gap;
-      const std::string which = lower ? "carrier" : "carrier_top";
+      const std::string which = lower ? name : name + "_top";
       finding.message = which + " and " + gear.name +
                         (gap > 0.0 ? " clear each other by " + mm_text(gap)
                                    : " run into each other by " + mm_text(-gap));
@@ -65,7 +68,7 @@ Findings check_axial(const GearTrain& train) {
   Finding finding{.id = "axial", .where = "train", .limit = 0.0, .unit = "mm"};
   for (const TrainGear& lower : train.gears) {
     for (const TrainGear& upper : train.gears) {
-      if (lower.layer >= upper.layer || same_body(lower, upper)) continue;
+      if (lower.layer >= upper.layer || member_of(train, lower) == member_of(train, upper)) continue;
       const Reach a = reach_of(train, lower), b = reach_of(train, upper);
       if (a.outer_mm <= b.inner_mm || b.outer_mm <= a.inner_mm) continue;
       const double gap = upper.z_lower_mm - (lower.z_lower_mm + lower.face_width_mm);

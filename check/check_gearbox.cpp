@@ -8,6 +8,7 @@
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/corner_contact.h"
 #include "trueflank/check/fillet_interference.h"
 #include "trueflank/check/involute_interference.h"
 #include "trueflank/check/manufacturability.h"
@@ -37,7 +38,7 @@ Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& sta
        {check_profile, check_undercut, check_tip_thickness, check_centre_distance, check_backlash,
         check_tip_clearance, check_contact_ratio})
     append(all, check(train));
-  for (const auto check : {check_overlap, check_fillet_interference, check_involute_interference,
+  for (const auto check : {check_overlap, check_corner_contact, check_fillet_interference, check_involute_interference,
                            check_trochoid_interference, check_trimming_interference,
                            check_assembly})
     append(all, check(train, states));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/interference_cure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trueflank/check/mesh_findings.h"
@@ -20,15 +21,18 @@ std::optional<GearTrain> with_layer_shifted(const GearTrain& train, const TrainM
                                             double change) {
   GearboxDesign design = train.design;
   const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
-  const bool sun_first = gear1.name == "sun" || gear1.name == "pinion";
-  const bool external = train.pair(mesh).gear2().kind == GearKind::kExternal;
-  // the sun moves against its planets, everything else with them
-  const double planet_change = sun_first && external ? -change : change;
+  // the inner gear of an external mesh (sun, pinion) moves against its mates, everything else with them
+  const auto moves_against = [&](std::size_t gear) {
+    return std::any_of(train.meshes.begin(), train.meshes.end(), [&](const TrainMesh& other) {
+      return other.gear1 == static_cast<int>(gear) && !train.pair(other).internal();
+    });
+  };
+  const double planet_change = train.pair(mesh).internal() ? change : -change;
   design.centre_distance_mm = train.centre_distance_mm;
   for (std::size_t i = 0; i < design.gears.size(); ++i) {
     const TrainGear& gear = train.gears[i];
     double moved = gear.layer == gear1.layer ? planet_change : 0.0;
-    if (gear.name == "sun" || (gear.name == "pinion" && external)) moved = -moved;
+    if (moves_against(i)) moved = -moved;
     design.gears[i].shift = gear.shift + moved;
   }
   auto result = lay_out(design);

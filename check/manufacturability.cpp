@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/tip_thickness.h"
@@ -32,12 +33,11 @@ double reach_mm(const BoreDesign& bore) {
 /// The wall between bore and root circle; nothing where there is no bore.
 std::optional<Feature> bore_wall(const GearTrain& train, const TrainGear& gear,
                                  const Process& process) {
-  // planet1's bore goes through the whole planet
-  const GearDesign* design =
-      find_gear(train.design, gear.name == "planet2" ? "planet1" : gear.name);
-  if (!design || design->bore.diameter_mm <= 0.0) return std::nullopt;
+  const BoreDesign& bore =
+      first_of_body(train.design, static_cast<std::size_t>(&gear - train.gears.data())).bore;
+  if (bore.diameter_mm <= 0.0) return std::nullopt;
   return Feature{"wall between bore and root circle",
-                 gear.profile.root_radius_mm() - reach_mm(design->bore), process.least_wall_mm,
+                 gear.profile.root_radius_mm() - reach_mm(bore), process.least_wall_mm,
                  "a smaller bore"};
 }
 
@@ -64,12 +64,17 @@ std::vector<Feature> features_of(const GearTrain& train, const TrainGear& gear,
   return features;
 }
 
+/// A value that equals its limit but for rounding meets it.
+double met_margin(double margin_mm) {
+  return std::abs(margin_mm) < tolerance::kTouch_mm ? 0.0 : margin_mm;
+}
+
 Finding judge_gear(const GearTrain& train, const TrainGear& gear, const Process& process) {
   Finding finding{.id = "manufacturability", .where = gear.name, .unit = "mm"};
   std::string below;
   for (const Feature& feature : features_of(train, gear, process)) {
     if (feature.limit_mm <= 0.0) continue;
-    const double margin = feature.value_mm - feature.limit_mm;
+    const double margin = met_margin(feature.value_mm - feature.limit_mm);
     if (std::isnan(finding.margin) || margin < finding.margin) {
       finding.value = feature.value_mm;
       finding.limit = feature.limit_mm;
@@ -95,7 +100,7 @@ Finding judge_mesh(const GearTrain& train, const TrainMesh& mesh, const Process&
                   .where = mesh.name,
                   .value = least,
                   .limit = process.backlash_mm,
-                  .margin = least - process.backlash_mm,
+                  .margin = met_margin(least - process.backlash_mm),
                   .unit = "mm"};
   finding.message = "backlash " + mm_text(least) + ", " + process.name + " wants " +
                     mm_text(process.backlash_mm);

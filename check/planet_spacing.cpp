@@ -57,8 +57,8 @@ Finding judge(const GearTrain& train, const TrainGear& gear) {
 Findings check_planet_spacing(const GearTrain& train) {
   Findings findings;
   if (train.phases.planet_position_rad.size() > 1)
-    for (const TrainGear& gear : train.gears)
-      if (gear.name.starts_with("planet")) findings.push_back(judge(train, gear));
+    for (std::size_t i = 0; i < train.gears.size(); ++i)
+      if (train.topology().is_planet_gear(i)) findings.push_back(judge(train, train.gears[i]));
   if (findings.empty())
     findings.push_back({.id = "planet_spacing",
                         .where = "train",

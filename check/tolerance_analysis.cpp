@@ -161,7 +161,7 @@ void draw_sets(const GearTrain& train, const ToleranceOptions& options,
       // sun and rings are one part, each planet is its own, on its own pin
       const double pin = normal.within(mm_from_um(options.centre_distance_um));
       for (std::size_t g = 0; g < train.gears.size(); ++g)
-        if (i > 0 && train.gears[g].name.starts_with("planet")) errors[g] = draw(spreads[g], normal);
+        if (i > 0 && train.topology().is_planet_gear(g)) errors[g] = draw(spreads[g], normal);
       for (std::size_t m = 0; m < train.meshes.size(); ++m) {
         const GearError& e1 = errors[static_cast<std::size_t>(train.meshes[m].gear1)];
         const GearError& e2 = errors[static_cast<std::size_t>(train.meshes[m].gear2)];

@@ -16,14 +16,16 @@ struct Standing {
   double rotation1_rad, rotation2_rad, direction_rad;
 };
 
-Standing standing(const AssemblyPhases& phases, const std::string& mesh, std::size_t planet) {
-  if (mesh == "pinion-wheel") return {phases.sun_rotation_rad, phases.ring1_rotation_rad, 0.0};
-  const double position = phases.planet_position_rad[planet];
-  const double rotation = phases.planet_rotation_rad[planet];
-  if (mesh.starts_with("sun-")) return {phases.sun_rotation_rad, rotation, position};
-  if (mesh == "planet2-ring2")
-    return {rotation + phases.planet_offset_rad[planet], phases.ring2_rotation_rad, position};
-  return {rotation, phases.ring1_rotation_rad, position};
+Standing standing(const GearTrain& train, const AssemblyPhases& phases, const TrainMesh& mesh,
+                  std::size_t place) {
+  const Topology& topology = train.topology();
+  const auto rotation = [&](int gear) {
+    return phases.rotation_rad(topology.gears[static_cast<std::size_t>(gear)].member, place) +
+           phases.offset_rad(gear, place);
+  };
+  const bool with_planet = topology.is_planet_gear(static_cast<std::size_t>(mesh.gear1)) ||
+                           topology.is_planet_gear(static_cast<std::size_t>(mesh.gear2));
+  return {rotation(mesh.gear1), rotation(mesh.gear2), with_planet ? phases.planet_position_rad[place] : 0.0};
 }
 
 /// How far gear 2 is turned out of the position in which a tooth of one faces a gap of the other.
@@ -48,7 +50,7 @@ TrainTurning turn_train(const GearTrain& train, const std::vector<MeshState>& st
     for (std::size_t m = 0; m < train.meshes.size(); ++m) {
       const GearPair pair = train.pair(train.meshes[m]);
       for (std::size_t i = 0; i < planets; ++i) {
-        const double error = std::abs(phase_error_rad(pair, standing(phases, train.meshes[m].name, i)));
+        const double error = std::abs(phase_error_rad(pair, standing(train, phases, train.meshes[m], i)));
         const double arc = error * pitch_radius2_mm(pair);
         if (arc <= worst.phase_error_mm && !worst.mesh.empty()) continue;
         worst_mesh = m;

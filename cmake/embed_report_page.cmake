@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Script: writes OUTPUT, the definitions of trueflank/export/report_page.h, from TEMPLATES, VIEWER
+# Script: writes OUTPUT, the definitions of trueflank/report/report_page.h, from TEMPLATES, VIEWER
 # and LICENCE (the last two may be empty).
 function(append_constant name file)
   set(text "")
@@ -23,7 +23,7 @@ function(append_constant name file)
 endfunction()
 
 file(WRITE "${OUTPUT}.new" "// Generated from templates/report.\n"
-  "#include \"trueflank/export/report_page.h\"\n\nnamespace trueflank::io::page {\n")
+  "#include \"trueflank/report/report_page.h\"\n\nnamespace trueflank::io::page {\n")
 append_constant(kFrame "${TEMPLATES}/page.html")
 append_constant(kStyle "${TEMPLATES}/style.css")
 append_constant(kScript "${TEMPLATES}/page.js")

@@ -5,16 +5,18 @@
 #     DEPENDS <other folders>...       may be included in our headers
 #     PUBLIC_PACKAGES <packages>...    header-only, may be included in our headers
 #     PACKAGES <packages>...           included in .cpp only
-#     HEADERS <file>...
+#     ALONE <package> <file>...        sources with a package whose flags or headers the others are spared
+#     HEADERS <file>...                installed where cmake/public_headers.cmake names them
 #     SOURCES <file>...)
 # Target trueflank_<folder>, alias trueflank::<folder>. A folder without sources is header-only, and
 # its PACKAGES are not looked for.
 function(trueflank_library folder)
-  cmake_parse_arguments(arg "" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;HEADERS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;ALONE;HEADERS;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_library(${folder}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
-  set(target trueflank_${folder})
+  get_filename_component(name ${folder} NAME)  # a room of a folder has a target of its own
+  set(target trueflank_${name})
   if(arg_SOURCES)
     add_library(${target} STATIC ${arg_SOURCES})
     set(interface PUBLIC)
@@ -22,19 +24,28 @@ function(trueflank_library folder)
     add_library(${target} INTERFACE)
     set(interface INTERFACE)
   endif()
-  add_library(trueflank::${folder} ALIAS ${target})
+  add_library(trueflank::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${folder}
+    EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} ${interface} cxx_std_20)
   # The folders stand at the top level and are included as trueflank/<folder>/..., in the tree as after
   # installation: a link in the build folder makes it so.
   set(include_root ${PROJECT_BINARY_DIR}/include)
   file(MAKE_DIRECTORY ${include_root}/trueflank)
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/trueflank/${folder} SYMBOLIC)
-  list(TRANSFORM arg_HEADERS PREPEND ${include_root}/trueflank/${folder}/)
+  if(name STREQUAL folder)
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/trueflank/${folder} SYMBOLIC)
+  endif()
+  set(public "")
+  foreach(header IN LISTS arg_HEADERS)
+    if(${folder}/${header} IN_LIST TRUEFLANK_PUBLIC_HEADERS)
+      list(APPEND public ${include_root}/trueflank/${folder}/${header})
+    elseif(arg_SOURCES)
+      target_sources(${target} PRIVATE ${header})
+    endif()
+  endforeach()
   target_sources(${target} ${interface}
-    FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${arg_HEADERS})
+    FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${public})
   foreach(dependency IN LISTS arg_DEPENDS)
     target_link_libraries(${target} ${interface} trueflank::${dependency})
   endforeach()
@@ -47,6 +58,7 @@ function(trueflank_library folder)
     return()
   endif()
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:trueflank_options>)
+  target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
   foreach(package IN LISTS arg_PACKAGES)
     trueflank_find_package(${package} package_targets call)
     target_link_libraries(${target} PRIVATE ${package_targets})
@@ -54,4 +66,19 @@ function(trueflank_library folder)
       set_property(GLOBAL APPEND PROPERTY TRUEFLANK_DEPENDENCIES ${call})
     endif()
   endforeach()
+  if(arg_ALONE)
+    list(POP_FRONT arg_ALONE package)
+    trueflank_find_package(${package} package_targets call)
+    add_library(${target}_${package} OBJECT ${arg_ALONE})
+    set_target_properties(${target}_${package} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_include_directories(${target}_${package} PRIVATE ${include_root})
+    foreach(dependency IN LISTS arg_DEPENDS)
+      target_link_libraries(${target}_${package} PRIVATE trueflank::${dependency})
+    endforeach()
+    target_link_libraries(${target}_${package} PRIVATE trueflank_options ${package_targets})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${package}>)
+    list(TRANSFORM package_targets REPLACE "(.+)" "$<LINK_ONLY:\\1>")
+    target_link_libraries(${target} INTERFACE ${package_targets})
+    set_property(GLOBAL APPEND PROPERTY TRUEFLANK_DEPENDENCIES ${call})
+  endif()
 endfunction()

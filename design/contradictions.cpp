@@ -43,8 +43,7 @@ class Contradictions {
         check_bore_size();
       }
     }
-    check_planet2_bore();
-    check_planet2_material();
+    check_bodies();
     if (design_.carrier) check_carrier();
   }
 
@@ -65,19 +64,10 @@ class Contradictions {
   }
 
   void check_kind() {
-    const std::string kind = "kind \"" + std::string(to_text(design_.kind)) + "\"";
-    if (reading_.good("gearbox.output")) {
-      const auto& fitting = outputs(design_.kind);
-      std::string list;
-      for (OutputMember output : fitting)
-        list += (list.empty() ? "\"" : " or \"") + std::string(to_text(output)) + '"';
-      if (std::find(fitting.begin(), fitting.end(), design_.output) == fitting.end())
-        reading_.contradiction("gearbox.output", "does not fit " + kind,
-                               list.empty() ? "no such key: a single gear has no output" : list);
-    }
-    if (!has_planets(design_.kind) && reading_.good("gearbox.planets") && design_.planets != 1)
+    const std::string kind = "kind \"" + design_.topology.kind + "\"";
+    if (!design_.topology.has_planets() && reading_.good("gearbox.planets") && design_.planets != 1)
       reading_.contradiction("gearbox.planets", kind + " has no planets", "no such key");
-    if (design_.kind == TrainKind::kGear && reading_.good("gearbox.centre_distance_mm"))
+    if (design_.topology.meshes.empty() && reading_.good("gearbox.centre_distance_mm"))
       reading_.contradiction("gearbox.centre_distance_mm", "a single gear has no centre distance",
                              "no such key, or kind \"pair\"");
   }
@@ -155,13 +145,13 @@ class Contradictions {
     return design_.module_mm;
   }
 
-  void check_mesh(const char* name1, const char* name2) {
+  void check_mesh(const std::string& name1, const std::string& name2) {
     const GearDesign *gear1 = find_gear(design_, name1), *gear2 = find_gear(design_, name2);
     if (!gear1 || !gear2) return;
     gear_ = gear2;
     const auto module1 = module_mm(*gear1), module2 = module_mm(*gear2);
     if (module1 && module2 && *module1 != *module2) {
-      const std::string differ = std::string(name1) + " and " + name2 +
+      const std::string differ = name1 + " and " + name2 +
                                  " mesh, but their modules are " + mm(*module1) + " and " +
                                  mm(*module2);
       const GearDesign& own = gear2->module_mm ? *gear2 : *gear1;
@@ -174,19 +164,10 @@ class Contradictions {
   }
 
   void check_meshes() {
-    switch (design_.kind) {
-      case TrainKind::k3k:
-        check_mesh("sun", "planet1");
-        check_mesh("planet1", "ring1");
-        check_mesh("planet2", "ring2");
-        break;
-      case TrainKind::kSimple:
-        check_mesh("sun", "planet");
-        check_mesh("planet", "ring");
-        break;
-      case TrainKind::kPair: check_mesh("pinion", "wheel"); break;
-      case TrainKind::kGear: break;
-    }
+    const Topology& topology = design_.topology;
+    for (const TopologyMesh& mesh : topology.meshes)
+      check_mesh(topology.gears[static_cast<std::size_t>(mesh.gear1)].name,
+                 topology.gears[static_cast<std::size_t>(mesh.gear2)].name);
   }
 
   /// Root circle as designed, external or ring; nothing where a value is missing or wrong.
@@ -300,27 +281,31 @@ class Contradictions {
             "a bore that stays inside the root circle");
   }
 
-  void check_planet2_bore() {
-    const GearDesign* planet1 = find_gear(design_, "planet1");
-    const GearDesign* planet2 = find_gear(design_, "planet2");
-    if (!kind_known_ || !planet1 || !planet2 || planet2->bore == BoreDesign{}) return;
-    if (planet2->bore == planet1->bore) return;
-    gear_ = planet2;
+  /// What belongs to a whole body may be said again for its later gears, but not otherwise.
+  void check_bodies() {
+    const Topology& topology = design_.topology;
+    if (!kind_known_) return;
+    for (std::size_t i = 0; i < topology.gears.size(); ++i) {
+      const GearDesign* first =
+          find_gear(design_, topology.gears[static_cast<std::size_t>(
+                                 topology.first_gear_of(topology.gears[i].member))].name);
+      const GearDesign* later = find_gear(design_, topology.gears[i].name);
+      if (!first || !later || first == later) continue;
+      gear_ = later;
+      const std::string body = topology.name_of(topology.gears[i].member);
+      if (later->bore != BoreDesign{} && later->bore != first->bore) check_bore_of_body(*first, body);
+      if (!later->material.empty() && later->material != first->material)
+        wrong("material", "differs from " + first->name + "'s, and both are one body",
+              "the material given in [" + first->name + "] alone");
+    }
+  }
+
+  void check_bore_of_body(const GearDesign& first, const std::string& body) {
     for (const auto& bore_key : gear_keys())
       if (std::string_view(bore_key.rule.name).starts_with("bore_") && good(bore_key.rule.name))
         return wrong(bore_key.rule.name,
-                     "differs from planet1's bore, which goes through the planet",
-                     "the bore given in [planet1] alone");
-  }
-
-  void check_planet2_material() {
-    const GearDesign* planet1 = find_gear(design_, "planet1");
-    const GearDesign* planet2 = find_gear(design_, "planet2");
-    if (!kind_known_ || !planet1 || !planet2 || planet2->material.empty()) return;
-    if (planet2->material == planet1->material) return;
-    gear_ = planet2;
-    wrong("material", "differs from planet1's, and both are one body",
-          "the material given in [planet1] alone");
+                     "differs from " + first.name + "'s bore, which goes through the " + body,
+                     "the bore given in [" + first.name + "] alone");
   }
 
   void check_bolts() {
@@ -377,8 +362,8 @@ class Contradictions {
 
   void check_carrier() {
     const CarrierDesign& carrier = *design_.carrier;
-    if (kind_known_ && !has_planets(design_.kind)) {
-      const std::string kind = to_text(design_.kind);
+    if (kind_known_ && !design_.topology.has_planets()) {
+      const std::string& kind = design_.topology.kind;
       reading_.contradiction("carrier", "kind \"" + kind + "\" has no planets to carry",
                              "leave out [carrier]");
       return;
@@ -395,9 +380,16 @@ class Contradictions {
     check_pins(carrier);
   }
 
+  /// The gear whose bore the pins go through, where its table is there.
+  [[nodiscard]] const GearDesign* planet_of_design() const {
+    const Topology& topology = design_.topology;
+    const int planet = topology.first_planet();
+    if (planet == kNoMember) return nullptr;
+    return find_gear(design_, topology.gears[static_cast<std::size_t>(topology.first_gear_of(planet))].name);
+  }
+
   void check_pins(const CarrierDesign& carrier) {
-    const GearDesign* planet = find_gear(design_, "planet1");
-    if (!planet) planet = find_gear(design_, "planet");
+    const GearDesign* planet = planet_of_design();
     if (!planet) return;
     const std::string bore = planet->name + ".bore_mm";
     if (!reading_.has(bore)) {

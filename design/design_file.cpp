@@ -5,26 +5,23 @@
 #include <filesystem>
 #include <optional>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/design/contradictions.h"
 #include "trueflank/design/design_keys.h"
 #include "trueflank/design/design_name.h"
+#include "trueflank/design/inch_keys.h"
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/design/reading.h"
 #include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::vector<std::string> all_gear_names() {
   std::vector<std::string> names;
-  for (TrainKind kind : {TrainKind::k3k, TrainKind::kSimple, TrainKind::kPair, TrainKind::kGear})
-    for (const std::string& name : gear_names(kind))
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  for (const TrainKind& kind : train_kinds())
+    for (const TopologyGear& gear : train_topology(kind.name).gears)
+      if (std::find(names.begin(), names.end(), gear.name) == names.end()) names.push_back(gear.name);
   return names;
 }
 
@@ -48,6 +45,7 @@ std::string place_of(std::string_view name) {
   if (in(shafts_keys())) return "[shafts]";
   if (in(made_keys())) return "[made]";
   if (in(losses_keys())) return "[losses]";
+  if (in(strength_keys())) return "[strength]";
   if (in(gear_keys()) || name == "modifications") return "a gear's table";
   if (in(modification_keys())) return "a gear's [modifications]";
   if (in(cutter_keys()) || name == "cutter") return "a ring's [cutter]";
@@ -56,11 +54,12 @@ std::string place_of(std::string_view name) {
 
 class DesignReader {
  public:
-  explicit DesignReader(const TomlDocument& document)
-      : root_(document.root), syntax_errors_(document.errors) {}
+  explicit DesignReader(TomlDocument& document)
+      : inches_(to_metric(document.root)), root_(document.root), syntax_errors_(document.errors) {}
 
   ResultAll<DesignFile> read(const std::string& file) {
     reading_.add_all(root_);
+    for (const InchKey& key : inches_) reading_.add_inches(key);
     for (const Error& error : syntax_errors_) reading_.report(error);
     read_tool_tables(file);
     read_top();
@@ -72,6 +71,8 @@ class DesignReader {
       read_keys("shafts", *table, shafts_keys(), file_.design.shafts);
     if (const TomlTable* table = section("made")) read_made(*table);
     read_losses();
+    if (const TomlTable* table = section("strength"))
+      read_keys("strength", *table, strength_keys(), file_.design.strength);
     settle_module();
     settle_tools();
     report_contradictions(file_.design, kind_known_, reading_);
@@ -90,7 +91,7 @@ class DesignReader {
  private:
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses", "strength"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {
@@ -122,13 +123,35 @@ class DesignReader {
     GearboxDesign& design = file_.design;
     read_keys("gearbox", table, gearbox_keys(), design);
     kind_known_ = reading_.good("gearbox.kind");
-    if (kind_known_ && !reading_.has("gearbox.output") && !outputs(design.kind).empty())
-      design.output = outputs(design.kind).front();
+    const TrainKind* kind = kind_known_ ? find_train_kind(*name_in(table, "kind")) : nullptr;
+    if (kind) design.topology = topology_of(*kind, table);
     report_missing("gearbox", gearbox_keys(), [&](KeyPlace place) {
-      if (place == KeyPlace::kPlanetary) return kind_known_ && has_planets(design.kind);
-      if (place == KeyPlace::kOf3k) return kind_known_ && design.kind == TrainKind::k3k;
+      if (place == KeyPlace::kPlanetary) return kind_known_ && design.topology.has_planets();
+      if (place == KeyPlace::kOutput) return kind && kind->output_required;
       return place != KeyPlace::kUnlessEveryGear;
     });
+  }
+
+  /// The topology of a kind with the output the file names; with the usual one where that does not fit.
+  Topology topology_of(const TrainKind& kind, const TomlTable& table) {
+    const auto asked = [&](const char* name, const std::vector<std::string>& choices) -> std::string_view {
+      const std::string key = std::string("gearbox.") + name;
+      const std::string* text = reading_.good(key) ? name_in(table, name) : nullptr;
+      if (!text) return {};
+      if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
+      std::string list;
+      for (const std::string& choice : choices)
+        list += (list.empty() ? "\"" : " or \"") + choice + '"';
+      reading_.contradiction(key, "does not fit kind \"" + std::string(kind.name) + "\"",
+                             list.empty() ? std::string("no such key: a single gear has no ") + name : list);
+      return {};
+    };
+    Topology topology = train_topology(kind.name, asked("output", kind.outputs), asked("input", kind.inputs));
+    for (int gear = static_cast<int>(topology.gears.size()) - 1; gear >= 0; --gear)
+      if (const TopologyGear& own = topology.gears[static_cast<std::size_t>(gear)];
+          own.optional && !root_.find(own.name))
+        topology = without_gear(topology, gear);
+    return topology;
   }
 
   /// The user's own tools; a relative path starts at the design file.
@@ -220,12 +243,14 @@ class DesignReader {
   /// Gears of the kind; of any kind where the kind is not known.
   void read_gears() {
     const std::vector<std::string> all = all_gear_names();
-    const std::vector<std::string>& own = kind_known_ ? gear_names(file_.design.kind) : all;
+    std::vector<std::string> own;
+    for (const TopologyGear& gear : file_.design.topology.gears) own.push_back(gear.name);
+    if (!kind_known_) own = all;
     for (const std::string& name : own) {
       if (const TomlTable* table = section(name)) {
         file_.design.gears.push_back(read_gear(name, *table));
       } else if (kind_known_ && !root_.find(name)) {
-        const std::string kind = to_text(file_.design.kind);
+        const std::string& kind = file_.design.topology.kind;
         reading_.report({.code = ErrorCode::kMissingKey,
                          .message = "the table is missing",
                          .key = name,
@@ -236,7 +261,7 @@ class DesignReader {
     for (const std::string& name : all)
       if (root_.find(name) && std::find(own.begin(), own.end(), name) == own.end())
         reading_.contradiction(
-            name, "kind \"" + std::string(to_text(file_.design.kind)) + "\" has no such gear",
+            name, "kind \"" + file_.design.topology.kind + "\" has no such gear",
             "the gears " + joined(own));
   }
 
@@ -382,6 +407,7 @@ class DesignReader {
                          wanted(key.rule));
   }
 
+  std::vector<InchKey> inches_;
   const TomlTable& root_;
   const Errors& syntax_errors_;
   Reading reading_;

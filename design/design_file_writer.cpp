@@ -23,27 +23,20 @@ std::string toml_text(const KeyValue& value) {
 }
 
 template <class Target>
-void write_keys(std::string& text, const std::vector<DesignKey<Target>>& keys,
-                const Target& target) {
+void write_keys(std::vector<WrittenKey>& all, const std::string& table,
+                const std::vector<DesignKey<Target>>& keys, const Target& target) {
   for (const DesignKey<Target>& key : keys) {
     if constexpr (std::is_same_v<Target, GearDesign>)
       if (!stands_in(key.place, target.name, target.kind)) continue;
-    if (const auto value = key.get(target))
-      text += std::string(key.rule.name) + " = " + toml_text(*value) + "\n";
+    if (const auto value = key.get(target)) all.push_back({table, key.rule.name, toml_text(*value)});
   }
 }
 
-void write_gear(std::string& text, const GearDesign& gear) {
-  text += "\n[" + gear.name + "]\n";
-  write_keys(text, gear_keys(), gear);
-  if (gear.cutter) {
-    text += "[" + gear.name + ".cutter]\n";
-    write_keys(text, cutter_keys(), *gear.cutter);
-  }
-  if (gear.modifications != ModificationsDesign{}) {
-    text += "[" + gear.name + ".modifications]\n";
-    write_keys(text, modification_keys(), gear.modifications);
-  }
+void write_gear(std::vector<WrittenKey>& all, const GearDesign& gear) {
+  write_keys(all, gear.name, gear_keys(), gear);
+  if (gear.cutter) write_keys(all, gear.name + ".cutter", cutter_keys(), *gear.cutter);
+  if (gear.modifications != ModificationsDesign{})
+    write_keys(all, gear.name + ".modifications", modification_keys(), gear.modifications);
 }
 
 std::string commented(std::string_view comment) {
@@ -59,29 +52,30 @@ std::string commented(std::string_view comment) {
 
 }  // namespace
 
+std::vector<WrittenKey> written_keys(const GearboxDesign& design) {
+  std::vector<WrittenKey> all;
+  write_keys(all, "", file_keys(), design);
+  write_keys(all, "gearbox", gearbox_keys(), design);
+  write_keys(all, "rack", rack_keys(), design.rack);
+  for (const GearDesign& gear : design.gears) write_gear(all, gear);
+  if (design.carrier) write_keys(all, "carrier", carrier_keys(), *design.carrier);
+  if (design.shafts != ShaftsDesign{}) write_keys(all, "shafts", shafts_keys(), design.shafts);
+  if (design.made != MadeDesign{}) write_keys(all, "made", made_keys(), design.made);
+  if (design.losses) write_keys(all, "losses", losses_keys(), *design.losses);
+  if (design.strength != StrengthDesign{})
+    write_keys(all, "strength", strength_keys(), design.strength);
+  return all;
+}
+
 std::string design_file_text(const GearboxDesign& design, std::string_view comment) {
-  std::string text = commented(comment);
-  write_keys(text, file_keys(), design);
-  text += "\n[gearbox]\n";
-  write_keys(text, gearbox_keys(), design);
-  text += "\n[rack]\n";
-  write_keys(text, rack_keys(), design.rack);
-  for (const GearDesign& gear : design.gears) write_gear(text, gear);
-  if (design.carrier) {
-    text += "\n[carrier]\n";
-    write_keys(text, carrier_keys(), *design.carrier);
-  }
-  if (design.shafts != ShaftsDesign{}) {
-    text += "\n[shafts]\n";
-    write_keys(text, shafts_keys(), design.shafts);
-  }
-  if (design.made != MadeDesign{}) {
-    text += "\n[made]\n";
-    write_keys(text, made_keys(), design.made);
-  }
-  if (design.losses) {
-    text += "\n[losses]\n";
-    write_keys(text, losses_keys(), *design.losses);
+  std::string text = commented(comment), table;
+  for (const WrittenKey& key : written_keys(design)) {
+    if (key.table != table) {
+      table = key.table;
+      // a gear's own tables follow it closely
+      text += (table.find('.') == std::string::npos ? "\n[" : "[") + table + "]\n";
+    }
+    text += key.key + " = " + key.value + "\n";
   }
   return text;
 }

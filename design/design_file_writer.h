@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "trueflank/train/gearbox_design.h"
 
@@ -14,5 +15,13 @@ namespace trueflank {
 /// Requires: what the reader demands of a file; not checked here.
 [[nodiscard]] std::string design_file_text(const GearboxDesign& design,
                                            std::string_view comment = "");
+
+/// A key as a design file says it.
+struct WrittenKey {
+  std::string table;  ///< "gearbox", "ring1.cutter"; empty: the top of the file
+  std::string key, value;
+};
+/// Everything design_file_text() writes, in its order.
+[[nodiscard]] std::vector<WrittenKey> written_keys(const GearboxDesign& design);
 
 }  // namespace trueflank

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/design/design_keys.h"
 
+#include <algorithm>
+#include <deque>
+
 #include "trueflank/base/units.h"
 #include "trueflank/design/file_units.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
@@ -18,18 +22,62 @@ Value unless(double value, double by_default) {
 }
 Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
 
-TrainKind train_kind(const std::string& name) {
-  for (TrainKind kind : {TrainKind::k3k, TrainKind::kSimple, TrainKind::kPair})
-    if (name == to_text(kind)) return kind;
-  return TrainKind::kGear;
+/// A text for the tables, which hold plain pointers: made once, kept for good.
+const char* kept(std::string text) {
+  static std::deque<std::string> texts;
+  return texts.emplace_back(std::move(text)).c_str();
 }
 
-OutputMember output_member(const std::string& name) {
-  for (OutputMember output : {OutputMember::kRing2, OutputMember::kRing1, OutputMember::kCarrier,
-                              OutputMember::kRing})
-    if (name == to_text(output)) return output;
-  return OutputMember::kWheel;
+/// "3k: sun, two rings and compound planets; simple: ..."
+const char* of_every_kind(const char* head, const char* TrainKind::*meaning) {
+  std::string text = head;
+  const char* separator = "";
+  for (const TrainKind& kind : train_kinds()) {
+    if (*(kind.*meaning) == '\0') continue;
+    text += separator + std::string(kind.name) + ": " + kind.*meaning;
+    separator = "; ";
+  }
+  return kept(std::move(text));
 }
+
+std::vector<const char*> kind_choices() {
+  std::vector<const char*> names;
+  for (const TrainKind& kind : train_kinds()) names.push_back(kind.name);
+  return names;
+}
+
+/// Members of all kinds, each once.
+std::vector<const char*> member_choices(std::vector<std::string> TrainKind::*members) {
+  std::vector<const char*> names;
+  for (const TrainKind& kind : train_kinds())
+    for (const std::string& member : kind.*members)
+      if (std::find(names.begin(), names.end(), member) == names.end()) names.push_back(member.c_str());
+  return names;
+}
+
+/// "simple: "carrier"; pair: "wheel"": of kinds whose output may be left out.
+const char* usual_outputs() {
+  std::string text;
+  for (const TrainKind& kind : train_kinds())
+    if (!kind.output_required && !kind.outputs.empty())
+      text += (text.empty() ? "" : "; ") + std::string(kind.name) + ": \"" + kind.outputs.front() + '"';
+  return kept(std::move(text));
+}
+
+/// "number of planets, of kinds 3k and simple".
+const char* planets_meaning() {
+  std::vector<std::string> kinds;
+  for (const TrainKind& kind : train_kinds())
+    if (train_topology(kind.name).has_planets()) kinds.emplace_back(kind.name);
+  std::string text = "number of planets, of kinds ";
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + kinds[i];
+  return kept(std::move(text));
+}
+
+/// Kind, output and input stand for a topology: the reader makes it of all three.
+template <class Target>
+void taken_by_the_reader(Target&, const KeyValue&) {}
 
 }  // namespace
 
@@ -48,22 +96,6 @@ bool stands_in(KeyPlace place, const std::string& gear_name, GearKind kind) {
     case KeyPlace::kMaybeRing: return may_be_ring(gear_name);
     default: return true;
   }
-}
-
-bool has_planets(TrainKind kind) { return kind == TrainKind::k3k || kind == TrainKind::kSimple; }
-
-const std::vector<OutputMember>& outputs(TrainKind kind) {
-  static const std::vector<OutputMember> k3k{OutputMember::kRing2, OutputMember::kRing1};
-  static const std::vector<OutputMember> kSimple{OutputMember::kCarrier, OutputMember::kRing};
-  static const std::vector<OutputMember> kPair{OutputMember::kWheel};
-  static const std::vector<OutputMember> kNone{};
-  switch (kind) {
-    case TrainKind::k3k: return k3k;
-    case TrainKind::kSimple: return kSimple;
-    case TrainKind::kPair: return kPair;
-    case TrainKind::kGear: break;
-  }
-  return kNone;
 }
 
 const std::vector<DesignKey<GearboxDesign>>& file_keys() {
@@ -91,29 +123,34 @@ const std::vector<DesignKey<GearboxDesign>>& file_keys() {
 const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
   using D = GearboxDesign;
   static const std::vector<DesignKey<D>> keys{
-      {{.name = "kind", .type = KeyType::kChoice, .choices = {"3k", "simple", "pair", "gear"},
-        .required = true,
-        .meaning = "3k: sun, two rings and compound planets; simple: sun, planets and a ring; "
-                   "pair: two gears; gear: one gear alone"},
+      {{.name = "kind", .type = KeyType::kChoice, .choices = kind_choices(), .required = true,
+        .meaning = of_every_kind("", &TrainKind::meaning)},
        KeyPlace::kAnywhere,
-       [](D& d, const KeyValue& v) { d.kind = train_kind(text(v)); },
-       [](const D& d) { return Value(std::string(to_text(d.kind))); }},
-      {{.name = "output", .type = KeyType::kChoice,
-        .choices = {"ring2", "ring1", "carrier", "ring", "wheel"}, .required = true,
-        .by_default = "simple: \"carrier\"; pair: \"wheel\"",
-        .meaning = "member that drives out. 3k: ring2 (type I, ring1 is fixed) or ring1 (type II, "
-                   "ring2 is fixed); simple: carrier (the ring is fixed) or ring (the carrier is "
-                   "fixed); pair: wheel; gear: none"},
-       KeyPlace::kOf3k,
-       [](D& d, const KeyValue& v) { d.output = output_member(text(v)); },
+       taken_by_the_reader<D>,
+       [](const D& d) { return Value(d.topology.kind); }},
+      {{.name = "output", .type = KeyType::kChoice, .choices = member_choices(&TrainKind::outputs),
+        .required = true, .by_default = usual_outputs(),
+        .meaning = of_every_kind("member that drives out. ", &TrainKind::output_meaning)},
+       KeyPlace::kOutput,
+       taken_by_the_reader<D>,
        [](const D& d) {
-         return has_planets(d.kind) ? Value(std::string(to_text(d.output))) : Value();
+         return d.topology.has_planets() ? Value(d.topology.name_of(d.topology.output)) : Value();
+       }},
+      {{.name = "input", .type = KeyType::kChoice, .choices = member_choices(&TrainKind::inputs),
+        .by_default = "the sun, the pinion",
+        .meaning = of_every_kind("member that drives in. ", &TrainKind::input_meaning)},
+       KeyPlace::kAnywhere,
+       taken_by_the_reader<D>,
+       [](const D& d) {
+         const TrainKind* kind = find_train_kind(d.topology.kind);
+         const std::string input = d.topology.name_of(d.topology.input);
+         return kind && !kind->inputs.empty() && input != kind->inputs.front() ? Value(input) : Value();
        }},
       {{.name = "planets", .type = KeyType::kWhole, .lower = 1, .upper = 50, .required = true,
-        .meaning = "number of planets, of kinds 3k and simple"},
+        .meaning = planets_meaning()},
        KeyPlace::kPlanetary,
        [](D& d, const KeyValue& v) { d.planets = whole(v); },
-       [](const D& d) { return has_planets(d.kind) ? whole_value(d.planets) : Value(); }},
+       [](const D& d) { return d.topology.has_planets() ? whole_value(d.planets) : Value(); }},
       {{.name = "module_mm", .unit = "mm", .lower = 0.01, .upper = 100, .required = true,
         .meaning = "module of every gear that does not set its own; with a helix the normal "
                    "module"},
@@ -138,6 +175,27 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.backlash_mm = number(v); },
        [](const D& d) { return Value(d.backlash_mm); }},
+      {{.name = "tips", .type = KeyType::kChoice, .choices = {"clear", "standard"},
+        .by_default = "\"clear\"",
+        .meaning = "clear: a tip that would reach into its mate's root fillet ends short of it by 0.03 "
+                   "module of the line of action, and the report says by how much; standard: the tip "
+                   "circles of the book. A tip_diameter_mm that is given is kept"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) {
+         d.tips = text(v) == "standard" ? TipCircles::kStandard : TipCircles::kClear;
+       },
+       [](const D& d) {
+         return d.tips == TipCircles::kStandard ? Value(std::string("standard")) : Value();
+       }},
+      {{.name = "corner_contact_limit_um", .unit = "um", .lower = 0, .upper = 10000,
+        .by_default = "5 um per mm of module",
+        .meaning = "how far a tip corner or fillet may touch ahead of the driving flanks before the check "
+                   "corner_contact fails"},
+       KeyPlace::kAnywhere,
+       [](D& d, const KeyValue& v) { d.corner_contact_limit_mm = mm_from_um(number(v)); },
+       [](const D& d) {
+         return d.corner_contact_limit_mm ? Value(file_um(*d.corner_contact_limit_mm)) : Value();
+       }},
       {{.name = "layer_gap_mm", .unit = "mm", .lower = 0, .upper = 1000, .by_default = "1",
         .meaning = "3k: axial gap between planet1 (z = 0 to its face width) and planet2 above it"},
        KeyPlace::kAnywhere,
@@ -178,7 +236,7 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        KeyPlace::kAnywhere,
        [](R&, const KeyValue&) {},  // the reader has taken the rack's values before the other keys
        [](const R&) { return Value(); }},
-      {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 50, .by_default = "20",
+      {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 45, .by_default = "20",
         .meaning = "pressure angle, in the normal section"},
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.pressure_angle_rad = rad_from_deg(number(v)); },

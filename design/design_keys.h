@@ -15,7 +15,7 @@ namespace trueflank {
 enum class KeyPlace {
   kAnywhere,
   kPlanetary,     ///< kinds with planets: required there where required at all
-  kOf3k,          ///< required for kind 3k
+  kOutput,        ///< required for kinds that have no usual output
   kUnlessEveryGear,  ///< required unless every gear has its own
   kExternalGear,
   kRing,          ///< internal gears
@@ -55,6 +55,8 @@ inline constexpr int kDesignFormat = 1;
 [[nodiscard]] const std::vector<DesignKey<MadeDesign>>& made_keys();
 /// `[losses]`.
 [[nodiscard]] const std::vector<DesignKey<LossesDesign>>& losses_keys();
+/// `[strength]`.
+[[nodiscard]] const std::vector<DesignKey<StrengthDesign>>& strength_keys();
 
 /// What a gear is if its `internal` says nothing: rings are internal.
 [[nodiscard]] GearKind usual_kind(const std::string& gear_name);
@@ -62,8 +64,5 @@ inline constexpr int kDesignFormat = 1;
 [[nodiscard]] bool may_be_ring(const std::string& gear_name);
 /// Whether a key has its place in a gear's table.
 [[nodiscard]] bool stands_in(KeyPlace place, const std::string& gear_name, GearKind kind);
-[[nodiscard]] bool has_planets(TrainKind kind);
-/// Members that can drive out; empty where the kind has no choice.
-[[nodiscard]] const std::vector<OutputMember>& outputs(TrainKind kind);
 
 }  // namespace trueflank

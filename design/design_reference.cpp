@@ -2,6 +2,7 @@
 #include "trueflank/design/design_reference.h"
 
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
@@ -13,7 +14,8 @@ constexpr const char* kIntroduction = R"(# The design file
 
 A gearbox is described in one [TOML](https://toml.io) file of UTF-8 text. Lengths are in
 millimetres, small ones in micrometres, angles in degrees; every key with a unit says it in its
-name. Keys without a unit are pure numbers or multiples of the module.
+name. Keys without a unit are pure numbers or multiples of the module. Every key that ends in `_mm`
+may be given as `_in`, in inches, and `diametral_pitch` (teeth per inch) for `module_mm`.
 
 ```toml
 format = 1
@@ -37,17 +39,6 @@ a forgotten unit), not odd gears. Whether such teeth exist and mesh is not for t
 the checks ([checks](checks.md)).
 
 Examples to start from, each with comments: `examples/*/design.toml`.
-
-## Gears of each kind
-
-| `kind` | tables of its gears | meshes |
-| --- | --- | --- |
-| `3k` | `[sun]` `[planet1]` `[ring1]` `[planet2]` `[ring2]` | `sun-planet1` `planet1-ring1` `planet2-ring2` |
-| `simple` | `[sun]` `[planet]` `[ring]` | `sun-planet` `planet-ring` |
-| `pair` | `[pinion]` `[wheel]` | `pinion-wheel` |
-| `gear` | `[gear]` | |
-
-All gears of the kind must be there, and no others. planet1 and planet2 of a 3k are one body.
 )";
 
 constexpr const char* kRules = R"(
@@ -55,7 +46,7 @@ constexpr const char* kRules = R"(
 
 - `output` fits the kind; `planets` and `centre_distance_mm` stand only where there are planets or a
   mesh. `friction`, `backlash_mm` and `layer_gap_mm` say nothing about a single gear and are let be.
-- Gears that mesh have one module; the layers of a 3k may differ. A ring has more teeth than the
+- Gears that mesh have one module; the layers of compound planets may differ. A ring has more teeth than the
   gear in it and than its cutter.
 - A keyway needs `bore_mm` and both its width and depth; a flat needs `bore_mm` and lies between its
   half and whole; `bore_hex_mm` stands alone. The bore stays inside the root circle. planet1's bore
@@ -125,10 +116,27 @@ void describe(std::string& text, const std::string& title, const std::string& in
             " |\n";
 }
 
+std::string gears_of_kinds() {
+  std::string text =
+      "\n## Gears of each kind\n\n"
+      "| `kind` | tables of its gears | meshes |\n| --- | --- | --- |\n";
+  for (const TrainKind& kind : train_kinds()) {
+    const Topology topology = train_topology(kind.name);
+    text += "| `" + std::string(kind.name) + "` |";
+    for (const TopologyGear& gear : topology.gears) text += " `[" + gear.name + "]`";
+    text += " |";
+    for (const TopologyMesh& mesh : topology.meshes) text += " `" + topology.mesh_name(mesh) + "`";
+    text += " |\n";
+  }
+  return text +
+         "\nAll gears of the kind must be there, and no others; only `[sun]` of a 3k with "
+         "`input = \"carrier\"` may be\nleft out. planet1 and planet2 are one body.\n";
+}
+
 }  // namespace
 
 std::string design_reference() {
-  std::string text = kIntroduction;
+  std::string text = kIntroduction + gears_of_kinds();
   describe(text, "Top of the file", "", file_keys());
   describe(text, "`[gearbox]`", "", gearbox_keys());
   describe(text, "`[rack]`",
@@ -160,6 +168,10 @@ std::string design_reference() {
            "writes it);\nwithout this table the efficiency is that of the meshes alone. Torques are at the "
            "input.",
            losses_keys());
+  describe(text, "`[strength]`",
+           "What the allowable torque assumes ([strength](strength.md)); may be left out. The same keys as "
+           "in a\nrequirements file.",
+           strength_keys());
   return text + kRules;
 }
 

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "trueflank/train/gearbox_design.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 
 /// A commented design file to start from: reads without error, passes every check and
 /// makes at once. `name` becomes the design's name (any text; what does not
 /// fit a name is left out).
-[[nodiscard]] std::string new_design_text(TrainKind kind, const std::string& name);
+[[nodiscard]] std::string new_design_text(const TrainKind& kind, const std::string& name);
 
 }  // namespace trueflank

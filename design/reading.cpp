@@ -14,6 +14,14 @@ void Reading::add_all(const TomlTable& table, const std::string& prefix) {
   }
 }
 
+void Reading::add_inches(const InchKey& key) {
+  add(key.written, {.line = key.line, .value = key.value});
+  if (key.twice)
+    contradiction(key.written, "told twice: " + key.metric + " is there too", "one of both keys");
+  else
+    inches_[key.metric] = key;
+}
+
 bool Reading::good(const std::string& key) const {
   const auto it = found_.find(key);
   return it != found_.end() && it->second.good;
@@ -34,6 +42,11 @@ void Reading::report(Error error) {
   if (const auto it = found_.find(error.key); it != found_.end()) {
     it->second.good = false;
     if (error.value.empty()) error.value = it->second.value;
+  }
+  if (const auto inches = inches_.find(error.key); inches != inches_.end()) {
+    error.message += error.message.empty() ? "" : ", taken as " + error.value + " of " + error.key;
+    error.key = inches->second.written;
+    error.value = inches->second.value;
   }
   if (full())
     ++more_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/design/inch_keys.h"
 #include "trueflank/design/key_rule.h"
 #include "trueflank/design/toml_document.h"
 
@@ -23,6 +24,8 @@ class Reading {
   /// Every key of a table and of those in it, dotted; what the file's text could not be read as is not
   /// good.
   void add_all(const TomlTable& table, const std::string& prefix = "");
+  /// A key that the file has in inches: errors of the metric one name what is written.
+  void add_inches(const InchKey& key);
   [[nodiscard]] bool has(const std::string& key) const { return found_.contains(key); }
   /// There, and of itself right: fit to be compared with other values.
   [[nodiscard]] bool good(const std::string& key) const;
@@ -47,6 +50,7 @@ class Reading {
 
  private:
   std::map<std::string, Found> found_;
+  std::map<std::string, InchKey> inches_;  ///< by the metric key
   Errors errors_;
   std::size_t more_ = 0;
 };

@@ -8,7 +8,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/design/key_rule.h"
-#include "trueflank/train/search_requirements.h"
+#include "trueflank/search/search_requirements.h"
 
 // The requirements file of a search (docs/search.md): TOML, every key says its unit.
 namespace trueflank {

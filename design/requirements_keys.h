@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trueflank/design/key_rule.h"
-#include "trueflank/train/search_requirements.h"
+#include "trueflank/search/search_requirements.h"
 
 namespace trueflank {
 

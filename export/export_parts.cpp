@@ -2,7 +2,6 @@
 #include "trueflank/export/export_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <mutex>
@@ -25,8 +24,8 @@
 #include "trueflank/export/stl_writer.h"
 #include "trueflank/export/svg_writer.h"
 #include "trueflank/export/threemf_writer.h"
-#include "trueflank/solid/mesh_accuracy.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/measure/mesh_accuracy.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
@@ -90,8 +89,11 @@ class Exporter {
     const bool all = options_.part.empty();
     for (int i = 0; i < static_cast<int>(parts.size()); ++i)
       if (all || parts[i].name == options_.part)
-        for (const FileFormat format : options_.formats) jobs_.push_back({i, format});
-    if (jobs_.empty() && !all) {
+        for (const FileFormat format : options_.formats)
+          if (!is_paper(format)) jobs_.push_back({i, format});
+    const bool known = all || std::any_of(parts.begin(), parts.end(),
+                                          [&](const PartShape& p) { return p.name == options_.part; });
+    if (!known) {
       std::string names;
       for (const PartShape& part : parts) names += (names.empty() ? "" : ", ") + part.name;
       return fail(Error{.code = ErrorCode::kUsage,
@@ -101,13 +103,14 @@ class Exporter {
                         .remedy = names});
     }
     if (all && shapes_.assembly.size() > 1)
-      for (const FileFormat format : options_.formats) jobs_.push_back({kAssembly, format});
+      for (const FileFormat format : options_.formats)
+        if (!is_paper(format)) jobs_.push_back({kAssembly, format});
     return {};
   }
 
   /// Meshes, what 3MF files hold of them, and files; each as soon as there is what it needs.
   void make_files(bool packed) {
-    const auto is_mesh = [](const Job& j) { return mesh_writer(j.format) != nullptr; };
+    const auto is_mesh = [](const Job& j) { return io::is_mesh(j.format); };
     std::vector<QueuedJob> queue;
     const auto add = [&](std::vector<std::size_t> needs, std::function<bool()> work) {
       queue.push_back({std::move(work), std::move(needs)});
@@ -211,7 +214,7 @@ class Exporter {
     const PartShape& shape = shapes_.parts[i];
     auto solid = brep_of(shape);
     if (!solid) return fail(std::move(solid.error()));
-    const Colour colour = part_colour(shape.name);
+    const Colour colour = part_colour(shape.role);
     solids_[i] = {shape.name, std::move(*solid),
                   {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}};
     return {};
@@ -278,11 +281,12 @@ class Exporter {
   Scene scene_of(const Job& job) const {
     TRUEFLANK_EXPECTS(meshes_ != nullptr && meshes_->size() == shapes_.parts.size());
     if (job.part != kAssembly)
-      return part_scene(train_.design.name, shapes_.parts[job.part].name, (*meshes_)[job.part].mesh);
+      return part_scene(train_.design.name, shapes_.parts[job.part].name, (*meshes_)[job.part].mesh,
+                        shapes_.parts[job.part].role);
     Scene scene{train_.design.name, {}, shapes_.assembly};
     for (std::size_t i = 0; i < shapes_.parts.size(); ++i)
       scene.shapes.push_back(
-          {shapes_.parts[i].name, &(*meshes_)[i].mesh, part_colour(shapes_.parts[i].name)});
+          {shapes_.parts[i].name, &(*meshes_)[i].mesh, part_colour(shapes_.parts[i].role)});
     return scene;
   }
 
@@ -311,8 +315,8 @@ class Exporter {
     if (part == kAssembly) return false;
     std::optional<std::size_t> chosen;
     for (std::size_t i = 0; i < jobs_.size(); ++i)
-      if (jobs_[i].part == part && mesh_writer(jobs_[i].format) != nullptr)
-        if (!chosen || jobs_[*chosen].format == FileFormat::kStl) chosen = i;
+      if (jobs_[i].part == part && is_mesh(jobs_[i].format))
+        if (!chosen || !info(jobs_[*chosen].format).shares_vertices) chosen = i;
     return chosen == index;
   }
 
@@ -348,7 +352,7 @@ class Exporter {
         bounds_mm[jobs_[i].part] = readings_[i].measured_mm + readings_[i].rounding_mm;
     const double largest_mm = *std::max_element(bounds_mm.begin(), bounds_mm.end());
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      if (!mesh_writer(jobs_[i].format)) continue;
+      if (!is_mesh(jobs_[i].format)) continue;
       const Reading& reading = readings_[i];
       const double bound_mm = jobs_[i].part == kAssembly ? largest_mm : bounds_mm[jobs_[i].part];
       files_[i].accuracy_um = um_from_mm(
@@ -375,41 +379,6 @@ class Exporter {
 };
 
 }  // namespace
-
-const std::vector<FileFormat>& file_formats() {
-  static const std::vector<FileFormat> all = {
-      FileFormat::kStl, FileFormat::k3mf, FileFormat::kObj, FileFormat::kPly, FileFormat::kGlb,
-      FileFormat::kStep, FileFormat::kDxf, FileFormat::kSvg, FileFormat::kScad};
-  return all;
-}
-
-const char* to_text(FileFormat format) {
-  constexpr std::array kNames = {"stl", "3mf", "obj", "ply", "glb", "step", "dxf", "svg", "scad"};
-  return kNames[static_cast<std::size_t>(format)];
-}
-
-ResultAll<std::vector<FileFormat>> parse_formats(const std::vector<std::string>& names) {
-  const auto& all = file_formats();
-  if (names.empty()) return all;
-  std::string known;
-  for (const FileFormat format : all) known += std::string(known.empty() ? "" : ", ") + to_text(format);
-  std::vector<FileFormat> formats;
-  Errors errors;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](FileFormat format) { return name == to_text(format); });
-    if (found == all.end())
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no such format",
-                        .key = "--formats",
-                        .value = name,
-                        .remedy = known});
-    else if (std::find(formats.begin(), formats.end(), *found) == formats.end())
-      formats.push_back(*found);
-  }
-  if (!errors.empty()) return fail_all(std::move(errors));
-  return formats;
-}
 
 ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
                                                   const ExportOptions& options) {

@@ -7,21 +7,12 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/report.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/export/file_formats.h"
+#include "trueflank/export/reported_file.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 namespace trueflank::io {
-
-enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg, kScad };
-
-/// Every format, in the order of the enumeration.
-[[nodiscard]] const std::vector<FileFormat>& file_formats();
-/// The name that is option value and file extension: "stl", "3mf", ...
-[[nodiscard]] const char* to_text(FileFormat format);
-/// Formats by their names, each once; all for an empty list. Errors: kUsage, one a wrong name.
-[[nodiscard]] ResultAll<std::vector<FileFormat>> parse_formats(
-    const std::vector<std::string>& names);
 
 /// What is to be written; nothing is owned.
 struct ExportModel {

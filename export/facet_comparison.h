@@ -8,7 +8,7 @@
 
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/scene.h"
-#include "trueflank/solid/enclosed_volume.h"
+#include "trueflank/solid/mesh/enclosed_volume.h"
 
 namespace trueflank::io {
 

@@ -13,13 +13,15 @@ using nlohmann::json;
 using Matrix = Eigen::Matrix4d;
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
-constexpr int kTriangles = 4;
-constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+constexpr std::size_t kTriangles = 4;
+// Names, numbers and places of parts: kilobytes in honest files, and 20 times as much when read.
+constexpr std::size_t kMostJsonBytes = 32U << 20;
+constexpr std::size_t kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 /// What is wrong in the file, thrown within this source only: JSON is left at any depth.
 struct Broken {
   ErrorCode code;
-  std::string message;
+  std::string message, remedy = {};
 };
 [[noreturn]] void broken(const std::string& message) { throw Broken{ErrorCode::kSyntax, message}; }
 [[noreturn]] void unsupported(const std::string& message) {
@@ -33,20 +35,36 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return word;
 }
 
-std::size_t index_of(const json& owner, const char* key) {
-  return owner.at(key).get<std::size_t>();
+/// JSON knows numbers of any size, signs and fractions; a number, count or offset in a file is none of these.
+std::size_t whole(const json& value) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kMost)
+    broken("a number, count or offset of the GLB file is impossible");
+  return value.get<std::size_t>();
+}
+
+std::size_t index_of(const json& owner, const char* key) { return whole(owner.at(key)); }
+
+std::size_t index_or(const json& owner, const char* key, std::size_t otherwise) {
+  const auto found = owner.find(key);
+  return found == owner.end() ? otherwise : whole(*found);
+}
+
+void demand(const Status& status) {
+  if (!status) throw Broken{status.error().code, status.error().message, status.error().remedy};
 }
 
 /// A run of values in the binary chunk.
 struct View {
   const char* data = nullptr;
   std::size_t count = 0, stride = 0;
-  int component = 0;
+  std::size_t component = 0;
 };
 
 class Reader {
  public:
-  Reader(const json& document, std::string_view bin) : document_(document), bin_(bin) {}
+  Reader(const json& document, std::string_view bin, Reading& reading)
+      : document_(document), bin_(bin), reading_(reading) {}
 
   Bodies bodies() {
     if (document_.contains("extensionsRequired") && !document_["extensionsRequired"].empty())
@@ -57,9 +75,9 @@ class Reader {
     to_mm(1, 2) = -1000.0;
     to_mm(2, 1) = 1000.0;
     to_mm(3, 3) = 1.0;
-    const std::size_t scene = document_.value("scene", std::size_t{0});
+    const std::size_t scene = index_or(document_, "scene", 0);
     for (const json& node : document_.at("scenes").at(scene).value("nodes", json::array()))
-      add_node(node.get<std::size_t>(), to_mm, 0);
+      add_node(whole(node), to_mm, 0);
     return std::move(bodies_);
   }
 
@@ -70,14 +88,14 @@ class Reader {
       unsupported("sparse accessors in a GLB file are not read");
     if (accessor.at("type") != type) broken("an accessor of the GLB file has the wrong type");
     View view;
-    view.component = accessor.at("componentType").get<int>();
+    view.component = index_of(accessor, "componentType");
     view.count = index_of(accessor, "count");
     const std::size_t width = view.component == kUint8 ? 1 : view.component == kUint16 ? 2 : 4;
     const json& buffer_view = document_.at("bufferViews").at(index_of(accessor, "bufferView"));
-    if (buffer_view.value("buffer", 0) != 0) unsupported("GLB files with more than one buffer");
-    view.stride = buffer_view.value("byteStride", components * width);
-    const std::size_t begin = buffer_view.value("byteOffset", std::size_t{0}) +
-                              accessor.value("byteOffset", std::size_t{0});
+    if (index_or(buffer_view, "buffer", 0) != 0) unsupported("GLB files with more than one buffer");
+    view.stride = index_or(buffer_view, "byteStride", components * width);
+    const std::size_t begin =
+        index_or(buffer_view, "byteOffset", 0) + index_or(accessor, "byteOffset", 0);
     if (begin > bin_.size() || view.stride == 0 ||
         view.count > (bin_.size() - begin) / view.stride + 1 ||
         (view.count > 0 &&
@@ -102,20 +120,22 @@ class Reader {
   }
 
   void add_primitive(const json& primitive, TriangleMesh& mesh) {
-    if (primitive.value("mode", kTriangles) != kTriangles)
+    demand(reading_.take_piece());
+    if (index_or(primitive, "mode", kTriangles) != kTriangles)
       unsupported("only lists of triangles are read from a GLB file");
     const View positions = view_of(index_of(primitive.at("attributes"), "POSITION"), "VEC3", 3);
     if (positions.component != kFloat) unsupported("GLB positions that are not float");
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    View indices;
+    const bool indexed = primitive.contains("indices");
+    if (indexed) indices = view_of(index_of(primitive, "indices"), "SCALAR", 1);
+    const std::size_t count = indexed ? indices.count : positions.count;
+    demand(reading_.take_facets(count / 3, positions.count));
     for (std::size_t i = 0; i < positions.count; ++i) {
       float p[3];
       std::memcpy(p, positions.data + i * positions.stride, sizeof p);
       mesh.vertices.push_back({p[0], p[1], p[2]});
     }
-    View indices;
-    const bool indexed = primitive.contains("indices");
-    if (indexed) indices = view_of(index_of(primitive, "indices"), "SCALAR", 1);
-    const std::size_t count = indexed ? indices.count : positions.count;
     const auto corner = [&](std::size_t i) {
       return first + (indexed ? index_at(indices, i) : static_cast<std::uint32_t>(i));
     };
@@ -140,7 +160,7 @@ class Reader {
   }
 
   void add_node(std::size_t index, const Matrix& outer, int depth) {
-    if (depth > 32 || ++placed_ > 100'000) unsupported("the GLB file nests its nodes too deeply");
+    demand(reading_.take_piece(depth));
     const json& node = document_.at("nodes").at(index);
     const Matrix global = outer * local_matrix(node);
     if (node.contains("mesh")) {
@@ -156,16 +176,16 @@ class Reader {
       bodies_.push_back(std::move(body));
     }
     for (const json& child : node.value("children", json::array()))
-      add_node(child.get<std::size_t>(), global, depth + 1);
+      add_node(whole(child), global, depth + 1);
   }
 
   const json& document_;
   std::string_view bin_;
+  Reading& reading_;
   Bodies bodies_;
-  int placed_ = 0;
 };
 
-Bodies read(std::string_view content) {
+Bodies read(std::string_view content, Reading& reading) {
   if (word_at(content, 4) != 2) unsupported("only version 2 of GLB is read");
   if (word_at(content, 8) > content.size()) broken("the GLB file is cut off");
   std::string_view text, bin;
@@ -177,16 +197,18 @@ Bodies read(std::string_view content) {
     if (kind == kBinChunk && bin.empty()) bin = content.substr(at + 8, length);
     at += 8 + length;
   }
-  return Reader(json::parse(text), bin).bodies();
+  if (text.size() > kMostJsonBytes) unsupported("the GLB file describes more parts than are read");
+  const json document = json::parse(text);
+  return Reader(document, bin, reading).bodies();
 }
 
 }  // namespace
 
-Result<Bodies> parse_glb(std::string_view content) {
+Result<Bodies> parse_glb(std::string_view content, Reading& reading) {
   try {
-    return read(content);
+    return read(content, reading);
   } catch (const Broken& what) {
-    return fail(Error{.code = what.code, .message = what.message});
+    return fail(Error{.code = what.code, .message = what.message, .remedy = what.remedy});
   } catch (const json::exception& what) {
     return syntax_error(std::string("the GLB file is damaged: ") + what.what());
   }

@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is written as it
 constexpr int kFloat = 5126, kUnsignedInt = 5125;               // componentType
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;      // bufferView target
 
-std::string quoted(const std::string& text) {
+std::string json_quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -103,13 +103,13 @@ void append_geometry(std::string& json, const Scene& scene, std::size_t& bin_byt
 
 void append_shapes(std::string& json, const Scene& scene) {
   append_array(json, "meshes", scene.shapes.size(), [&](std::size_t i) {
-    append(json, "{\"name\":", quoted(scene.shapes[i].name), ",\"primitives\":[{\"attributes\":{\"POSITION\":",
+    append(json, "{\"name\":", json_quoted(scene.shapes[i].name), ",\"primitives\":[{\"attributes\":{\"POSITION\":",
            2 * i, "},\"indices\":", 2 * i + 1, ",\"material\":", i, ",\"mode\":4}]}");
   });
   json += ",\n";
   append_array(json, "materials", scene.shapes.size(), [&](std::size_t i) {
     const Colour colour = scene.shapes[i].colour;
-    append(json, "{\"name\":", quoted(scene.shapes[i].name),
+    append(json, "{\"name\":", json_quoted(scene.shapes[i].name),
            ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[", linear_channel(colour.red), ",",
            linear_channel(colour.green), ",", linear_channel(colour.blue),
            ",1],\"metallicFactor\":0.25,\"roughnessFactor\":0.55}}");
@@ -119,18 +119,18 @@ void append_shapes(std::string& json, const Scene& scene) {
 /// Node 0 is the root that carries units and axes, node i + 1 is body i.
 void append_nodes(std::string& json, const Scene& scene) {
   const double half = std::numbers::sqrt2 / 2;
-  append(json, "\"scene\":0,\n\"scenes\":[{\"name\":", quoted(scene.name), ",\"nodes\":[0]}],\n");
+  append(json, "\"scene\":0,\n\"scenes\":[{\"name\":", json_quoted(scene.name), ",\"nodes\":[0]}],\n");
   append_array(json, "nodes", scene.bodies.size() + 1, [&](std::size_t i) {
     if (i == 0) {
       const std::string name = scene.bodies.size() == 1 ? "millimetres, z up" : "assembly";
-      append(json, "{\"name\":", quoted(name), ",\"rotation\":[", -half, ",0,0,", half,
+      append(json, "{\"name\":", json_quoted(name), ",\"rotation\":[", -half, ",0,0,", half,
              "],\"scale\":[0.001,0.001,0.001],");
       append_array(json, "children", scene.bodies.size(), [&](std::size_t k) { append(json, k + 1); });
       json += '}';
       return;
     }
     const Placement& body = scene.bodies[i - 1];
-    append(json, "{\"name\":", quoted(body.name), ",\"mesh\":", body.part);
+    append(json, "{\"name\":", json_quoted(body.name), ",\"mesh\":", body.part);
     if (body.rotation_rad != 0.0)
       append(json, ",\"rotation\":[0,0,", std::sin(0.5 * body.rotation_rad), ",",
              std::cos(0.5 * body.rotation_rad), "]");

@@ -44,16 +44,32 @@ std::size_t InputFile::fill(char* into, std::size_t room) {
   return filled;
 }
 
-Result<std::string> read_file(const std::filesystem::path& path) {
+namespace {
+
+Error too_large(const std::filesystem::path& path, std::size_t most_bytes, bool is_regular) {
+  return {.code = ErrorCode::kUnsupported,
+          .message = std::string(is_regular ? "the file is" : "what comes out of it is") +
+                     " larger than the " + std::to_string(most_bytes >> 20) + " MB that are read",
+          .remedy = is_regular ? "a smaller file" : "a file on a disk",
+          .file = path.string()};
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
   InputFile file(path);
+  const auto size = file.regular_size();
+  const std::size_t most = size ? most_bytes : std::min(most_bytes, kMostBytesOfPipe);
+  if (size.value_or(0) > most) return fail(too_large(path, most, true));
   std::string content;
   // One byte more than the size: the read that finds the end needs no second round.
-  std::size_t filled = 0, room = file.regular_size().value_or(65535) + 1;
+  std::size_t filled = 0, room = size.value_or(65535) + 1;
   while (file.error_number() == 0) {
     content.resize(std::max(room, content.size()));
     const std::size_t got = file.read(content.data() + filled, content.size() - filled);
     if (got == 0) break;
     filled += got;
+    if (filled > most) return fail(too_large(path, most, size.has_value()));
     if (filled == content.size()) room = 2 * content.size();
   }
   if (file.error_number() != 0) return fail(file_error("read", path, file.error_number()));

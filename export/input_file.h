@@ -34,7 +34,12 @@ class InputFile {
   struct stat status_ {};
 };
 
-/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder).
-[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+/// Sizes are known before a file is read, and must be below this; what has no size may never end.
+constexpr std::size_t kMostBytesOfFile = 0xfffffffe, kMostBytesOfPipe = 256U << 20;
+
+/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder); kUnsupported beyond
+/// most_bytes, and for pipes and devices beyond kMostBytesOfPipe.
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path,
+                                            std::size_t most_bytes = kMostBytesOfFile);
 
 }  // namespace trueflank::io

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/units.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trueflank/geometry/curve.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // What the path of a wire is put together from.
 namespace trueflank::io {

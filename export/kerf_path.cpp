@@ -14,7 +14,7 @@
 #include "trueflank/geometry/biarc.h"
 #include "trueflank/geometry/scalar_root.h"
 #include "trueflank/geometry/section_profile.h"
-#include "trueflank/solid/outline_distance.h"
+#include "trueflank/solid/measure/outline_distance.h"
 
 namespace trueflank::io {
 namespace {

@@ -14,8 +14,8 @@ Result<KerfSections> kerf_sections(const PartShape& part, double kerf_mm, double
   for (const Slab& slab : part.slabs) {
     Section section{"section " + std::to_string(result.sections.size() + 1), slab.z_lower_mm,
                     slab.z_upper_mm, {}};
-    SectionBody path{part.name + suffix, part.name, {}, {}};
-    SectionBody as_cut{part.name + "_AS_CUT", part.name, {}, {}};
+    SectionBody path{part.name + suffix, part.role, {}, {}};
+    SectionBody as_cut{part.name + "_AS_CUT", part.role, {}, {}};
     as_cut.frozen = true;
     std::size_t unreached = 0;
     const auto add = [&](const Outline& outline, bool hole) -> Status {

@@ -4,25 +4,25 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "trueflank/base/result.h"
 #include "trueflank/export/mesh_reader.h"
+#include "trueflank/export/reading.h"
 
 // One parser per format behind mesh_reader.h, and the few things they share.
 namespace trueflank::io {
 
 using Bodies = std::vector<MeshBody>;
-[[nodiscard]] Result<Bodies> parse_binary_stl(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_binary_stl(std::string_view content, Reading& reading);
 constexpr std::size_t kStlHeaderBytes = 84, kStlRecordBytes = 50;
 /// The facet that a record of a binary STL begins with.
 [[nodiscard]] Facet stl_facet(const char* record);
-[[nodiscard]] Result<Bodies> parse_text_stl(std::string_view content);
-[[nodiscard]] Result<Bodies> parse_obj(std::string_view content);
-[[nodiscard]] Result<Bodies> parse_ply(std::string_view content);
-[[nodiscard]] Result<Bodies> parse_3mf(std::string_view content);
-[[nodiscard]] Result<Bodies> parse_glb(std::string_view content);
+[[nodiscard]] Result<Bodies> parse_text_stl(std::string_view content, Reading& reading);
+[[nodiscard]] Result<Bodies> parse_obj(std::string_view content, Reading& reading);
+[[nodiscard]] Result<Bodies> parse_ply(std::string_view content, Reading& reading);
+[[nodiscard]] Result<Bodies> parse_3mf(std::string_view content, Reading& reading);
+[[nodiscard]] Result<Bodies> parse_glb(std::string_view content, Reading& reading);
 
 [[nodiscard]] tl::unexpected<Error> syntax_error(std::string message, int line = 0);
 
@@ -46,6 +46,9 @@ class Welder {
   TriangleMesh mesh_;
   std::vector<std::uint32_t> table_;  // open addressing; vertex index + 1, 0: free
 };
+
+/// Stands for a vertex number that cannot be, where damage is noted.
+constexpr std::uint32_t kNoVertex = ~std::uint32_t{0};
 
 /// Checks indices and coordinates. Errors: kSyntax.
 [[nodiscard]] Status check_mesh(const TriangleMesh& mesh);

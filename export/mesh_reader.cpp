@@ -63,7 +63,7 @@ bool take_short_decimal(std::string_view& text, double& value) {
   std::ptrdiff_t decimals = 0;
   if (count > 0 && at != end && *at == '.') {
     const char* const point = ++at;
-    while (at != end && *at >= '0' && *at <= '9' && at - point < 16)
+    while (at != end && *at >= '0' && *at <= '9' && count + (at - point) < 16)
       digits = 10 * digits + (*at++ - '0');
     decimals = at - point;
     count += decimals;
@@ -182,28 +182,71 @@ Status check_mesh(const TriangleMesh& mesh) {
   return {};
 }
 
-Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
+namespace {
+
+Result<Bodies> parsed(std::string_view content, std::string_view extension, Reading& reading) {
   if (content.empty()) return syntax_error("the file is empty");
-  Result<Bodies> bodies = [&]() -> Result<Bodies> {
-    switch (mark_of(content, content.size())) {
-      case FileMark::k3mf: return parse_3mf(content);
-      case FileMark::kGlb: return parse_glb(content);
-      case FileMark::kPly: return parse_ply(content);
-      case FileMark::kBinaryStl: return parse_binary_stl(content);
-      case FileMark::kNone: break;
+  switch (mark_of(content, content.size())) {
+    case FileMark::k3mf: return parse_3mf(content, reading);
+    case FileMark::kGlb: return parse_glb(content, reading);
+    case FileMark::kPly: return parse_ply(content, reading);
+    case FileMark::kBinaryStl: return parse_binary_stl(content, reading);
+    case FileMark::kNone: break;
+  }
+  const std::string ending = lower_case(extension);
+  if (ending == ".obj") return parse_obj(content, reading);
+  // Text has no zero bytes; the counts and attributes of a binary file that was cut short do.
+  const bool may_be_text = content.substr(0, 1000).find('\0') == content.npos;
+  std::string_view rest = content;
+  if (may_be_text && lower_case(take_word(rest)) == "solid" && content.find("facet") != content.npos)
+    return parse_text_stl(content, reading);
+  if (ending == ".stl") return parse_binary_stl(content, reading);  // which says what is wrong
+  return syntax_error("this is no mesh of a format known here (STL, OBJ, PLY, 3MF, GLB)");
+}
+
+TriangleMesh merged(Bodies&& bodies) {
+  TriangleMesh all;
+  for (MeshBody& body : bodies) {
+    if (all.vertices.empty()) {
+      all = std::move(body.mesh);
+      continue;
     }
-    const std::string ending = lower_case(extension);
-    if (ending == ".obj") return parse_obj(content);
-    std::string_view rest = content;
-    if (lower_case(take_word(rest)) == "solid" && content.find("facet") != content.npos)
-      return parse_text_stl(content);
-    if (ending == ".stl") return parse_binary_stl(content);  // which says what is wrong
-    return syntax_error("this is no mesh of a format known here (STL, OBJ, PLY, 3MF, GLB)");
-  }();
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
+    for (const auto& t : body.mesh.triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
+  Reading reading(content.size());
+  auto bodies = parsed(content, extension, reading);
   if (!bodies) return bodies;
   for (const MeshBody& body : *bodies)
     if (auto status = check_mesh(body.mesh); !status) return fail(std::move(status.error()));
   return bodies;
+}
+
+Result<ScanMesh> parse_scan(std::string_view content, std::string_view extension) {
+  Reading reading(content.size(), Reading::Damage::kNote);
+  auto bodies = parsed(content, extension, reading);
+  if (!bodies) return fail(std::move(bodies.error()));
+  const auto is_unusable = [](const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return v >= mesh.vertices.size() || !is_finite(mesh.vertices[v]);
+    });
+  };
+  std::size_t left_out = 0;
+  for (MeshBody& body : *bodies)
+    left_out += std::erase_if(body.mesh.triangles,
+                              [&](const auto& t) { return is_unusable(body.mesh, t); });
+  if (left_out > 0)
+    reading.note(std::to_string(left_out) +
+                 " facets left out: a corner has no place or does not exist");
+  return ScanMesh{.mesh = merged(std::move(*bodies)), .notes = reading.take_notes()};
 }
 
 Result<std::vector<MeshBody>> read_bodies(const std::filesystem::path& path) {
@@ -217,17 +260,7 @@ Result<std::vector<MeshBody>> read_bodies(const std::filesystem::path& path) {
 Result<TriangleMesh> read_mesh(const std::filesystem::path& path) {
   auto bodies = read_bodies(path);
   if (!bodies) return fail(std::move(bodies.error()));
-  TriangleMesh all;
-  for (MeshBody& body : *bodies) {
-    if (all.vertices.empty()) {
-      all = std::move(body.mesh);
-      continue;
-    }
-    const auto first = static_cast<std::uint32_t>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), body.mesh.vertices.begin(), body.mesh.vertices.end());
-    for (const auto& t : body.mesh.triangles)
-      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
+  TriangleMesh all = merged(std::move(*bodies));
   if (all.triangles.empty()) return fail(no_triangle(path));
   return all;
 }

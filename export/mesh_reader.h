@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/solid/triangle_mesh.h"
+#include "trueflank/solid/mesh/triangle_mesh.h"
 
 // Meshes from files: our own, other programs' and scans. Told by content, not by the file's name (but
 // for OBJ, which has no mark of its own).
@@ -24,6 +24,7 @@ struct MeshBody {
 /// several model parts), GLB (node transforms). One body a solid, object or node; polygons become
 /// fans. Equal corners of an STL are one vertex. STL, OBJ and PLY are taken for millimetres, 3MF by
 /// its unit; GLB is turned from metres, y up, to millimetres, z up.
+/// Guarantees: time and memory are bounded by the file's size; what copies itself is refused (reading.h).
 /// Errors: kFileNotFound, kPermission, kDisk; kSyntax (no mesh, cut off, damaged, indices that do not
 /// exist), kUnsupported; file and, for text, line are given.
 [[nodiscard]] Result<std::vector<MeshBody>> read_bodies(const std::filesystem::path& path);
@@ -47,5 +48,13 @@ using Facet = std::array<std::array<double, 3>, 3>;
 /// As read_bodies(), of a file's content; `extension` (".obj") decides where the content does not.
 [[nodiscard]] Result<std::vector<MeshBody>> parse_bodies(std::string_view content,
                                                          std::string_view extension);
+
+/// A mesh or a cloud of points as measuring devices deliver it, in one piece.
+struct ScanMesh {
+  TriangleMesh mesh;               ///< vertices may be not finite; facets use those that are
+  std::vector<std::string> notes;  ///< what was left out, one sentence each
+};
+/// As parse_bodies(), but a file that is cut short or damaged in places is used for what it holds.
+[[nodiscard]] Result<ScanMesh> parse_scan(std::string_view content, std::string_view extension);
 
 }  // namespace trueflank::io

@@ -26,7 +26,7 @@ struct ObjFile {
   std::vector<Body> bodies;
 };
 
-Status add_face(ObjFile& file, std::string_view rest, int line_number) {
+Status add_face(ObjFile& file, std::string_view rest, int line_number, Reading& reading) {
   std::uint32_t fan[3];
   int corners = 0;
   for (auto word = take_word(rest); !word.empty() && word.front() != '#'; word = take_word(rest)) {
@@ -36,6 +36,7 @@ Status add_face(ObjFile& file, std::string_view rest, int line_number) {
       return syntax_error("vertex " + std::string(word) + " does not exist (yet)", line_number);
     fan[corners < 2 ? corners : 2] = static_cast<std::uint32_t>(*corner);
     if (++corners < 3) continue;
+    if (auto status = reading.take_facets(1, 0); !status) return status;
     file.bodies.back().triangles.push_back({fan[0], fan[1], fan[2]});
     fan[1] = fan[2];
   }
@@ -77,10 +78,10 @@ Bodies split(ObjFile&& file) {
 
 }  // namespace
 
-Result<Bodies> parse_obj(std::string_view content) {
+Result<Bodies> parse_obj(std::string_view content, Reading& reading) {
   ObjFile file;
   file.bodies.emplace_back();
-  int line_number = 0, known = 0;
+  int line_number = 0;
   while (!content.empty()) {
     std::string_view rest = take_line(content);
     ++line_number;
@@ -90,17 +91,18 @@ Result<Bodies> parse_obj(std::string_view content) {
       for (double& coordinate : vertex)
         if (!take_number(rest, coordinate))
           return syntax_error("a vertex without three numbers", line_number);
+      if (auto status = reading.take_facets(0, 1); !status) return fail(status.error());
       file.vertices.push_back(vertex);
-      ++known;
     } else if (word == "f") {
-      if (auto status = add_face(file, rest, line_number); !status) return fail(status.error());
+      if (auto status = add_face(file, rest, line_number, reading); !status) return fail(status.error());
     } else if (word == "o" || (word == "g" && file.bodies.back().triangles.size() > 0)) {
+      if (auto status = reading.take_piece(); !status) return fail(status.error());
       file.bodies.push_back({.name = std::string(take_word(rest)), .triangles = {}});
     } else if (word == "g" && file.bodies.back().name.empty()) {
       file.bodies.back().name = std::string(take_word(rest));
     }
   }
-  if (known == 0) return syntax_error("this is no OBJ file: it has no vertex");
+  if (file.vertices.empty()) return syntax_error("this is no OBJ file: it has no vertex");
   return split(std::move(file));
 }
 

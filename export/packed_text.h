@@ -6,11 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "trueflank/export/deflate.h"
+
 namespace trueflank::io {
 
 /// Text, deflated as it comes (RFC 1951, without the last block), so that packed texts can be put one
-/// behind the other. The same text gives the same bytes on processors of one kind; on others the bytes
-/// may differ, what they unpack to does not.
+/// behind the other. The same text, appended in the same pieces, gives the same bytes on every processor.
 class PackedText {
  public:
   PackedText() = default;
@@ -32,7 +33,7 @@ class PackedText {
   /// CRC-32 of the text, as zip has it.
   [[nodiscard]] std::uint32_t checksum() const { return checksum_; }
   /// The block that ends a deflated entry.
-  static constexpr std::string_view kLastBlock{"\3\0", 2};
+  static constexpr std::string_view kLastBlock = kLastDeflatedBlock;
 
  private:
   static constexpr std::size_t kBlockBytes = 128 * 1024;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "trueflank/export/mesh_parsers.h"
@@ -96,7 +97,8 @@ Result<Header> parse_header(std::string_view& content) {
       Element element{.name = std::string(take_word(rest)), .properties = {}};
       const std::string_view count = take_word(rest);
       const auto parsed = std::from_chars(count.data(), count.data() + count.size(), element.count);
-      if (parsed.ec != std::errc()) return syntax_error("an element without a count", header.lines);
+      if (parsed.ec != std::errc() || parsed.ptr != count.data() + count.size())
+        return syntax_error("an element without a count", header.lines);
       header.elements.push_back(std::move(element));
     } else if (word == "property") {
       if (auto status = add_property(header, rest, header.lines); !status)
@@ -109,7 +111,9 @@ Result<Header> parse_header(std::string_view& content) {
 /// Reads values one after the other from the body of the file.
 class Body {
  public:
-  Body(std::string_view content, Coding coding) : content_(content), coding_(coding) {}
+  /// `words_are_nan`: whatever stands in the place of a number in a text is not one, but is read.
+  Body(std::string_view content, Coding coding, bool words_are_nan)
+      : content_(content), coding_(coding), words_are_nan_(words_are_nan) {}
   [[nodiscard]] std::size_t left() const { return content_.size(); }
 
   /// False at the end of the file or where no number stands.
@@ -117,7 +121,9 @@ class Body {
     if (coding_ == Coding::kText) {
       while (!content_.empty() && content_.front() <= ' ' && content_.front() >= 0)
         content_.remove_prefix(1);
-      return take_number(content_, value);
+      if (take_number(content_, value)) return true;
+      value = std::numeric_limits<double>::quiet_NaN();
+      return words_are_nan_ && !take_word(content_).empty();
     }
     const std::size_t size = bytes_of(type);
     if (content_.size() < size) return false;
@@ -153,78 +159,125 @@ class Body {
 
   std::string_view content_;
   Coding coding_;
+  bool words_are_nan_;
 };
 
-tl::unexpected<Error> cut_off(const Element& element, std::uint64_t index) {
-  return syntax_error("the PLY file is cut off or damaged at " + element.name + " " +
-                      std::to_string(index + 1) + " of " + std::to_string(element.count));
-}
+/// Reads the elements of the body in their order.
+class ElementReader {
+ public:
+  ElementReader(Body body, Reading& reading) : body_(body), reading_(reading) {}
 
-/// Values of a list, `values` reused. False at the end of the file.
-bool take_list(Body& body, const Property& property, std::vector<double>& values) {
-  double count = 0.0;
-  if (!body.take(*property.count_type, count) || !(count >= 0.0) ||
-      count > static_cast<double>(body.left()))
-    return false;
-  values.resize(static_cast<std::size_t>(count));
-  for (double& value : values)
-    if (!body.take(property.type, value)) return false;
-  return true;
-}
+  /// False where the file ends too early and what there is shall be used.
+  Result<bool> read(const Element& element) {
+    if (element.name == "tristrips")
+      return fail(Error{.code = ErrorCode::kUnsupported,
+                        .message = "triangle strips in a PLY file are not read"});
+    if (element.properties.empty()) return true;  // occupies nothing, however often
+    if (auto status = choose_properties(element); !status) return fail(status.error());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      const bool whole = read_one(element);
+      if (!whole) return cut_off(element, i);
+      if (has_impossible_corner_ && !reading_.notes_damage())
+        return syntax_error("face " + std::to_string(i + 1) + " has an impossible vertex number");
+      if (auto status = keep(element.name == "vertex"); !status) return fail(status.error());
+    }
+    return true;
+  }
+  [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
 
-Status read_element(Body& body, const Element& element, TriangleMesh& mesh) {
-  const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
-  if (element.name == "tristrips")
-    return fail(Error{.code = ErrorCode::kUnsupported,
-                      .message = "triangle strips in a PLY file are not read"});
-  const auto axis_of = [](const std::string& name) {
-    return name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : -1;
-  };
-  std::vector<int> axes;
-  for (const Property& property : element.properties) axes.push_back(axis_of(property.name));
-  if (element.properties.empty()) return {};  // occupies nothing, however often
-  if (is_vertex)
-    for (int axis = 0; axis < 3; ++axis)
-      if (std::find(axes.begin(), axes.end(), axis) == axes.end())
-        return syntax_error("the vertices of the PLY file have no x, y and z");
+ private:
+  Status choose_properties(const Element& element) {
+    places_.clear();
+    std::array<bool, 3> has_axis{};
+    const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+    for (const Property& property : element.properties) {
+      const bool is_list = property.count_type.has_value();
+      int place = kUnused;
+      if (is_vertex && !is_list && property.name.size() == 1 && property.name[0] >= 'x' &&
+          property.name[0] <= 'z')
+        place = property.name[0] - 'x';
+      if (is_face && is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
+        place = kCorners;
+      places_.push_back(place);
+      if (place >= 0) has_axis[static_cast<std::size_t>(place)] = true;
+    }
+    if (is_vertex && !(has_axis[0] && has_axis[1] && has_axis[2]))
+      return syntax_error("the vertices of the PLY file have no x, y and z");
+    return {};
+  }
 
-  std::vector<double> list;
-  for (std::uint64_t i = 0; i < element.count; ++i) {
-    std::array<double, 3> vertex{};
+  /// The values of one vertex, face or other; false at the end of the file.
+  bool read_one(const Element& element) {
+    corners_.clear();
+    has_impossible_corner_ = false;
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const Property& property = element.properties[k];
+      double value = 0.0;
       if (!property.count_type) {
-        double value = 0.0;
-        if (!body.take(property.type, value)) return cut_off(element, i);
-        if (axes[k] >= 0) vertex[static_cast<std::size_t>(axes[k])] = value;
+        if (!body_.take(property.type, value)) return false;
+        if (places_[k] >= 0) vertex_[static_cast<std::size_t>(places_[k])] = value;
         continue;
       }
-      if (!take_list(body, property, list)) return cut_off(element, i);
-      if (!is_face || (property.name != "vertex_indices" && property.name != "vertex_index"))
-        continue;
-      for (const double value : list)
-        if (!(value >= 0.0 && value < 4294967295.0 && value == std::floor(value)))
-          return syntax_error("face " + std::to_string(i + 1) + " has an impossible vertex number");
-      for (std::size_t c = 2; c < list.size(); ++c)
-        mesh.triangles.push_back({static_cast<std::uint32_t>(list[0]),
-                                  static_cast<std::uint32_t>(list[c - 1]),
-                                  static_cast<std::uint32_t>(list[c])});
+      if (!body_.take(*property.count_type, value)) return false;
+      if (!(value >= 0.0 && value <= static_cast<double>(body_.left()))) return false;
+      for (auto left = static_cast<std::uint64_t>(value); left > 0; --left) {
+        double item = 0.0;
+        if (!body_.take(property.type, item)) return false;
+        if (places_[k] == kCorners) corners_.push_back(corner_of(item));
+      }
     }
-    if (is_vertex) mesh.vertices.push_back(vertex);
+    return true;
   }
-  return {};
-}
+
+  std::uint32_t corner_of(double value) {
+    if (value >= 0.0 && value < static_cast<double>(kNoVertex) && value == std::floor(value))
+      return static_cast<std::uint32_t>(value);
+    has_impossible_corner_ = true;
+    return kNoVertex;
+  }
+
+  /// A polygon becomes a fan.
+  Status keep(bool is_vertex) {
+    if (is_vertex) mesh_.vertices.push_back(vertex_);
+    const std::size_t facets = corners_.size() < 3 ? 0 : corners_.size() - 2;
+    for (std::size_t c = 2; c < corners_.size(); ++c)
+      mesh_.triangles.push_back({corners_[0], corners_[c - 1], corners_[c]});
+    return reading_.take_facets(facets, is_vertex ? 1 : 0);
+  }
+
+  Result<bool> cut_off(const Element& element, std::uint64_t index) {
+    const std::string place =
+        element.name + " " + std::to_string(index + 1) + " of " + std::to_string(element.count);
+    if (!reading_.notes_damage())
+      return syntax_error("the PLY file is cut off or damaged at " + place);
+    reading_.note("ends in the middle of element " + place);
+    return false;
+  }
+
+  static constexpr int kUnused = -1, kCorners = -2;
+
+  Body body_;
+  Reading& reading_;
+  TriangleMesh mesh_;
+  std::vector<int> places_;  ///< of each property: axis, kCorners or kUnused
+  std::array<double, 3> vertex_{};
+  std::vector<std::uint32_t> corners_;
+  bool has_impossible_corner_ = false;
+};
 
 }  // namespace
 
-Result<Bodies> parse_ply(std::string_view content) {
+Result<Bodies> parse_ply(std::string_view content, Reading& reading) {
   const auto header = parse_header(content);
   if (!header) return fail(header.error());
-  Body body(content, header->coding);
+  ElementReader elements(Body(content, header->coding, reading.notes_damage()), reading);
+  for (const Element& element : header->elements) {
+    const auto whole = elements.read(element);
+    if (!whole) return fail(whole.error());
+    if (!*whole) break;
+  }
   Bodies bodies(1);
-  for (const Element& element : header->elements)
-    if (auto status = read_element(body, element, bodies.front().mesh); !status)
-      return fail(status.error());
+  bodies.front().mesh = elements.take();
   return bodies;
 }
 

@@ -9,25 +9,17 @@
 namespace trueflank::io {
 namespace {
 
-/// Turns of a body about its own axis, and of its axis about the sun's, per turn of the sun.
-struct BodySpeeds {
-  double own = 0.0, orbit = 0.0;
-};
-
-BodySpeeds speeds_of(const GearTrain& train, const std::string& body) {
-  const MemberSpeeds speeds = member_speeds(train);
-  if (body == "sun" || body == "pinion" || body == "gear") return {speeds.sun, 0.0};
-  // the carrier's bodies turn with their places
-  if (body.starts_with("carrier")) return {0.0, speeds.carrier};
-  if (body.starts_with("planet")) return {speeds.planet - speeds.carrier, speeds.carrier};
-  return {body == "ring2" ? speeds.ring2 : speeds.ring1, 0.0};
+/// What the slider turns.
+std::string input_text(const GearTrain& train) {
+  const Topology& topology = train.topology();
+  return topology.is_carrier(topology.input) ? topology.name_of(topology.input) : "sun (pinion)";
 }
 
 std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
   std::string text = "// " + one_line(train.design.name) +
                      " in mesh, written by Trueflank; uses the files of the parts beside it.\n"
                      "// Preview (F5) is quick; View > Animate turns it.\n\n"
-                     "/* [View] */\n// turn of the sun (pinion)\nturn = 0; // [0:1:3600]\n"
+                     "/* [View] */\n// turn of the " + input_text(train) + "\nturn = 0; // [0:1:3600]\n"
                      "// distance between the layers\nexplode = 0; // [0:1:100]\nshow = \"all\"; // [all";
   for (const PartShape& part : shapes.parts) text += ", " + part.name;
   text += "]\n\n";
@@ -38,15 +30,18 @@ std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
           "    rotate(orbit*angle) translate(place + [0, 0, shift*explode]) rotate(rotation) children();\n\n";
   for (const Placement& body : shapes.assembly) {
     const std::string& part = shapes.parts[body.part].name;
-    const BodySpeeds speeds = speeds_of(train, body.name);
+    const PartShape& shape = shapes.parts[body.part];
+    // about its own axis a body turns by what it turns more than that goes round
+    const BodyMotion motion = motion_of(train, shape.member);
     const auto& move = body.translation_mm;
     const std::string rotation = degrees(centred_rad(body.rotation_rad));
     const bool upper = move[2] > 0.0;
-    const int layer = part.starts_with("planet") ? 1 : upper ? 2 : part.starts_with("sun") ? 3 : 0;
-    text += "color(\"" + hex_text(part_colour(part)) + "\") body(\"" + part + "\", " +
-            number(speeds.orbit) + ", " +
+    const bool sun = shape.role == PartRole::kSun && train.topology().has_planets();
+    const int layer = shape.role == PartRole::kPlanet ? 1 : upper ? 2 : sun ? 3 : 0;
+    text += "color(\"" + hex_text(part_colour(shape.role)) + "\") body(\"" + part + "\", " +
+            number(motion.orbit) + ", " +
             list(number(move[0]), number(move[1]), number(move[2])) + ",\n  " +
-            rotation + " + " + number(speeds.own) + "*angle, " +
+            rotation + " + " + number(motion.turn - motion.orbit) + "*angle, " +
             std::to_string(layer) + ") " + part + "();  // " + body.name + "\n";
   }
   return text;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // Modified flanks as OpenSCAD evaluates them: tables of turns that it interpolates.
 namespace trueflank::io {

@@ -56,13 +56,13 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// Name of the part a gear belongs to; its section is the gear's for all but planet2.
+/// Name of the part a gear belongs to; its section is that of the body's first gear.
 std::string part_of(const GearTrain& train, const std::string& gear) {
-  if (!gear.starts_with("planet")) return gear;
-  return train.assembly.identical_planets || train.phases.planet_position_rad.size() == 1 ||
-                 gear == "planet"
-             ? "planet"
-             : "planet_1";
+  const Topology& topology = train.topology();
+  const int member = topology.gears[static_cast<std::size_t>(topology.find_gear(gear))].member;
+  const bool alike = !topology.is_planet(member) || train.assembly.identical_planets ||
+                     train.phases.planet_position_rad.size() == 1 || topology.gears_of(member).size() == 1;
+  return topology.name_of(member) + (alike ? "" : "_1");
 }
 std::string section_module(const GearTrain& train, const std::string& module,
                            const std::string& gear) {
@@ -73,10 +73,10 @@ std::string section_module(const GearTrain& train, const std::string& module,
 class TemplateFiller {
  public:
   explicit TemplateFiller(const GearTrain& train) : train_(train) {
-    const MemberSpeeds speeds = member_speeds(train);
-    for (const TrainGear& gear : train.gears) {
+    for (std::size_t i = 0; i < train.gears.size(); ++i) {
+      const TrainGear& gear = train.gears[i];
       if (gear.profile.gear().kind != GearKind::kInternal) continue;
-      const double speed = gear.name == "ring2" ? speeds.ring2 : speeds.ring1;
+      const double speed = train.speeds.of[static_cast<std::size_t>(train.topology().gears[i].member)];
       (speed == 0.0 ? fixed_ : moving_) = &gear;
     }
   }
@@ -145,13 +145,15 @@ class TemplateFiller {
     set("moving_ring_bottom", moving_ ? moving_->z_lower_mm : 0.0);
     set("moving_ring_top", moving_ ? top_mm(*moving_) : 0.0);
     set("lowest", turning_heights().lower_mm);
-    set("shaft_opening", 2.0 * train_.find("sun")->profile.tip_radius_mm() + 1.0);
+    const TrainGear* sun = train_.sun();  // without one the carrier is driven, within the planets' axes
+    set("shaft_opening", sun ? 2.0 * sun->profile.tip_radius_mm() + 1.0 : train_.centre_distance_mm);
     add("housing", scad_template::kHousing,
         section_module(train_, "fixed_ring_section", fixed_->name));
   }
 
   void add_carrier() {
-    const TrainGear* planet = train_.find("planet1") ? train_.find("planet1") : train_.find("planet");
+    const Topology& topology = train_.topology();
+    const TrainGear* planet = &train_.gear(topology.first_gear_of(topology.first_planet()));
     GearTrain carried = train_;  // with a carrier of usual sizes where the design has none
     const double bore = design_of(*planet).bore.diameter_mm;
     if (!carried.design.carrier) {
@@ -177,7 +179,9 @@ class TemplateFiller {
 
   void add_motor_adapter() {
     set("housing_diameter", housing_diameter_mm());
-    set("shaft_diameter", design_of(*train_.find("sun")).bore.diameter_mm);
+    const Topology& topology = train_.topology();
+    if (!topology.is_carrier(topology.input))
+      set("shaft_diameter", design_of(train_.gear(topology.first_gear_of(topology.input))).bore.diameter_mm);
     add("motor_adapter", scad_template::kMotorAdapter);
   }
 

@@ -6,9 +6,10 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
+#include "trueflank/export/file_formats.h"
 #include "trueflank/export/scad_flanks.h"
 #include "trueflank/export/scad_text.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
@@ -350,7 +351,7 @@ Status write_scad(const std::filesystem::path& path, const std::string& design_n
                                                "alike, and no corrections",
                         .key = "--formats",
                         .value = "scad",
-                        .remedy = "stl, 3mf, obj, ply or glb"});
+                        .remedy = format_names(", ", FormatContent::kMesh)});
   }
   return write_file(path, PartText(part, tolerance_mm).build(design_name));
 }

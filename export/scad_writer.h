@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "trueflank/base/result.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // OpenSCAD files that people go on working with (docs/formats.md).
 namespace trueflank::io {

@@ -5,14 +5,15 @@
 
 namespace trueflank::io {
 
-Colour part_colour(const std::string& part_name) {
-  const auto starts = [&](const char* word) { return part_name.rfind(word, 0) == 0; };
-  if (starts("sun") || starts("pinion")) return {0xE6, 0xA8, 0x2E};
-  if (starts("planet")) return {0x4F, 0x8F, 0xC4};
-  if (starts("ring1")) return {0x5B, 0x66, 0x73};
-  if (starts("ring2")) return {0xC2, 0x5B, 0x4A};
-  if (starts("ring") || starts("wheel")) return {0x5B, 0x66, 0x73};
-  if (starts("carrier")) return {0x7F, 0xA8, 0x6B};
+Colour part_colour(PartRole role) {
+  switch (role) {
+    case PartRole::kSun: return {0xE6, 0xA8, 0x2E};
+    case PartRole::kPlanet: return {0x4F, 0x8F, 0xC4};
+    case PartRole::kRing: return {0x5B, 0x66, 0x73};
+    case PartRole::kUpperRing: return {0xC2, 0x5B, 0x4A};
+    case PartRole::kCarrier: return {0x7F, 0xA8, 0x6B};
+    case PartRole::kOther: break;
+  }
   return {0x9A, 0xA5, 0xB1};
 }
 
@@ -26,9 +27,10 @@ std::string hex_text(Colour colour) {
   return text;
 }
 
-Scene part_scene(std::string design_name, const std::string& part_name, const TriangleMesh& mesh) {
+Scene part_scene(std::string design_name, const std::string& part_name, const TriangleMesh& mesh,
+                 PartRole role) {
   return {.name = std::move(design_name),
-          .shapes = {{part_name, &mesh, part_colour(part_name)}},
+          .shapes = {{part_name, &mesh, part_colour(role)}},
           .bodies = {{.part = 0, .name = part_name}}};
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/solid/part_shape.h"
-#include "trueflank/solid/triangle_mesh.h"
+#include "trueflank/solid/mesh/triangle_mesh.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // What one mesh file shows: shapes, and bodies that are placed copies of them.
 namespace trueflank::io {
@@ -18,8 +18,8 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// Colour of a part by its name: every file and drawing shows a part in the same one.
-[[nodiscard]] Colour part_colour(const std::string& part_name);
+/// Colour of a part: every file and drawing shows it in the same one.
+[[nodiscard]] Colour part_colour(PartRole role);
 /// "#rrggbb"
 [[nodiscard]] std::string hex_text(Colour colour);
 
@@ -37,7 +37,7 @@ struct Scene {
 
 /// A part alone in its own frame.
 [[nodiscard]] Scene part_scene(std::string design_name, const std::string& part_name,
-                               const TriangleMesh& mesh);
+                               const TriangleMesh& mesh, PartRole role = PartRole::kOther);
 
 /// Turns and moves points of a part to their place in the assembly.
 class PlacementTransform {

@@ -9,8 +9,8 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
 #include "trueflank/geometry/spline_basis.h"
-#include "trueflank/solid/outline_path.h"
-#include "trueflank/solid/toothing_path.h"
+#include "trueflank/solid/brep/outline_path.h"
+#include "trueflank/solid/brep/toothing_path.h"
 
 namespace trueflank::io {
 namespace {
@@ -144,9 +144,9 @@ Contour contour(const BoreOutline& outline, double tolerance_mm) {
   return contour_of_path(outline_path(outline), tolerance_mm);
 }
 
-SectionBody section_body(const Slab& slab, const std::string& name, const std::string& part,
+SectionBody section_body(const Slab& slab, const std::string& name, PartRole role,
                          double tolerance_mm) {
-  SectionBody body{name, part, contour_of(slab.outer, tolerance_mm), {}};
+  SectionBody body{name, role, contour_of(slab.outer, tolerance_mm), {}};
   for (const Outline& hole : slab.holes) body.holes.push_back(contour_of(hole, tolerance_mm));
   return body;
 }
@@ -245,7 +245,7 @@ std::vector<Section> part_sections(const PartShape& part, double tolerance_mm) {
   std::vector<Section> sections;
   for (const Slab& slab : part.slabs)
     sections.push_back({"section " + std::to_string(sections.size() + 1), slab.z_lower_mm,
-                        slab.z_upper_mm, {section_body(slab, part.name, part.name, tolerance_mm)}});
+                        slab.z_upper_mm, {section_body(slab, part.name, part.role, tolerance_mm)}});
   return sections;
 }
 
@@ -257,7 +257,7 @@ std::vector<Section> assembly_sections(const PartShapes& shapes, double toleranc
       const Placement& body = shapes.assembly[s.body];
       const Point2 move(body.translation_mm[0], body.translation_mm[1]);
       SectionBody drawn =
-          section_body(*s.slab, body.name, shapes.parts[body.part].name, tolerance_mm);
+          section_body(*s.slab, body.name, shapes.parts[body.part].role, tolerance_mm);
       drawn.outer = placed(std::move(drawn.outer), body.rotation_rad, move);
       for (Contour& hole : drawn.holes) hole = placed(std::move(hole), body.rotation_rad, move);
       section.bodies.push_back(std::move(drawn));

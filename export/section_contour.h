@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // Outlines for drawings: closed contours of vertices with arcs between them.
 namespace trueflank::io {
@@ -42,7 +42,7 @@ void include(Box2& box, const Contour& contour);
 /// One body's (or part's) outlines at one height.
 struct SectionBody {
   std::string name;
-  std::string part;
+  PartRole role = PartRole::kOther;
   Contour outer;
   std::vector<Contour> holes;
   bool frozen = false;  ///< DXF: on a frozen layer, to be looked at and not to be cut

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trueflank/solid/brep.h"
+#include "trueflank/solid/brep/brep.h"
 
 // The data section of a STEP file (ISO 10303-21) as it grows, entity by entity.
 namespace trueflank::io {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/solid/brep.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/brep/brep.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // STEP AP214 text (ISO 10303-21 and -214): exact B-rep solids, an assembly of shared parts.
 namespace trueflank::io {

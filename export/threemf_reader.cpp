@@ -2,6 +2,7 @@
 //
 // 3MF core specification 1.2 and the production extension's model parts. Materials, slices and what
 // else a file may hold are passed over.
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -103,8 +104,8 @@ bool take_plain(std::string_view& text, std::string_view word) {
   return true;
 }
 
-/// An empty element with three attributes in this order and nothing else; text is left as it was
-/// where something else stands there.
+/// An empty element whose first three attributes are these in this order; text is left as it was where
+/// something else stands there.
 template <class Number>
 bool take_plain_tag(std::string_view& text, const std::array<std::string_view, 3>& before,
                     std::array<Number, 3>& values) {
@@ -114,7 +115,15 @@ bool take_plain_tag(std::string_view& text, const std::array<std::string_view, 3
     rest.remove_prefix(1);
   for (std::size_t i = 0; i < 3; ++i)
     if (!take_plain(rest, before[i]) || !take_plain(rest, values[i])) return false;
-  if (!take_plain(rest, "\"/>") && !take_plain(rest, "\" />")) return false;
+  if (!take_plain(rest, "\"/>")) {
+    // colours, and whatever else programs say of every facet; the scanner judges all unusual ends
+    const std::size_t end = rest.find('>');
+    if (rest.empty() || rest.front() != '"' || end == rest.npos || rest[end - 1] != '/' ||
+        rest.substr(0, end).find_first_of("<\'") != rest.npos ||
+        std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(end), '"') % 2 == 0)
+      return false;
+    rest.remove_prefix(end + 1);
+  }
   text = rest;
   return true;
 }
@@ -122,6 +131,8 @@ bool take_plain_tag(std::string_view& text, const std::array<std::string_view, 3
 /// Fills a model tag by tag.
 class ModelParser {
  public:
+  explicit ModelParser(Reading& reading) : reading_(reading) {}
+
   [[nodiscard]] Status take(const XmlScanner::Tag& tag) {
     if (tag.name == "vertex" && tag.is_start) return take_vertex(tag);
     if (tag.name == "triangle" && tag.is_start) return take_triangle(tag);
@@ -141,43 +152,57 @@ class ModelParser {
   }
   /// Takes the vertices or triangles at the front that are written as most programs do; the scanner
   /// reads them eight times as slowly. Stops at whatever looks different.
-  void take_plain(std::string_view& text) {
-    if (!object_) return;
-    // room for all there are before the list's end, so that it need not grow and be copied again
-    const auto room = [&](std::string_view end, std::size_t least_bytes) {
-      const std::size_t at = text.find(end);
-      return at == text.npos ? 0 : at / least_bytes;
-    };
-    if (text.starts_with("\n<vertex ") || text.starts_with("<vertex "))
-      object_->mesh.vertices.reserve(object_->mesh.vertices.size() + room("</vertices>", 36));
+  [[nodiscard]] Status take_plain(std::string_view& text) {
+    if (!object_) return {};
+    TriangleMesh& mesh = object_->mesh;
+    make_room(text, "<vertex ", "</vertices>", mesh.vertices);
     std::array<double, 3> v{};
     while (take_plain_tag(text, {"<vertex x=\"", "\" y=\"", "\" z=\""}, v))
-      object_->mesh.vertices.push_back(v);
-    if (text.starts_with("\n<triangle ") || text.starts_with("<triangle "))
-      object_->mesh.triangles.reserve(object_->mesh.triangles.size() + room("</triangles>", 36));
+      if (auto status = add(v); !status) return status;
+    make_room(text, "<triangle ", "</triangles>", mesh.triangles);
     std::array<std::uint32_t, 3> t{};
     while (take_plain_tag(text, {"<triangle v1=\"", "\" v2=\"", "\" v3=\""}, t))
-      object_->mesh.triangles.push_back(t);
+      if (auto status = add(t); !status) return status;
+    return {};
   }
   [[nodiscard]] bool seen() const { return seen_; }
   [[nodiscard]] Model finish() { return std::move(model_); }
 
  private:
+  /// For all there are before the list's end, so that the list need not grow and be copied again. No part
+  /// of the text is searched twice.
+  template <class List>
+  void make_room(std::string_view text, std::string_view first, std::string_view end, List& list) {
+    constexpr std::size_t kLeastBytes = 36;
+    if (text.data() < searched_to_) return;
+    if (!text.starts_with(first) && !(text.starts_with('\n') && text.substr(1).starts_with(first))) return;
+    const std::size_t at = std::min(text.find(end), text.size());
+    searched_to_ = text.data() + at;
+    list.reserve(std::min(list.size() + at / kLeastBytes, kMostFacets));
+  }
+  Status add(const std::array<double, 3>& vertex) {
+    if (auto status = reading_.take_facets(0, 1); !status) return status;
+    object_->mesh.vertices.push_back(vertex);
+    return {};
+  }
+  Status add(const std::array<std::uint32_t, 3>& triangle) {
+    if (auto status = reading_.take_facets(1, 0); !status) return status;
+    object_->mesh.triangles.push_back(triangle);
+    return {};
+  }
   Status take_vertex(const XmlScanner::Tag& tag) {
     std::array<double, 3> v{};
     if (!number_attribute(tag, "x", v[0]) || !number_attribute(tag, "y", v[1]) ||
         !number_attribute(tag, "z", v[2]))
       return syntax_error("a vertex without three numbers");
-    if (object_) object_->mesh.vertices.push_back(v);
-    return {};
+    return object_ ? add(v) : Status{};
   }
   Status take_triangle(const XmlScanner::Tag& tag) {
     std::array<std::uint32_t, 3> t{};
     if (!integer_attribute(tag, "v1", t[0]) || !integer_attribute(tag, "v2", t[1]) ||
         !integer_attribute(tag, "v3", t[2]))
       return syntax_error("a triangle without three vertex numbers");
-    if (object_) object_->mesh.triangles.push_back(t);
-    return {};
+    return object_ ? add(t) : Status{};
   }
   Status take_object(const XmlScanner::Tag& tag) {
     int id = 0;
@@ -191,18 +216,20 @@ class ModelParser {
     return {};
   }
 
+  Reading& reading_;
   Model model_;
   Object* object_ = nullptr;
+  const char* searched_to_ = nullptr;
   bool seen_ = false;
 };
 
-Result<Model> parse_model(std::string_view text) {
+Result<Model> parse_model(std::string_view text, Reading& reading) {
   XmlScanner scanner(text);
   XmlScanner::Tag tag;
-  ModelParser parser;
+  ModelParser parser(reading);
   while (scanner.next(tag)) {
     if (auto status = parser.take(tag); !status) return fail(status.error());
-    parser.take_plain(scanner.rest());
+    if (auto status = parser.take_plain(scanner.rest()); !status) return fail(status.error());
   }
   if (scanner.is_broken() || !parser.seen())
     return syntax_error("the 3MF model is no valid XML, or cut off");
@@ -212,12 +239,12 @@ Result<Model> parse_model(std::string_view text) {
 /// The models of a package, read when they are asked for.
 class Package {
  public:
-  explicit Package(std::string_view archive) : archive_(archive) {}
+  Package(std::string_view archive, Reading& reading) : archive_(archive), reading_(reading) {}
 
   [[nodiscard]] Result<std::string> root_name() const {
     const auto names = zip_names(archive_);
     if (!names) return fail(names.error());
-    if (const auto relationships = zip_content(archive_, "_rels/.rels")) {
+    if (const auto relationships = zip_content(archive_, "_rels/.rels", reading_)) {
       XmlScanner scanner(*relationships);
       for (XmlScanner::Tag tag; scanner.next(tag);)
         if (tag.name == "Relationship" &&
@@ -232,30 +259,29 @@ class Package {
   [[nodiscard]] Result<const Model*> model(const std::string& name) {
     const std::string entry = name.starts_with('/') ? name.substr(1) : name;
     if (const auto known = models_.find(entry); known != models_.end()) return &known->second;
-    const auto text = zip_content(archive_, entry);
+    const auto text = zip_content(archive_, entry, reading_);
     if (!text) return fail(text.error());
-    auto parsed = parse_model(*text);
+    auto parsed = parse_model(*text, reading_);
     if (!parsed) return fail(parsed.error());
     return &models_.emplace(entry, std::move(*parsed)).first->second;
   }
 
  private:
   std::string_view archive_;
+  Reading& reading_;
   std::map<std::string, Model> models_;
 };
 
 /// Places the objects that the build names, components and all.
 class Builder {
  public:
-  explicit Builder(Package& package) : package_(package) {}
+  Builder(Package& package, Reading& reading) : package_(package), reading_(reading) {}
 
   /// `name`: of the object above, kept where it has but this one component.
   [[nodiscard]] Status add(const std::string& model_name, const Reference& reference,
                            const Transform& outer, const std::string& name, int depth) {
-    // Components of components of ... may multiply without end; no honest file comes near.
-    if (depth > 32 || ++placed_ > 100'000)
-      return fail(Error{.code = ErrorCode::kUnsupported,
-                        .message = "the 3MF file nests its components too deeply"});
+    // components of components of ... multiply
+    if (auto status = reading_.take_piece(depth); !status) return status;
     const std::string& where = reference.model.empty() ? model_name : reference.model;
     const auto model = package_.model(where);
     if (!model) return fail(model.error());
@@ -266,7 +292,12 @@ class Builder {
     if (object.is_support) return {};
     const Transform transform = combined(reference.transform, outer);
     const std::string& shown = name.empty() ? object.name : name;
-    if (!object.mesh.triangles.empty()) add_mesh(object.mesh, transform, shown);
+    if (!object.mesh.triangles.empty()) {
+      const TriangleMesh& mesh = object.mesh;
+      if (auto status = reading_.take_facets(mesh.triangles.size(), mesh.vertices.size()); !status)
+        return status;
+      add_mesh(mesh, transform, shown);
+    }
     for (const Reference& component : object.components) {
       const bool alone = object.components.size() == 1;
       if (auto status = add(where, component, transform, alone ? shown : std::string(), depth + 1);
@@ -288,21 +319,21 @@ class Builder {
   }
 
   Package& package_;
+  Reading& reading_;
   Bodies bodies_;
-  int placed_ = 0;
 };
 
 }  // namespace
 
-Result<Bodies> parse_3mf(std::string_view content) {
-  Package package(content);
+Result<Bodies> parse_3mf(std::string_view content, Reading& reading) {
+  Package package(content, reading);
   const auto root_name = package.root_name();
   if (!root_name) return fail(root_name.error());
   const auto root = package.model(*root_name);
   if (!root) return fail(root.error());
   const double s = (*root)->unit_mm;
   const Transform to_mm = {s, 0, 0, 0, s, 0, 0, 0, s, 0, 0, 0};
-  Builder builder(package);
+  Builder builder(package, reading);
   for (const Reference& item : (*root)->build)
     if (auto status = builder.add(*root_name, item, to_mm, {}, 0); !status)
       return fail(status.error());

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/export/zip_archive.h"
 
-#include <isa-l.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 
 namespace trueflank::io {
@@ -22,6 +19,7 @@ constexpr std::uint32_t kSizes64 = 0x0001;  // extra field with what did not fit
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kVersionNeeded = 20, kUtf8Names = 0x0800, kEncrypted = 0x0001;
 constexpr std::uint16_t kFirstDay = 0x0021;  // 1980-01-01, the first date the format knows
+constexpr std::size_t kMostEntries = 10'000;  // a model part, its textures and thumbnails: a few
 constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
 
 void put16(std::string& out, std::uint32_t value) {
@@ -115,6 +113,10 @@ Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
   std::size_t at = place->begin;
   const auto room = [&] { return at <= place->end ? place->end - at : 0; };
   std::vector<DirectoryEntry> entries;
+  if (place->count > kMostEntries)
+    return fail(Error{.code = ErrorCode::kUnsupported,
+                      .message = "the archive holds more than " + std::to_string(kMostEntries) +
+                                 " entries"});
   for (std::size_t i = 0; i < place->count; ++i) {
     if (room() < kDirectoryHeaderBytes || get32(archive, at) != kDirectoryHeader)
       return fail(broken("has a damaged directory"));
@@ -135,12 +137,8 @@ Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
   return entries;
 }
 
-/// isa-l's pointers are not const; it only reads.
-std::uint8_t* bytes_of(std::string_view bytes) {
-  return reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data()));
-}
-
-Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& entry) {
+Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& entry,
+                             Reading& reading) {
   if ((entry.flags & kEncrypted) || (entry.method != kStored && entry.method != kDeflated))
     return fail(Error{.code = ErrorCode::kUnsupported,
                       .message = "entry '" + std::string(entry.name) +
@@ -155,23 +153,17 @@ Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& ent
     return fail(broken("is cut off"));
   // Deflate cannot pack more than 1032 : 1; a larger claim is a trap for our memory.
   if (entry.content_bytes / 1040 > entry.packed_bytes) return fail(broken("is damaged"));
+  if (auto status = reading.take_unpacked_bytes(entry.content_bytes); !status)
+    return fail(status.error());
   const std::string_view body = archive.substr(begin, entry.packed_bytes);
   std::string content(entry.content_bytes, '\0');
   if (entry.method == kStored) {
     if (entry.packed_bytes != entry.content_bytes) return fail(broken("is damaged"));
     content = std::string(body);
-  } else {
-    const auto unpacker = std::make_unique_for_overwrite<inflate_state>();
-    isal_inflate_init(unpacker.get());
-    unpacker->next_in = bytes_of(body);
-    unpacker->avail_in = static_cast<std::uint32_t>(body.size());
-    unpacker->next_out = reinterpret_cast<std::uint8_t*>(content.data());
-    unpacker->avail_out = static_cast<std::uint32_t>(content.size());
-    if (isal_inflate_stateless(unpacker.get()) != ISAL_DECOMP_OK ||
-        unpacker->total_out != content.size())
-      return fail(broken("is damaged"));
+  } else if (!inflate(body, content)) {
+    return fail(broken("is damaged"));
   }
-  if (crc32_gzip_refl(0, bytes_of(content), content.size()) != entry.checksum)
+  if (checksum(content) != entry.checksum)
     return fail(broken("is damaged: a checksum is wrong"));
   return content;
 }
@@ -225,11 +217,11 @@ Result<std::vector<std::string>> zip_names(std::string_view archive) {
   return names;
 }
 
-Result<std::string> zip_content(std::string_view archive, std::string_view name) {
+Result<std::string> zip_content(std::string_view archive, std::string_view name, Reading& reading) {
   const auto entries = directory(archive);
   if (!entries) return fail(entries.error());
   for (const DirectoryEntry& entry : *entries)
-    if (entry.name == name) return unpacked(archive, entry);
+    if (entry.name == name) return unpacked(archive, entry, reading);
   return fail(Error{.code = ErrorCode::kMissingKey,
                     .message = "the archive holds no '" + std::string(name) + "'"});
 }

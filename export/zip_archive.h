@@ -7,6 +7,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/export/packed_text.h"
+#include "trueflank/export/reading.h"
 
 // The container of 3MF files: PKZIP with deflated or stored entries; written below 4 GB, ZIP64 is read.
 namespace trueflank::io {
@@ -25,7 +26,8 @@ struct ZipEntry {
 [[nodiscard]] Result<std::vector<std::string>> zip_names(std::string_view archive);
 
 /// One entry's content, its checksum verified. Errors: kSyntax, kMissingKey (no such entry),
-/// kUnsupported (encrypted, another method).
-[[nodiscard]] Result<std::string> zip_content(std::string_view archive, std::string_view name);
+/// kUnsupported (encrypted, another method; more bytes than the reading allows).
+[[nodiscard]] Result<std::string> zip_content(std::string_view archive, std::string_view name,
+                                              Reading& reading);
 
 }  // namespace trueflank::io

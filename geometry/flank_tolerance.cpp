@@ -2,7 +2,8 @@
 #include "trueflank/geometry/flank_tolerance.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "trueflank/base/number_text.h"
 
 namespace trueflank {
 namespace {
@@ -14,11 +15,7 @@ double rounded_um(double value_um) {
   return std::round(value_um * steps_per_um) / steps_per_um;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return printed("%.6g", value); }
 
 Status in_scope(const char* what, double value, double least, double most) {
   if (value >= least && value <= most) return {};

@@ -41,7 +41,7 @@ struct Gear {
   BasicRack rack;
   double shift = 0.0;        ///< profile shift coefficient, of the normal module
   double thinning_mm = 0.0;  ///< transverse circular thinning of the teeth at the reference circle
-  double tip_radius_mm = 11.0;
+  double tip_radius_mm = 0.0;    ///< 0: nominal_tip_radius_mm, in the profile's own gear
   double tip_rounding_mm = 0.0;  ///< radius between tip circle and flank, transverse; 0: sharp corner
   RingRoot ring_root = RingRoot::kFillet;  ///< rings only
   std::optional<ShaperCutter> cutter;      ///< rings with RingRoot::kShaper

@@ -15,7 +15,10 @@ namespace trueflank {
 
 class ProfileBuilder {
  public:
-  explicit ProfileBuilder(const Gear& gear) { p_.gear_ = gear; }
+  explicit ProfileBuilder(const Gear& gear) {
+    p_.gear_ = gear;
+    if (gear.tip_radius_mm == 0.0) p_.gear_.tip_radius_mm = nominal_tip_radius_mm(gear);
+  }
 
   [[nodiscard]] Result<ToothProfile> build();
 

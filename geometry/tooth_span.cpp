@@ -23,11 +23,13 @@ double span_face_width_mm(const Gear& gear, int teeth_spanned) {
 }
 
 int recommended_span_teeth(const Gear& gear) {
-  // The planes touch at the roll length W/2: chosen nearest to the circle r + x m.
+  // The measured line is inclined by beta_b against the transverse section: the planes touch at the roll length
+  // W cos(beta_b) / 2, chosen nearest to the circle r + x m. W itself is the transverse length times cos(beta_b).
   const double r_touch = reference_radius_mm(gear) + gear.shift * gear.normal_module_mm;
   const double r_b = base_radius_mm(gear);
   const double roll = roll_length_mm(std::max(r_touch, r_b), r_b);
-  const double k = (2.0 * roll - 2.0 * r_b * base_half_angle_rad(gear)) /
+  const double cosine = std::cos(base_helix_angle_rad(gear));
+  const double k = (2.0 * roll / (cosine * cosine) - 2.0 * r_b * base_half_angle_rad(gear)) /
                        (kTwoPi * r_b / gear.teeth) +
                    1.0;
   return std::clamp(static_cast<int>(std::lround(k)), 1, std::max(1, gear.teeth / 2));

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "bindings.h"
-#include "trueflank/app/design_input.h"
-#include "trueflank/app/html_document.h"
 #include "trueflank/base/units.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file_writer.h"
@@ -15,19 +13,16 @@
 #include "trueflank/export/scene.h"
 #include "trueflank/export/step_writer.h"
 #include "trueflank/geometry/polyline.h"
-#include "trueflank/solid/brep.h"
+#include "trueflank/session/evaluate.h"
+#include "trueflank/solid/brep/brep.h"
 
 namespace trueflank::python {
 namespace {
 
-py::object number(double value) {
-  return std::isfinite(value) ? py::object(py::float_(value)) : py::object(py::none());
-}
-
 /// Section of a gear's teeth as points of a closed polygon, one row each.
 py::array_t<double> profile(const Gearbox& self, const std::string& name, double tolerance_um) {
   const double tolerance_mm = checked_tolerance_mm(tolerance_um);
-  const SectionPolygon section = section_polygon(self.gear(name).profile, tolerance_mm);
+  const SectionPolygon section = section_polygon(gear_of(self, name).profile, tolerance_mm);
   py::array_t<double> points({static_cast<py::ssize_t>(section.points.size()), py::ssize_t{2}});
   auto at = points.mutable_unchecked<2>();
   for (std::size_t i = 0; i < section.points.size(); ++i) {
@@ -40,20 +35,20 @@ py::array_t<double> profile(const Gearbox& self, const std::string& name, double
 Mesh mesh(const Gearbox& self, const std::string& part, double tolerance_um) {
   const double tolerance_mm = checked_tolerance_mm(tolerance_um);
   py::gil_scoped_release unlocked;
-  PartMesh made = part_mesh(self.part(part), {.tolerance_mm = tolerance_mm});
+  PartMesh made = part_mesh(part_of(self, part), {.tolerance_mm = tolerance_mm});
   return {.mesh = std::move(made.mesh), .chord_error_um = um_from_mm(made.chord_error_mm)};
 }
 
 std::vector<std::string> part_names(const Gearbox& self) {
   std::vector<std::string> names;
-  for (const PartShape& part : self.shapes().parts) names.push_back(part.name);
+  for (const PartShape& part : shapes_of(self).parts) names.push_back(part.name);
   return names;
 }
 
 /// Where every body stands: name, part and a 4 x 4 matrix.
 py::list assembly(const Gearbox& self) {
   py::list bodies;
-  for (const Placement& place : self.shapes().assembly) {
+  for (const Placement& place : shapes_of(self).assembly) {
     py::array_t<double> matrix({4, 4});
     auto at = matrix.mutable_unchecked<2>();
     const double c = std::cos(place.rotation_rad), s = std::sin(place.rotation_rad);
@@ -65,7 +60,7 @@ py::list assembly(const Gearbox& self) {
       for (int j = 0; j < 4; ++j) at(i, j) = rows[i][j];
     py::dict body;
     body["name"] = place.name;
-    body["part"] = self.shapes().parts[static_cast<std::size_t>(place.part)].name;
+    body["part"] = shapes_of(self).parts[static_cast<std::size_t>(place.part)].name;
     body["matrix"] = matrix;
     bodies.append(body);
   }
@@ -76,14 +71,14 @@ py::object report(const Gearbox& self) {
   std::string text;
   {
     py::gil_scoped_release unlocked;
-    text = io::report_json(app::evaluate(self.train()));
+    text = io::report_json(evaluate(self));
   }
   return json_loads(text);
 }
 
 std::string report_html(const Gearbox& self) {
   py::gil_scoped_release unlocked;
-  return app::html_document(app::evaluate(self.train()), &self.shapes());
+  return report_page(self, evaluate(self));
 }
 
 py::dict drive_dict(const DirectionEfficiency& drive) {
@@ -129,6 +124,7 @@ py::dict efficiency_dict(const Gearbox& self, std::optional<double> friction, co
     mesh["basic_efficiency"] = number(m.basic_efficiency);
     mesh["by_contact_ratios"] = number(m.by_contact_ratios);
     mesh["by_path_integral"] = number(m.by_path_integral);
+    mesh["by_path_integral_gear2_driving"] = number(m.by_path_integral_gear2_driving);
     meshes.append(mesh);
   }
   py::dict dict;
@@ -145,15 +141,15 @@ py::dict efficiency_dict(const Gearbox& self, std::optional<double> friction, co
 std::string step(const Gearbox& self, const std::string& part) {
   py::gil_scoped_release unlocked;
   const auto stepped = [](const PartShape& shape) {
-    const io::Colour colour = io::part_colour(shape.name);
+    const io::Colour colour = io::part_colour(shape.role);
     return io::StepPart{.name = shape.name,
                         .solid = value_or_throw(brep_of(shape)),
                         .colour = {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}};
   };
-  if (!part.empty()) return io::step_text(stepped(self.part(part)));
+  if (!part.empty()) return io::step_text(stepped(part_of(self, part)));
   std::vector<io::StepPart> parts;
-  for (const PartShape& shape : self.shapes().parts) parts.push_back(stepped(shape));
-  return io::step_text(parts, self.shapes().assembly, self.train().design.name);
+  for (const PartShape& shape : shapes_of(self).parts) parts.push_back(stepped(shape));
+  return io::step_text(parts, shapes_of(self).assembly, self.train().design.name);
 }
 
 py::list export_files(const Gearbox& self, const py::object& folder, const std::vector<std::string>& formats,
@@ -164,10 +160,10 @@ py::list export_files(const Gearbox& self, const py::object& folder, const std::
   {
     py::gil_scoped_release unlocked;
     const auto wanted = value_or_throw(io::parse_formats(formats));
-    auto written = io::export_parts({.train = &self.train(), .shapes = &self.shapes()},
+    auto written = io::export_parts({.train = &self.train(), .shapes = &shapes_of(self)},
                                     {.folder = path, .formats = wanted, .tolerance_mm = tolerance_mm,
                                      .kerf_mm = self.train().design.made.kerf_mm.value_or(0.0), .part = part});
-    if (!written) throw self.failure(written.error());
+    if (!written) throw Failure(self.located(written.error()));
     files = std::move(*written);
   }
   py::list list;
@@ -186,39 +182,26 @@ py::list export_files(const Gearbox& self, const py::object& folder, const std::
 }
 
 std::string new_design(const std::string& kind, const std::string& name) {
-  for (const TrainKind k : {TrainKind::k3k, TrainKind::kSimple, TrainKind::kPair, TrainKind::kGear})
-    if (kind == to_text(k)) return new_design_text(k, name);
+  if (const TrainKind* known = find_train_kind(kind)) return new_design_text(*known, name);
   throw Failure({.code = ErrorCode::kUsage, .message = "no such kind", .key = "kind", .value = kind,
-                 .remedy = "3k, simple, pair or gear"});
+                 .remedy = train_kind_names()});
 }
 
 }  // namespace
 
-std::shared_ptr<Gearbox> Gearbox::of(ResultAll<DesignFile> file) {
-  if (!file) throw Failure(file.error());
-  auto train = lay_out(file->design);
-  if (!train) throw Failure(located(train.error(), *file));
-  return std::make_shared<Gearbox>(std::move(*file), std::move(*train));
+const PartShapes& shapes_of(const Gearbox& gearbox) {
+  const auto& shapes = gearbox.parts();
+  if (!shapes) throw Failure(shapes.error());
+  return *shapes;
 }
 
-const PartShapes& Gearbox::shapes() const {
-  std::call_once(made_, [this] { shapes_ = part_shapes(*train_); });
-  if (!*shapes_) throw failure(shapes_->error());
-  return **shapes_;
+const TrainGear& gear_of(const Gearbox& gearbox, const std::string& name) {
+  return *value_or_throw(gearbox.gear(name));
 }
 
-const TrainGear& Gearbox::gear(const std::string& name) const {
-  if (name.empty() && train_->gears.size() == 1) return train_->gears.front();
-  if (const TrainGear* found = train_->find(name)) return *found;
+const PartShape& part_of(const Gearbox& gearbox, const std::string& name) {
   std::string names;
-  for (const TrainGear& gear : train_->gears) names += (names.empty() ? "" : ", ") + gear.name;
-  throw Failure({.code = ErrorCode::kUsage, .message = "this design has no such gear", .key = "gear",
-                 .value = name, .remedy = names});
-}
-
-const PartShape& Gearbox::part(const std::string& name) const {
-  std::string names;
-  for (const PartShape& part : shapes().parts) {
+  for (const PartShape& part : shapes_of(gearbox).parts) {
     if (part.name == name) return part;
     names += (names.empty() ? "" : ", ") + part.name;
   }
@@ -228,25 +211,25 @@ const PartShape& Gearbox::part(const std::string& name) const {
 
 void bind_gearbox(py::module_& module) {
   module.def(
-      "read", [](const py::object& path) { return Gearbox::of(read_design_file(path_text(path))); },
+      "read", [](const py::object& path) { return value_or_throw(Gearbox::read(path_text(path))); },
       py::arg("path"), "Reads a design file and lays it out: shifts, tip circles and places solved.");
   module.def(
       "read_text",
       [](const std::string& text, const std::string& name) {
-        return Gearbox::of(read_design_file_text(text, name));
+        return value_or_throw(Gearbox::read_text(text, name));
       },
       py::arg("text"), py::arg("name") = "design.toml",
       "The same for the text of a design file; `name` stands for the file in errors.");
   module.def("new_design", &new_design, py::arg("kind") = "3k", py::arg("name") = "my-gearbox",
-             "A commented design file to start from, of kind 3k, simple, pair or gear, as text.");
+             "A commented design file to start from, of kind 3k, stepped, simple, pair or gear, as text.");
 
-  py::class_<Gearbox, std::shared_ptr<Gearbox>>(module, "Gearbox",
+  py::class_<Gearbox>(module, "Gearbox",
       "A design laid out. From read() or read_text(). Never changes.")
       .def_property_readonly("name", [](const Gearbox& self) { return self.train().design.name; },
                              "Name of the design.")
       .def_property_readonly(
-          "kind", [](const Gearbox& self) { return std::string(to_text(self.train().design.kind)); },
-          "3k, simple, pair or gear.")
+          "kind", [](const Gearbox& self) { return self.train().topology().kind; },
+          "3k, stepped, simple, pair or gear.")
       .def_property_readonly(
           "gears",
           [](const Gearbox& self) {
@@ -276,9 +259,9 @@ void bind_gearbox(py::module_& module) {
            "The findings alone: list of dicts with id, where, status, value, limit, margin, message, cure.")
       .def("report_html", &report_html, "The report as one offline page.")
       .def("efficiency", &efficiency_dict, py::arg("friction") = py::none(),
-           py::arg("loss_model") = "contact_ratios",
+           py::arg("loss_model") = "path_integral",
            "Efficiency both ways with the flows through members and meshes per unit of driving torque and\n"
-           "sun speed. `friction` instead of the design's; `loss_model` contact_ratios or path_integral.")
+           "sun speed. `friction` instead of the design's; `loss_model` path_integral or contact_ratios.")
       .def("step_text", &step, py::arg("part") = "",
            "Exact STEP (AP214) of one part, or of the assembly, as text.")
       .def("export", &export_files, py::arg("folder"),
@@ -288,7 +271,7 @@ void bind_gearbox(py::module_& module) {
            "format, bytes, triangles, accuracy_um (measured on the file) and volume_mm3. Checks decide\n"
            "nothing here: ask report()[\"verdict\"] before.")
       .def("__repr__", [](const Gearbox& self) {
-        return "<trueflank.Gearbox \"" + self.train().design.name + "\": " + to_text(self.train().design.kind) + ">";
+        return "<trueflank.Gearbox \"" + self.train().design.name + "\": " + self.train().topology().kind + ">";
       });
 }
 

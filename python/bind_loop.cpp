@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "bindings.h"
-#include "trueflank/app/corrected_parts.h"
-#include "trueflank/app/effects_file.h"
-#include "trueflank/loop/close_drive_loop.h"
-#include "trueflank/loop/close_loop.h"
-#include "trueflank/loop/drive_html.h"
-#include "trueflank/loop/loop_html.h"
+#include "trueflank/session/close_loop.h"
+#include "trueflank/session/corrected_parts.h"
 
 namespace trueflank::python {
 namespace {
-
-/// A closed loop; keeps the gearbox, whose profiles it refers to.
-struct ClosedLoop {
-  std::shared_ptr<Gearbox> gearbox;
-  loop::GearLoop closed;
-};
 
 /// One path or several, or those of several parts by the parts' names.
 std::vector<std::string> paths_of(const py::object& data) {
@@ -32,27 +24,31 @@ std::vector<std::string> paths_of(const py::object& data) {
   return files;
 }
 
-std::shared_ptr<ClosedLoop> close_loop(const std::shared_ptr<Gearbox>& self, const std::string& gear,
-                                       const py::object& data, bool aligned, const py::object& effects) {
+/// Python knows a loop of a gear and one of a drive by their types.
+struct ClosedGearLoop : ClosedLoop {};
+struct ClosedDriveLoop : ClosedLoop {};
+
+ClosedGearLoop close_gear_loop(const Gearbox& self, const std::string& gear, const py::object& data,
+                               bool aligned, const py::object& effects) {
   const std::vector<std::string> files = paths_of(data);
-  const std::string name = self->gear(gear).name;
-  const std::string own = effects.is_none() ? "" : path_text(effects);
+  const CloseLoopOptions options{.gear = gear_of(self, gear).name,
+                                 .aligned = aligned,
+                                 .effects_file = effects.is_none() ? "" : path_text(effects)};
   py::gil_scoped_release unlocked;
-  loop::LoopOptions options{.aligned = aligned};
-  if (!own.empty()) options.declared = value_or_throw(app::read_effects_file(own));
-  return std::make_shared<ClosedLoop>(
-      ClosedLoop{self, value_or_throw(loop::close_loop(self->train(), name, files, options))});
+  return ClosedGearLoop{value_or_throw(trueflank::close_gear_loop(self, files, options))};
 }
 
-std::shared_ptr<loop::DriveLoop> close_drive_loop(const Gearbox& self, const py::object& data) {
+ClosedDriveLoop close_drive_loop(const Gearbox& self, const py::object& data) {
   const std::vector<std::string> files = paths_of(data);
   py::gil_scoped_release unlocked;
-  return std::make_shared<loop::DriveLoop>(value_or_throw(loop::close_drive_loop(self.train(), files)));
+  return ClosedDriveLoop{value_or_throw(trueflank::close_drive_loop(self, files))};
 }
 
 template <class T>
-py::array_t<T> array_of(const std::vector<T>& values) {
-  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+py::array_t<T> array_of(const std::vector<double>& values) {
+  py::array_t<T> array(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
 }
 
 py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, double tolerance_um) {
@@ -61,8 +57,8 @@ py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, doub
   std::vector<PartMesh> made;
   {
     py::gil_scoped_release unlocked;
-    app::CorrectedParts corrected =
-        value_or_throw(app::corrected_parts(self.train(), self.shapes(), nullptr, file, tolerance_mm));
+    CorrectedParts corrected =
+        value_or_throw(corrected_parts(self.train(), shapes_of(self), nullptr, file, tolerance_mm));
     made = std::move(corrected.meshes);
     if (made.empty())
       for (const PartShape& part : corrected.shapes.parts)
@@ -70,64 +66,53 @@ py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, doub
   }
   py::dict meshes;
   for (std::size_t i = 0; i < made.size(); ++i)
-    meshes[py::str(self.shapes().parts[i].name)] = Mesh{.mesh = std::move(made[i].mesh)};
+    meshes[py::str(shapes_of(self).parts[i].name)] = Mesh{.mesh = std::move(made[i].mesh)};
   return meshes;
+}
+
+/// What both kinds of loop have.
+template <class T>
+py::class_<T> bind_closed(py::module_& module, const char* name, const char* doc, const char* html_doc) {
+  return py::class_<T>(module, name, doc)
+      .def_property_readonly("result", [](const T& self) { return json_loads(self.json()); },
+                             "loop.json as a dict: data, before, after, effects, structure_left, verdict.")
+      .def_property_readonly(
+          "verdict", [](const T& self) { return std::string(to_text(self.result().verdict)); },
+          "no_effect, explained or partly_explained.")
+      .def("json_text", [](const T& self) { return self.json(); },
+           "loop.json as text, for `trueflank make --correct` and corrected_meshes().")
+      .def("text", [](const T& self) { return self.text(); }, "What a person reads first.")
+      .def("html",
+           [](const T& self) {
+             py::gil_scoped_release unlocked;
+             return self.html();
+           },
+           html_doc);
 }
 
 }  // namespace
 
 void bind_loop(py::module_& module) {
-  py::class_<ClosedLoop, std::shared_ptr<ClosedLoop>>(module, "ClosedLoop",
-      "What measured data say of a gear. From Gearbox.close_loop().")
+  bind_closed<ClosedGearLoop>(module, "ClosedLoop", "What measured data say of a gear. From Gearbox.close_loop().",
+                              "loop.html: charts before and after, one offline page.")
       .def_property_readonly(
-          "result", [](const ClosedLoop& self) { return json_loads(loop::loop_json(self.closed.result)); },
-          "loop.json as a dict: data, before, after, effects, structure_left, verdict.")
-      .def_property_readonly(
-          "verdict", [](const ClosedLoop& self) { return std::string(to_text(self.closed.result.verdict)); },
-          "no_effect, explained or partly_explained.")
-      .def_property_readonly(
-          "before_um", [](const ClosedLoop& self) { return array_of(self.closed.before_um); },
+          "before_um", [](const ClosedGearLoop& self) { return array_of<float>(self.residuals_before()); },
           "Residual of every observation against the model as designed, float32 [um].")
       .def_property_readonly(
-          "after_um", [](const ClosedLoop& self) { return array_of(self.closed.after_um); },
-          "The same after the effects found.")
-      .def("json_text", [](const ClosedLoop& self) { return loop::loop_json(self.closed.result); },
-           "loop.json as text, for `trueflank make --correct` and corrected_meshes().")
-      .def("text", [](const ClosedLoop& self) { return loop::loop_text(self.closed.result); },
-           "What a person reads first.")
-      .def("html",
-           [](const ClosedLoop& self) {
-             py::gil_scoped_release unlocked;
-             return loop::loop_html(self.closed);
-           },
-           "loop.html: charts before and after, one offline page.");
-  py::class_<loop::DriveLoop, std::shared_ptr<loop::DriveLoop>>(module, "ClosedDriveLoop",
-      "What bench data say of the whole drive. From Gearbox.close_drive_loop().")
+          "after_um", [](const ClosedGearLoop& self) { return array_of<float>(self.residuals_after()); },
+          "The same after the effects found.");
+  bind_closed<ClosedDriveLoop>(module, "ClosedDriveLoop",
+                               "What bench data say of the whole drive. From Gearbox.close_drive_loop().",
+                               "loop.html: effects in words, efficiency maps and residuals, one offline page.")
       .def_property_readonly(
-          "result", [](const loop::DriveLoop& self) { return json_loads(loop::loop_json(self.result)); },
-          "loop.json as a dict.")
-      .def_property_readonly(
-          "verdict", [](const loop::DriveLoop& self) { return std::string(to_text(self.result.verdict)); },
-          "no_effect, explained or partly_explained.")
-      .def_property_readonly(
-          "before_nm", [](const loop::DriveLoop& self) { return array_of(self.before_nm); },
+          "before_nm", [](const ClosedDriveLoop& self) { return array_of<double>(self.residuals_before()); },
           "Measured less predicted torque on the driven side, float64 [N m]; one a row of the bench table.")
       .def_property_readonly(
-          "after_nm", [](const loop::DriveLoop& self) { return array_of(self.after_nm); },
-          "The same after the effects found.")
-      .def("json_text", [](const loop::DriveLoop& self) { return loop::loop_json(self.result); },
-           "loop.json as text.")
-      .def("text", [](const loop::DriveLoop& self) { return loop::loop_text(self.result); },
-           "What a person reads first.")
-      .def("html",
-           [](const loop::DriveLoop& self) {
-             py::gil_scoped_release unlocked;
-             return loop::drive_html(self);
-           },
-           "loop.html: effects in words, efficiency maps and residuals, one offline page.");
+          "after_nm", [](const ClosedDriveLoop& self) { return array_of<double>(self.residuals_after()); },
+          "The same after the effects found.");
   const py::object gearbox = module.attr("Gearbox");
-  auto type = py::reinterpret_borrow<py::class_<Gearbox, std::shared_ptr<Gearbox>>>(gearbox);
-  type.def("close_loop", &close_loop, py::arg("gear"), py::arg("data"), py::arg("aligned") = false,
+  auto type = py::reinterpret_borrow<py::class_<Gearbox>>(gearbox);
+  type.def("close_loop", &close_gear_loop, py::arg("gear"), py::arg("data"), py::arg("aligned") = false,
            py::arg("effects") = py::none(),
            "Closes the loop of one gear with measured files (a path or several): scans, inspection, sizes;\n"
            "of several parts: {part: path or paths}, or \"part=path\".\n"

@@ -3,11 +3,10 @@
 #include <cstring>
 
 #include "bindings.h"
-#include "trueflank/app/compare_report.h"
+#include "trueflank/session/compare_report.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/mesh_reader.h"
-#include "trueflank/solid/mesh_compare.h"
-#include "trueflank/solid/mesh_validity.h"
+#include "trueflank/solid/measure/mesh_validity.h"
 
 namespace trueflank::python {
 namespace {
@@ -60,15 +59,12 @@ Mesh read(const py::object& path) {
 }
 
 py::object compare(const Mesh& golden, const Mesh& made, double tolerance_um) {
-  const CompareOptions within{.tolerance_mm = checked_tolerance_mm(tolerance_um)};
-  app::CompareReport report{.options = {.tolerance_um = tolerance_um}, .comparison = {}, .difference = {}};
+  checked_tolerance_mm(tolerance_um);
   std::string text;
   {
     py::gil_scoped_release unlocked;
-    report.comparison = compare_meshes(golden.mesh, made.mesh, within);
-    if (!report.comparison.same && std::isfinite(report.comparison.largest_mm()))
-      report.difference = mesh_difference(golden.mesh, made.mesh, report.comparison, within);
-    text = app::comparison_json(report);
+    text = comparison_json(
+        value_or_throw(compare_surfaces(golden.mesh, made.mesh, {.tolerance_um = tolerance_um})));
   }
   return json_loads(text);
 }

@@ -6,17 +6,17 @@
 #include <future>
 
 #include "bindings.h"
-#include "trueflank/app/command_search.h"
-#include "trueflank/app/search_files.h"
 #include "trueflank/design/design_file_writer.h"
 #include "trueflank/design/requirements_file.h"
+#include "trueflank/session/search_files.h"
+#include "trueflank/session/search_session.h"
 
 namespace trueflank::python {
 namespace {
 
 struct SearchResult {
   std::string json, csv;
-  std::vector<std::shared_ptr<Gearbox>> designs;
+  std::vector<Gearbox> designs;
 };
 
 /// Waits for a search; Ctrl-C in Python stops it.
@@ -37,21 +37,20 @@ SearchResult search_of(SearchRequirements requirements, int threads) {
   if (threads < 0)
     throw Failure({.code = ErrorCode::kUsage, .message = "no number of threads", .key = "threads",
                    .value = std::to_string(threads), .remedy = "0: one per processor"});
-  const app::SearchTask task{.requirements = requirements, .enumeration = enumerate_sets(requirements)};
+  const SearchTask task{.requirements = requirements, .enumeration = enumerate_sets(requirements)};
   std::atomic<bool> stop = false;
   auto running = std::async(std::launch::async, [&] {
     return run_search(task.requirements, task.enumeration, {.threads = threads, .stop = &stop});
   });
   const std::vector<SearchRecord> records = wait_for(running, stop);
   if (stop) return {};  // the caller raises KeyboardInterrupt
-  const SearchReport report =
-      conclude_search(task.requirements, task.enumeration, records, app::judged_by_checks);
-  SearchResult result{.json = app::search_json(task, report), .csv = app::search_csv(task, report), .designs = {}};
+  const SearchReport report = finish_search(task, records);
+  SearchResult result{.json = search_json(task, report), .csv = search_csv(task, report), .designs = {}};
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
-    const std::string name = app::design_stem(i);
+    const std::string name = design_stem(i);
     GearboxDesign design = report.designs[i].design;
     design.name = task.requirements.name + "-" + name.substr(7);
-    result.designs.push_back(Gearbox::of(read_design_file_text(design_file_text(design), name + ".toml")));
+    result.designs.push_back(value_or_throw(Gearbox::read_text(design_file_text(design), name + ".toml")));
   }
   return result;
 }

@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = TRUEFLANK_VERSION;
   register_failures();
   bind_mesh(module);
+  bind_gear(module);
   bind_gearbox(module);
   bind_loop(module);
   bind_search(module);

@@ -20,8 +20,9 @@ function(trueflank_test name)
     target_link_libraries(${target} PRIVATE trueflank::${name})
   endif()
   target_link_libraries(${target} PRIVATE
-    ${arg_LIBRARIES} trueflank_test_support trueflank_options GTest::gtest_main)
+    ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
+  target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
   if(arg_SLOW)

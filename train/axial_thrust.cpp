@@ -5,25 +5,17 @@
 #include <cmath>
 
 namespace trueflank {
-namespace {
-
-/// planet1 and planet2 are one body.
-std::string body_of(const std::string& gear) {
-  return gear.starts_with("planet") ? "planet" : gear;
-}
-
-}  // namespace
-
 AxialThrust axial_thrust(const GearTrain& train, const DirectionEfficiency& forward) {
   AxialThrust thrust;
-  for (const TrainGear& gear : train.gears) {
-    const std::string body = body_of(gear.name);
-    const auto known = std::find_if(thrust.bodies.begin(), thrust.bodies.end(),
-                                    [&](const auto& b) { return b.name == body; });
-    if (known == thrust.bodies.end()) thrust.bodies.push_back({body, 0.0});
-  }
-  const bool planetary = train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
-  const double planets = planetary ? train.design.planets : 1;
+  const Topology& topology = train.topology();
+  // bodies in the order in which their gears come
+  std::vector<int> members;
+  for (const TopologyGear& gear : topology.gears)
+    if (std::find(members.begin(), members.end(), gear.member) == members.end()) {
+      members.push_back(gear.member);
+      thrust.bodies.push_back({topology.name_of(gear.member), 0.0});
+    }
+  const double planets = topology.has_planets() ? train.design.planets : 1;
   for (std::size_t k = 0; k < train.meshes.size() && k < forward.meshes.size(); ++k) {
     const GearPair pair = train.pair(train.meshes[k]);
     const auto& flow = forward.meshes[k];
@@ -37,10 +29,10 @@ AxialThrust axial_thrust(const GearTrain& train, const DirectionEfficiency& forw
     const double force = train.design.herringbone ? 0.0 : 0.0 - pull * lean;
     thrust.meshes.push_back({train.meshes[k].name, force});
     const auto add = [&](int gear, double each) {
-      const std::string& name = train.gears[static_cast<std::size_t>(gear)].name;
-      const std::string body = body_of(name);
-      for (auto& b : thrust.bodies)
-        if (b.name == body) b.n_per_nm += body == "planet" ? each : each * planets;
+      const int member = topology.gears[static_cast<std::size_t>(gear)].member;
+      const auto place = std::find(members.begin(), members.end(), member) - members.begin();
+      thrust.bodies[static_cast<std::size_t>(place)].n_per_nm +=
+          topology.is_planet(member) ? each : each * planets;
     };
     add(train.meshes[k].gear1, force);
     add(train.meshes[k].gear2, -force);

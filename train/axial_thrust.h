@@ -8,8 +8,8 @@
 
 namespace trueflank {
 
-/// Axial forces of a train driven at the sun (pinion), per newton metre of torque there, the torque
-/// turning the sun counter-clockwise seen from +z; turned clockwise every sign changes.
+/// Axial forces of a train driven at its input, per newton metre of torque there, the torque turning
+/// the input counter-clockwise seen from +z; turned clockwise every sign changes.
 struct AxialThrust {
   struct OfMesh {
     std::string name;

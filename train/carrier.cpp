@@ -12,8 +12,9 @@ constexpr double kRimOfPins = 0.75;
 /// Heights of the planets' bodies.
 HeightRange planet_heights(const GearTrain& train) {
   HeightRange range{1e300, -1e300};
-  for (const TrainGear& gear : train.gears) {
-    if (!gear.name.starts_with("planet")) continue;
+  for (std::size_t i = 0; i < train.gears.size(); ++i) {
+    const TrainGear& gear = train.gears[i];
+    if (!train.topology().is_planet_gear(i)) continue;
     range.lower_mm = std::min(range.lower_mm, gear.z_lower_mm);
     range.upper_mm = std::max(range.upper_mm, gear.z_lower_mm + gear.face_width_mm);
   }
@@ -24,8 +25,7 @@ HeightRange planet_heights(const GearTrain& train) {
 
 std::optional<CarrierLayout> carrier_layout(const GearTrain& train) {
   const auto& design = train.design.carrier;
-  const GearDesign* planet = find_gear(train.design, "planet");
-  if (!planet) planet = find_gear(train.design, "planet1");
+  const GearDesign* planet = planet_with_bore(train.design);
   if (!design || !planet) return std::nullopt;
   CarrierLayout layout;
   layout.pin_diameter_mm =
@@ -33,9 +33,9 @@ std::optional<CarrierLayout> carrier_layout(const GearTrain& train) {
   layout.pin_hole_diameter_mm = layout.pin_diameter_mm + design->pin_hole_clearance_mm;
   layout.outer_diameter_mm = design->outer_diameter_mm.value_or(
       2.0 * train.centre_distance_mm + (1.0 + 2.0 * kRimOfPins) * layout.pin_diameter_mm);
-  const double sun_tip_mm = train.find("sun")->profile.tip_radius_mm();
+  const TrainGear* sun = train.sun();
   layout.opening_diameter_mm = design->opening_diameter_mm.value_or(
-      2.0 * (sun_tip_mm + design->axial_clearance_mm));
+      sun ? 2.0 * (sun->profile.tip_radius_mm() + design->axial_clearance_mm) : 0.0);
   layout.seat_diameter_mm = design->bearing_diameter_mm;
   layout.seat_depth_mm = design->bearing_width_mm;
   const HeightRange planets = planet_heights(train);

@@ -5,14 +5,12 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/train/efficiency_sliding.h"
 #include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
 namespace {
 
-MeshEfficiency mesh_efficiency(const GearTrain& train, const TrainMesh& mesh, double friction,
-                               SlidingEfficiency& sliding) {
+MeshEfficiency mesh_efficiency(const GearTrain& train, const TrainMesh& mesh, double friction) {
   const GearPair pair = train.pair(mesh);
   const ContactRatios ratios = contact_ratios(pair);
   MeshEfficiency result;
@@ -25,50 +23,31 @@ MeshEfficiency mesh_efficiency(const GearTrain& train, const TrainMesh& mesh, do
                         .recess = ratios.recess,
                         .base_helix_angle_rad = base_helix_angle_rad(pair.gear1())},
                        friction);
-  result.formula_applies = contact_ratio_formula_applies(ratios.approach, ratios.recess);
+  result.formula_applies = contact_ratio_formula_applies(pair);
   // the halves of a herringbone run alike: one of them tells
   const double helix_width = common_face(train, mesh).helix_mm;
-  sliding = sliding_efficiency(contact_path(pair, helix_width), friction, LoadSharing::kEqual);
+  const SlidingEfficiency sliding =
+      sliding_efficiency(contact_path(pair, helix_width), friction, kLoadSharing);
   result.by_path_integral = sliding.gear1_driving;
+  result.by_path_integral_gear2_driving = sliding.gear2_driving;
   return result;
-}
-
-const char* member_name(TrainKind kind, Member member) {
-  switch (member) {
-    case Member::kSun: return kind == TrainKind::kPair ? "pinion" : "sun";
-    case Member::kPlanet: return "planet";
-    case Member::kRing1:
-      return kind == TrainKind::kPair ? "wheel" : kind == TrainKind::kSimple ? "ring" : "ring1";
-    case Member::kRing2: return "ring2";
-    case Member::kCarrier: return "carrier";
-  }
-  return "";
-}
-
-std::vector<Member> members_of(TrainKind kind) {
-  if (kind == TrainKind::kPair) return {Member::kSun, Member::kRing1};
-  std::vector<Member> members{Member::kSun, Member::kPlanet, Member::kCarrier, Member::kRing1};
-  if (kind == TrainKind::k3k) members.push_back(Member::kRing2);
-  return members;
 }
 
 DirectionEfficiency described(const GearTrain& train, const BalanceState& state) {
   DirectionEfficiency result;
   result.efficiency = state.efficiency;
   result.self_locking = state.self_locking;
-  for (const Member member : members_of(train.design.kind)) {
-    const auto m = static_cast<std::size_t>(member);
-    result.members.push_back({.name = member_name(train.design.kind, member),
+  for (std::size_t m = 0; m < state.speed.size(); ++m)
+    result.members.push_back({.name = train.topology().members[m].name,
                               .speed = state.speed[m],
                               .torque = state.torque[m],
                               .power = state.power[m]});
-  }
   for (std::size_t k = 0; k < state.meshes.size(); ++k) {
     const BalanceState::MeshFlow& flow = state.meshes[k];
     const TrainMesh& mesh = train.meshes[k];
-    const int driving = flow.gear1_drives ? mesh.gear1 : mesh.gear2;
+    const bool idle = state.self_locking || flow.torque1 == 0.0;
     result.meshes.push_back({.name = mesh.name,
-                             .driving_gear = state.self_locking ? "" : train.gears[driving].name,
+                             .driving_gear = idle ? "" : train.gear(flow.gear1_drives ? mesh.gear1 : mesh.gear2).name,
                              .rolling_power = flow.rolling_power,
                              .loss = flow.loss,
                              .torque1 = flow.torque1,
@@ -78,17 +57,57 @@ DirectionEfficiency described(const GearTrain& train, const BalanceState& state)
 }
 
 BalanceTrain balance_of(const GearTrain& train) {
-  std::vector<int> teeth;
-  for (const GearDesign& gear : train.design.gears) teeth.push_back(gear.teeth);
-  BalanceTrain balance = balance_train(train.design.kind, train.design.output, teeth);
-  for (std::size_t k = 0; k < balance.meshes.size(); ++k)
-    balance.meshes[k].internal = train.pair(train.meshes[k]).internal();
-  return balance;
+  return {.topology = train.topology(),
+          .signed_teeth = signed_teeth(train.design),
+          .losses = std::vector<MeshLosses>(train.meshes.size()),
+          .speeds = train.speeds};
+}
+
+/// Both directions with the meshes' efficiencies by one model.
+struct BothDirections {
+  BalanceState forward, backward;
+};
+
+/// Where contact is interrupted in a mesh: speeds, and nothing else.
+BalanceState unknown_state(const BalanceTrain& balance) {
+  BalanceState state;
+  state.speed = balance.speeds.of;
+  state.torque.assign(state.speed.size(), kNaN);
+  state.power.assign(state.speed.size(), kNaN);
+  state.efficiency = kNaN;
+  state.meshes.resize(balance.losses.size());
+  return state;
+}
+
+BothDirections both_directions(BalanceTrain balance, const std::vector<MeshEfficiency>& meshes,
+                               LossModel model) {
+  const std::vector<bool> idle = idle_meshes(balance.topology);
+  bool known = true;
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const MeshEfficiency& mesh = meshes[k];
+    const bool exact = model == LossModel::kPathIntegral;
+    balance.losses[k] = {.driving1 = exact ? mesh.by_path_integral : mesh.by_contact_ratios,
+                         .driving2 = exact ? mesh.by_path_integral_gear2_driving : mesh.by_contact_ratios};
+    known = known && (idle[k] || !std::isnan(balance.losses[k].driving1));
+  }
+  if (!known) return {unknown_state(balance), unknown_state(balance)};
+  return {solve_balance(balance, DriveDirection::kForward),
+          solve_balance(balance, DriveDirection::kBackward)};
+}
+
+FormulaEfficiency formula_efficiency(const BalanceTrain& balance,
+                                     const std::vector<MeshEfficiency>& meshes) {
+  const BothDirections states = both_directions(balance, meshes, LossModel::kContactRatios);
+  return {.forward = states.forward.efficiency,
+          .backward = states.backward.efficiency,
+          .self_locking = states.backward.self_locking,
+          .applies = std::all_of(meshes.begin(), meshes.end(),
+                                 [](const MeshEfficiency& m) { return m.formula_applies; })};
 }
 
 /// A backward efficiency that the drag takes is 0 without self_locking: more load moves the drive.
 void add_losses(const GearTrain& train, LossModel model, EfficiencyResult& result) {
-  const double ratio = std::abs(1.0 / member_speeds(train).output);
+  const double ratio = std::abs(1.0 / train.speeds.output);
   if (!std::isfinite(ratio)) return;
   const MeshEfficiencies meshes = [&](double forward, double backward) {
     const auto at = [&](double friction) {
@@ -109,6 +128,14 @@ bool contact_ratio_formula_applies(double approach, double recess) {
          approach + recess >= 1.0;
 }
 
+bool contact_ratio_formula_applies(const GearPair& pair) {
+  const ContactRatios ratios = contact_ratios(pair);
+  // as a share of the base pitch; far below what a loss could show
+  const bool whole = std::abs(ratios.total - ratios.effective) < 1e-9;
+  return whole && pair.gear1().helix_angle_rad == 0.0 &&
+         contact_ratio_formula_applies(ratios.approach, ratios.recess);
+}
+
 double basic_efficiency(const BasicMesh& mesh, double friction) {
   const double e1 = mesh.approach, e2 = mesh.recess;
   const double curvature = 1.0 / mesh.teeth1 + (mesh.internal ? -1.0 : 1.0) / mesh.teeth2;
@@ -125,23 +152,20 @@ double EfficiencyResult::basic_efficiency_of(const std::string& mesh_name) const
 EfficiencyResult efficiency(const GearTrain& train, const EfficiencyOptions& options) {
   EfficiencyResult result;
   result.friction = options.friction.value_or(train.design.friction);
-  if (train.design.kind == TrainKind::kGear) return result;
+  if (train.meshes.empty()) return result;
   TRUEFLANK_EXPECTS(options.mesh_friction.empty() ||
                     options.mesh_friction.size() == train.meshes.size());
-  BalanceTrain balance = balance_of(train);
   for (std::size_t k = 0; k < train.meshes.size(); ++k) {
-    SlidingEfficiency sliding;
     const double friction =
         options.mesh_friction.empty() ? result.friction : options.mesh_friction[k];
-    MeshEfficiency mesh = mesh_efficiency(train, train.meshes[k], friction, sliding);
-    const bool exact = options.model == LossModel::kPathIntegral;
-    balance.meshes[k].efficiency_driving1 = exact ? sliding.gear1_driving : mesh.by_contact_ratios;
-    balance.meshes[k].efficiency_driving2 = exact ? sliding.gear2_driving : mesh.by_contact_ratios;
-    mesh.basic_efficiency = balance.meshes[k].efficiency_driving1;
+    MeshEfficiency mesh = mesh_efficiency(train, train.meshes[k], friction);
+    mesh.basic_efficiency = options.model == LossModel::kPathIntegral ? mesh.by_path_integral
+                                                                      : mesh.by_contact_ratios;
     result.meshes.push_back(std::move(mesh));
   }
-  const BalanceState forward = solve_balance(balance, DriveDirection::kForward);
-  const BalanceState backward = solve_balance(balance, DriveDirection::kBackward);
+  const BalanceTrain balance = balance_of(train);
+  const auto [forward, backward] = both_directions(balance, result.meshes, options.model);
+  result.by_formula = formula_efficiency(balance, result.meshes);
   result.forward = forward.efficiency;
   result.backward = backward.efficiency;
   result.self_locking = backward.self_locking;

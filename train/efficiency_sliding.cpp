@@ -36,6 +36,7 @@ double share(LoadSharing sharing, const ContactPath& path, double roll_mm) {
 /// Torques on both gears for a unit of load, at one moment of the mesh cycle.
 struct Torques {
   double torque1 = 0.0, torque2 = 0.0;
+  double load = 0.0;  ///< normal forces, so summed up
 };
 
 /// Adds every tooth pair in contact whose first possible place is `offset` (in base pitches) after
@@ -49,6 +50,7 @@ void add_pairs(const ContactPath& path, double friction, LoadSharing sharing, do
     const double roll2 = pitch_point2 + (path.internal ? s : -s);
     const double f = s < 0.0 ? -friction : friction;
     const double load = share(sharing, path, roll);
+    sum.load += load;
     sum.torque1 += load * (path.base_radius1_mm + f * roll);
     sum.torque2 += load * (path.base_radius2_mm + f * roll2);
   }
@@ -67,17 +69,24 @@ std::vector<double> cycle_breaks(const ContactPath& path) {
   return breaks;
 }
 
+struct TorqueRatio {
+  double mean = 0.0;
+  bool blocked = false;      ///< at some moment no torque comes out
+  bool interrupted = false;  ///< at some moment no teeth touch
+};
+
 /// Mean over the mesh cycle of (torque of the driving gear / torque of the driven gear).
-double mean_torque_ratio(const ContactPath& path, double friction, LoadSharing sharing) {
+TorqueRatio mean_torque_ratio(const ContactPath& path, double friction, LoadSharing sharing) {
   const bool gear1_drives = friction >= 0.0;
-  bool blocked = false;
+  TorqueRatio result;
   const auto ratio_of = [&](const Torques& t) {
     const double driving = gear1_drives ? t.torque1 : t.torque2;
     const double driven = gear1_drives ? t.torque2 : t.torque1;
-    blocked = blocked || !(driven > 0.0);
+    result.interrupted = result.interrupted || t.load == 0.0;
+    result.blocked = result.blocked || !(driven > 0.0);
     return driving / driven;
   };
-  double mean = 0.0;
+  double& mean = result.mean;
   if (path.overlap_ratio == 0.0) {
     const std::vector<double> breaks = cycle_breaks(path);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -99,7 +108,7 @@ double mean_torque_ratio(const ContactPath& path, double friction, LoadSharing s
       mean += ratio_of(t) / kHelicalMoments;
     }
   }
-  return blocked ? kNaN : mean;
+  return result;
 }
 
 }  // namespace
@@ -122,16 +131,20 @@ ContactPath contact_path(const GearPair& pair, double face_width_mm) {
 SlidingEfficiency sliding_efficiency(const ContactPath& path, double friction,
                                      LoadSharing sharing) {
   SlidingEfficiency result;
-  if (!(path.end_mm - path.start_mm >= path.base_pitch_mm)) return result;
+  const double length = path.end_mm - path.start_mm;
+  // helical teeth hand over along the face too
+  const bool interrupted = path.overlap_ratio == 0.0 && !(length >= path.base_pitch_mm);
+  if (!(length > 0.0) || interrupted) return result;
   const double ideal = path.base_radius1_mm / path.base_radius2_mm;  // torque 1 / torque 2
   // the transverse part of an inclined normal force is smaller than the force friction follows
   const double transverse = friction / std::cos(path.base_helix_angle_rad);
-  const double ratio1 = mean_torque_ratio(path, transverse, sharing);
-  const double ratio2 = mean_torque_ratio(path, -transverse, sharing);
-  result.gear1_driving = std::isnan(ratio1) ? 0.0 : ideal / ratio1;
+  const TorqueRatio ratio1 = mean_torque_ratio(path, transverse, sharing);
+  const TorqueRatio ratio2 = mean_torque_ratio(path, -transverse, sharing);
+  if (ratio1.interrupted || ratio2.interrupted) return result;
+  result.gear1_driving = ratio1.blocked ? 0.0 : ideal / ratio1.mean;
   // -0.0 is no driving side: without friction both directions lose nothing
   result.gear2_driving = friction == 0.0 ? result.gear1_driving
-                         : std::isnan(ratio2) ? 0.0 : 1.0 / (ideal * ratio2);
+                         : ratio2.blocked ? 0.0 : 1.0 / (ideal * ratio2.mean);
   return result;
 }
 

@@ -4,9 +4,11 @@
 #include "trueflank/train/gear_train.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
-#include "trueflank/base/contract.h"
+#include "trueflank/train/clear_tips.h"
 #include "trueflank/train/flank_modifications.h"
 #include "trueflank/train/planet_phase.h"
 #include "trueflank/train/shift_solution.h"
@@ -15,40 +17,52 @@
 namespace trueflank {
 namespace {
 
-struct MeshNames {
-  const char* gear1;
-  const char* gear2;
-};
-
-std::vector<MeshNames> mesh_names(TrainKind kind) {
-  switch (kind) {
-    case TrainKind::k3k:
-      return {{"sun", "planet1"}, {"planet1", "ring1"}, {"planet2", "ring2"}};
-    case TrainKind::kSimple:
-      return {{"sun", "planet"}, {"planet", "ring"}};
-    case TrainKind::kPair:
-      return {{"pinion", "wheel"}};
-    case TrainKind::kGear:
-      return {};
-  }
-  return {};
+std::string short_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, 6);
+  return {buffer.data(), end.ptr};
 }
 
-/// Helix angles follow from the first gear's: external mates have the other hand.
-double helix_of(const GearboxDesign& design, const std::string& name) {
-  const bool same_hand = name == "sun" || name == "pinion" || name == "gear" ||
-                         (name == "wheel" && design.gears[1].kind == GearKind::kInternal);
-  return same_hand ? design.helix_angle_rad : -design.helix_angle_rad;
+/// Helix angles follow from the first gear's: gears of one body have one hand, a ring has its mate's,
+/// external mates have opposite ones.
+std::vector<double> helix_angles(const GearboxDesign& design) {
+  const Topology& topology = design.topology;
+  std::vector<double> angles(design.gears.size(), kNaN);
+  if (!angles.empty()) angles[0] = design.helix_angle_rad;
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto settle = [&](int from, int to, bool same_hand) {
+      const double known = angles[static_cast<std::size_t>(from)];
+      double& angle = angles[static_cast<std::size_t>(to)];
+      if (std::isnan(known) || !std::isnan(angle)) return;
+      angle = same_hand ? known : -known;
+      changed = true;
+    };
+    for (const TopologyMesh& mesh : topology.meshes) {
+      const bool internal = design.gears[static_cast<std::size_t>(mesh.gear2)].kind == GearKind::kInternal;
+      settle(mesh.gear1, mesh.gear2, internal);
+      settle(mesh.gear2, mesh.gear1, internal);
+    }
+    for (std::size_t i = 0; i < topology.gears.size(); ++i)
+      for (std::size_t j = 0; j < topology.gears.size(); ++j)
+        if (topology.gears[i].member == topology.gears[j].member)
+          settle(static_cast<int>(i), static_cast<int>(j), true);
+  }
+  for (double& angle : angles)
+    if (std::isnan(angle)) angle = design.helix_angle_rad;
+  return angles;
 }
 
 std::vector<Gear> gears_without_tips(const GearboxDesign& design, const ShiftSolution& solution) {
   std::vector<Gear> gears;
+  const std::vector<double> helix = helix_angles(design);
   for (std::size_t i = 0; i < design.gears.size(); ++i) {
     const GearDesign& d = design.gears[i];
     Gear gear{.kind = d.kind,
               .teeth = d.teeth,
               .normal_module_mm = module_of(design, d),
-              .helix_angle_rad = helix_of(design, d.name),
+              .helix_angle_rad = helix[i],
               .rack = design.rack,
               .shift = solution.shifts[i],
               .tip_rounding_mm = d.modifications.tip_rounding_mm,
@@ -136,24 +150,59 @@ void set_tip_circles(const GearboxDesign& design, const std::vector<TrainMesh>& 
     const double tip1 = reference_radius_mm(g1) + m * (g1.rack.addendum + y - g2.shift);
     const double tip2 = reference_radius_mm(g2) + m * (g2.rack.addendum + y - g1.shift);
     g1.tip_radius_mm = tip1;
-    // a planet also meshes with a ring and takes the smaller of what both allow
-    const bool planet = design.kind != TrainKind::kPair;
-    g2.tip_radius_mm = planet ? std::min(tip2, g2.tip_radius_mm) : tip2;
+    // a planet that also meshes with a ring takes the smaller of what both allow
+    const bool in_a_ring = std::any_of(meshes.begin(), meshes.end(), [&](const TrainMesh& other) {
+      return other.gear1 == mesh.gear2 &&
+             gears[static_cast<std::size_t>(other.gear2)].kind == GearKind::kInternal;
+    });
+    g2.tip_radius_mm = in_a_ring ? std::min(tip2, g2.tip_radius_mm) : tip2;
   }
   for (std::size_t i = 0; i < gears.size(); ++i)
     if (design.gears[i].tip_diameter_mm)
       gears[i].tip_radius_mm = 0.5 * *design.gears[i].tip_diameter_mm;
 }
 
-void stack_layers(GearTrain& train) {
-  double layer1 = 0.0;
-  for (const TrainGear& gear : train.gears)
-    if (gear.name == "planet1") layer1 = gear.face_width_mm;
-  for (TrainGear& gear : train.gears) {
-    if (gear.name != "planet2" && gear.name != "ring2") continue;
-    gear.layer = 2;
-    gear.z_lower_mm = layer1 + train.design.layer_gap_mm;
+/// A layer is as high as its planets, or as its highest gear where it has none.
+double height_of_layer_mm(const GearTrain& train, int layer) {
+  double of_planets = 0.0, of_all = 0.0;
+  for (std::size_t i = 0; i < train.gears.size(); ++i) {
+    const TrainGear& gear = train.gears[i];
+    if (gear.layer != layer) continue;
+    of_all = std::max(of_all, gear.face_width_mm);
+    if (train.topology().is_planet_gear(i)) of_planets = std::max(of_planets, gear.face_width_mm);
   }
+  return of_planets > 0.0 ? of_planets : of_all;
+}
+
+void stack_layers(GearTrain& train) {
+  int top = 1;
+  for (std::size_t i = 0; i < train.gears.size(); ++i)
+    top = std::max(top, train.gears[i].layer = train.topology().gears[i].layer);
+  double floor = 0.0;
+  for (int layer = 2; layer <= top; ++layer) {
+    floor += height_of_layer_mm(train, layer - 1) + train.design.layer_gap_mm;
+    for (TrainGear& gear : train.gears)
+      if (gear.layer == layer) gear.z_lower_mm = floor;
+  }
+}
+
+/// Gears that are not those of the topology, in its order.
+Errors gear_errors(const GearboxDesign& design) {
+  std::string wanted;
+  bool alike = design.gears.size() == design.topology.gears.size();
+  for (std::size_t i = 0; i < design.topology.gears.size(); ++i) {
+    const TopologyGear& place = design.topology.gears[i];
+    wanted += (wanted.empty() ? "" : ", ") + place.name;
+    if (!alike) continue;
+    const GearDesign& gear = design.gears[i];
+    const bool ring = gear.kind == GearKind::kInternal;
+    alike = gear.name == place.name && (place.form == GearForm::kEither || ring == (place.form == GearForm::kRing));
+  }
+  if (alike) return {};
+  return {{.code = ErrorCode::kInconsistent,
+           .message = "the gears of the design are not those of its kind, \"" + design.topology.kind + "\"",
+           .key = "gearbox.kind",
+           .remedy = "the gears " + wanted + ", in this order"}};
 }
 
 /// Halves of opposite hands mesh only where their apexes stand at one height, and all gears of a layer
@@ -176,21 +225,35 @@ Errors apex_errors(const GearboxDesign& design, const std::vector<TrainMesh>& me
   return errors;
 }
 
+/// Gears whose shifts the centre distance asks for and that cannot be made so: that is the cause, and not keys
+/// nobody has written.
+Error centre_distance_error(const GearboxDesign& design, const std::vector<TrainMesh>& meshes,
+                            const std::vector<Gear>& gears, const std::vector<std::size_t>& impossible) {
+  std::string shifts;
+  for (const std::size_t i : impossible)
+    shifts += (shifts.empty() ? "" : ", ") + design.gears[i].name + " " + short_text(gears[i].shift);
+  std::string unshifted;
+  for (const TrainMesh& mesh : meshes) {
+    const double a = reference_centre_distance_mm(mesh_teeth(gears[static_cast<std::size_t>(mesh.gear1)],
+                                                             gears[static_cast<std::size_t>(mesh.gear2)]));
+    unshifted += (unshifted.empty() ? "" : ", ") + mesh.name + " " + short_text(a) + " mm";
+  }
+  return {.code = ErrorCode::kInfeasible,
+          .message = "no teeth fit this centre distance: it asks for profile shifts of " + shifts,
+          .key = "gearbox.centre_distance_mm",
+          .value = short_text(*design.centre_distance_mm),
+          .remedy = "near that of the teeth without shifts: " + unshifted};
+}
+
 }  // namespace
 
 ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
-  TRUEFLANK_EXPECTS(design.gears.size() == gear_names(design.kind).size());
+  if (Errors wrong = gear_errors(design); !wrong.empty()) return fail_all(std::move(wrong));
   GearTrain train;
   train.design = design;
-  const auto index_of = [&](const std::string& name) {
-    for (std::size_t i = 0; i < design.gears.size(); ++i)
-      if (design.gears[i].name == name) return static_cast<int>(i);
-    return -1;
-  };
-  for (const MeshNames& names : mesh_names(design.kind))
-    train.meshes.push_back({.name = std::string(names.gear1) + "-" + names.gear2,
-                            .gear1 = index_of(names.gear1),
-                            .gear2 = index_of(names.gear2)});
+  for (const TopologyMesh& mesh : design.topology.meshes)
+    train.meshes.push_back(
+        {.name = design.topology.mesh_name(mesh), .gear1 = mesh.gear1, .gear2 = mesh.gear2});
 
   if (Errors apart = apex_errors(design, train.meshes); !apart.empty())
     return fail_all(std::move(apart));
@@ -216,12 +279,22 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
   }
   share_thinning(design, train.meshes, limits, train.centre_distance_mm, gears);
   set_tip_circles(design, train.meshes, train.centre_distance_mm, gears);
+  std::vector<double> shortened(gears.size(), 0.0);
+  if (design.tips == TipCircles::kClear)
+    shortened = clear_tips(design, train.meshes, train.centre_distance_mm, gears);
 
+  std::vector<std::size_t> impossible;
   for (std::size_t i = 0; i < gears.size(); ++i) {
     auto profile = ToothProfile::make(gears[i]);
     const GearDesign& d = design.gears[i];
     if (!profile) {
       Error error = profile.error();
+      const bool unwritten = error.key == "shift" || error.key == "teeth" ||
+                             (error.key == "tip_diameter_mm" && !d.tip_diameter_mm);
+      if (error.code == ErrorCode::kInfeasible && unwritten && !d.shift && design.centre_distance_mm) {
+        impossible.push_back(i);
+        continue;
+      }
       const bool of_rack = error.key.starts_with("rack.");
       if (!of_rack) error.key = d.name + "." + error.key;
       error.message = d.name + ": " + error.message;
@@ -246,8 +319,11 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
                            .twist = twist,
                            .deviation = std::move(*deviation),
                            .edge_chamfer_mm = d.modifications.edge_chamfer_mm,
+                           .tip_shortened_mm = shortened[i],
                            .thinning_limits = limits[i]});
   }
+  if (!impossible.empty())
+    errors.push_back(centre_distance_error(design, train.meshes, gears, impossible));
   if (!errors.empty()) return fail_all(std::move(errors));
 
   for (TrainMesh& mesh : train.meshes)
@@ -257,6 +333,7 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
     mesh.largest_backlash_mm = backlash_at_limits_mm(train, mesh, &ThinningLimits::most_mm);
   }
   stack_layers(train);
+  train.speeds = member_speeds(design.topology, signed_teeth(design));
   train.assembly = assembly_condition(train);
   train.phases = phases_in_mesh(train);
   return train;
@@ -273,9 +350,45 @@ const TrainGear* GearTrain::find(const std::string& name) const {
   return it == gears.end() ? nullptr : &*it;
 }
 
-Point2 wheel_centre_mm(const GearTrain& train) {
-  const bool internal = train.gears.back().profile.gear().kind == GearKind::kInternal;
+const TrainGear* GearTrain::sun() const {
+  for (const TopologyMesh& mesh : topology().meshes)
+    for (const auto& [own, other] : {std::pair(mesh.gear1, mesh.gear2), std::pair(mesh.gear2, mesh.gear1)})
+      if (gear(own).profile.gear().kind == GearKind::kExternal &&
+          !topology().is_planet_gear(static_cast<std::size_t>(own)) &&
+          topology().is_planet_gear(static_cast<std::size_t>(other)))
+        return &gear(own);
+  return nullptr;
+}
+
+Point2 axis_centre_mm(const GearTrain& train, const AssemblyPhases& phases, int member,
+                      std::size_t place) {
+  const Topology& topology = train.topology();
+  if (topology.is_planet(member))
+    return train.centre_distance_mm * unit_vector(phases.planet_position_rad[place]);
+  if (topology.members[static_cast<std::size_t>(member)].axis == 0) return Point2::Zero();
+  const bool internal =
+      train.gear(topology.first_gear_of(member)).profile.gear().kind == GearKind::kInternal;
   return {internal ? -train.centre_distance_mm : train.centre_distance_mm, 0.0};
+}
+
+AssemblyPhases turned(const GearTrain& train, double input_turn_rad) {
+  AssemblyPhases phases = train.phases;
+  const Topology& topology = train.topology();
+  for (std::size_t m = 0; m < topology.members.size(); ++m)
+    for (double& rotation : phases.member_rotation_rad[m]) rotation += train.speeds.of[m] * input_turn_rad;
+  if (const int planet = topology.first_planet(); planet != kNoMember)
+    for (double& position : phases.planet_position_rad)
+      position += train.speeds.of_arm(topology.carrier_of(planet)) * input_turn_rad;
+  return phases;
+}
+
+BodyMotion motion_of(const GearTrain& train, int member) {
+  if (member == kNoMember) return {};
+  const Topology& topology = train.topology();
+  BodyMotion motion{.turn = train.speeds.of[static_cast<std::size_t>(member)]};
+  motion.orbit = topology.is_carrier(member) ? motion.turn
+                                             : train.speeds.of_arm(topology.carrier_of(member));
+  return motion;
 }
 
 GearPair GearTrain::pair(const TrainMesh& mesh) const {

@@ -11,6 +11,7 @@
 #include "trueflank/geometry/tooth_profile.h"
 #include "trueflank/geometry/toothing.h"
 #include "trueflank/train/gearbox_design.h"
+#include "trueflank/train/kinematics.h"
 
 // A design laid out: every shift, tip circle and thinning solved, every profile made, every body
 // placed. Everything after this (checks, solids, files, report) reads only this.
@@ -35,6 +36,7 @@ struct TrainGear {
   FaceTwist twist = {};             ///< in the gear's own frame
   FlankDeviation deviation = {};    ///< the design's modifications; empty: none
   double edge_chamfer_mm = 0.0;
+  double tip_shortened_mm = 0.0;    ///< by `tips = "clear"`, of the tip circle's radius
   std::optional<ThinningLimits> thinning_limits = {};  ///< gears with a thickness allowance
 
   /// The tooth surface as designed; refers to this gear.
@@ -55,30 +57,39 @@ struct TrainMesh {
   double smallest_backlash_mm = kNaN, largest_backlash_mm = kNaN;
 };
 
-/// Where the planets stand and how they are turned, at one moment of the train (sun's phase chosen so
-/// that planet 1 meshes; ring1 (ring) stands with tooth 1 on +x). Every mesh is centred: half the
-/// backlash on either flank. Angles are of tooth 1, counter-clockwise from +x.
+/// Where the bodies stand and how they are turned, at one moment of the train. Every mesh is centred:
+/// half the backlash on either flank. Angles are of tooth 1, counter-clockwise from +x. A body on a
+/// standing axis is there once, a planet as often as there are positions.
 struct AssemblyPhases {
   std::vector<double> planet_position_rad;  ///< centres of the planets, from +x, planet 1 at 0
-  std::vector<double> planet_rotation_rad;  ///< tooth 1 of planet1 (planet) of each body
-  std::vector<double> planet_offset_rad;    ///< tooth 1 of planet2 ahead of planet1's, per body (3k)
-  double sun_rotation_rad = 0.0;            ///< sun, pinion, gear
-  /// ring1, ring; for a pair the wheel, whose axis stands at wheel_centre_mm, the pinion's at 0
-  double ring1_rotation_rad = 0.0;
-  double ring2_rotation_rad = 0.0;
+  /// [member][place]: of the member's first gear; of a carrier, what it has turned.
+  std::vector<std::vector<double>> member_rotation_rad;
+  /// [gear][place]: ahead of the first gear of its body; 0 for first gears.
+  std::vector<std::vector<double>> gear_offset_rad;
+
+  /// `place` counts planets and means nothing to bodies on standing axes.
+  [[nodiscard]] double rotation_rad(int member, std::size_t place) const {
+    const auto& turns = member_rotation_rad[static_cast<std::size_t>(member)];
+    return turns[turns.size() > 1 ? place : 0];
+  }
+  [[nodiscard]] double offset_rad(int gear, std::size_t place) const {
+    const auto& offsets = gear_offset_rad[static_cast<std::size_t>(gear)];
+    return offsets[offsets.size() > 1 ? place : 0];
+  }
 };
 
 /// Closed-form assembly condition of N planets at equal spacing.
 struct AssemblyCondition {
   bool equal_spacing = true;       ///< sun and ring(s) accept N planets at equal spacing
   bool identical_planets = true;   ///< and all bodies are alike
-  /// P2's tooth 1 ahead of P1's in body i, less that of body 1, at equal spacing; the smallest in
-  /// magnitude of the equivalent angles. Zeros for kinds without compound planets.
+  /// Tooth 1 of a compound planet's second gear ahead of its first gear's in body i, less that of body
+  /// 1, at equal spacing; the smallest in magnitude of the equivalent angles. Zeros where planets have
+  /// one gear each.
   std::vector<double> planet_offsets_rad;
   /// Positions nearest to equal spacing at which N identical bodies assemble (equal spacing itself
   /// where that works); empty where there are none without collision.
   std::vector<double> nearest_angles_rad;
-  /// Step of the angles between planets at which identical bodies assemble.
+  /// Step of the angles between planets at which identical bodies assemble; NaN where any angle does.
   double angle_step_rad = kNaN;
 };
 
@@ -88,9 +99,18 @@ struct GearTrain {
   std::vector<TrainGear> gears;      ///< in the order of the design
   std::vector<TrainMesh> meshes;
   AssemblyCondition assembly;
+  MemberSpeeds speeds;
   AssemblyPhases phases;  ///< at the design's spacing: equal, or the nearest angles where it must be
 
+  [[nodiscard]] const Topology& topology() const { return design.topology; }
   [[nodiscard]] const TrainGear* find(const std::string& name) const;
+  [[nodiscard]] const TrainGear& gear(int index) const { return gears[static_cast<std::size_t>(index)]; }
+  /// How often a body is there: a planet as often as there are planets.
+  [[nodiscard]] int copies_of(int member) const {
+    return topology().is_planet(member) ? design.planets : 1;
+  }
+  /// The external gear that the planets run round; nullptr where there is none.
+  [[nodiscard]] const TrainGear* sun() const;
   [[nodiscard]] GearPair pair(const TrainMesh& mesh) const;
 };
 
@@ -101,18 +121,19 @@ struct GearTrain {
 /// The gear at an end of its thickness allowance.
 [[nodiscard]] Gear thinned(Gear gear, double thinning_mm);
 
-/// Axis of the wheel of a pair: (a, 0), for a ring (-a, 0), so that the contact lies on +x.
-[[nodiscard]] Point2 wheel_centre_mm(const GearTrain& train);
+/// Where a member's axis stands at `phases`: at the origin, at the planet's place, or (the wheel of a
+/// pair) at (a, 0), for a ring (-a, 0), so that the contact lies on +x.
+[[nodiscard]] Point2 axis_centre_mm(const GearTrain& train, const AssemblyPhases& phases, int member,
+                                    std::size_t place = 0);
 
-/// Planet body i (0-based): where planet1 (planet) and planet2 stand at another sun angle: the train
-/// turned by the true kinematics so that the sun has advanced by `sun_turn_rad` from `phases`.
-[[nodiscard]] AssemblyPhases turned(const GearTrain& train, double sun_turn_rad);
+/// The train turned by its kinematics so that the input has advanced by `input_turn_rad` from `phases`.
+[[nodiscard]] AssemblyPhases turned(const GearTrain& train, double input_turn_rad);
 
-/// Angular speed of every member per unit of sun (pinion) speed.
-struct MemberSpeeds {
-  double sun = 1.0, carrier = 0.0, planet = 0.0, ring1 = 0.0, ring2 = 0.0;
-  double output = kNaN;  ///< NaN where there is none
+/// How a body moves for a turn of the input: about the origin with its carrier, and about its own axis.
+struct BodyMotion {
+  double turn = 0.0;   ///< of the body, seen from the housing
+  double orbit = 0.0;  ///< of its axis round the origin; parts of a carrier stand on it and go round with it
 };
-[[nodiscard]] MemberSpeeds member_speeds(const GearTrain& train);
+[[nodiscard]] BodyMotion motion_of(const GearTrain& train, int member);
 
 }  // namespace trueflank

@@ -8,14 +8,14 @@
 #include "trueflank/base/result.h"
 #include "trueflank/geometry/gear.h"
 #include "trueflank/train/process.h"
+#include "trueflank/train/topology.h"
 
 // The design as its author writes it (docs/design-file.md), in mm and radians; nothing is solved yet.
 namespace trueflank {
 
-enum class TrainKind { k3k, kSimple, kPair, kGear };
-/// The member that drives out. 3k: ring2 (type I, ring1 fixed) or ring1 (type II, ring2 fixed);
-/// simple: carrier (ring fixed) or ring (carrier fixed); pair: wheel; gear: none.
-enum class OutputMember { kRing2, kRing1, kCarrier, kRing, kWheel, kNone };
+/// Where tip circles end: at the book's circles, or short of the mate's root fillet where those reach into
+/// it (clear_tips.h).
+enum class TipCircles { kClear, kStandard };
 
 enum class BoreKind { kRound, kKeyway, kDFlat, kHex };
 /// Bore through a gear (planet1's through the whole planet).
@@ -74,7 +74,7 @@ struct ThicknessAllowance {
 
 /// One gear of the design file.
 struct GearDesign {
-  std::string name;  ///< sun, planet1, ring1, planet2, ring2, planet, ring, gear, pinion, wheel
+  std::string name;  ///< as in the topology
   GearKind kind = GearKind::kExternal;
   int teeth = 0;
   std::optional<double> shift = {};      ///< omitted: solved for zero backlash
@@ -143,39 +143,51 @@ struct LossesDesign {
   bool operator==(const LossesDesign&) const = default;
 };
 
+/// What the strength calculation assumes (docs/strength.md); StrengthOptions' meanings.
+struct StrengthDesign {
+  std::optional<bool> reversing = {};  ///< omitted: a pair runs one way, sets with planets both
+  double overload_factor = 1.0, dynamic_factor = 1.0, face_load_factor = 1.0;
+  double planet_load_factor = 1.0;
+  double bending_life_factor = 1.0, contact_life_factor = 1.0, lubrication_factor = 1.0;
+  double bending_safety = 1.2, contact_safety = 1.15;
+
+  bool operator==(const StrengthDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
-  TrainKind kind = TrainKind::kGear;
-  OutputMember output = OutputMember::kNone;
+  Topology topology = {};  ///< which bodies, gears and meshes there are, what drives and what is held
   int planets = 1;
   double module_mm = 1.0;
   std::optional<double> centre_distance_mm = {};
   double friction = 0.1;
   double backlash_mm = 0.0;
+  TipCircles tips = TipCircles::kClear;
+  std::optional<double> corner_contact_limit_mm = {};  ///< omitted: the check's own
   double layer_gap_mm = 1.0;
   double helix_angle_rad = 0.0;  ///< of the sun, pinion or gear, right hand positive
   bool herringbone = false;
   double relief_groove_mm = 0.0;  ///< herringbone: width of the groove between the halves
   BasicRack rack = {};
-  std::vector<GearDesign> gears = {};  ///< in the order of gear_names(kind)
+  std::vector<GearDesign> gears = {};  ///< in the order of the topology
   std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
   std::string material = {};  ///< of every gear that does not set its own; empty: the default
   ShaftsDesign shafts = {};
   MadeDesign made = {};
   std::string tools_file = {};  ///< the user's racks, cutters and processes; empty: none
   std::optional<LossesDesign> losses = {};  ///< none: friction of the meshes alone
+  StrengthDesign strength = {};
 
   bool operator==(const GearboxDesign&) const = default;
 };
 
-/// Names of a kind's gears in their order: sun, planet1, ring1, planet2, ring2 | sun, planet, ring |
-/// pinion, wheel | gear.
-[[nodiscard]] const std::vector<std::string>& gear_names(TrainKind kind);
-[[nodiscard]] const char* to_text(TrainKind kind);
-[[nodiscard]] const char* to_text(OutputMember output);
 /// The gear of a name; nullptr where there is none.
 [[nodiscard]] const GearDesign* find_gear(const GearboxDesign& design, const std::string& name);
+/// The gear of a planet body whose bore goes through the whole body: its first; nullptr without planets.
+[[nodiscard]] const GearDesign* planet_with_bore(const GearboxDesign& design);
+/// The gear whose table gives bore and material of the body a gear belongs to: the body's first.
+[[nodiscard]] const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear);
 [[nodiscard]] double module_of(const GearboxDesign& design, const GearDesign& gear);
 
 }  // namespace trueflank

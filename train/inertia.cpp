@@ -4,28 +4,26 @@
 #include <cmath>
 #include <limits>
 
+#include "trueflank/base/contract.h"
+
 namespace trueflank {
 namespace {
 
 double square(double x) { return x * x; }
 
-double output_body(const GearTrain& train, const BodyInertias& bodies) {
-  switch (train.design.output) {
-    case OutputMember::kRing2: return bodies.ring2_kg_m2;
-    case OutputMember::kCarrier: return bodies.carrier_kg_m2;
-    default: return bodies.ring1_kg_m2;  // ring1, ring, wheel
-  }
-}
-
 /// Kinetic energy of everything but the output member, per half the square of the input speed.
-double input_side(const GearTrain& train, const MemberSpeeds& speed, const BodyInertias& bodies) {
-  double inertia = bodies.sun_kg_m2;
-  if (train.design.kind == TrainKind::kPair) return inertia;
+double input_side(const GearTrain& train, const BodyInertias& bodies) {
+  const Topology& topology = train.topology();
   const double orbit_m = train.centre_distance_mm * 1e-3;
-  inertia += train.design.planets * (bodies.planet_kg_m2 * square(speed.planet) +
-                                     bodies.planet_mass_kg * square(orbit_m * speed.carrier));
-  if (train.design.output != OutputMember::kCarrier)
-    inertia += bodies.carrier_kg_m2 * square(speed.carrier);
+  double inertia = 0.0;
+  for (std::size_t m = 0; m < bodies.size(); ++m) {
+    const int member = static_cast<int>(m);
+    if (member == topology.output) continue;
+    double of_body = bodies[m].axial_kg_m2 * square(train.speeds.of[m]);
+    if (topology.is_planet(member))
+      of_body += bodies[m].mass_kg * square(orbit_m * train.speeds.of_arm(topology.carrier_of(member)));
+    inertia += train.copies_of(member) * of_body;
+  }
   return inertia;
 }
 
@@ -34,11 +32,11 @@ double input_side(const GearTrain& train, const MemberSpeeds& speed, const BodyI
 ReflectedInertia reflected_inertia(const GearTrain& train, const EfficiencyResult& efficiency,
                                    const BodyInertias& bodies, const ShaftLoads& loads) {
   ReflectedInertia r;
-  if (train.design.kind == TrainKind::kGear) return r;
-  const MemberSpeeds speed = member_speeds(train);
-  const double g = std::abs(speed.output);  // output speed per input speed
-  const double m1 = input_side(train, speed, bodies) + loads.rotor_kg_m2;
-  const double m2 = output_body(train, bodies) + loads.load_kg_m2;
+  if (train.meshes.empty()) return r;
+  TRUEFLANK_EXPECTS(bodies.size() == train.topology().members.size());
+  const double g = std::abs(train.speeds.output);  // output speed per input speed
+  const double m1 = input_side(train, bodies) + loads.rotor_kg_m2;
+  const double m2 = bodies[static_cast<std::size_t>(train.topology().output)].axial_kg_m2 + loads.load_kg_m2;
   r.input_side_kg_m2 = m1;
   r.output_side_kg_m2 = m2;
   r.at_input_lossless_kg_m2 = m1 + g * g * m2;

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "trueflank/base/units.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
 
 namespace trueflank {
 
-/// Inertia of the bodies of a train about their own axes [kg m^2]; solid/mass_properties.h computes
-/// it from the solids.
-struct BodyInertias {
-  double sun_kg_m2 = 0.0;     ///< or pinion
-  double planet_kg_m2 = 0.0;  ///< one body
-  double planet_mass_kg = 0.0;
-  double carrier_kg_m2 = 0.0;
-  double ring1_kg_m2 = 0.0;  ///< or ring, wheel
-  double ring2_kg_m2 = 0.0;
+/// Inertia of one body about its own axis; solid/measure/mass_properties.h computes it from the solids.
+struct BodyInertia {
+  double axial_kg_m2 = 0.0;
+  double mass_kg = 0.0;  ///< of a planet: it goes round with the carrier
 };
+/// In the order of Topology::members; of planets one body.
+using BodyInertias = std::vector<BodyInertia>;
 
 /// What hangs on the shafts besides.
 struct ShaftLoads {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 
 #include "trueflank/base/contract.h"
@@ -15,44 +16,72 @@
 namespace trueflank {
 namespace {
 
-/// Tooth counts of a planetary train; teeth of layer 2 are 0 for a simple one.
-struct PlanetaryTeeth {
-  std::int64_t sun = 0, planet1 = 0, ring1 = 0, planet2 = 0, ring2 = 0;
-  [[nodiscard]] std::int64_t sum() const { return sun + ring1; }
+/// A planet gear and the central gears it meshes with, its ring first: bodies are placed by it.
+struct PlanetGear {
+  int gear = 0;
+  std::int64_t teeth = 0;
+  std::vector<int> mates;
+  std::vector<std::int64_t> mate_teeth;  ///< negative for rings
 };
 
-int teeth_of(const GearTrain& train, const char* name) {
-  const TrainGear* gear = train.find(name);
-  return gear ? gear->profile.gear().teeth : 0;
+std::int64_t teeth_of(const GearTrain& train, int gear) {
+  const Gear& g = train.gear(gear).profile.gear();
+  return g.kind == GearKind::kInternal ? -g.teeth : g.teeth;
 }
 
-PlanetaryTeeth planetary_teeth(const GearTrain& train) {
-  if (train.design.kind == TrainKind::k3k)
-    return {teeth_of(train, "sun"), teeth_of(train, "planet1"), teeth_of(train, "ring1"),
-            teeth_of(train, "planet2"), teeth_of(train, "ring2")};
-  return {teeth_of(train, "sun"), teeth_of(train, "planet"), teeth_of(train, "ring"), 0, 0};
+std::vector<PlanetGear> planet_gears(const GearTrain& train, int planet) {
+  std::vector<PlanetGear> gears;
+  for (const int g : train.topology().gears_of(planet)) {
+    PlanetGear own{.gear = g, .teeth = teeth_of(train, g)};
+    for (const TrainMesh& mesh : train.meshes) {
+      if (mesh.gear1 != g && mesh.gear2 != g) continue;
+      const int mate = mesh.gear1 == g ? mesh.gear2 : mesh.gear1;
+      const auto first = teeth_of(train, mate) < 0 ? own.mates.begin() : own.mates.end();
+      own.mates.insert(first, mate);
+    }
+    TRUEFLANK_EXPECTS(!own.mates.empty());
+    for (const int mate : own.mates) own.mate_teeth.push_back(teeth_of(train, mate));
+    gears.push_back(std::move(own));
+  }
+  return gears;
 }
 
-bool is_planetary(const GearTrain& train) {
-  return train.design.kind == TrainKind::k3k || train.design.kind == TrainKind::kSimple;
+/// Angles between planets, in turns: multiples of 1/places mesh with all mates, multiples of
+/// step/places are those of identical bodies. 0 places: any angle.
+struct Spacing {
+  std::int64_t places = 0;
+  std::int64_t step = 1;
+  bool any_mesh = true;  ///< bodies that differ mesh at any angle
+};
+
+/// z1 z_p2 - z2 z_p1 of a later gear of the body against the first, less its sign.
+std::int64_t difference(const PlanetGear& first, const PlanetGear& later) {
+  return later.mate_teeth[0] * first.teeth - first.mate_teeth[0] * later.teeth;
 }
 
-/// Smallest k > 0 such that bodies k/(z_s + z_r) turn apart are alike.
-std::int64_t identical_step(const PlanetaryTeeth& z) {
-  if (z.planet2 == 0) return 1;
-  const std::int64_t difference = std::abs(z.ring1 * z.planet2 - z.ring2 * z.planet1);
-  if (difference == 0) return 1;
-  const std::int64_t modulus = z.sum() * std::gcd(z.planet1, z.planet2);
-  return modulus / std::gcd(difference, modulus);
+Spacing spacing_of(const std::vector<PlanetGear>& gears) {
+  Spacing spacing;
+  for (const PlanetGear& gear : gears)
+    for (std::size_t i = 1; i < gear.mate_teeth.size(); ++i)
+      spacing.places = std::gcd(spacing.places, std::abs(gear.mate_teeth[i] - gear.mate_teeth[0]));
+  spacing.any_mesh = spacing.places == 0;
+  for (std::size_t i = 1; i < gears.size(); ++i) {
+    const std::int64_t apart = std::abs(difference(gears[0], gears[i]));
+    if (apart == 0) continue;
+    const std::int64_t common = std::gcd(gears[0].teeth, gears[i].teeth);
+    if (spacing.places == 0) spacing.places = apart;
+    const std::int64_t modulus = spacing.places * common;
+    spacing.step = std::lcm(spacing.step, modulus / std::gcd(apart, modulus));
+  }
+  return spacing;
 }
 
-/// Offset of P2 against P1 of a body k/(z_s + z_r1) turn from body 1, less that of body 1.
-double offset_rad(const PlanetaryTeeth& z, double position_rad) {
-  if (z.planet2 == 0) return 0.0;
-  const double difference = static_cast<double>(z.ring1 * z.planet2 - z.ring2 * z.planet1);
-  const double product = static_cast<double>(z.planet1 * z.planet2);
-  const double period = kTwoPi * static_cast<double>(std::gcd(z.planet1, z.planet2)) / product;
-  const double offset = centred_rad(difference / product * position_rad, period);
+/// Offset of a later gear against the first of a body at a position, less that of body 1.
+double offset_rad(const PlanetGear& first, const PlanetGear& later, double position_rad) {
+  const auto apart = static_cast<double>(difference(first, later));
+  const auto product = static_cast<double>(first.teeth * later.teeth);
+  const double period = kTwoPi * static_cast<double>(std::gcd(first.teeth, later.teeth)) / product;
+  const double offset = centred_rad(apart / product * position_rad, period);
   return std::abs(offset) < tolerance::kAngle_rad ||
                  std::abs(std::abs(offset) - period) < tolerance::kAngle_rad
              ? 0.0
@@ -61,20 +90,21 @@ double offset_rad(const PlanetaryTeeth& z, double position_rad) {
 
 double largest_planet_tip_mm(const GearTrain& train) {
   double tip = 0.0;
-  for (const TrainGear& gear : train.gears)
-    if (gear.name.starts_with("planet")) tip = std::max(tip, gear.profile.tip_radius_mm());
+  for (std::size_t i = 0; i < train.gears.size(); ++i)
+    if (train.topology().is_planet_gear(i)) tip = std::max(tip, train.gears[i].profile.tip_radius_mm());
   return tip;
 }
 
-/// Multiples of `step` of a turn nearest to equal spacing; empty where neighbours would collide.
-std::vector<double> nearest_positions(const GearTrain& train, std::int64_t sum, std::int64_t step) {
+/// Places of identical bodies nearest to equal spacing; empty where neighbours would collide.
+std::vector<double> nearest_positions(const GearTrain& train, const Spacing& spacing) {
   const int n = train.design.planets;
+  const auto sum = static_cast<double>(spacing.places), step = static_cast<double>(spacing.step);
   std::vector<double> angles;
   for (int i = 0; i < n; ++i) {
     // nearest multiple of step to i sum / n, halves away from zero
-    const double wanted = static_cast<double>(i) * static_cast<double>(sum) / n;
-    const auto k = static_cast<double>(step) * std::round(wanted / static_cast<double>(step));
-    angles.push_back(kTwoPi * k / static_cast<double>(sum));
+    const double wanted = static_cast<double>(i) * sum / n;
+    const double k = step * std::round(wanted / step);
+    angles.push_back(kTwoPi * k / sum);
   }
   const double diameter = 2.0 * largest_planet_tip_mm(train);
   for (int i = 0; i < n && n > 1; ++i) {
@@ -86,76 +116,126 @@ std::vector<double> nearest_positions(const GearTrain& train, std::int64_t sum, 
   return angles;
 }
 
+/// Rotation of a gear (teeth z) whose mate (signed teeth) stands at `mate_rad` in the direction phi of
+/// the gear's axis. The gear is the planet.
+double planet_rotation_rad(std::int64_t z, std::int64_t mate, double mate_rad, double phi) {
+  const double teeth = static_cast<double>(z), other = static_cast<double>(std::abs(mate));
+  return mate < 0 ? phi + (kPi + other * (mate_rad - phi)) / teeth
+                  : phi + kPi + (kPi - other * (mate_rad - phi)) / teeth;
+}
+
+/// Rotation of a central gear (signed teeth) that meshes with a planet gear at phi = 0.
+double central_rotation_rad(std::int64_t central, std::int64_t z, double planet_rad) {
+  const double teeth = static_cast<double>(z), own = static_cast<double>(std::abs(central));
+  return central < 0 ? (teeth * planet_rad - kPi) / own : (kPi - teeth * (planet_rad - kPi)) / own;
+}
+
+/// A pair stands with tooth 1 of the pinion on +x, and so does every gear that nothing meshes with.
+void place_standing(const GearTrain& train, AssemblyPhases& phases) {
+  for (const TrainMesh& mesh : train.meshes) {
+    const int wheel = train.topology().gears[static_cast<std::size_t>(mesh.gear2)].member;
+    const auto z2 = static_cast<double>(std::abs(teeth_of(train, mesh.gear2)));
+    phases.member_rotation_rad[static_cast<std::size_t>(wheel)][0] =
+        teeth_of(train, mesh.gear2) < 0 ? -kPi / z2 : kPi + kPi / z2;
+  }
+}
+
+/// How body i must be turned so that its first gear meshes, and how far its later gears stand ahead:
+/// of the equivalent rotations, the one that needs the least offset.
+void place_body(const std::vector<PlanetGear>& gears, int planet, std::size_t place,
+                const std::function<double(int gear)>& central_rad, AssemblyPhases& phases) {
+  const double phi = phases.planet_position_rad[place];
+  const auto wanted = [&](const PlanetGear& gear) {
+    return planet_rotation_rad(gear.teeth, gear.mate_teeth[0], central_rad(gear.mates[0]), phi);
+  };
+  const double first = wanted(gears[0]);
+  double rotation = first;
+  if (gears.size() > 1) {
+    const double wanted2 = wanted(gears[1]), pitch2 = kTwoPi / static_cast<double>(gears[1].teeth);
+    double best_offset = kPi;
+    for (std::int64_t k = 0; k < gears[0].teeth; ++k) {
+      const double equivalent = first + kTwoPi * static_cast<double>(k) / static_cast<double>(gears[0].teeth);
+      const double offset = centred_rad(wanted2 - equivalent, pitch2);
+      if (std::abs(offset) < std::abs(best_offset) - tolerance::kAngle_rad) {
+        best_offset = offset;
+        rotation = equivalent;
+      }
+    }
+  }
+  phases.member_rotation_rad[static_cast<std::size_t>(planet)][place] = rotation;
+  for (std::size_t j = 1; j < gears.size(); ++j) {
+    const double offset =
+        centred_rad(wanted(gears[j]) - rotation, kTwoPi / static_cast<double>(gears[j].teeth));
+    phases.gear_offset_rad[static_cast<std::size_t>(gears[j].gear)][place] =
+        std::abs(offset) < tolerance::kAngle_rad ? 0.0 : offset;
+  }
+}
+
+/// The first mate of the first planet gear stands with tooth 1 on +x. Planet 1 follows from it, the
+/// other central gears from planet 1, whose gears all stand tooth 1 over tooth 1, the other planets
+/// from the central gears.
+void place_planets(const GearTrain& train, int planet, AssemblyPhases& phases) {
+  const std::vector<PlanetGear> gears = planet_gears(train, planet);
+  const Topology& topology = train.topology();
+  const auto central_rad = [&](int gear) -> double& {
+    const int member = topology.gears[static_cast<std::size_t>(gear)].member;
+    return phases.member_rotation_rad[static_cast<std::size_t>(member)][0];
+  };
+  const double first = planet_rotation_rad(gears[0].teeth, gears[0].mate_teeth[0], 0.0, 0.0);
+  for (const PlanetGear& gear : gears)
+    for (std::size_t i = 0; i < gear.mates.size(); ++i)
+      if (gear.gear != gears[0].gear || i > 0)
+        central_rad(gear.mates[i]) = central_rotation_rad(gear.mate_teeth[i], gear.teeth, first);
+  for (std::size_t place = 0; place < phases.planet_position_rad.size(); ++place)
+    place_body(gears, planet, place, central_rad, phases);
+}
+
 }  // namespace
 
 AssemblyCondition assembly_condition(const GearTrain& train) {
   AssemblyCondition condition;
-  if (!is_planetary(train)) return condition;
-  const PlanetaryTeeth z = planetary_teeth(train);
+  const int planet = train.topology().first_planet();
+  if (planet == kNoMember) return condition;
+  const std::vector<PlanetGear> gears = planet_gears(train, planet);
+  const Spacing spacing = spacing_of(gears);
   const int n = train.design.planets;
-  const std::int64_t step = identical_step(z);
-  condition.angle_step_rad = kTwoPi * static_cast<double>(step) / static_cast<double>(z.sum());
-  condition.equal_spacing = z.sum() % n == 0;
-  condition.identical_planets = condition.equal_spacing && (z.sum() / n) % step == 0;
+  condition.equal_spacing = spacing.any_mesh || spacing.places % n == 0;
+  condition.identical_planets =
+      spacing.places == 0 || (spacing.places % n == 0 && (spacing.places / n) % spacing.step == 0);
+  if (spacing.places > 0)
+    condition.angle_step_rad =
+        kTwoPi * static_cast<double>(spacing.step) / static_cast<double>(spacing.places);
   for (int i = 0; i < n; ++i)
     condition.planet_offsets_rad.push_back(
-        condition.equal_spacing ? offset_rad(z, kTwoPi * i / n) : kNaN);
+        !condition.equal_spacing ? kNaN
+        : gears.size() < 2       ? 0.0
+                                 : offset_rad(gears[0], gears[1], kTwoPi * i / n));
   if (condition.identical_planets)
     for (int i = 0; i < n; ++i) condition.nearest_angles_rad.push_back(kTwoPi * i / n);
   else
-    condition.nearest_angles_rad = nearest_positions(train, z.sum(), step);
+    condition.nearest_angles_rad = nearest_positions(train, spacing);
   return condition;
 }
 
 AssemblyPhases phases_in_mesh(const GearTrain& train) {
   AssemblyPhases phases;
-  if (train.design.kind == TrainKind::kPair) {
-    const double z2 = teeth_of(train, "wheel");
-    const bool internal = train.find("wheel")->profile.gear().kind == GearKind::kInternal;
-    phases.ring1_rotation_rad =
-        internal ? -kPi / z2 : kPi + kPi / z2;  // tooth 1 of the pinion on +x
-    return phases;
-  }
-  if (!is_planetary(train)) return phases;
-  const PlanetaryTeeth z = planetary_teeth(train);
-  const double z_s = static_cast<double>(z.sun), z_p1 = static_cast<double>(z.planet1),
-               z_r1 = static_cast<double>(z.ring1);
+  const Topology& topology = train.topology();
+  const int planet = topology.first_planet();
   const int n = train.design.planets;
-  for (int i = 0; i < n; ++i) phases.planet_position_rad.push_back(kTwoPi * i / n);
-  if (!train.assembly.equal_spacing && !train.assembly.nearest_angles_rad.empty())
-    phases.planet_position_rad = train.assembly.nearest_angles_rad;
-
-  // ring1 stands; planet: z_p (psi - phi) - z_r (rho - phi) = pi
-  const auto planet_rotation = [&](double phi) { return phi + (kPi - z_r1 * phi) / z_p1; };
-  const double first = planet_rotation(0.0);
-  // sun: z_s (sigma - phi) + z_p (psi - phi - pi) = pi with phi = 0
-  phases.sun_rotation_rad = (kPi - z_p1 * (first - kPi)) / z_s;
-  if (z.planet2 > 0) {
-    // P2 of body 1 stands like its P1: z_p2 psi - z_r2 rho2 = pi
-    const double z_p2 = static_cast<double>(z.planet2), z_r2 = static_cast<double>(z.ring2);
-    phases.ring2_rotation_rad = (z_p2 * first - kPi) / z_r2;
-    for (double phi : phases.planet_position_rad) {
-      // the rotation among the z_p1 equivalent ones that needs the least offset
-      const double wanted2 = phi + (kPi + z_r2 * (phases.ring2_rotation_rad - phi)) / z_p2;
-      double best_rotation = planet_rotation(phi), best_offset = kPi;
-      for (std::int64_t k = 0; k < z.planet1; ++k) {
-        const double rotation = planet_rotation(phi) + kTwoPi * static_cast<double>(k) / z_p1;
-        const double offset = centred_rad(wanted2 - rotation, kTwoPi / z_p2);
-        if (std::abs(offset) < std::abs(best_offset) - tolerance::kAngle_rad) {
-          best_offset = offset;
-          best_rotation = rotation;
-        }
-      }
-      phases.planet_rotation_rad.push_back(best_rotation);
-      phases.planet_offset_rad.push_back(
-          std::abs(best_offset) < tolerance::kAngle_rad ? 0.0 : best_offset);
-    }
-  } else {
-    for (double phi : phases.planet_position_rad) {
-      phases.planet_rotation_rad.push_back(planet_rotation(phi));
-      phases.planet_offset_rad.push_back(0.0);
-    }
+  if (planet != kNoMember) {
+    for (int i = 0; i < n; ++i) phases.planet_position_rad.push_back(kTwoPi * i / n);
+    if (!train.assembly.equal_spacing && !train.assembly.nearest_angles_rad.empty())
+      phases.planet_position_rad = train.assembly.nearest_angles_rad;
   }
+  for (std::size_t m = 0; m < topology.members.size(); ++m)
+    phases.member_rotation_rad.emplace_back(
+        static_cast<std::size_t>(train.copies_of(static_cast<int>(m))), 0.0);
+  for (const TopologyGear& gear : topology.gears)
+    phases.gear_offset_rad.emplace_back(static_cast<std::size_t>(train.copies_of(gear.member)), 0.0);
+  if (planet == kNoMember)
+    place_standing(train, phases);
+  else
+    place_planets(train, planet, phases);
   return phases;
 }
 

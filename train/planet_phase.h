@@ -5,9 +5,11 @@
 
 namespace trueflank {
 
-/// The assembly condition of the train's N planets in integers: sun and ring accept planets at
-/// multiples of 1/(z_s + z_r) turn; identical compound bodies at the multiples k of it for which
-/// k (z_r1 z_p2 - z_r2 z_p1) / (z_s + z_r1) is a multiple of gcd(z_p1, z_p2).
+/// The assembly condition of the train's N planets in whole numbers, z negative for rings. Turned by
+/// phi round the train's axis a planet gear z_p sees the teeth of a mate z pass by phi z; so a gear
+/// between two mates z, z' meshes with both at multiples of 1/|z - z'| turn, and a compound body whose
+/// gears mesh with z1 and z2 is the same body at the phi for which phi (z1 z_p2 - z2 z_p1) is a
+/// multiple of gcd(z_p1, z_p2) turns.
 /// Source: derivation docs/theory/assembly.md; checked by turning in tests/train.
 [[nodiscard]] AssemblyCondition assembly_condition(const GearTrain& train);
 

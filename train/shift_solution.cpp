@@ -143,11 +143,12 @@ class ShiftSolver {
   }
 
   void free_choice(const TrainMesh& mesh, double a) {
-    const bool external_pair = design_.kind == TrainKind::kPair && !teeth(mesh).internal;
-    if (external_pair)
-      shift(mesh.gear1) = 0.5 * *sum_at(mesh, a);
+    if (teeth(mesh).internal)
+      shift(mesh.gear1) = 0.0;
+    else if (design_.topology.is_planet_gear(static_cast<std::size_t>(mesh.gear2)))
+      shift(mesh.gear2) = 0.0;
     else
-      shift(gear(mesh.gear1).name == "sun" ? mesh.gear2 : mesh.gear1) = 0.0;
+      shift(mesh.gear1) = 0.5 * *sum_at(mesh, a);
   }
 
   double implied_backlash(const TrainMesh& mesh, const ShiftSolution& solution) {

@@ -41,7 +41,8 @@ MeshGeometry geometry_of(const GearTrain& train, const TrainMesh& mesh) {
   g.face_width_mm = common_face(train, mesh).carrying_mm;
   g.contact_ratio = std::max(1.0, contact_ratios(g.pair).effective);
   g.overlap_ratio = overlap_ratio(train, mesh);
-  g.count = train.design.kind == TrainKind::kPair ? 1 : train.design.planets;
+  g.count = std::max(train.copies_of(train.topology().gears[static_cast<std::size_t>(mesh.gear1)].member),
+                     train.copies_of(train.topology().gears[static_cast<std::size_t>(mesh.gear2)].member));
   return g;
 }
 
@@ -125,6 +126,7 @@ bool passes_power_on(const GearTrain& train, const DirectionEfficiency& drive, i
   for (std::size_t k = 0; k < train.meshes.size(); ++k) {
     const TrainMesh& mesh = train.meshes[k];
     if (mesh.gear1 != gear && mesh.gear2 != gear) continue;
+    if (drive.meshes[k].driving_gear.empty()) continue;  // it idles
     (drive.meshes[k].driving_gear == train.gears[static_cast<std::size_t>(gear)].name ? drives
                                                                                       : driven) = true;
   }
@@ -141,18 +143,29 @@ void take_smaller(double output_nm, const MeshStrength& mesh, const std::string&
 }
 
 double output_per_input(const GearTrain& train, const DirectionEfficiency& drive) {
-  std::string output = to_text(train.design.output);
-  if (train.design.kind == TrainKind::kPair) output = "wheel";
-  for (const auto& member : drive.members)
-    if (member.name == output) return std::abs(member.torque);
-  return kNaN;
+  return std::abs(drive.members[static_cast<std::size_t>(train.topology().output)].torque);
 }
 
 }  // namespace
 
+StrengthOptions with_factors_of(const GearboxDesign& design, StrengthOptions options) {
+  const StrengthDesign& s = design.strength;
+  options.reversing = s.reversing.value_or(design.topology.has_planets());
+  options.overload_factor = s.overload_factor;
+  options.dynamic_factor = s.dynamic_factor;
+  options.face_load_factor = s.face_load_factor;
+  options.planet_load_factor = s.planet_load_factor;
+  options.bending_life_factor = s.bending_life_factor;
+  options.contact_life_factor = s.contact_life_factor;
+  options.lubrication_factor = s.lubrication_factor;
+  options.bending_safety = s.bending_safety;
+  options.contact_safety = s.contact_safety;
+  return options;
+}
+
 Result<StrengthResult> strength(const GearTrain& train, const StrengthOptions& options) {
   StrengthResult result;
-  if (train.design.kind == TrainKind::kGear) return result;
+  if (train.meshes.empty()) return result;
   const DirectionEfficiency drive = efficiency(train).forward_drive;
   const double output = output_per_input(train, drive);
   for (std::size_t k = 0; k < train.meshes.size(); ++k) {
@@ -178,6 +191,10 @@ Result<StrengthResult> strength(const GearTrain& train, const StrengthOptions& o
     const auto assumed = assumed_factors(options);
     entry.factors.insert(entry.factors.end(), assumed.begin(), assumed.end());
 
+    if (drive.meshes[k].torque1 == 0.0) {  // an idle mesh carries whatever the others do
+      result.meshes.push_back(std::move(entry));
+      continue;
+    }
     const double output_per_torque1 = output / std::abs(drive.meshes[k].torque1);
     const double output_per_torque2 = output / std::abs(drive.meshes[k].torque2);
     const double by_tooth1 = entry.tooth1.bending_torque_nm * output_per_torque1;

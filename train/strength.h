@@ -59,13 +59,16 @@ struct MeshStrength {
 };
 
 struct StrengthResult {
-  double output_torque_nm = kNaN;  ///< allowable at the output, sun driving; NaN where that locks
+  double output_torque_nm = kNaN;  ///< allowable at the output, the input driving; NaN where that locks
   double input_torque_nm = kNaN;   ///< that goes with it, friction included
   std::string limiting_mesh;
   std::string limiting_gear;  ///< by bending; both gears' names by contact: "sun, planet1"
   std::string limiting_mode;  ///< "bending" or "contact"
   std::vector<MeshStrength> meshes;
 };
+
+/// Options with what the design says of them; a pair that says nothing runs one way.
+[[nodiscard]] StrengthOptions with_factors_of(const GearboxDesign& design, StrengthOptions options);
 
 /// Errors: kInconsistent where a material is not in the table.
 [[nodiscard]] Result<StrengthResult> strength(const GearTrain& train,

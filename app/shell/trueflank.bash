@@ -4,11 +4,11 @@ _trueflank() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "check make new search loop compare --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check fix make new search loop compare help --help --version" -- "$word")
     return
   fi
   case $before in
-    --kind) mapfile -t COMPREPLY < <(compgen -W "3k simple pair gear" -- "$word"); return ;;
+    --kind) mapfile -t COMPREPLY < <(compgen -W "3k stepped simple pair gear" -- "$word"); return ;;
     --gear | --part)
       mapfile -t COMPREPLY < <(compgen -W "sun planet planet1 ring1 planet2 ring2 ring pinion wheel gear carrier carrier_top carrier_pin" -- "$word")
       return ;;
@@ -16,15 +16,17 @@ _trueflank() {
       # a list with commas: the last of it is completed
       local head=""
       [[ $word == *,* ]] && head="${word%,*},"
-      mapfile -t COMPREPLY < <(compgen -P "$head" -W "stl 3mf obj ply glb step dxf svg scad" -- "${word##*,}")
+      mapfile -t COMPREPLY < <(compgen -P "$head" -W "stl 3mf obj ply glb step dxf svg scad pdf" -- "${word##*,}")
       return ;;
+    help) mapfile -t COMPREPLY < <(compgen -W "check fix make new search loop compare" -- "$word"); return ;;
     -o | --output) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
   esac
   if [[ $word == -* ]]; then
     local options="--help --quiet"
     case $command in
-      check) options+=" --json --html --tolerance --material --materials --process --pictures" ;;
-      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --compensate --kerf-mm --allow-failing" ;;
+      check) options+=" --json --html --tolerance --material --materials --process --pictures --verbose" ;;
+      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --compensate --kerf-mm --allow-failing --verbose" ;;
+      fix) options+=" -o --output" ;;
       new) options="--help --kind" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "trueflank/loop/close_loop.h"
+#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/geometry/involute.h"
+#include "trueflank/session/close_loop.h"
 
 namespace {
 
@@ -34,18 +36,18 @@ void write_measurement(const trueflank::Gear& gear, const char* path) {
 
 int main() {
   using namespace trueflank;
-  GearboxDesign design{.name = "measured", .kind = TrainKind::kGear};
+  GearboxDesign design{.name = "measured", .topology = train_topology("gear")};
   design.gears = {{.name = "gear", .teeth = 36, .shift = 0.0, .face_width_mm = 10.0}};
-  const auto train = lay_out(design);
-  if (!train) return 2;
-  write_measurement(train->gears.front().profile.gear(), "inspection.csv");
-  const auto loop = loop::close_loop(*train, "gear", {"inspection.csv"}, {});
-  if (!loop) {
-    for (const Error& error : loop.error())
+  const auto gearbox = Gearbox::of(design);
+  if (!gearbox) return 2;
+  write_measurement(gearbox->train().gears.front().profile.gear(), "inspection.csv");
+  const auto closed = close_loop(*gearbox, {"inspection.csv"});
+  if (!closed) {
+    for (const Error& error : closed.error())
       std::fprintf(stderr, "%s:%d: %s\n", error.file.c_str(), error.line, error.message.c_str());
     return 2;
   }
-  const loop::LoopResult& result = loop->result;
+  const loop::LoopResult& result = closed->result();
   std::printf("%s: rms %.1f um before, %.1f um after\n", to_text(result.verdict),
               result.before.rms, result.after.rms);
   for (const loop::FoundEffect& effect : result.effects) {

@@ -2,8 +2,7 @@
 // Searches tooth numbers and profile shifts of a 3K gearbox near 96:1 and shows the best.
 #include <cstdio>
 
-#include "trueflank/check/check_gearbox.h"
-#include "trueflank/train/search.h"
+#include "trueflank/session/search_session.h"
 
 int main() {
   using namespace trueflank;
@@ -17,15 +16,8 @@ int main() {
   wanted.ring2 = {80, 82};
   wanted.results = 3;
 
-  const SetEnumeration sets = enumerate_sets(wanted);
-  const auto records = run_search(wanted, sets);
-  const SearchReport found =
-      conclude_search(wanted, sets, records, [](const GearTrain& train) {
-        DesignVerdict verdict;
-        for (const Finding& finding : check_gearbox(train))
-          if (finding.status == CheckStatus::kFail) verdict.failed.push_back(finding.id);
-        return verdict;
-      });
+  const SearchTask task{.requirements = wanted, .enumeration = enumerate_sets(wanted)};
+  const SearchReport found = finish_search(task, run_search(task.requirements, task.enumeration));
   std::printf("%lld sets considered, %zu optimised\n", found.considered, found.optimised);
   for (const FoundDesign& design : found.designs)
     std::printf("%d/%d/%d/%d/%d: ratio %.2f, forward %.2f %%, backward %.2f %%\n", design.set.sun,

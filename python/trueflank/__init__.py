@@ -7,14 +7,20 @@
     mesh = gearbox.mesh("sun", tolerance_um=1)   # NumPy: mesh.vertices, mesh.triangles
     gearbox.export("parts", formats=["stl", "step"])
 
+    gear = trueflank.Gear(17, module_mm=2, shift=0.2)   # one gear, no file
+    print(gear.tip_diameter_mm, gear.span_mm(), gear.profile().shape)
+
 Lengths are millimetres (names say _um where micrometres), angles degrees. Errors are InputError
 (the data are wrong) and SystemFailure (files could not be read or written), both TrueflankError.
 """
 from ._core import (
     ClosedDriveLoop,
     ClosedLoop,
+    Gear,
     Gearbox,
+    GearPair,
     Mesh,
+    Rack,
     SearchResult,
     __version__,
     compare,
@@ -29,10 +35,13 @@ from ._errors import InputError, Problem, SystemFailure, TrueflankError
 __all__ = [
     "ClosedDriveLoop",
     "ClosedLoop",
+    "Gear",
+    "GearPair",
     "Gearbox",
     "InputError",
     "Mesh",
     "Problem",
+    "Rack",
     "SearchResult",
     "SystemFailure",
     "TrueflankError",

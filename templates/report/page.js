@@ -56,14 +56,14 @@ function table(caption, columns, rows, className = '') {
 const column = (title) => ({title, number: true});
 
 // --------------------------------------------------------------------------------------- header
-const kinds = {'3k': '3K (Wolfrom) planetary gearbox', simple: 'planetary gearbox', pair: 'gear pair', gear: 'single gear'};
+const kinds = {'3k': '3K (Wolfrom) planetary gearbox', stepped: 'planetary gearbox with stepped planets', simple: 'planetary gearbox', pair: 'gear pair', gear: 'single gear'};
 function summary() {
   const train = report.train;
   const parts = [kinds[train.kind] ?? train.kind];
   if (train.planets) parts.push(`${train.planets} ${train.identical_planets ? 'identical planets, equally spaced'
     : train.assembles ? 'planets equally spaced, not all alike' : 'planets that do not go in at equal spacing'}`);
-  if (train.kind !== 'gear')
-    parts.push(train.kind === 'pair' ? 'pinion drives' : `sun drives, ${train.output} is the output`);
+  if (train.input !== 'none')
+    parts.push(`${train.input} drives` + (train.planets ? `, ${train.output} is the output` : ''));
   const teeth = Object.entries(report.gears).map(([name, gear]) => `${name} ${gear.teeth}`).join(', ');
   return `${parts.join(', ')}. Teeth: ${teeth}.`;
 }

@@ -108,7 +108,8 @@ class Check(Case):
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual(report["format"], "trueflank-report")
         self.assertAlmostEqual(report["train"]["ratio"], 96.2419, places=4)
-        self.assertAlmostEqual(report["efficiency"]["forward"], 0.908, places=3)
+        self.assertAlmostEqual(report["efficiency"]["by_formula"]["forward"], 0.908, places=3)
+        self.assertAlmostEqual(report["efficiency"]["forward"], 0.915, places=3)
         self.assertIn(f"{report['train']['ratio']:.4f}", result.stdout)
         self.assertEqual([g for g in report["gears"]],
                          ["sun", "planet1", "ring1", "planet2", "ring2"])
@@ -414,7 +415,7 @@ class Compare(Case):
 
 class New(Case):
     def test_what_it_writes_makes_at_once(self):
-        for kind in ["3k", "simple", "pair", "gear"]:
+        for kind in ["3k", "stepped", "simple", "pair", "gear"]:
             result = run("new", f"d{kind}", "--kind", kind, cwd=self.folder)
             self.assertEqual(result.returncode, 0, result.stderr)
             made = run("make", self.folder / f"d{kind}.toml", "-o", self.folder / kind, "-q",

@@ -26,6 +26,7 @@ sun_max = 12
 planet1_min = 39
 planet1_max = 39
 [search]
+loss_model = "path_integral"
 results = 1
 """
 

@@ -8,6 +8,7 @@
 #include "tests/check/check_designs.h"
 #include "tests/check/mesh_simulation.h"
 #include "trueflank/check/train_turning.h"
+#include "tests/support/train_members.h"
 
 namespace trueflank::test {
 namespace {
@@ -53,7 +54,8 @@ TEST(Assembly, TurningTheTrainKeepsEveryPhase) {
 TEST(Assembly, ABodyInTheWrongPlaceIsFoundByTurning) {
   GearTrain train = laid_out(compound(11, 40, 91, 33, 83, 3));
   const auto states = mesh_states(train);
-  std::swap(train.phases.planet_offset_rad[1], train.phases.planet_offset_rad[2]);
+  auto& offsets = train.phases.gear_offset_rad[3];  // of planet2
+  std::swap(offsets[1], offsets[2]);
   const TrainTurning turning = turn_train(train, states);
   EXPECT_GT(turning.phase_error_mm, 0.05);
   EXPECT_LT(turning.clearance_mm, -0.01);
@@ -79,7 +81,7 @@ bool body_fits(const GearTrain& train, double position_rad, double sun_rad, doub
   const GearPair outer = train.pair(train.meshes[2]);
   for (int k = 0; k < teeth; ++k) {
     const double rotation = first + kTwoPi * k / teeth;
-    if (simulate_position_mm(outer, turn_back(rotation + train.phases.planet_offset_rad[0]),
+    if (simulate_position_mm(outer, turn_back(rotation + test::offsets_of(train, "planet2")[0]),
                              turn_back(ring2_rad), {-train.centre_distance_mm, 0.0}) >= 0.0)
       return true;
   }
@@ -96,13 +98,13 @@ TEST(Assembly, TheClosedFormIsWhatBruteForceFinds) {
     const GearTrain train = laid_out(d);
     bool all = true;
     for (int i = 0; i < 3; ++i)
-      all = all && body_fits(train, kTwoPi * i / 3.0, train.phases.sun_rotation_rad,
-                             train.phases.ring2_rotation_rad);
+      all = all && body_fits(train, kTwoPi * i / 3.0, test::rotation_of(train, train.phases, "sun"),
+                             test::rotation_of(train, train.phases, "ring2"));
     EXPECT_EQ(all, train.assembly.equal_spacing && train.assembly.identical_planets)
         << d.gears[0].teeth << ' ' << d.gears[3].teeth;
     for (double angle : train.assembly.nearest_angles_rad)
-      EXPECT_TRUE(body_fits(train, angle, train.phases.sun_rotation_rad,
-                            train.phases.ring2_rotation_rad))
+      EXPECT_TRUE(body_fits(train, angle, test::rotation_of(train, train.phases, "sun"),
+                            test::rotation_of(train, train.phases, "ring2")))
           << d.gears[0].teeth << " at " << deg_from_rad(angle);
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "trueflank/check/finding.h"
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gear_train.h"
 
 // Designs the tests of the checks start from.
@@ -15,11 +16,11 @@ namespace trueflank::test {
 /// The paper's prototype, 12/39/90/32/81.
 inline GearboxDesign paper_design(double backlash_mm = 0.05) {
   GearboxDesign d{.name = "bilateral-drive-96",
-                  .kind = TrainKind::k3k,
-                  .output = OutputMember::kRing2,
+                  .topology = train_topology("3k", "ring2"),
                   .planets = 3,
                   .centre_distance_mm = 25.6826,
-                  .backlash_mm = backlash_mm};
+                  .backlash_mm = backlash_mm,
+                  .tips = TipCircles::kStandard};
   d.gears = {{.name = "sun", .teeth = 12},
              {.name = "planet1", .teeth = 39},
              {.name = "ring1", .kind = GearKind::kInternal, .teeth = 90, .shift = 0.5225},
@@ -30,9 +31,9 @@ inline GearboxDesign paper_design(double backlash_mm = 0.05) {
 
 inline GearboxDesign simple_design(int sun, int planet, int ring, int planets) {
   GearboxDesign d{.name = "simple",
-                  .kind = TrainKind::kSimple,
-                  .output = OutputMember::kCarrier,
-                  .planets = planets};
+                  .topology = train_topology("simple", "carrier"),
+                  .planets = planets,
+                  .tips = TipCircles::kStandard};
   d.gears = {{.name = "sun", .teeth = sun},
              {.name = "planet", .teeth = planet},
              {.name = "ring", .kind = GearKind::kInternal, .teeth = ring}};
@@ -41,9 +42,9 @@ inline GearboxDesign simple_design(int sun, int planet, int ring, int planets) {
 
 inline GearboxDesign pair_design(int pinion, int wheel, bool internal, double backlash_mm = 0.0) {
   GearboxDesign d{.name = "pair",
-                  .kind = TrainKind::kPair,
-                  .output = OutputMember::kWheel,
-                  .backlash_mm = backlash_mm};
+                  .topology = train_topology("pair"),
+                  .backlash_mm = backlash_mm,
+                  .tips = TipCircles::kStandard};
   d.gears = {{.name = "pinion", .teeth = pinion},
              {.name = "wheel",
               .kind = internal ? GearKind::kInternal : GearKind::kExternal,

@@ -15,13 +15,14 @@
 #include "trueflank/check/tip_clearance.h"
 #include "trueflank/check/tip_thickness.h"
 #include "trueflank/check/undercut.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank::test {
 namespace {
 
 TEST(Undercut, SeventeenTeethAreFreeOfItAndSixteenAreNot) {
   // the textbook limit z = 2 / sin^2 20 = 17.1 is that of a sharp rack of dedendum 1
-  GearboxDesign d{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
   d.rack = {.dedendum = 1.0, .root_radius = 0.0};
   d.gears = {{.name = "gear", .teeth = 18, .shift = 0.0}};
   EXPECT_EQ(check_undercut(laid_out(d))[0].status, CheckStatus::kPass);
@@ -32,7 +33,7 @@ TEST(Undercut, SeventeenTeethAreFreeOfItAndSixteenAreNot) {
 }
 
 TEST(Undercut, TheCureIsWhereTheProfileStopsToBeUndercut) {
-  GearboxDesign d{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
   d.gears = {{.name = "gear", .teeth = 8, .shift = 0.0}};
   const double limit = check_undercut(laid_out(d))[0].limit;
   d.gears[0].shift = limit - 1e-3;
@@ -42,7 +43,7 @@ TEST(Undercut, TheCureIsWhereTheProfileStopsToBeUndercut) {
 }
 
 TEST(TipThickness, TheCureLeavesTheWantedThickness) {
-  GearboxDesign d{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
   d.gears = {{.name = "gear", .teeth = 10, .shift = 0.75}};
   const Finding f = check_tip_thickness(laid_out(d))[0];
   ASSERT_EQ(f.status, CheckStatus::kWarn);
@@ -52,7 +53,7 @@ TEST(TipThickness, TheCureLeavesTheWantedThickness) {
 }
 
 TEST(Profile, APointedToothIsToldNotRepaired) {
-  GearboxDesign d{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
   d.gears = {{.name = "gear", .teeth = 8, .shift = 1.0}};
   const Finding f = check_profile(laid_out(d))[0];
   EXPECT_EQ(f.status, CheckStatus::kWarn);
@@ -149,9 +150,9 @@ TEST(CheckGearbox, EveryIdAppearsForEveryKind) {
   const std::set<std::string> wanted{"profile",       "undercut",      "tip_thickness",
                                      "centre_distance", "backlash",    "tip_clearance",
                                      "contact_ratio", "assembly",      "planet_spacing", "axial",
-                                     "overlap", "fillet_interference", "involute_interference",
+                                     "overlap", "corner_contact", "fillet_interference", "involute_interference",
                                      "trochoid_interference", "trimming_interference"};
-  GearboxDesign single{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign single{.name = "gear", .topology = train_topology("gear")};
   single.gears = {{.name = "gear", .kind = GearKind::kInternal, .teeth = 60, .shift = 0.0}};
   for (const GearboxDesign& d :
        {paper_design(), simple_design(12, 30, 72, 3), pair_design(20, 40, false), single}) {

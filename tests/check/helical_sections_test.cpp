@@ -23,16 +23,10 @@ struct Placed {
 };
 
 Placed placed(const GearTrain& train, const TrainGear& gear, std::size_t planet) {
-  const AssemblyPhases& p = train.phases;
-  if (gear.name.starts_with("planet")) {
-    const double offset = gear.name == "planet2" ? p.planet_offset_rad[planet] : 0.0;
-    return {train.centre_distance_mm * unit_vector(p.planet_position_rad[planet]),
-            p.planet_rotation_rad[planet] + offset};
-  }
-  if (gear.name == "wheel") return {wheel_centre_mm(train), p.ring1_rotation_rad};
-  if (gear.name == "ring2") return {Point2::Zero(), p.ring2_rotation_rad};
-  if (gear.name.starts_with("ring")) return {Point2::Zero(), p.ring1_rotation_rad};
-  return {Point2::Zero(), p.sun_rotation_rad};
+  const int index = static_cast<int>(&gear - train.gears.data());
+  const int member = train.topology().gears[static_cast<std::size_t>(index)].member;
+  return {axis_centre_mm(train, train.phases, member, planet),
+          train.phases.rotation_rad(member, planet) + train.phases.offset_rad(index, planet)};
 }
 
 double section_angle(const TrainGear& gear, const Placed& at, double z) {

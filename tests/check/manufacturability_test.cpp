@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "trueflank/check/check_gearbox.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
 
 GearTrain pair_train(double module_mm, const char* process, double backlash_mm = 0.3) {
-  GearboxDesign design{.name = "pair", .kind = TrainKind::kPair, .output = OutputMember::kWheel};
+  GearboxDesign design{.name = "pair", .topology = train_topology("pair")};
   design.module_mm = module_mm;
   design.backlash_mm = backlash_mm;
   design.gears = {GearDesign{.name = "pinion", .teeth = 20, .bore = {.diameter_mm = 5.0}},

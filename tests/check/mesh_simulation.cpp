@@ -206,10 +206,10 @@ double simulate_position_mm(const MadeSection& gear1, double rotation1_rad,
                    internal);
 }
 
-SimulatedClearance simulate_mesh(const GearPair& pair) {
+SimulatedClearance simulate_mesh(const GearPair& pair, double gear2_turn_rad) {
   return turned_through(ToothPolygon(*pair.profile1), ToothPolygon(*pair.profile2),
                         pair.centre_distance_mm, pair.internal(),
-                        pair.gear1().normal_module_mm, 0.0);
+                        pair.gear1().normal_module_mm, gear2_turn_rad);
 }
 
 SimulatedClearance simulate_sections(const MadeSection& gear1, const MadeSection& gear2,

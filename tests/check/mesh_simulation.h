@@ -19,8 +19,9 @@ struct SimulatedClearance {
 /// centred; every vertex of either gear against the edges of the other. Which side a vertex lies on is
 /// decided by counting the edges that a circle about the axis crosses on the way from a tooth's middle.
 /// Accuracy: overestimates the clearance by at most about 0.4 um at module 1 (vertices every 0.02 module
-/// or 0.1 um of sag, positions every 0.01 module of relative travel).
-[[nodiscard]] SimulatedClearance simulate_mesh(const GearPair& pair);
+/// or 0.1 um of sag, positions every 0.01 module of relative travel). Gear 2 is turned by an angle out of the
+/// centred position.
+[[nodiscard]] SimulatedClearance simulate_mesh(const GearPair& pair, double gear2_turn_rad = 0.0);
 
 /// One gear of a modified mesh at a height, as its surface points say (section_point).
 struct MadeSection {

@@ -105,15 +105,15 @@ GearboxDesign random_3k(Dice& dice) {
 GearboxDesign random_design(std::uint64_t seed) {
   Dice dice(0x9E3779B97F4A7C15ull * (seed + 1));
   const int kind = dice.integer(0, 9);
-  if (kind < 3) return random_pair(dice, false);
-  if (kind < 8) return random_pair(dice, true);
-  return random_3k(dice);
+  GearboxDesign design = kind < 8 ? random_pair(dice, kind >= 3) : random_3k(dice);
+  design.tips = TipCircles::kStandard;  // tips too long belong to what is tried
+  return design;
 }
 
 std::string describe(const GearboxDesign& d) {
   std::ostringstream s;
   s.precision(12);
-  s << to_text(d.kind) << " a=" << d.centre_distance_mm.value_or(0.0) << " j=" << d.backlash_mm
+  s << d.topology.kind << " a=" << d.centre_distance_mm.value_or(0.0) << " j=" << d.backlash_mm
     << " alpha=" << deg_from_rad(d.rack.pressure_angle_rad) << " ha=" << d.rack.addendum
     << " hf=" << d.rack.dedendum << " rho=" << d.rack.root_radius;
   for (const GearDesign& g : d.gears) {

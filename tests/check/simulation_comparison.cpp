@@ -24,7 +24,7 @@ void count_kind(const GearPair& pair, bool compound, Comparison& c) {
 
 void compare_mesh(const GearTrain& train, const TrainMesh& mesh, std::uint64_t seed, Comparison& c) {
   const GearPair pair = train.pair(mesh);
-  count_kind(pair, train.design.kind == TrainKind::k3k, c);
+  count_kind(pair, train.find("planet2") != nullptr, c);
   const MeshClearance ours = mesh_clearance(pair);
   const SimulatedClearance theirs = simulate_mesh(pair);
   const bool our_fail = ours.clearance_mm < -tolerance::kTouch_mm;

@@ -206,7 +206,7 @@ TEST(DesignErrors, WrongTypesAndImpossibleValuesAreRefused) {
            {"helix_angle_deg = 0.0", "helix_angle_deg = 90", kRange, "gearbox.helix_angle_deg",
             "90", "-60 to 60 deg", "helix"},
            {"pressure_angle_deg = 20.0", "pressure_angle_deg = 0.35", kRange,
-            "rack.pressure_angle_deg", "0.35", "from 5 to 50 deg", "pressure"},
+            "rack.pressure_angle_deg", "0.35", "from 5 to 45 deg", "pressure"},
            {"addendum = 1.0", "addendum = 10", kRange, "rack.addendum", "10", "times the module",
             "addendum"},
            {"teeth = 12", "teeth = 4", kRange, "sun.teeth", "4", "from 5 to 500", "teeth = 4"},

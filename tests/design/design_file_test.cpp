@@ -5,6 +5,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_name.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
@@ -42,8 +43,7 @@ TEST(DesignFile, IsReadIntoMillimetresAndRadians) {
   const auto design = read_design_text(kSimple, "small.toml");
   ASSERT_TRUE(design) << design.error().front().message;
   EXPECT_EQ(design->name, "small");
-  EXPECT_EQ(design->kind, TrainKind::kSimple);
-  EXPECT_EQ(design->output, OutputMember::kCarrier);
+  EXPECT_EQ(design->topology, train_topology("simple", "carrier"));
   EXPECT_EQ(design->planets, 3);
   EXPECT_EQ(design->module_mm, 0.5);
   EXPECT_EQ(design->backlash_mm, 0.04);

@@ -242,7 +242,8 @@ TEST(ThreemfWriter, HoldsOneObjectAShapeWithUnitNameAndColour) {
   const std::string archive = read_file(folder / "a.3mf").value();
   EXPECT_EQ(zip_names(archive).value(),
             (std::vector<std::string>{"[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"}));
-  const std::string model = zip_content(archive, "3D/3dmodel.model").value();
+  Reading reading(archive.size());
+  const std::string model = zip_content(archive, "3D/3dmodel.model", reading).value();
   const auto count = [&](const std::string& word) {
     int found = 0;
     for (auto at = model.find(word); at != model.npos; at = model.find(word, at + 1)) ++found;

@@ -9,6 +9,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
+#include "trueflank/geometry/tooth_profile.h"
 
 namespace trueflank {
 namespace {
@@ -113,6 +114,25 @@ TEST_P(Helical, TheSpanIsTheCommonNormalAndNeedsItsFaceWidth) {
   EXPECT_NEAR(other.distance_mm, span, 1e-6);
   EXPECT_NEAR(std::abs(other.z), span_face_width_mm(g, k), 1e-5);
 }
+TEST(SpanTeeth, OfHelicalTeethTouchTheFlankNearTheCircleOfTheShift) {
+  const Gear published{.teeth = 65, .normal_module_mm = 2.0, .helix_angle_rad = rad_from_deg(35.0), .shift = -0.2};
+  EXPECT_EQ(recommended_span_teeth(published), 13);
+  int below = 0, all = 0;
+  for (int teeth = 20; teeth <= 120; teeth += 5)
+    for (const double helix : {0.0, 20.0, 35.0, 45.0})
+      for (const double shift : {-0.2, 0.0, 0.4}) {
+        Gear g{.teeth = teeth, .normal_module_mm = 2.0, .helix_angle_rad = rad_from_deg(helix), .shift = shift};
+        g.tip_radius_mm = nominal_tip_radius_mm(g);
+        const auto profile = ToothProfile::make(g);
+        ASSERT_TRUE(profile.has_value());
+        const double roll = 0.5 * base_tangent_length_mm(g, recommended_span_teeth(g)) * std::cos(base_helix_angle_rad(g));
+        ++all;
+        if (roll < profile->root_form_roll_length_mm()) ++below;
+        EXPECT_LT(std::hypot(base_radius_mm(g), roll), g.tip_radius_mm);
+      }
+  EXPECT_LE(below, all / 50);  // few-toothed gears whose next number of teeth is too many
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Gears, Helical,
     ::testing::Values(std::tuple{GearKind::kExternal, 24, 0.0, 0.1},

@@ -14,6 +14,9 @@ import shlex
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lint"))
+import check_layers
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ["TRUEFLANK_BINARY_DIR"])
 
@@ -39,11 +42,8 @@ def flags_by_folder():
     return flags
 
 
-FOLDERS = ("base", "geometry", "train", "check", "solid", "export", "design", "loop", "app")
-
-
 def main():
-    headers = sorted(h for folder in FOLDERS for h in (SOURCE / folder).rglob("*.h"))
+    headers = sorted(h for top in check_layers.library_folders(SOURCE) for h in top.rglob("*.h"))
     others = [h for h in headers if not is_first_of_its_source(h)]
     flags = flags_by_folder()
 

@@ -4,9 +4,13 @@
 import argparse
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lint"))
+import check_layers
 
 arguments = argparse.ArgumentParser()
 arguments.add_argument("--cmake", required=True)
@@ -27,15 +31,27 @@ def run(*command):
     subprocess.run([str(c) for c in command], check=True)
 
 
+source = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
+public = check_layers.public_headers(source)
+documented = output / "documented.cpp"
+documented.write_text(re.search(r"```cpp\n(.*?)```", (source / "docs/api.md").read_text(), re.DOTALL)[1])
+
 run(arguments.cmake, "--install", os.environ["TRUEFLANK_BINARY_DIR"], "--prefix", prefix)
 run(arguments.cmake, "-G", "Ninja", "-S", here / "consumer", "-B", build, "-DCMAKE_BUILD_TYPE=Release",
     f"-DCMAKE_CXX_COMPILER={arguments.compiler}", f"-DCMAKE_CXX_FLAGS={arguments.flags}",
-    f"-DCMAKE_PREFIX_PATH={prefix}")
+    f"-DCMAKE_PREFIX_PATH={prefix}", f"-DDOCUMENTED={documented}", "-DPUBLIC_HEADERS=" + ";".join(public))
+installed_headers = {str(h.relative_to(prefix / "include/trueflank")) for h in prefix.rglob("include/**/*.h")}
+if installed_headers != set(public):
+    sys.exit(f"installed are not the public headers: {sorted(installed_headers ^ set(public))}")
 run(arguments.cmake, "--build", build)
 run(build / "consumer")
+said = subprocess.run([build / "documented", source / "examples/external_pair/design.toml"], check=True,
+                      cwd=output, capture_output=True, text=True).stdout
+if "pinion.step: within" not in said:
+    sys.exit(f"the program of docs/api.md said: {said}")
 
 # the project of examples, as its first lines say
-examples = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "examples"
+examples = source / "examples"
 build_examples = output / "build_examples"
 run(arguments.cmake, "-G", "Ninja", "-S", examples / "cpp", "-B", build_examples,
     f"-DCMAKE_CXX_COMPILER={arguments.compiler}", f"-DCMAKE_CXX_FLAGS={arguments.flags}",

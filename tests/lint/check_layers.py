@@ -11,39 +11,52 @@ import pathlib
 import re
 import sys
 
-# folder -> folders it may include besides itself
+# folder -> folders it may include besides itself. A room of a folder may have a row of its own.
 LAYERS = {
     "base": [],
     "geometry": ["base"],
     "train": ["base", "geometry"],
+    "design/kinds": ["base", "train"],
+    "search": ["base", "geometry", "train", "design/kinds"],
     "check": ["base", "geometry", "train"],
     "solid": ["base", "geometry", "train"],
-    "export": ["base", "geometry", "train", "check", "solid"],
-    "design": ["base", "geometry", "train"],
+    "export": ["base", "geometry", "train", "solid"],
+    "design": ["base", "geometry", "train", "search"],
     "loop": ["base", "geometry", "train", "solid", "export"],
-    "app": ["base", "geometry", "train", "check", "solid", "export", "design", "loop"],
+    "loop/measured": ["base", "geometry", "train", "solid", "export"],
+    "loop/discovery": ["base", "geometry"],  # the engine knows no gears
+    "loop/result": ["base"],  # what gears and drives have in common
+    "loop/gear": ["base", "geometry", "train", "solid", "export", "loop/measured", "loop/discovery", "loop/result"],
+    "loop/gear/effects": ["base", "geometry", "loop/gear", "loop/result"],
+    "loop/drive": ["base", "geometry", "train", "loop/measured", "loop/discovery", "loop/result"],
+    "loop/drive/effects": ["base", "loop/drive", "loop/result"],
+    "report": ["base", "geometry", "train", "search", "check", "solid", "export", "loop"],
+    "session": ["base", "geometry", "train", "search", "check", "solid", "export", "design", "loop",
+                "report"],
+    "app": ["base", "export", "design/kinds", "session"],  # words and options; of export files, format names
 }
 
 # third party: how its includes begin, folders whose .cpp may have it, folders whose headers may
-EVERY = list(LAYERS)
+EVERY = [name for name in LAYERS if "/" not in name]
 THIRD_PARTY = {
     "tl::expected": (r"tl/expected", ["base"], ["base"]),
     "Eigen": (r"Eigen/", [f for f in EVERY if f != "base"], [f for f in EVERY if f != "base"]),
-    "CGAL": (r"CGAL/", ["check", "solid", "loop"], []),
+    "CGAL": (r"CGAL/", ["check"], []),
     "assimp": (r"assimp/", [], []),  # tests only: an independent reader
-    "isa-l": (r"isa-l\.h", ["export"], []),
-    "zlib": (r"zlib\.h", ["export"], []),
+    "libdeflate": (r"libdeflate\.h", ["export"], []),
+    "libharu": (r"hpdf", ["report"], []),
     # linked into tests only (33 ms at every start): tests/programs
     "OpenCASCADE": (r"(Standard|TopoDS|TopExp|BRep\w*|STEP\w*|XCAF\w*|gp)(_\w+)?\.hxx|opencascade/",
                     [], []),
-    "Ceres": (r"ceres/", ["loop"], []),
-    "NLopt": (r"nlopt", ["train"], []),
-    "nlohmann_json": (r"nlohmann/", ["export", "loop", "app"], []),
+    "NLopt": (r"nlopt", ["search"], []),
+    "nlohmann_json, declared only": (r"nlohmann/json_fwd\.hpp", ["report"], ["report"]),
+    "nlohmann_json": (r"nlohmann/", ["export", "loop", "report", "session"], []),
     "CLI11": (r"CLI/", ["app"], []),
 }
 
-# folders at the top level that hold no code of the library
-OUTSIDE = ("bench", "build", "cmake", "docs", "examples", "python", "scripts", "templates", "tests")
+# top-level folders that nobody includes
+OUTSIDE = ["tests", "examples", "bench", "fuzz", "python", "docs", "cmake", "scripts", "templates",
+           "build"]
 
 SPDX = "SPDX-License-Identifier: GPL-3.0-or-later"
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -56,14 +69,18 @@ def check_includes(path, folder, text):
         bracket, name = match.groups()
         line = text.count("\n", 0, match.start(1)) + 1
         where = f"{path}:{line}: "
-        own = re.match(r"trueflank/(\w+)/", name)
+        own = re.match(r"trueflank/(\w+)/(?:(\w+)/)?", name)
         if own:
             other = own.group(1)
+            row = path.parent.as_posix() if path.parent.as_posix() in LAYERS else folder
+            room = f"{other}/{own.group(2)}"
+            named = room if own.group(2) and (other == folder or room in LAYERS) else other
             if other not in LAYERS:
-                yield where + f"there is no folder trueflank/{other}"
-            elif other != folder and other not in LAYERS[folder]:
-                allowed = ", ".join(LAYERS[folder]) or "nothing"
-                yield where + f"{folder}/ may not include {other}/ (only {allowed})"
+                yield where + f"there is no folder {other}/"
+            elif named != path.parent.as_posix() and other not in LAYERS[row] and named not in LAYERS[row] \
+                    and (row != folder or other != folder):
+                allowed = ", ".join(LAYERS[row]) or "nothing"
+                yield where + f"{row}/ may not include {named}/ (only {allowed})"
             continue
         if re.match(r"(tests|examples|bench|templates)/", name):
             yield where + f"nobody includes {name.split('/')[0]}/"
@@ -101,13 +118,51 @@ def sources_below(top):
 def library_folders(root):
     """The folders at the top level that hold code of the library or the program."""
     return sorted(p for p in root.iterdir()
-                  if p.is_dir() and p.name not in OUTSIDE and not p.name.startswith(".") and sources_below(p))
+                  if p.is_dir() and p.name not in OUTSIDE and not p.name.startswith(".")
+                  and (p.name in LAYERS or sources_below(p)))
+
+
+def public_headers(root):
+    text = re.sub(r"#.*", "", (root / "cmake/public_headers.cmake").read_text(encoding="utf-8"))
+    return re.findall(r"[\w/]+\.h\b", text)
+
+
+def trueflank_includes(path):
+    """(name, line) of what a file includes of this project."""
+    text = path.read_text(encoding="utf-8")
+    return [(m.group(2).removeprefix("trueflank/"), text.count("\n", 0, m.start(1)) + 1)
+            for m in INCLUDE.finditer(text) if m.group(2).startswith("trueflank/")]
+
+
+def check_public(root):
+    """What is installed stands on itself, serves the examples, and is described."""
+    if not (root / "cmake/public_headers.cmake").exists():
+        return
+    public = public_headers(root)
+    for header in public:
+        if not (root / header).is_file():
+            yield f"cmake/public_headers.cmake: there is no {header}"
+            continue
+        for name, line in trueflank_includes(root / header):
+            if name not in public:
+                yield f"{header}:{line}: a public header includes {name}, which is not installed"
+    for path in sorted((root / "examples/cpp").glob("*.cpp")):
+        for name, line in trueflank_includes(path):
+            if name not in public:
+                yield f"{path.relative_to(root)}:{line}: {name} is not public (cmake/public_headers.cmake)"
+    page = (root / "docs/api.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`(\w+(?:/\w+)+\.h)`", page))
+    for header in sorted(set(public) - named):
+        yield f"docs/api.md does not describe {header}"
+    for header in sorted(named - set(public)):
+        yield f"docs/api.md describes {header}, which is not public"
 
 
 def check(root):
     """All complaints, then all warnings, about the tree at `root`."""
     complaints, warnings = [], []
-    for path in (p for folder in library_folders(root) for p in sources_below(folder)):
+    folders = library_folders(root)
+    for path in (p for top in folders for p in sources_below(top)):
         shown = path.relative_to(root)
         text = path.read_text(encoding="utf-8")
         folder = shown.parts[0]
@@ -117,9 +172,11 @@ def check(root):
         complaints += check_includes(shown, folder, text)
         if path.suffix == ".h" and "#pragma once" not in text:
             complaints.append(f"{shown}: no #pragma once")
-        if path.relative_to(root / folder).as_posix() not in listed_files(root / folder / "CMakeLists.txt"):
-            complaints.append(f"{shown}: not listed in {folder}/CMakeLists.txt")
-    for top in (*library_folders(root), *(root / folder for folder in ("tests", "examples", "bench"))):
+        # in the CMakeLists.txt of its room, where that has one, or of its folder
+        builder = path.parent if (path.parent / "CMakeLists.txt").exists() else root / folder
+        if path.relative_to(builder).as_posix() not in listed_files(builder / "CMakeLists.txt"):
+            complaints.append(f"{shown}: not listed in {builder.relative_to(root)}/CMakeLists.txt")
+    for top in (*folders, *(root / name for name in ("tests", "examples", "bench"))):
         for path in sources_below(top):
             shown = path.relative_to(root)
             text = path.read_text(encoding="utf-8")
@@ -128,6 +185,7 @@ def check(root):
             count = text.count("\n")
             if count > LINES[path.suffix]:
                 warnings.append(f"{shown}: {count} lines; is it still one thing?")
+    complaints += check_public(root)
     return complaints, warnings
 
 

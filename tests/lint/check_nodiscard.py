@@ -29,7 +29,7 @@ def blank(match):
 
 def check(root):
     complaints = []
-    for path in sorted(p for folder in check_layers.LAYERS for p in (root / folder).rglob("*.h")):
+    for path in sorted(p for top in check_layers.library_folders(root) for p in top.rglob("*.h")):
         text = COMMENT.sub(blank, path.read_text(encoding="utf-8"))
         # a preprocessor line ends what went before
         text = re.sub(r"^[ \t]*#[^\n]*", lambda m: ";" + " " * (len(m.group(0)) - 1), text,

@@ -39,7 +39,7 @@ class Layers(Tree):
 
     def test_a_good_tree_has_no_complaint(self):
         self.write("geometry/gear.h", HEADER + '#include <Eigen/Core>\n#include <vector>\n')
-        self.write("solid/cut.cpp", LICENCE + '#include "trueflank/solid/cut.h"\n'
+        self.write("check/cut.cpp", LICENCE + '#include "trueflank/check/cut.h"\n'
                    '#include <CGAL/Surface_mesh.h>\n#include "trueflank/geometry/gear.h"\n')
         self.assertEqual(check_layers.check(self.root), ([], []))
 
@@ -47,13 +47,18 @@ class Layers(Tree):
         self.write("geometry/gear.h", HEADER + '#include "trueflank/train/train.h"\n')
         self.assert_one("gear.h:3: geometry/ may not include train/")
 
+    def test_a_room_that_includes_its_neighbour(self):
+        self.write("loop/discovery/engine.cpp", LICENCE + '#include "trueflank/loop/gear/pose.h"\n', listed=False)
+        self.write("loop/CMakeLists.txt", "discovery/engine.cpp\n", listed=False)
+        self.assert_one("engine.cpp:2: loop/discovery/ may not include loop/gear/")
+
     def test_an_unknown_folder(self):
         self.write("utils/text.h", HEADER)
         self.assert_one("no row")
 
     def test_an_include_of_an_unknown_folder(self):
         self.write("base/text.h", HEADER + '#include "trueflank/utils/text.h"\n')
-        self.assert_one("no folder trueflank/utils")
+        self.assert_one("no folder utils/")
 
     def test_a_kernel_in_a_header(self):
         self.write("solid/cut.h", HEADER + "#include <CGAL/Surface_mesh.h>\n")

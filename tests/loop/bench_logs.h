@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
-#include "trueflank/loop/bench_table.h"
+#include "trueflank/loop/drive/bench_table.h"
 
 // Logs of real benches, turned into the loop's tables. The logs stand outside the repository: of most the
 // licence is not stated.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/loop/sample_bench.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank::test {
 namespace {
@@ -162,9 +163,11 @@ TEST(BenchFile, TooFewRowsAreRefused) {
 }
 
 TEST(BenchFile, ASingleGearHasNoBench) {
-  GearTrain gear = bench_train();
-  gear.design.kind = TrainKind::kGear;
-  const auto model = loop::drive_model(gear);
+  GearboxDesign design{.name = "single", .topology = train_topology("gear")};
+  design.gears = {{.name = "gear", .teeth = 20}};
+  const auto gear = lay_out(design);
+  ASSERT_TRUE(gear);
+  const auto model = loop::drive_model(*gear);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().key, "gearbox.kind");
 }

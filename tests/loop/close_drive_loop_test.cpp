@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/loop/sample_bench.h"
-#include "trueflank/loop/drive_html.h"
+#include "trueflank/report/drive_html.h"
 
 namespace trueflank::test {
 namespace {
@@ -62,9 +62,9 @@ std::vector<HiddenCase> hidden_cases() {
   };
   HiddenDrive scale, offset;
   scale.output_reads = 1.05;
-  offset.input_zero_nm = 0.002;
+  offset.input_zero_nm = 0.001;  // more would make the apparent efficiency at low load exceed 1
   cases.push_back({"torque_scale", scale, {{"factor", 1.05}}});
-  cases.push_back({"torque_offset", offset, {{"offset_nm", 0.002}}});
+  cases.push_back({"torque_offset", offset, {{"offset_nm", 0.001}}});
   return cases;
 }
 
@@ -94,8 +94,9 @@ INSTANTIATE_TEST_SUITE_P(Drive, HiddenEffect, testing::ValuesIn(hidden_cases()),
 
 TEST(DriveLoop, GeneratorAndModelAgreeWithoutHiddenEffects) {
   const loop::DriveEfficiency e = bench_model().at(0.1);
-  EXPECT_NEAR(e.forward, paper_train().forward({0.1, 0.1, 0.1}), 1e-12);
-  EXPECT_NEAR(e.backward, paper_train().backward({0.1, 0.1, 0.1}), 1e-12);
+  // the generator sums over 4000 moments of a pitch
+  EXPECT_NEAR(e.forward, paper_train().forward({0.1, 0.1, 0.1}), 1e-4);
+  EXPECT_NEAR(e.backward, paper_train().backward({0.1, 0.1, 0.1}), 1e-4);
   EXPECT_NEAR(bench_model().ratio, paper_train().ratio(), 1e-9);
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/declared_effect.h"
+#include "trueflank/loop/gear/declared_effect.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/loop/made_gears.h"
-#include "trueflank/loop/correction.h"
-#include "trueflank/loop/formula.h"
+#include "trueflank/loop/gear/correction.h"
+#include "trueflank/loop/gear/formula.h"
 
 // Effects that users describe, and the formulas they are described with.
 namespace trueflank::test {

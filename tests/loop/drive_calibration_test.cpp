@@ -3,7 +3,7 @@
 
 #include "tests/loop/sample_bench.h"
 #include "trueflank/design/design_file_writer.h"
-#include "trueflank/loop/drive_calibration.h"
+#include "trueflank/loop/drive/drive_calibration.h"
 #include "trueflank/train/efficiency.h"
 
 namespace trueflank::test {

@@ -13,7 +13,8 @@
 #include "trueflank/train/gear_train.h"
 
 // A drive on a bench whose losses the library does not know. Shares no formula with trueflank/loop: the
-// train's efficiency is the paper's closed form for three meshes, and all that is hidden is a function.
+// train's efficiency is the paper's closed form for three meshes, each with the sum of its forces, and all that is
+// hidden is a function.
 namespace trueflank::test {
 
 /// What the bench does at one moment.
@@ -50,7 +51,8 @@ struct BenchPlan {
   std::uint64_t seed = 1;
 };
 
-/// The train of the bilateral drive with its shifts, as numbers of its own.
+/// The train of the bilateral drive with its shifts, as numbers of its own: the paper's closed form for three
+/// meshes, in which each loses what the forces on its sliding teeth say, summed up.
 class PaperTrain {
  public:
   explicit PaperTrain(const GearTrain& train) {
@@ -60,27 +62,47 @@ class PaperTrain {
     k_ = z("ring1") / z("sun");
     i2_ = z("ring1") * z("planet2") / (z("planet1") * z("ring2"));
     for (int m = 0; m < 3; ++m) {
-      const ContactRatios e = contact_ratios(train.pair(train.meshes[m]));
-      const double z1 = train.gears[train.meshes[m].gear1].profile.gear().teeth;
-      const double z2 = train.gears[train.meshes[m].gear2].profile.gear().teeth;
-      const double curve = m == 0 ? 1.0 / z1 + 1.0 / z2 : 1.0 / z1 - 1.0 / z2;
-      loss_[m] = M_PI * curve *
-                 (e.approach * e.approach + e.recess * e.recess - e.approach - e.recess + 1.0);
+      const GearPair pair = train.pair(train.meshes[m]);
+      const LineOfAction line = line_of_action(pair);
+      const double pitch = line.base_pitch_mm, r1 = base_radius_mm(pair.gear1()), r2 = base_radius_mm(pair.gear2());
+      mesh_[m] = {r1 / pitch, r2 / pitch, (line.effective_start_mm - line.pitch_point_mm) / pitch,
+                  (line.effective_end_mm - line.pitch_point_mm) / pitch, line.pitch_point_mm / pitch,
+                  pair.internal() ? 1.0 : -1.0};
     }
   }
   [[nodiscard]] double ratio() const { return (1.0 + k_) / (1.0 - i2_); }
-  [[nodiscard]] double forward(const std::array<double, 3>& mu) const {
-    const double a = 1 - mu[0] * loss_[0], b = 1 - mu[1] * loss_[1], c = 1 - mu[2] * loss_[2];
+  [[nodiscard]] double forward(const std::array<double, 3>& mu) const {  // sun, planet1, ring2 drive
+    const double a = efficiency(0, mu[0], true), b = efficiency(1, mu[1], true), c = efficiency(2, mu[2], false);
     return (1.0 + k_ * a * b) / (1.0 - i2_ * b * c) / ratio();
   }
   [[nodiscard]] double backward(const std::array<double, 3>& mu) const {
-    const double a = 1 - mu[0] * loss_[0], b = 1 - mu[1] * loss_[1], c = 1 - mu[2] * loss_[2];
+    const double a = efficiency(0, mu[0], false), b = efficiency(1, mu[1], false), c = efficiency(2, mu[2], true);
     return (1.0 - i2_ / (b * c)) / (1.0 + k_ / (a * b)) * ratio();
   }
 
  private:
+  struct Mesh {  // in base pitches, places from the pitch point
+    double r1, r2, start, end, tangent, sense;
+  };
+  /// Driven torque held constant, pairs share the load evenly; 4000 moments of a pitch.
+  [[nodiscard]] double efficiency(int m, double mu, bool gear1_drives) const {
+    const Mesh& mesh = mesh_[static_cast<std::size_t>(m)];
+    constexpr int kMoments = 4000;
+    double driving_over_driven = 0.0;
+    for (int i = 0; i < kMoments; ++i) {
+      double t1 = 0.0, t2 = 0.0;
+      for (double s = mesh.start + (i + 0.5) / kMoments; s < mesh.end; s += 1.0) {
+        const double friction = (gear1_drives ? mu : -mu) * (s > 0.0 ? 1.0 : -1.0);
+        t1 += mesh.r1 + friction * (mesh.tangent + s);
+        t2 += mesh.r2 + friction * (mesh.tangent * mesh.r2 / mesh.r1 + mesh.sense * s);
+      }
+      driving_over_driven += (gear1_drives ? t1 / t2 : t2 / t1) / kMoments;
+    }
+    return (gear1_drives ? mesh.r1 / mesh.r2 : mesh.r2 / mesh.r1) / driving_over_driven;
+  }
+
   double k_ = 1.0, i2_ = 0.5;
-  std::array<double, 3> loss_{};
+  std::array<Mesh, 3> mesh_{};
 };
 
 /// A bench file's text.

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "trueflank/loop/measurement.h"
+#include "trueflank/loop/measured/measurement.h"
 
 // Makes and measures gears with a process the loop is not told of. Written apart from the library:
 // flanks as unwound threads, thickness at the reference circle, normals by differences, displacements

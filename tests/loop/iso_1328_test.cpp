@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/iso_1328.h"
+#include "trueflank/loop/gear/iso_1328.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/loop/hidden_process.h"
-#include "trueflank/loop/close_loop.h"
+#include "trueflank/loop/gear/close_loop.h"
 
 // The library's gear for a made one, and the loop closed on what was measured of it.
 namespace trueflank::test {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/read_measurement.h"
+#include "trueflank/loop/measured/read_measurement.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace trueflank::loop {
@@ -201,6 +202,52 @@ TEST(Gde, ReadsPointsByLocalNamesAndListsTheRest) {
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("operator"), std::string::npos);
   EXPECT_FALSE(read_gde("b.xml", "<a/>", notes));
+}
+
+TEST(Mka, ATraceOfAnImpossibleToothIsLeftOut) {
+  for (const char* tooth : {"99999999999999999999", "0", "2000000000"}) {
+    Notes notes;
+    const std::string text =
+        " 40 :Start Messbereich.....da  [mm]..:  174.2\n 43 :Ende Messbereich......de  [mm]..:  182.8\n"
+        "Profil:  Zahn-Nr.: " + std::string(tooth) + " rechts / 2 Werte  / z= 21.0\n  1.0  2.0\n"
+        "Profil:  Zahn-Nr.: 3 rechts / 2 Werte  / z= 21.0\n  1.0  2.0\n";
+    const auto data = read_mka("a.mka", text, notes);
+    ASSERT_TRUE(data) << tooth;
+    ASSERT_EQ(data->rows.size(), 2u) << tooth;
+    EXPECT_EQ(data->rows[0].tooth, 3);
+    EXPECT_NE(std::find_if(notes.begin(), notes.end(), [](const std::string& note) {
+                return note.find("tooth number that can be") != std::string::npos;
+              }), notes.end());
+  }
+}
+
+TEST(Gde, APointOfAnImpossibleToothIsLeftOut) {
+  for (const char* tooth : {"1e30", "-3", "2.5", "rubbish", "nan"}) {
+    Notes notes;
+    const std::string point =
+        "<point><diameter>24.0</diameter><deviation>1.5</deviation></point></curve_profile>";
+    const auto data = read_gde("a.xml",
+                               "<gear><curve_profile tooth=\"" + std::string(tooth) + "\">" + point +
+                                   "<curve_profile tooth=\"7\" tooth_width=\"12.5\">" + point + "</gear>",
+                               notes);
+    ASSERT_TRUE(data) << tooth;
+    ASSERT_EQ(data->rows.size(), 1u) << tooth;
+    EXPECT_EQ(data->rows[0].tooth, 7);
+  }
+}
+
+TEST(Gde, ATagOfManyEqualSignsIsReadAtOnce) {
+  Notes notes;
+  std::string tag = "<a x";
+  for (int i = 0; i < 300'000; ++i) tag += "==y";
+  EXPECT_FALSE(read_gde("a.xml", tag + ">", notes));
+}
+
+TEST(MeasuredFiles, WhatNeverEndsIsRefused) {
+  const auto data = read_measured_files({"/dev/zero"});
+  ASSERT_FALSE(data);
+  EXPECT_EQ(exit_code(data.error().front().code), 2);
+  EXPECT_EQ(data.error().front().file, "/dev/zero");
 }
 
 TEST(MeasuredFiles, MissingFileIsAnErrorOfTheEnvironment) {

@@ -6,7 +6,7 @@
 
 #include "tests/loop/bench_logs.h"
 #include "tests/loop/sample_bench.h"
-#include "trueflank/loop/drive_fit.h"
+#include "trueflank/loop/drive/drive_fit.h"
 
 // Real benches; skipped where the data are not there (their licence is not stated, or they are large).
 namespace trueflank::test {

@@ -7,7 +7,7 @@
 
 #include "tests/loop/hidden_bench.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/loop/close_drive_loop.h"
+#include "trueflank/loop/drive/close_drive_loop.h"
 
 namespace trueflank::test {
 

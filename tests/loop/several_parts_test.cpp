@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/loop/made_gears.h"
-#include "trueflank/loop/correction.h"
-#include "trueflank/loop/distributions.h"
-#include "trueflank/loop/several_parts.h"
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/correction.h"
+#include "trueflank/loop/gear/several_parts.h"
 
 // Several parts of one process: what repeats is told from what happened once.
 namespace trueflank::test {

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
-SHELL = os.path.join(os.environ["TRUEFLANK_SOURCE_DIR"], "shell")
+SHELL = os.path.join(os.environ["TRUEFLANK_SOURCE_DIR"], "app", "shell")
 
 
 def completed(*words):
@@ -32,7 +32,20 @@ class ShellFiles(unittest.TestCase):
 
     def test_lists_of_formats_go_on_after_a_comma(self):
         self.assertEqual(completed("trueflank", "make", "--formats", "stl,3"), ["stl,3mf"])
-        self.assertEqual(completed("trueflank", "new", "x", "--kind", "s"), ["simple"])
+        self.assertEqual(completed("trueflank", "new", "x", "--kind", "si"), ["simple"])
+
+    def test_every_list_of_formats_is_the_programs(self):
+        text = re.sub(r"\s+", "", help_of("make"))
+        formats = re.search(r"comma-separated:([\w,]+)", text)[1].split(",")
+        self.assertIn("step", formats)
+        self.assertEqual(completed("trueflank", "make", "--formats", ""), formats)
+        source = os.environ["TRUEFLANK_SOURCE_DIR"]
+        with open(os.path.join(SHELL, "trueflank.1"), encoding="utf-8") as file:
+            self.assertIn("Formats: " + ", ".join(formats), file.read())
+        with open(os.path.join(source, "docs", "formats.md"), encoding="utf-8") as file:
+            page = file.read()
+        for name in formats:
+            self.assertRegex(page, rf"(?m)^\| `?\.?{name}\b", name)
 
     def test_the_man_page_names_every_command(self):
         with open(os.path.join(SHELL, "trueflank.1"), encoding="utf-8") as file:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/bed_chamfer.h"
+#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/solid/shape/bed_chamfer.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +11,12 @@
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "tests/train/prototype_design.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mass_properties.h"
-#include "trueflank/solid/mesh_accuracy.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/outline_distance.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/measure/mass_properties.h"
+#include "trueflank/solid/measure/mesh_accuracy.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/measure/outline_distance.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -63,7 +64,7 @@ TEST(InsetProfile, WallsLieTheDepthInsideTheMaterialAndMeet) {
 }
 
 GearTrain plain_gear(double helix_deg, bool ring) {
-  GearboxDesign design{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign design{.name = "gear", .topology = train_topology("gear")};
   design.helix_angle_rad = rad_from_deg(helix_deg);
   GearDesign gear{.name = "gear", .teeth = ring ? 40 : 13, .face_width_mm = 6.0};
   if (ring) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/brep.h"
+#include "trueflank/solid/brep/brep.h"
 
 #include <gtest/gtest.h>
 

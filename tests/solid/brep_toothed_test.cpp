@@ -11,8 +11,8 @@
 #include "tests/support/flank_distance.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
-#include "trueflank/solid/brep.h"
-#include "trueflank/solid/spline_patch.h"
+#include "trueflank/solid/brep/brep.h"
+#include "trueflank/solid/brep/spline_patch.h"
 
 namespace trueflank {
 namespace {

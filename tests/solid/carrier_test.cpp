@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/carrier.h"
+#include "trueflank/solid/shape/carrier.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/train/prototype_design.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/outline_loop.h"
+#include "tests/support/train_members.h"
 
 namespace trueflank {
 namespace {
@@ -94,18 +95,17 @@ std::vector<Point2> placed(const Outline& outline, double rotation, const Point2
 }
 
 std::vector<PlacedSlab> slabs_at(const GearTrain& train, const PartShapes& shapes, double sun_turn) {
-  const MemberSpeeds speeds = member_speeds(train);
   std::vector<PlacedSlab> all;
   for (const Placement& body : shapes.assembly) {
     const PartShape& shape = shapes.parts[static_cast<std::size_t>(body.part)];
     const bool carried = shape.name.starts_with("carrier");
     const bool planet = shape.name.starts_with("planet");
-    const double own = shape.name == "sun" ? speeds.sun
-                       : planet            ? speeds.planet
-                       : carried           ? speeds.carrier
-                       : shape.name == "ring2" ? speeds.ring2
-                                               : speeds.ring1;
-    const double orbit = planet || carried ? speeds.carrier : 0.0;
+    const double own = shape.name == "sun" ? test::speed_of(train, "sun")
+                       : planet            ? test::speed_of(train, "planet")
+                       : carried           ? test::speed_of(train, "carrier")
+                       : shape.name == "ring2" ? test::speed_of(train, "ring2")
+                                               : test::speed_of(train, "ring1");
+    const double orbit = planet || carried ? test::speed_of(train, "carrier") : 0.0;
     const Point2 centre = rotated(Point2(body.translation_mm[0], body.translation_mm[1]), orbit * sun_turn);
     const double rotation = body.rotation_rad + own * sun_turn;
     for (const Slab& slab : shape.slabs) {
@@ -194,7 +194,8 @@ TEST(Carrier, EveryWallThatIsMissingIsTold) {
 TEST(Carrier, ADesignWithoutOneHasNone) {
   GearboxDesign design = carried();
   design.carrier.reset();
-  const auto shapes = part_shapes(*lay_out(design));
+  const auto train = lay_out(design);
+  const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes);
   EXPECT_EQ(shapes->parts.size(), 4U);
 }

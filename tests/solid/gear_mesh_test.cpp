@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include "tests/solid/random_part.h"
 #include "tests/train/prototype_design.h"
 #include "trueflank/geometry/polyline.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -112,7 +112,7 @@ TEST(GearMesh, ThirtyTwoBitCoordinatesMergeNothingAndLeaveNoTriangleWithoutArea)
 }
 
 TEST(GearMesh, SpurGearHasTheVolumeOfItsPolygonTimesItsWidth) {
-  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {39});
+  GearboxDesign design = test::unshifted("gear", "", {39});
   const auto train = lay_out(design);
   ASSERT_TRUE(train);
   const auto shapes = part_shapes(*train);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/mass_properties.h"
+#include "trueflank/solid/measure/mass_properties.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@
 #include "tests/support/sample_parts.h"
 #include "tests/train/prototype_design.h"
 #include "trueflank/geometry/polyline.h"
-#include "trueflank/solid/gear_mesh.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "tests/support/train_members.h"
 
 namespace trueflank {
 namespace {
@@ -92,11 +93,12 @@ TEST(MassProperties, GoToTheBodiesOfTheTrain) {
   const auto train = lay_out(test::prototype(0.46, 1.2, 25.66));
   const auto shapes = part_shapes(*train);
   ASSERT_TRUE(shapes.has_value());
-  const BodyInertias bodies = body_inertias(*shapes, [](const std::string&) { return 7850.0; });
-  EXPECT_GT(bodies.ring1_kg_m2, bodies.planet_kg_m2);
-  EXPECT_GT(bodies.planet_kg_m2, bodies.sun_kg_m2);
-  EXPECT_GT(bodies.sun_kg_m2, 0.0);
-  EXPECT_NEAR(bodies.planet_mass_kg, 0.18, 0.03);
+  BodyInertias bodies = body_inertias(*train, *shapes, [](const PartShape&) { return 7850.0; });
+  const auto axial = [&](const char* member) { return test::inertia_of(*train, bodies, member).axial_kg_m2; };
+  EXPECT_GT(axial("ring1"), axial("planet"));
+  EXPECT_GT(axial("planet"), axial("sun"));
+  EXPECT_GT(axial("sun"), 0.0);
+  EXPECT_NEAR(test::inertia_of(*train, bodies, "planet").mass_kg, 0.18, 0.03);
 }
 
 TEST(MassProperties, OfATwistedGearAreThoseOfTheSpurGearWithItsSection) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/mesh_compare.h"
+#include "trueflank/solid/measure/mesh_compare.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/solid/random_part.h"
 #include "tests/train/prototype_design.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/triangle_tree.h"
+#include "trueflank/solid/measure/triangle_tree.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
 
 namespace trueflank {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/mesh_difference.h"
+#include "trueflank/solid/measure/mesh_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "tests/train/prototype_design.h"
 #include "trueflank/base/units.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 namespace trueflank {
 namespace {

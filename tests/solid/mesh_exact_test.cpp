@@ -13,9 +13,10 @@
 
 #include "tests/solid/random_toothing.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/solid/bed_chamfer.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mesh_validity.h"
+#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/bed_chamfer.h"
 
 namespace trueflank {
 namespace {
@@ -135,7 +136,7 @@ TEST(MeshExact, ChamferedAtTheBedPartsBoundSolidsAlsoIn32Bits) {
 
 TEST(MeshExact, FinestAndCoarsestToleranceAndTheLargestGearBoundSolids) {
   GearboxDesign design;
-  design.kind = TrainKind::kGear;
+  design.topology = train_topology("gear");
   for (int teeth : {5, 500}) {
     GearDesign gear;
     gear.name = "gear";

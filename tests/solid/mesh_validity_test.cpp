@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/mesh_validity.h"
+#include "trueflank/solid/measure/mesh_validity.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace trueflank {
@@ -86,6 +87,27 @@ TEST(MeshValidity, WrongIndicesAndCoordinatesAreToldNotFollowed) {
   mesh.vertices[0][1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(mesh_validity(mesh).coordinates_finite);
   EXPECT_FALSE(mesh_validity(mesh).valid());
+}
+
+TEST(MeshValidity, OneFacetManyTimesIsJudgedAtOnce) {
+  TriangleMesh mesh = tetrahedron();
+  for (int i = 0; i < 300'000; ++i) mesh.triangles.push_back(mesh.triangles.front());
+  const MeshValidity validity = mesh_validity(mesh);  // once a square of the count
+  EXPECT_GE(validity.misoriented_edges, 900'003U);
+  EXPECT_FALSE(validity.valid());
+}
+
+TEST(MeshValidity, AFanOfManyFacetsIsJudgedAtOnce) {
+  constexpr std::uint32_t kRim = 200'000;
+  TriangleMesh mesh{.vertices = {{0, 0, -1}, {0, 0, 1}}, .triangles = {}};
+  for (std::uint32_t i = 0; i < kRim; ++i) {
+    const double angle = 2.0 * 3.141592653589793 * i / kRim;
+    mesh.vertices.push_back({std::cos(angle), std::sin(angle), 0.0});
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % kRim;
+    mesh.triangles.push_back({0, b, a});
+    mesh.triangles.push_back({1, a, b});
+  }
+  EXPECT_TRUE(mesh_validity(mesh).valid());
 }
 
 }  // namespace

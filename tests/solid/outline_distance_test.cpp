@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/outline_distance.h"
+#include "trueflank/solid/measure/outline_distance.h"
 
 #include <gtest/gtest.h>
 

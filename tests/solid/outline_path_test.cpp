@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/outline_path.h"
+#include "trueflank/solid/brep/outline_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "tests/train/prototype_design.h"
 #include "trueflank/base/units.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mesh_accuracy.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/outline_loop.h"
+#include "trueflank/solid/measure/mesh_accuracy.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -48,7 +48,7 @@ class PartShapeTest : public testing::Test {
   /// 25 is no multiple of 100 / gcd(100, 88 31 - 81 38) = 2.
   static GearboxDesign four_planets_of_two_kinds() {
     GearboxDesign design =
-        test::unshifted(TrainKind::k3k, OutputMember::kRing2, {12, 38, 88, 31, 81});
+        test::unshifted("3k", "ring2", {12, 38, 88, 31, 81});
     design.planets = 4;
     return design;
   }
@@ -157,7 +157,7 @@ TEST_F(PartShapeTest, MarkWithoutRoomIsLeftOutAndNoted) {
 
 TEST_F(PartShapeTest, WithoutGapTheSmallerSectionStandsOnTheLargerOne) {
   // P2 inside P1's root circle: 39 teeth above 20
-  design_ = test::unshifted(TrainKind::k3k, OutputMember::kRing2, {12, 39, 90, 20, 71});
+  design_ = test::unshifted("3k", "ring2", {12, 39, 90, 20, 71});
   for (GearDesign& g : design_.gears) g.shift.reset();
   gear("ring1").shift = 0.0;
   gear("ring2").shift = 0.0;
@@ -174,7 +174,7 @@ TEST_F(PartShapeTest, WithoutGapTheSmallerSectionStandsOnTheLargerOne) {
 }
 
 TEST_F(PartShapeTest, WithoutGapCrossingSectionsAreRefused) {
-  design_ = test::unshifted(TrainKind::k3k, OutputMember::kRing2, {12, 39, 90, 37, 88});
+  design_ = test::unshifted("3k", "ring2", {12, 39, 90, 37, 88});
   design_.layer_gap_mm = 0.0;
   expect_one_error("gearbox.layer_gap_mm");
 }
@@ -272,7 +272,7 @@ TEST(BoreEdges, FormAClosedOutlineWhoseFlatsAndKeywayFacePlusX) {
 
 TEST(PartShapeGroove, PartsTheHalvesOfAHerringboneBelowTheRoots) {
   for (const bool ring : {false, true}) {
-    GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {39});
+    GearboxDesign design = test::unshifted("gear", "", {39});
     design.helix_angle_rad = rad_from_deg(25.0);
     design.herringbone = true;
     design.relief_groove_mm = 1.5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/process_compensation.h"
+#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/solid/shape/process_compensation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +8,10 @@
 #include <cmath>
 
 #include "tests/support/sample_gears.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mass_properties.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/outline_distance.h"
+#include "trueflank/solid/measure/mass_properties.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/measure/outline_distance.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
 
 namespace trueflank {
 namespace {
@@ -70,7 +71,7 @@ TEST(ProcessCompensation, ShapedRingIsExactButForItsFillet) {
 }
 
 GearTrain gear_train(double helix_deg = 0.0) {
-  GearboxDesign design{.name = "gear", .kind = TrainKind::kGear};
+  GearboxDesign design{.name = "gear", .topology = train_topology("gear")};
   design.helix_angle_rad = rad_from_deg(helix_deg);
   design.gears = {GearDesign{.name = "gear", .teeth = 24, .face_width_mm = 6.0,
                              .bore = {.diameter_mm = 6.0, .kind = BoreKind::kKeyway,

@@ -8,7 +8,8 @@
 #include <random>
 #include <string>
 
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // Random single gears and rings with everything that can be in them, for properties of meshes.
 namespace trueflank::test {
@@ -81,7 +82,7 @@ inline void add_random_rim(RandomNumbers& random, double root_mm, double module_
 [[nodiscard]] inline std::optional<RandomPart> random_part(std::uint64_t seed) {
   RandomNumbers random(seed);
   GearboxDesign design;
-  design.kind = TrainKind::kGear;
+  design.topology = train_topology("gear");
   design.module_mm = random.log_between(0.2, 10.0);
   GearDesign gear;
   gear.name = "gear";

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include "tests/solid/random_part.h"
+#include "trueflank/design/kinds/train_kind.h"
 
 // Random gears and rings that are no prisms, and distances from their true surface by a search that
 // uses nothing but surface_point().
@@ -56,7 +57,7 @@ struct ToothingKinds {
                                                                    ToothingKinds kinds = {}) {
   RandomNumbers random(seed);
   GearboxDesign design;
-  design.kind = TrainKind::kGear;
+  design.topology = train_topology("gear");
   design.module_mm = random.log_between(0.3, 5.0);
   const double helix = random.chance(kinds.deviation ? 0.3 : 0.0) ? 0.0 : random.between(-40.0, 40.0);
   design.helix_angle_rad = rad_from_deg(helix);

@@ -2,7 +2,7 @@
 //
 // Points are lifted off the true surface along its normal, found from the surface's own points; the
 // distance must come out as the lift.
-#include "trueflank/solid/toothing_distance.h"
+#include "trueflank/solid/measure/toothing_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ Share lift_off(const GearTrain& train, double lift_mm) {
 }
 
 GearboxDesign gear_of(int teeth, double shift, ModificationsDesign modifications) {
-  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {teeth});
+  GearboxDesign design = test::unshifted("gear", "", {teeth});
   design.gears[0].shift = shift;
   design.gears[0].face_width_mm = 10.0;
   design.gears[0].modifications = modifications;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/solid/toothing_grid.h"
+#include "trueflank/solid/shape/toothing_grid.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/solid/random_toothing.h"
 #include "tests/train/prototype_design.h"
-#include "trueflank/solid/brep.h"
-#include "trueflank/solid/flank_strips.h"
-#include "trueflank/solid/gear_mesh.h"
-#include "trueflank/solid/mesh_accuracy.h"
-#include "trueflank/solid/mesh_validity.h"
-#include "trueflank/solid/triangle_tree.h"
+#include "trueflank/solid/brep/brep.h"
+#include "trueflank/solid/measure/mesh_accuracy.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/measure/triangle_tree.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/flank_strips.h"
 
 namespace trueflank {
 namespace {
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(PlainDeviatedDisplacedChamferedAll, RandomToothings,
 TEST(ToothingGrid, KeepsTheToleranceWhereTheInvoluteStartsOnTheBaseCircle) {
   // There the way along the flank grows with the square of the roll angle: the middle of an edge's
   // parameters is far from its chord's. With an end relief the edges are the diagonals.
-  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {12});
+  GearboxDesign design = test::unshifted("gear", "", {12});
   design.module_mm = 1.5;
   design.gears[0].shift = 0.2333;
   design.gears[0].face_width_mm = 5.163;
@@ -119,7 +119,7 @@ TEST(ToothingGrid, KeepsTheToleranceWhereTheInvoluteStartsOnTheBaseCircle) {
 }
 
 TEST(ToothingGrid, LandsOfSharpRootsGoWithTheFlanks) {
-  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {60});
+  GearboxDesign design = test::unshifted("gear", "", {60});
   design.rack.root_radius = 0.0;
   design.gears[0].kind = GearKind::kInternal;
   design.gears[0].face_width_mm = 8.0;
@@ -153,7 +153,7 @@ TEST(FlankStrips, CoverTheirPatchOnceWithNodesOfTheBorderAlone) {
 }
 
 TEST(FlankStrips, SaveAThirdOfThePlainFlanksFacetsAndNoneOfTheModifiedOnes) {
-  GearboxDesign design = test::unshifted(TrainKind::kGear, OutputMember::kNone, {17});
+  GearboxDesign design = test::unshifted("gear", "", {17});
   design.helix_angle_rad = rad_from_deg(20.0);
   auto train = lay_out(design);
   ASSERT_TRUE(train);

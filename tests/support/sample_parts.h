@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
-#include "trueflank/solid/part_shape.h"
+#include "trueflank/solid/shape/part_shape.h"
 
 // Part shapes made by hand, and their exact areas and volumes from the profile's own curves.
 namespace trueflank::test {

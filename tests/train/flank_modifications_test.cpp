@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/flank_modifications.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 
 GearboxDesign single(GearKind kind, const ModificationsDesign& modifications,
                      double helix_deg = 0.0, bool herringbone = false, double groove_mm = 0.0) {
-  GearboxDesign design{.name = "gear", .kind = TrainKind::kGear, .module_mm = 2.0,
+  GearboxDesign design{.name = "gear", .topology = train_topology("gear"), .module_mm = 2.0,
                        .helix_angle_rad = rad_from_deg(helix_deg), .herringbone = herringbone,
                        .relief_groove_mm = groove_mm};
   design.gears = {GearDesign{.name = "gear", .kind = kind,

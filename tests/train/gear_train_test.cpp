@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gear_train.h"
 
 #include <gtest/gtest.h>
@@ -7,17 +8,18 @@
 #include <random>
 
 #include "trueflank/base/tolerance.h"
+#include "tests/support/train_members.h"
 
 namespace trueflank {
 namespace {
 
 GearboxDesign design_3k(std::array<int, 5> teeth, int planets = 3) {
-  GearboxDesign design{.name = "3k", .kind = TrainKind::k3k, .output = OutputMember::kRing2,
+  GearboxDesign design{.name = "3k", .topology = train_topology("3k", "ring2"),
                        .planets = planets};
-  const auto& names = gear_names(TrainKind::k3k);
+  const auto& places = design.topology.gears;
   for (std::size_t i = 0; i < 5; ++i) {
-    GearDesign gear{.name = names[i], .teeth = teeth[i]};
-    if (names[i].starts_with("ring")) gear.kind = GearKind::kInternal;
+    GearDesign gear{.name = places[i].name, .teeth = teeth[i]};
+    if (places[i].form == GearForm::kRing) gear.kind = GearKind::kInternal;
     design.gears.push_back(gear);
   }
   return design;
@@ -27,13 +29,14 @@ GearboxDesign paper_design() {
   GearboxDesign design = design_3k({12, 39, 90, 32, 81});
   design.centre_distance_mm = 25.6826;
   design.backlash_mm = 0.05;
+  design.tips = TipCircles::kStandard;
   design.gears[2].shift = 0.5225;
   design.gears[4].shift = 1.9967;
   return design;
 }
 
 GearboxDesign pair_design(int z1, int z2, bool internal) {
-  GearboxDesign design{.name = "pair", .kind = TrainKind::kPair, .output = OutputMember::kWheel};
+  GearboxDesign design{.name = "pair", .topology = train_topology("pair")};
   design.gears = {GearDesign{.name = "pinion", .teeth = z1},
                   GearDesign{.name = "wheel",
                              .kind = internal ? GearKind::kInternal : GearKind::kExternal,
@@ -45,7 +48,7 @@ TEST(GearTrain, PaperPrototypeHasItsRatioAndShifts) {
   const auto train = lay_out(paper_design());
   ASSERT_TRUE(train);
   // paper page: ratio 1/96.242, same direction
-  EXPECT_NEAR(1.0 / member_speeds(*train).output, 96.2419, 5e-5);
+  EXPECT_NEAR(1.0 / train->speeds.output, 96.2419, 5e-5);
   // the paper's relations: x_s + x_p1 and x_r - x_p from inv a_w, written out here
   const double cos_20 = std::cos(rad_from_deg(20.0));
   const auto inv = [](double a) { return std::tan(a) - a; };
@@ -150,18 +153,18 @@ double out_of_mesh(double z1, double angle1, double z2, double angle2, double co
 }
 
 void expect_in_mesh(const GearTrain& train, const AssemblyPhases& p, double tolerance) {
-  const auto z = [&](const char* name) -> double { return train.find(name)->profile.gear().teeth; };
-  for (std::size_t i = 0; i < p.planet_position_rad.size(); ++i) {
-    const double phi = p.planet_position_rad[i], psi = p.planet_rotation_rad[i];
-    const bool compound = train.design.kind == TrainKind::k3k;
-    const char* planet = compound ? "planet1" : "planet";
-    EXPECT_LT(out_of_mesh(z("sun"), p.sun_rotation_rad, z(planet), psi, phi, false), tolerance);
-    EXPECT_LT(out_of_mesh(z(planet), psi, z(compound ? "ring1" : "ring"), p.ring1_rotation_rad, phi,
-                          true), tolerance);
-    if (!compound) continue;
-    EXPECT_LT(out_of_mesh(z("planet2"), psi + p.planet_offset_rad[i], z("ring2"),
-                          p.ring2_rotation_rad, phi, true), tolerance);
-  }
+  for (std::size_t i = 0; i < p.planet_position_rad.size(); ++i)
+    for (const TrainMesh& mesh : train.meshes) {
+      const auto turned = [&](int gear) {
+        const int member = train.topology().gears[static_cast<std::size_t>(gear)].member;
+        return p.rotation_rad(member, i) + p.offset_rad(gear, i);
+      };
+      const Gear &g1 = train.pair(mesh).gear1(), &g2 = train.pair(mesh).gear2();
+      EXPECT_LT(out_of_mesh(g1.teeth, turned(mesh.gear1), g2.teeth, turned(mesh.gear2),
+                            p.planet_position_rad[i], g2.kind == GearKind::kInternal),
+                tolerance)
+          << mesh.name << " of planet " << i + 1;
+    }
 }
 
 TEST(Assembly, PaperPrototypeTakesThreeIdenticalPlanetsAtEqualSpacing) {
@@ -169,7 +172,7 @@ TEST(Assembly, PaperPrototypeTakesThreeIdenticalPlanetsAtEqualSpacing) {
   ASSERT_TRUE(train);
   EXPECT_TRUE(train->assembly.equal_spacing);
   EXPECT_TRUE(train->assembly.identical_planets);
-  for (double offset : train->phases.planet_offset_rad) EXPECT_EQ(offset, 0.0);
+  for (double offset : test::offsets_of(*train, "planet2")) EXPECT_EQ(offset, 0.0);
   expect_in_mesh(*train, train->phases, 1e-9);
 }
 
@@ -210,8 +213,8 @@ TEST(Assembly, ClosedFormAgreesWithTrialForRandomTeeth) {
     EXPECT_EQ(train->assembly.identical_planets, trial)
         << z_s << "/" << z_p1 << "/" << z_r1 << "/" << z_p2 << "/" << z_r2 << " N " << planets;
     expect_in_mesh(*train, train->phases, 1e-9);
-    for (std::size_t i = 0; i < train->phases.planet_offset_rad.size(); ++i)
-      EXPECT_NEAR(std::abs(train->phases.planet_offset_rad[i]),
+    for (std::size_t i = 0; i < test::offsets_of(*train, "planet2").size(); ++i)
+      EXPECT_NEAR(std::abs(test::offsets_of(*train, "planet2")[i]),
                   std::abs(train->assembly.planet_offsets_rad[i]), 1e-9);
   }
   EXPECT_GT(equal, 40);
@@ -226,13 +229,13 @@ TEST(Assembly, NearestAnglesAssembleIdenticalBodies) {
   EXPECT_FALSE(train->assembly.equal_spacing);
   ASSERT_EQ(train->assembly.nearest_angles_rad.size(), 3u);
   expect_in_mesh(*train, train->phases, 1e-9);
-  for (double offset : train->phases.planet_offset_rad) EXPECT_EQ(offset, 0.0);
+  for (double offset : test::offsets_of(*train, "planet2")) EXPECT_EQ(offset, 0.0);
 }
 
 TEST(Kinematics, TurnedTrainStaysInMesh) {
-  for (OutputMember output : {OutputMember::kRing2, OutputMember::kRing1}) {
+  for (const char* output : {"ring2", "ring1"}) {
     GearboxDesign design = paper_design();
-    design.output = output;
+    design.topology = train_topology("3k", output);
     const auto train = lay_out(design);
     ASSERT_TRUE(train);
     for (double turn : {0.1, 1.7, 25.0, -3.0}) expect_in_mesh(*train, turned(*train, turn), 1e-8);
@@ -241,18 +244,101 @@ TEST(Kinematics, TurnedTrainStaysInMesh) {
 
 TEST(Kinematics, TypeTwoTurnsTheOtherRing) {
   GearboxDesign design = paper_design();
-  design.output = OutputMember::kRing1;
+  design.topology = train_topology("3k", "ring1");
   const auto train = lay_out(design);
   ASSERT_TRUE(train);
-  const MemberSpeeds w = member_speeds(*train);
-  EXPECT_EQ(w.ring2, 0.0);
+  const auto w = [&](const char* member) { return test::speed_of(*train, member); };
+  EXPECT_EQ(w("ring2"), 0.0);
   // paper page's velocity relations with the pitch radii of one centre distance
   const double r_s = 12.0 / 51.0, r_p11 = 39.0 / 51.0, r_ca = 1.0;
-  EXPECT_NEAR(r_s * w.sun + r_p11 * w.planet, (r_s + r_p11) * w.carrier, 1e-12);
+  EXPECT_NEAR(r_s * w("sun") + r_p11 * w("planet"), (r_s + r_p11) * w("carrier"), 1e-12);
   const double r_p12 = 39.0 / 51.0, r_r1 = 90.0 / 51.0;
-  EXPECT_NEAR(r_r1 * w.ring1, (r_r1 - r_p12) * w.carrier + r_p12 * w.planet, 1e-12);
+  EXPECT_NEAR(r_r1 * w("ring1"), (r_r1 - r_p12) * w("carrier") + r_p12 * w("planet"), 1e-12);
   const double r_p2 = r_ca * 32.0 / 49.0, r_r2 = r_ca * 81.0 / 49.0;
-  EXPECT_NEAR(r_r2 * w.ring2, (r_r2 - r_p2) * w.carrier + r_p2 * w.planet, 1e-12);
+  EXPECT_NEAR(r_r2 * w("ring2"), (r_r2 - r_p2) * w("carrier") + r_p2 * w("planet"), 1e-12);
+}
+
+// ---------------------------------------------------------------- compound planets with a gear each
+
+GearboxDesign design_of(Topology topology, const std::vector<int>& teeth, int planets) {
+  GearboxDesign design{.name = "any", .topology = std::move(topology), .planets = planets};
+  for (std::size_t i = 0; i < teeth.size(); ++i) {
+    const TopologyGear& place = design.topology.gears[i];
+    design.gears.push_back({.name = place.name,
+                            .kind = place.form == GearForm::kRing ? GearKind::kInternal : GearKind::kExternal,
+                            .teeth = teeth[i]});
+  }
+  return design;
+}
+
+/// By trial: the body at an angle meshes with everything without an offset of its gears of its own, in one of
+/// the positions in which its first gear meshes.
+bool alike_by_trial(const GearTrain& train, double phi) {
+  const TrainMesh &mesh1 = train.meshes.front(), &mesh2 = train.meshes.back();
+  const Topology& topology = train.topology();
+  const auto central = [&](const TrainMesh& mesh) {
+    return topology.is_planet_gear(static_cast<std::size_t>(mesh.gear1)) ? mesh.gear2 : mesh.gear1;
+  };
+  const auto teeth = [&](int gear) { return train.gear(gear).profile.gear().teeth; };
+  const auto internal = [&](int gear) { return train.gear(gear).profile.gear().kind == GearKind::kInternal; };
+  const auto out = [&](const TrainMesh& mesh, int planet, double psi) {
+    const int c = central(mesh);
+    const double rotation = train.phases.rotation_rad(topology.gears[static_cast<std::size_t>(c)].member, 0);
+    return internal(c) ? out_of_mesh(teeth(planet), psi, teeth(c), rotation, phi, true)
+                       : out_of_mesh(teeth(c), rotation, teeth(planet), psi, phi, false);
+  };
+  const int planet1 = mesh1.gear1 == central(mesh1) ? mesh1.gear2 : mesh1.gear1;
+  const int planet2 = mesh2.gear1 == central(mesh2) ? mesh2.gear2 : mesh2.gear1;
+  // a rotation in which planet1 meshes, found by its phase, then tooth by tooth
+  const double z1 = teeth(planet1);
+  double psi = 0.0, best = 1.0;
+  for (int k = 0; k < 4000; ++k)
+    if (const double o = out(mesh1, planet1, kTwoPi / z1 * k / 4000); o < best) best = o, psi = kTwoPi / z1 * k / 4000;
+  for (double step = kTwoPi / z1 / 4000; step > 1e-13; step *= 0.5)
+    for (const double side : {psi - step, psi + step})
+      if (const double o = out(mesh1, planet1, side); o < best) best = o, psi = side;
+  for (int k = 0; k < teeth(planet1); ++k)
+    if (out(mesh2, planet2, psi + kTwoPi * k / z1) < 1e-6) return true;
+  return false;
+}
+
+TEST(Assembly, SteppedAndSplitRingSetsAssembleAndStayInMeshForRandomTeeth) {
+  std::mt19937 random(5);
+  const auto between = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
+  int seen = 0, identical = 0;
+  while (seen < 60) {
+    const int planets = between(2, 4), z_p1 = between(18, 40), z_p2 = between(18, 40);
+    const bool stepped = between(0, 1) == 1;
+    const int z_s = between(12, 30);
+    GearboxDesign design =
+        stepped ? design_of(train_topology("stepped"), {z_s, z_p1, z_p2, z_s + z_p1 + z_p2}, planets)
+                : design_of(without_gear(train_topology("3k", "ring2", "carrier"), 0),
+                            {z_p1, z_p1 + 40, z_p2, z_p2 + 40}, planets);
+    const auto train = lay_out(design);
+    if (!train) continue;
+    ++seen;
+    SCOPED_TRACE(std::to_string(z_s) + " " + std::to_string(z_p1) + " " + std::to_string(z_p2) + " N " +
+                 std::to_string(planets) + (stepped ? " stepped" : " split ring"));
+    EXPECT_TRUE(train->assembly.equal_spacing);  // bodies may differ
+    bool trial = true;
+    for (int i = 1; i < planets; ++i) trial = trial && alike_by_trial(*train, kTwoPi * i / planets);
+    EXPECT_EQ(train->assembly.identical_planets, trial);
+    identical += trial;
+    for (const double angle : train->assembly.nearest_angles_rad)
+      EXPECT_TRUE(alike_by_trial(*train, angle)) << deg_from_rad(angle);
+    expect_in_mesh(*train, train->phases, 1e-9);
+    for (const double turn : {0.3, -11.0}) expect_in_mesh(*train, turned(*train, turn), 1e-8);
+  }
+  EXPECT_GT(identical, 8);
+  EXPECT_LT(identical, 55);
+}
+
+TEST(GearTrain, GearsThatAreNotTheTopologysAreAnError) {
+  GearboxDesign design = pair_design(17, 43, false);
+  std::swap(design.gears[0].name, design.gears[1].name);
+  EXPECT_EQ(lay_out(design).error().front().key, "gearbox.kind");
+  design.gears.clear();
+  EXPECT_EQ(lay_out(design).error().front().key, "gearbox.kind");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "prototype_design.h"
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/axial_thrust.h"
 #include "trueflank/train/mesh_face.h"
 #include "trueflank/train/strength.h"
@@ -13,7 +14,7 @@ namespace trueflank {
 namespace {
 
 GearboxDesign helical_pair(int z1, int z2, double module_mm, double helix_deg, bool internal = false) {
-  GearboxDesign design{.name = "pair", .kind = TrainKind::kPair, .output = OutputMember::kWheel,
+  GearboxDesign design{.name = "pair", .topology = train_topology("pair"),
                        .module_mm = module_mm, .helix_angle_rad = rad_from_deg(helix_deg)};
   design.gears = {GearDesign{.name = "pinion", .teeth = z1, .shift = 0.0, .face_width_mm = 20.0},
                   GearDesign{.name = "wheel",
@@ -159,7 +160,7 @@ TEST(AxialThrust, IsTheNormalsOwnWhateverTheHandAndKind) {
 }
 
 TEST(AxialThrust, CancelsOnAnIdlerAndOnHerringboneTeethAndAddsUpToNothing) {
-  GearboxDesign design = test::unshifted(TrainKind::kSimple, OutputMember::kCarrier, {18, 21, 60});
+  GearboxDesign design = test::unshifted("simple", "carrier", {18, 21, 60});
   design.helix_angle_rad = rad_from_deg(15.0);
   design.friction = 0.0;
   const auto bodies = [](const GearTrain& train) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gearbox_design.h"
 
 // Designs the tests of this folder share.
@@ -14,10 +16,10 @@ namespace trueflank::test {
                                              double centre_distance_mm) {
   GearboxDesign design;
   design.name = "prototype";
-  design.kind = TrainKind::k3k;
-  design.output = OutputMember::kRing2;
+  design.topology = train_topology("3k", "ring2");
   design.planets = 3;
   design.centre_distance_mm = centre_distance_mm;
+  design.tips = TipCircles::kStandard;  // the paper's circles
   const auto add = [&](const char* name, int teeth, GearKind kind) -> GearDesign& {
     GearDesign gear;
     gear.name = name;
@@ -34,20 +36,30 @@ namespace trueflank::test {
   return design;
 }
 
+/// Teeth of a 3k set as its table of gears has them, ring shifts and centre distance given.
+[[nodiscard]] inline GearboxDesign tooth_set(const std::vector<int>& teeth,
+                                             const std::vector<double>& ring_shifts,
+                                             double centre_distance_mm, double friction) {
+  GearboxDesign design = prototype(ring_shifts[0], ring_shifts[1], centre_distance_mm);
+  for (std::size_t i = 0; i < teeth.size(); ++i) design.gears[i].teeth = teeth[i];
+  design.friction = friction;
+  return design;
+}
+
 /// Any set of teeth, nothing shifted; kind and output as given.
-[[nodiscard]] inline GearboxDesign unshifted(TrainKind kind, OutputMember output,
+[[nodiscard]] inline GearboxDesign unshifted(const std::string& kind, const std::string& output,
                                              const std::vector<int>& teeth) {
   GearboxDesign design;
   design.name = "test";
-  design.kind = kind;
-  design.output = output;
+  design.topology = train_topology(kind, output);
   design.planets = 3;
+  design.tips = TipCircles::kStandard;
   for (std::size_t i = 0; i < teeth.size(); ++i) {
     GearDesign gear;
-    gear.name = gear_names(kind)[i];
+    gear.name = design.topology.gears[i].name;
     gear.teeth = teeth[i];
     gear.shift = 0.0;
-    if (gear.name.starts_with("ring")) gear.kind = GearKind::kInternal;
+    if (design.topology.gears[i].form == GearForm::kRing) gear.kind = GearKind::kInternal;
     design.gears.push_back(gear);
   }
   return design;

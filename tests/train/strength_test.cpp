@@ -19,7 +19,7 @@ GearTrain laid_out(const GearboxDesign& design) {
 }
 
 GearTrain pair_of(int z1, int z2) {
-  return laid_out(test::unshifted(TrainKind::kPair, OutputMember::kWheel, {z1, z2}));
+  return laid_out(test::unshifted("pair", "wheel", {z1, z2}));
 }
 
 /// Section of ISO 6336-3 method B for a hobbed external gear, load at the tip, solved from its
@@ -128,7 +128,7 @@ TEST(Strength, UnknownMaterialIsAnErrorThatNamesTheTable) {
   StrengthOptions options;
   options.material_of["ring"] = "unobtainium";
   const auto result = strength(
-      laid_out(test::unshifted(TrainKind::kSimple, OutputMember::kCarrier, {12, 30, 72})), options);
+      laid_out(test::unshifted("simple", "carrier", {12, 30, 72})), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().key, "ring.material");
   EXPECT_NE(result.error().remedy.find("scm440-hb280"), std::string::npos);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/thickness_allowance.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ TEST(ThicknessAllowance, UnknownSeriesAndLargeGearsAreRefused) {
 }
 
 GearboxDesign pair_design(double helix_deg = 0.0) {
-  GearboxDesign design{.name = "pair", .kind = TrainKind::kPair, .output = OutputMember::kWheel};
+  GearboxDesign design{.name = "pair", .topology = train_topology("pair")};
   design.module_mm = 2.0;
   design.helix_angle_rad = rad_from_deg(helix_deg);
   design.gears = {GearDesign{.name = "pinion", .teeth = 20, .shift = 0.3},

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/check/finding.h"
+#include "trueflank/train/gear_train.h"
+
+namespace trueflank {
+
+struct JointCureOptions {
+  int most_designs = 4000;  ///< laid out at most
+  int most_turned = 400;    ///< meshes turned at most
+};
+
+/// One change after which every check passes.
+struct JointCure {
+  GearboxDesign design;      ///< the cured one; where there is none, the nearest that was found
+  Findings findings;         ///< of every check of that design
+  bool changed = false;
+  /// In words, where a check still fails: what contradicts what.
+  std::string conflict;
+
+  [[nodiscard]] bool cured() const { return verdict(findings) != CheckStatus::kFail; }
+};
+
+/// The smallest change found of tips, shifts, centre distance, backlash, root rounding, tooth depth and, last,
+/// teeth and number of planets, after which no check fails, nothing about the contact warns
+/// (corner_contact, fillet_interference, tip_clearance, contact_ratio) where that can be had, and nothing
+/// else warns that did not before. The result has been judged by check_gearbox().
+/// What is changed together, by size: tips 1 a module, shifts 1, centre distance 1.2 a module, backlash 2 a
+/// module, root rounding and addendum 1.5, a tooth 2.3 and more, a planet 2.
+/// Guarantees: never a design with more failing checks than the one given. Not guaranteed: that no smaller
+/// change exists, nor that one is found where it does.
+[[nodiscard]] JointCure joint_cure(const GearTrain& train, const JointCureOptions& options = {});
+
+}  // namespace trueflank

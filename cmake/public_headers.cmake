@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The headers that a second program may include: installed, and described in docs/api.md. All others are
+# private to this project. tests/lint/check_layers.py holds this list against the sources: a public
+# header includes public ones only, and docs/api.md names each.
+set(TRUEFLANK_PUBLIC_HEADERS
+  base/result.h
+  base/units.h
+  geometry/basic_rack.h
+  geometry/curve.h
+  geometry/flank_deviation.h
+  geometry/gear.h
+  geometry/gear_pair.h
+  geometry/inset_profile.h
+  geometry/involute.h
+  geometry/point2.h
+  geometry/polyline.h
+  geometry/tooth_profile.h
+  geometry/tooth_span.h
+  geometry/toothing.h
+  train/efficiency.h
+  train/efficiency_balance.h
+  train/efficiency_sliding.h
+  train/gear_train.h
+  train/kinematics.h
+  train/gearbox_design.h
+  train/inertia.h
+  train/losses.h
+  train/materials.h
+  train/process.h
+  train/strength.h
+  train/topology.h
+  design/kinds/train_kind.h
+  search/search.h
+  search/search_enumerate.h
+  search/search_model.h
+  search/search_optimise.h
+  search/search_requirements.h
+  check/check_gearbox.h
+  check/finding.h
+  check/mesh_clearance.h
+  check/ring_criteria.h
+  solid/measure/mass_properties.h
+  solid/measure/mesh_compare.h
+  solid/measure/mesh_difference.h
+  solid/measure/mesh_section.h
+  solid/measure/mesh_validity.h
+  solid/measure/section_teeth.h
+  solid/mesh/gear_mesh.h
+  solid/mesh/triangle_mesh.h
+  solid/shape/part_shape.h
+  export/atomic_file.h
+  export/export_parts.h
+  export/file_formats.h
+  export/mesh_reader.h
+  export/reported_file.h
+  design/design_file_writer.h
+  loop/result/loop_result.h
+  report/report.h
+  report/report_html.h
+  session/close_loop.h
+  session/compare_report.h
+  session/evaluate.h
+  session/fix_design.h
+  session/gearbox.h
+  session/make.h
+  session/new_design_file.h
+  session/search_session.h
+)

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_edit.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "trueflank/design/design_file.h"
+#include "trueflank/design/design_file_writer.h"
+
+namespace trueflank {
+namespace {
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+bool blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Where a value of one line stands behind its key; nothing where the line is not `key = value # comment`.
+struct ValuePlace {
+  std::size_t key_begin = 0, key_end = 0;  ///< of the key's name, quotes and dots included
+  std::size_t begin = 0, end = 0;          ///< of the value, blanks left out
+};
+
+std::optional<ValuePlace> value_place(const std::string& line, const std::string& key) {
+  ValuePlace place;
+  while (place.key_begin < line.size() && blank(line[place.key_begin])) ++place.key_begin;
+  const auto equals = line.find('=', place.key_begin);
+  if (equals == std::string::npos) return std::nullopt;
+  place.key_end = equals;
+  while (place.key_end > place.key_begin && blank(line[place.key_end - 1])) --place.key_end;
+  const std::string name = line.substr(place.key_begin, place.key_end - place.key_begin);
+  if (name != key && name != "\"" + key + "\"") return std::nullopt;
+  place.begin = equals + 1;
+  while (place.begin < line.size() && blank(line[place.begin])) ++place.begin;
+  char quote = 0;
+  place.end = place.begin;
+  for (std::size_t i = place.begin; i < line.size(); ++i) {
+    if (quote == 0 && line[i] == '#') break;
+    if (quote == 0 && (line[i] == '"' || line[i] == '\'')) quote = line[i];
+    else if (quote == '"' && line[i] == '\\') ++i;
+    else if (line[i] == quote) quote = 0;
+    if (i < line.size() && !blank(line[i]) && line[i] != '\r') place.end = i + 1;
+  }
+  if (quote != 0 || place.end <= place.begin) return std::nullopt;
+  return place;
+}
+
+/// The value replaced; a comment behind it keeps its column where there is room.
+std::string with_value(const std::string& line, const ValuePlace& place, const std::string& name,
+                       const std::string& value) {
+  std::string changed = line.substr(0, place.key_begin) + name + line.substr(place.key_end, place.begin - place.key_end) + value;
+  std::string rest = line.substr(place.end);
+  const auto comment = rest.find('#');
+  if (comment == std::string::npos) return changed + rest;
+  const std::size_t column = place.end + comment;
+  if (changed.size() + 1 < column)
+    changed.append(column - changed.size(), ' ');
+  else
+    changed += " ";
+  return changed + rest.substr(comment);
+}
+
+/// The text of a file being edited; lines keep their numbers until the end.
+class Editor {
+ public:
+  Editor(std::string_view text, const DesignFile& file) : lines_(lines_of(text)), file_(file) {}
+
+  bool apply(const DesignKeyChange& change) {
+    // lengths may stand there in inches
+    if (change.key.ends_with("_mm")) {
+      const std::string inches = change.key.substr(0, change.key.size() - 3) + "_in";
+      const std::string dotted = change.table.empty() ? inches : change.table + "." + inches;
+      if (const auto other = file_.lines.find(dotted); other != file_.lines.end())
+        return replace(other->second, change, inches);
+    }
+    const auto found = file_.lines.find(change.dotted());
+    if (found != file_.lines.end()) return replace(found->second, change, change.key);
+    return change.after.empty() || insert(change);
+  }
+
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      text += lines_[i] + "\n";
+      if (const auto more = behind_.find(i); more != behind_.end())
+        for (const std::string& line : more->second) text += line + "\n";
+    }
+    return text + at_the_end_;
+  }
+
+ private:
+  bool replace(int number, const DesignKeyChange& change, const std::string& key) {
+    std::string& line = lines_.at(static_cast<std::size_t>(number - 1));
+    const auto place = value_place(line, key);
+    if (!place) return false;
+    line = change.after.empty() ? "# " + line : with_value(line, *place, change.key, change.after);
+    return true;
+  }
+
+  /// Behind the last key of the table, else at the end.
+  bool insert(const DesignKeyChange& change) {
+    const std::string written = change.key + " = " + change.after;
+    if (change.table.empty()) return false;
+    const auto header = file_.lines.find(change.table);
+    if (header == file_.lines.end()) {
+      std::string& tail = at_the_end_;
+      const std::string title = "\n[" + change.table + "]\n";
+      if (tail.find(title) == std::string::npos) tail += title;
+      tail += written + "\n";
+      return true;
+    }
+    int last = header->second;
+    const std::string prefix = change.table + ".";
+    for (const auto& [key, line] : file_.lines)
+      if (key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos &&
+          !is_table(key))
+        last = std::max(last, line);
+    behind_[static_cast<std::size_t>(last - 1)].push_back(written);
+    return true;
+  }
+
+  [[nodiscard]] bool is_table(const std::string& key) const {
+    const auto next = file_.lines.upper_bound(key);
+    return next != file_.lines.end() && next->first.starts_with(key + ".");
+  }
+
+  std::vector<std::string> lines_;
+  std::map<std::size_t, std::vector<std::string>> behind_;
+  std::string at_the_end_;
+  const DesignFile& file_;
+};
+
+}  // namespace
+
+std::vector<DesignKeyChange> design_changes(const GearboxDesign& before, const GearboxDesign& after) {
+  std::map<std::string, std::string> old_values, new_values;
+  const auto keys_before = written_keys(before), keys_after = written_keys(after);
+  for (const WrittenKey& k : keys_before) old_values[k.table + "." + k.key] = k.value;
+  for (const WrittenKey& k : keys_after) new_values[k.table + "." + k.key] = k.value;
+  std::vector<DesignKeyChange> changes;
+  const auto take = [&](const WrittenKey& k) {
+    const std::string name = k.table + "." + k.key;
+    const auto was = old_values.find(name), is = new_values.find(name);
+    const std::string from = was == old_values.end() ? "" : was->second;
+    const std::string to = is == new_values.end() ? "" : is->second;
+    const bool known = std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
+      return c.table == k.table && c.key == k.key;
+    });
+    if (from != to && !known) changes.push_back({k.table, k.key, from, to});
+  };
+  for (const WrittenKey& k : keys_after) take(k);
+  for (const WrittenKey& k : keys_before) take(k);
+  return changes;
+}
+
+ResultAll<std::string> edited_design_text(std::string_view text, const std::string& file,
+                                          const GearboxDesign& after) {
+  const auto read = read_design_file_text(text, file);
+  if (!read) return fail_all(read.error());
+  Editor editor(text, *read);
+  bool edited = true;
+  for (const DesignKeyChange& change : design_changes(read->design, after)) edited = editor.apply(change) && edited;
+  const std::string result = editor.text();
+  const auto again = read_design_file_text(result, file);
+  if (edited && again && again->design == after) return result;
+  return design_file_text(after);
+}
+
+}  // namespace trueflank

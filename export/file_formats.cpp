@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/file_formats.h"
+
+#include <algorithm>
+
+namespace trueflank::io {
+namespace {
+
+template <class Wanted>
+std::string names_where(std::string_view separator, const Wanted& wanted) {
+  std::string names;
+  for (const FileFormatInfo& row : file_format_table()) {
+    if (!wanted(row)) continue;
+    if (!names.empty()) names += separator;
+    names += row.name;
+  }
+  return names;
+}
+
+}  // namespace
+
+const std::vector<FileFormatInfo>& file_format_table() {
+  using enum FileFormat;
+  using enum FormatContent;
+  static const std::vector<FileFormatInfo> table = {
+      {kStl, "stl", kMesh, true, false, "binary STL: triangles alone"},
+      {k3mf, "3mf", kMesh, true, true, "3MF: what slicers read, bodies with names"},
+      {kObj, "obj", kMesh, true, true, "Wavefront OBJ"},
+      {kPly, "ply", kMesh, true, true, "binary PLY in double precision"},
+      {kGlb, "glb", kMesh, true, true, "binary glTF: for pictures and web pages"},
+      {kStep, "step", kSolid, true, false, "STEP AP214: exact surfaces for CAD and CAM"},
+      {kDxf, "dxf", kSection, true, false, "DXF: sections for wire erosion and laser"},
+      {kSvg, "svg", kSection, true, false, "SVG: sections as a picture"},
+      {kScad, "scad", kProgram, false, false, "OpenSCAD: the part as a program to build on"},
+      {kPdf, "pdf", kPaper, true, false, "PDF: workshop drawings, and their DXF"},
+  };
+  return table;
+}
+
+const FileFormatInfo& info(FileFormat format) {
+  return file_format_table()[static_cast<std::size_t>(format)];
+}
+
+bool is_mesh(FileFormat format) { return info(format).content == FormatContent::kMesh; }
+bool is_paper(FileFormat format) { return info(format).content == FormatContent::kPaper; }
+
+const std::vector<FileFormat>& file_formats() {
+  static const std::vector<FileFormat> all = [] {
+    std::vector<FileFormat> formats;
+    for (const FileFormatInfo& row : file_format_table()) formats.push_back(row.format);
+    return formats;
+  }();
+  return all;
+}
+
+const char* to_text(FileFormat format) { return info(format).name.data(); }  // of a literal: ends with 0
+
+std::string format_names(std::string_view separator) {
+  return names_where(separator, [](const FileFormatInfo&) { return true; });
+}
+
+std::string format_names(std::string_view separator, FormatContent content) {
+  return names_where(separator, [&](const FileFormatInfo& row) { return row.content == content; });
+}
+
+ResultAll<std::vector<FileFormat>> parse_formats(const std::vector<std::string>& names) {
+  const auto& all = file_formats();
+  if (names.empty()) return all;
+  std::vector<FileFormat> formats;
+  Errors errors;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](FileFormat format) { return name == to_text(format); });
+    if (found == all.end())
+      errors.push_back({.code = ErrorCode::kUsage,
+                        .message = "no such format",
+                        .key = "--formats",
+                        .value = name,
+                        .remedy = format_names(", ")});
+    else if (std::find(formats.begin(), formats.end(), *found) == formats.end())
+      formats.push_back(*found);
+  }
+  if (!errors.empty()) return fail_all(std::move(errors));
+  return formats;
+}
+
+}  // namespace trueflank::io

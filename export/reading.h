@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/base/result.h"
+
+// How far the content of one mesh file may expand, whatever its format and whoever reads it. Archives
+// unpack, and components, nodes and repeated primitives copy what stands in the file once: 60 bytes can
+// ask for terabytes. Every parser counts what it makes before it makes it.
+namespace trueflank::io {
+
+/// Facets, and as many vertices, that any file may hold: 1 GB of memory.
+constexpr std::size_t kMostFacets = 50'000'000;
+
+class Reading {
+ public:
+  /// Of a damaged file: refuse it, or use what can be read of it and note the rest, as for measured data.
+  enum class Damage { kRefuse, kNote };
+
+  explicit Reading(std::size_t file_bytes, Damage damage = Damage::kRefuse);
+
+  [[nodiscard]] bool notes_damage() const { return damage_ == Damage::kNote; }
+  void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+  [[nodiscard]] std::vector<std::string> take_notes() { return std::move(notes_); }
+
+  /// To be asked before so many more are made. Errors: kUnsupported beyond what the file may expand to.
+  [[nodiscard]] Status take_facets(std::size_t facets, std::size_t vertices);
+  [[nodiscard]] Status take_unpacked_bytes(std::size_t bytes);
+  /// One more solid, object, node, component or primitive, that many levels deep.
+  [[nodiscard]] Status take_piece(int depth = 0);
+
+ private:
+  Damage damage_;
+  std::size_t facets_left_, vertices_left_, bytes_left_, pieces_left_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace trueflank::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/discovery/block_statistics.h"
+
+namespace trueflank::loop {
+
+/// What is fitted already, seen from the candidates.
+struct FittedModel {
+  const std::vector<int>& columns;   ///< of the model, M of them
+  const Eigen::MatrixXd& absorbed;   ///< M x P: each candidate's coefficients on them
+  const Eigen::VectorXd& fitted;     ///< M: the value's
+};
+
+/// Whether few traces or flanks agree on a group: p of an F test, uncorrected, for each group; 1 where
+/// it does not live in 4 ... 16 whole traces; empty where there are no so few. Every trace says by itself
+/// how much of the group it holds; what they have in common is compared with how they scatter. Of traces
+/// that scatter is helped by what they show about their own courses, as much as four more traces would: a
+/// slope of three traces alone has two degrees of freedom.
+/// What a trace says of a group is taken to be normal; errors within it may hang together.
+/// Requires: `projected`, the groups' Gram matrices beside what is fitted.
+/// Accuracy: false alarms in tests/loop/few_traces_test.cpp; docs/decisions/0134-few-traces.md.
+[[nodiscard]] std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
+                                                      const BlockStatistics& statistics,
+                                                      const FittedModel& model,
+                                                      const std::vector<Eigen::MatrixXd>& projected,
+                                                      const std::vector<bool>& observable);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/discovery/discovery.h"
+
+namespace trueflank::loop {
+
+/// Normal equations of a discovery problem, kept per unit and per fold so that no step of the
+/// selection has to walk the values again. Model columns are the nuisance columns and every group
+/// that was ever added.
+class BlockStatistics {
+ public:
+  explicit BlockStatistics(const DiscoveryProblem& problem);
+
+  /// Makes a group's columns model columns; returns the first of them. One pass over the values.
+  int add_group(int group);
+
+  /// @name Values used, and what is fitted to them, less the weighted mean of each trace's zero
+  /// @{
+  [[nodiscard]] const std::vector<int>& used() const { return order_; }
+  [[nodiscard]] const Eigen::VectorXd& value() const { return value_; }
+  [[nodiscard]] const Eigen::MatrixXd& model() const { return model_; }
+  [[nodiscard]] const CandidateMatrix& candidates() const { return candidates_; }
+  /// @}
+  [[nodiscard]] int model_columns() const { return static_cast<int>(model_.cols()); }
+  [[nodiscard]] int units() const { return units_; }
+  [[nodiscard]] int folds() const { return folds_; }
+  [[nodiscard]] double total_weight() const { return total_weight_; }
+
+  /// Sums over one unit or fold; M model columns, P candidates.
+  struct Sums {
+    Eigen::MatrixXd model_model;      ///< M x M
+    Eigen::VectorXd model_value;      ///< M
+    Eigen::MatrixXd model_candidate;  ///< M x P
+    Eigen::VectorXd candidate_value;  ///< P
+    double value_value = 0.0;
+    double weight = 0.0;
+  };
+  [[nodiscard]] const Sums& unit(int i) const { return unit_sums_[i]; }
+  /// 1 ... folds().
+  [[nodiscard]] const Sums& fold(int i) const { return fold_sums_[i]; }
+  [[nodiscard]] const Sums& all() const { return all_; }
+  /// Gram matrix of a group, over a fold (1 ...) or over all (0).
+  [[nodiscard]] const Eigen::MatrixXd& group_gram(int group, int fold) const {
+    return group_grams_[fold][group];
+  }
+  /// What a free zero takes from a group's spread under sign flips of parts of its trace.
+  [[nodiscard]] const Eigen::MatrixXd& zero_loss(int group) const { return zero_loss_[group]; }
+
+ private:
+  void centre_on_zeros();
+  void sum_candidates();
+  void add_model_sums(int first);
+
+  const DiscoveryProblem& problem_;
+  CandidateMatrix candidates_;
+  Eigen::VectorXd value_;
+  Eigen::MatrixXd model_;
+  std::vector<int> order_;  ///< values used, sorted by unit and fold
+  int units_ = 0, folds_ = 0;
+  double total_weight_ = 0.0;
+  std::vector<Sums> unit_sums_, fold_sums_;
+  Sums all_;
+  std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
+  std::vector<Eigen::MatrixXd> zero_loss_;
+};
+
+}  // namespace trueflank::loop

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/discovery.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/loop/discovery/block_statistics.h"
+#include "trueflank/loop/discovery/structure_test.h"
+
+namespace trueflank::loop {
+namespace {
+
+using FoldErrors = Eigen::VectorXd;
+
+/// Chi-square by which anchors tell two models apart.
+constexpr double kAnchorsTell = 4.0;
+/// Share of what two effects explain that one preferred to them may leave: second order of displacements,
+/// which is put right once the effect is chosen.
+constexpr double kNearly = 3e-3;
+/// Chi-square in the folds that is nothing, rounding included.
+constexpr double kNothing = 0.5;
+
+class Selection {
+ public:
+  Selection(const DiscoveryProblem& problem, const DiscoveryOptions& options)
+      : problem_(problem), options_(options), statistics_(problem) {
+    for (int i = 0; i < statistics_.model_columns(); ++i) nuisance_.push_back(i);
+  }
+
+  DiscoveryResult run() {
+    forward();
+    if (!chosen_.empty()) {
+      simplify();
+      finish();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Tried {
+    int group;
+    FoldErrors gain;
+  };
+  struct Chosen {
+    ChosenGroup record;
+    int first_model_column = 0;
+  };
+
+  [[nodiscard]] std::vector<int> active(int without = -1, int without2 = -1) const {
+    std::vector<int> columns = nuisance_;
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      if (i == without || i == without2) continue;
+      for (int k = 0; k < problem_.groups[chosen_[i].record.group].columns; ++k)
+        columns.push_back(chosen_[i].first_model_column + k);
+    }
+    return columns;
+  }
+  /// Standard error of a sum over the ordinary folds.
+  [[nodiscard]] double total_error_of(FoldErrors folds) const {
+    double n = static_cast<double>(folds.size());
+    double mean = folds.sum(), squares = folds.squaredNorm();
+    if (problem_.anchor_fold > 0 && problem_.anchor_fold <= folds.size()) {
+      const double anchor = folds[problem_.anchor_fold - 1];
+      mean -= anchor;
+      squares -= anchor * anchor;
+      n -= 1.0;
+    }
+    if (n < 2.0) return 0.0;
+    mean /= n;
+    return std::sqrt(std::max(0.0, n * (squares - n * mean * mean) / (n - 1.0)));
+  }
+  /// True where a loss of prediction is no more than its error, in the folds and at the anchors.
+  [[nodiscard]] bool is_tie(const FoldErrors& loss) const {
+    double anchor = 0.0;
+    if (problem_.anchor_fold > 0 && problem_.anchor_fold <= loss.size())
+      anchor = loss[problem_.anchor_fold - 1];
+    return anchor <= kAnchorsTell && loss.sum() - anchor <= std::max(total_error_of(loss), kNothing);
+  }
+  [[nodiscard]] bool is_chosen(int group) const {
+    return std::any_of(chosen_.begin(), chosen_.end(),
+                       [&](const Chosen& c) { return c.record.group == group; });
+  }
+  [[nodiscard]] bool allowed(int group) const {
+    if (!options_.banned.empty() && options_.banned[group]) return false;
+    if (!result_.observable[group] || is_chosen(group)) return false;
+    // One effect enters once: not again at a neighbouring shape.
+    const int kin = problem_.groups[group].kin;
+    return kin < 0 || std::none_of(chosen_.begin(), chosen_.end(), [&](const Chosen& c) {
+             return problem_.groups[c.record.group].kin == kin;
+           });
+  }
+
+  /// Squared error on every fold of the model of some columns and perhaps one group more, fitted to
+  /// the other folds.
+  class CrossValidation {
+   public:
+    CrossValidation(const DiscoveryProblem& problem, const BlockStatistics& statistics,
+                    std::vector<int> columns)
+        : problem_(problem), statistics_(statistics), columns_(std::move(columns)) {
+      for (int fold = 1; fold <= statistics_.folds(); ++fold) {
+        const auto& sums = statistics_.fold(fold);
+        Fold f;
+        f.test_gram = sums.model_model(columns_, columns_);
+        f.test_value = sums.model_value(columns_);
+        const Eigen::MatrixXd all = statistics_.all().model_model(columns_, columns_);
+        Eigen::MatrixXd train = all - f.test_gram;
+        // A column that lives only in this fold cannot be learnt from the others.
+        train.diagonal() += 1e-10 * all.diagonal() +
+                            Eigen::VectorXd::Constant(train.rows(), 1e-30);
+        f.train.compute(train);
+        f.train_value = statistics_.all().model_value(columns_) - f.test_value;
+        f.base = f.train.solve(f.train_value);
+        folds_.push_back(std::move(f));
+      }
+    }
+    [[nodiscard]] FoldErrors base_errors() const {
+      FoldErrors errors(static_cast<Eigen::Index>(folds_.size()));
+      for (std::size_t i = 0; i < folds_.size(); ++i) {
+        const Fold& f = folds_[i];
+        errors[i] = statistics_.fold(static_cast<int>(i) + 1).value_value -
+                    2.0 * f.base.dot(f.test_value) + f.base.dot(f.test_gram * f.base);
+      }
+      return errors;
+    }
+    [[nodiscard]] FoldErrors errors_with(int group) const {
+      const CandidateGroup& g = problem_.groups[group];
+      const auto candidate = Eigen::seqN(g.first_column, g.columns);
+      const Eigen::MatrixXd all_cross = statistics_.all().model_candidate(columns_, candidate);
+      FoldErrors errors(static_cast<Eigen::Index>(folds_.size()));
+      for (std::size_t i = 0; i < folds_.size(); ++i) {
+        const Fold& f = folds_[i];
+        const int fold = static_cast<int>(i) + 1;
+        const auto& sums = statistics_.fold(fold);
+        const Eigen::MatrixXd test_cross = sums.model_candidate(columns_, candidate);
+        const Eigen::MatrixXd& test_group = statistics_.group_gram(group, fold);
+        const Eigen::VectorXd test_right = sums.candidate_value(candidate);
+        const Eigen::MatrixXd cross = all_cross - test_cross;
+        const Eigen::MatrixXd solved = f.train.solve(cross);
+        Eigen::MatrixXd schur = statistics_.group_gram(group, 0) - test_group -
+                                cross.transpose() * solved;
+        schur.diagonal() += 1e-6 * statistics_.group_gram(group, 0).diagonal() +
+                            Eigen::VectorXd::Constant(g.columns, 1e-30);
+        const Eigen::VectorXd right = statistics_.all().candidate_value(candidate) - test_right -
+                                      solved.transpose() * f.train_value;
+        const Eigen::VectorXd b = schur.ldlt().solve(right);
+        const Eigen::VectorXd a = f.base - solved * b;
+        errors[i] = sums.value_value - 2.0 * (a.dot(f.test_value) + b.dot(test_right)) +
+                    a.dot(f.test_gram * a) + 2.0 * a.dot(test_cross * b) + b.dot(test_group * b);
+      }
+      return errors;
+    }
+
+   private:
+    struct Fold {
+      Eigen::LDLT<Eigen::MatrixXd> train;
+      Eigen::VectorXd train_value, base, test_value;
+      Eigen::MatrixXd test_gram;
+    };
+    const DiscoveryProblem& problem_;
+    const BlockStatistics& statistics_;
+    std::vector<int> columns_;
+    std::vector<Fold> folds_;
+  };
+
+  void forward() {
+    while (true) {
+      const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
+      if (result_.observable.empty()) result_.observable = test.observable();
+      const bool first = chosen_.empty();
+      if (first) result_.first_p_value = std::min(test.p_value(), test.local_p_value());
+      result_.p_left = test.p_value();
+      result_.likest_left = test.likest();
+      if (static_cast<int>(chosen_.size()) >= options_.most_effects) return;
+      if (test.local_p_value() < options_.local_level &&
+          (test.local_p_value() < test.likest_single_p_value() || test.p_value() > 0.02) &&
+          allowed(test.likest_local())) {
+        add(test.likest_local(), test.local_p_value());
+        continue;
+      }
+      const double level = first ? options_.first_level : options_.next_level;
+      if (test.p_value() > level) return;
+      const auto pick = best_candidate(test, level);
+      if (!pick) return;
+      add(*pick, test.p_value_of(*pick));
+    }
+  }
+
+  void add(int group, double p_value) {
+    Chosen chosen;
+    chosen.record.group = group;
+    chosen.record.p_value = p_value;
+    chosen.first_model_column = statistics_.add_group(group);
+    chosen_.push_back(chosen);
+  }
+
+  /// The candidate that predicts the folds best, or a preferred one as good within a standard error.
+  std::optional<int> best_candidate(const StructureTest& test, double level) const {
+    const CrossValidation model(problem_, statistics_, active());
+    const FoldErrors base = model.base_errors();
+    std::vector<Tried> tried;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+      if (!allowed(g) || problem_.groups[g].local_family >= 0 || test.p_value_of(g) > level)
+        continue;
+      tried.push_back({g, base - model.errors_with(g)});
+    }
+    if (tried.empty()) return std::nullopt;
+    const auto best = std::max_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
+      return a.gain.sum() < b.gain.sum();
+    });
+    if (is_tie(best->gain)) return std::nullopt;
+    return preferred(tried, *best);
+  }
+
+  /// Of those as good as the best the one with the lowest preference, then the fewest columns, then the
+  /// simplest.
+  [[nodiscard]] int preferred(const std::vector<Tried>& tried, const Tried& best) const {
+    const Tried* pick = &best;
+    const auto rank = [&](const Tried& t) {
+      const CandidateGroup& group = problem_.groups[t.group];
+      return std::tuple(group.preference, group.columns, group.complexity, -t.gain.sum());
+    };
+    for (const Tried& other : tried)
+      if (is_tie(best.gain - other.gain) && rank(other) < rank(*pick)) pick = &other;
+    return pick->group;
+  }
+
+  void simplify() {
+    for (int round = 0; round < 6; ++round)
+      if (!remove_idle() && !merge_two() && !replace_one()) return;
+  }
+
+  /// Removes the chosen group that earns least, where that is less than a standard error.
+  bool remove_idle() {
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    int worst = -1;
+    double least = 1e300;
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      if (problem_.groups[chosen_[i].record.group].local_family >= 0) continue;
+      const FoldErrors loss =
+          CrossValidation(problem_, statistics_, active(i)).base_errors() - full;
+      const double ratio = loss.sum() / std::max(total_error_of(loss), 1e-300);
+      if (is_tie(loss) && ratio < least) {
+        least = ratio;
+        worst = i;
+      }
+    }
+    if (worst < 0) return false;
+    chosen_.erase(chosen_.begin() + worst);
+    return true;
+  }
+
+  /// One candidate in place of two chosen ones, where it predicts as well.
+  bool merge_two() {
+    if (chosen_.size() < 2) return false;
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i)
+      for (int k = i + 1; k < static_cast<int>(chosen_.size()); ++k) {
+        const CandidateGroup& a = problem_.groups[chosen_[i].record.group];
+        const CandidateGroup& b = problem_.groups[chosen_[k].record.group];
+        const CrossValidation model(problem_, statistics_, active(i, k));
+        // A name for one flank may stand for a name for both and what the other flank lacks of it.
+        const int limit = std::min(a.preference, b.preference);
+        const int most = std::max(a.preference, b.preference);
+        const double earned = (model.base_errors() - full).sum();
+        int best = -1;
+        double best_loss = 1e300;
+        for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+          const CandidateGroup& group = problem_.groups[g];
+          if (!allowed(g) || group.local_family >= 0 ||
+              group.preference > (group.named && a.named != b.named ? most : limit) ||
+              group.columns >= a.columns + b.columns)
+            continue;
+          const FoldErrors loss = model.errors_with(g) - full;
+          const bool nearly = group.preference < most && loss.sum() < kNearly * earned;
+          if ((is_tie(loss) || nearly) && loss.sum() < best_loss) {
+            best_loss = loss.sum();
+            best = g;
+          }
+        }
+        if (best < 0) continue;
+        const double p_value = std::min(chosen_[i].record.p_value, chosen_[k].record.p_value);
+        chosen_.erase(chosen_.begin() + k);
+        chosen_.erase(chosen_.begin() + i);
+        add(best, p_value);
+        return true;
+      }
+    return false;
+  }
+
+  /// Another candidate in place of a chosen one, where it predicts better by a standard error.
+  bool replace_one() {
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      const CandidateGroup& now = problem_.groups[chosen_[i].record.group];
+      if (now.local_family >= 0) continue;
+      const CrossValidation model(problem_, statistics_, active(i));
+      std::vector<Tried> tried;
+      int best = -1;
+      for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+        const CandidateGroup& group = problem_.groups[g];
+        const bool kin = now.kin >= 0 && group.kin == now.kin && !is_chosen(g);
+        if ((!allowed(g) && !kin) || group.local_family >= 0 || !result_.observable[g]) continue;
+        if (!options_.banned.empty() && options_.banned[g]) continue;
+        const FoldErrors gain = full - model.errors_with(g);
+        if (is_tie(gain) || is_tie(0.5 * gain)) continue;
+        tried.push_back({g, gain});
+        if (best < 0 || gain.sum() > tried[best].gain.sum()) best = static_cast<int>(tried.size()) - 1;
+      }
+      if (best < 0 || tried[best].gain.sum() <= 2.0 * total_error_of(tried[best].gain)) continue;
+      best = preferred(tried, tried[best]);
+      const double p_value = chosen_[i].record.p_value;
+      chosen_.erase(chosen_.begin() + i);
+      add(best, p_value);
+      return true;
+    }
+    return false;
+  }
+
+  /// Gains, BIC, confounded groups of the final set, and the test of what is left.
+  void finish() {
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      ChosenGroup& record = chosen_[i].record;
+      const CrossValidation model(problem_, statistics_, active(i));
+      const FoldErrors gain = model.base_errors() - full;
+      record.gain = gain.sum() / statistics_.total_weight();
+      record.gain_error = total_error_of(gain) / statistics_.total_weight();
+      record.bic_gain = bic_gain(i);
+      find_confounded(i, model, full);
+      result_.chosen.push_back(record);
+    }
+    const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
+    result_.p_left = test.p_value();
+    result_.likest_left = test.likest();
+  }
+
+  [[nodiscard]] double residual_square(const std::vector<int>& columns) const {
+    const auto& all = statistics_.all();
+    Eigen::MatrixXd gram = all.model_model(columns, columns);
+    gram.diagonal() *= 1.0 + 1e-12;
+    const Eigen::VectorXd right = all.model_value(columns);
+    return all.value_value - right.dot(gram.ldlt().solve(right));
+  }
+
+  /// With one observation a unit and fold as the effective number: values of a unit hang together.
+  [[nodiscard]] double bic_gain(int i) const {
+    const double n = static_cast<double>(statistics_.units() * std::max(1, statistics_.folds()));
+    const double d = problem_.groups[chosen_[i].record.group].columns;
+    return n * std::log(residual_square(active(i)) /
+                        std::max(residual_square(active()), 1e-300)) - d * std::log(n);
+  }
+
+  void find_confounded(int i, const CrossValidation& without, const FoldErrors& full) {
+    ChosenGroup& record = chosen_[i].record;
+    const CandidateGroup& own = problem_.groups[record.group];
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+      const CandidateGroup& group = problem_.groups[g];
+      if (g == record.group || is_chosen(g) || group.local_family >= 0 || !result_.observable[g])
+        continue;
+      if (own.kin >= 0 && group.kin == own.kin) continue;
+      const FoldErrors loss = without.errors_with(g) - full;
+      // As good within a standard error, and close to what the effect itself earns.
+      const double earned = record.gain * statistics_.total_weight();
+      if (is_tie(loss) && loss.sum() < 0.1 * earned)
+        record.confounded.push_back(g);
+    }
+  }
+
+  const DiscoveryProblem& problem_;
+  const DiscoveryOptions& options_;
+  BlockStatistics statistics_;
+  std::vector<int> nuisance_;
+  std::vector<Chosen> chosen_;
+  DiscoveryResult result_;
+};
+
+}  // namespace
+
+DiscoveryResult discover(const DiscoveryProblem& problem, const DiscoveryOptions& options) {
+  const auto n = problem.value.size();
+  TRUEFLANK_EXPECTS(problem.weight.size() == n && problem.nuisance.rows() == n &&
+                    problem.candidates.rows() == n);
+  TRUEFLANK_EXPECTS(static_cast<Eigen::Index>(problem.unit.size()) == n &&
+                    static_cast<Eigen::Index>(problem.fold.size()) == n &&
+                    static_cast<Eigen::Index>(problem.zero.size()) == n);
+  return Selection(problem, options).run();
+}
+
+}  // namespace trueflank::loop

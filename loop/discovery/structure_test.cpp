@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/structure_test.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "trueflank/loop/discovery/agreement.h"
+#include "trueflank/loop/discovery/distributions.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// A group that keeps less than this of itself beside the fitted columns cannot be seen.
+constexpr double kAbsorbed = 2e-3;
+/// A column of a group that has less than this of the group's largest is rounding.
+constexpr double kRounding = 1e-6;
+
+/// Signs of all units in all flips; the same for the same number of units.
+Eigen::MatrixXf flip_signs(int units, int flips) {
+  std::mt19937_64 random(20260101);
+  Eigen::MatrixXf signs(units, flips);
+  for (int k = 0; k < flips; ++k) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < units; ++i) {
+      if (i % 64 == 0) bits = random();
+      signs(i, k) = (bits & 1u) != 0u ? 1.0f : -1.0f;
+      bits >>= 1;
+    }
+  }
+  return signs;
+}
+
+}  // namespace
+
+StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatistics& statistics,
+                             const std::vector<int>& columns, int flips,
+                             const std::vector<bool>& banned)
+    : problem_(problem), statistics_(statistics) {
+  project(columns);
+  test_by_flips(flips, banned);
+  test_wholes(columns, banned);
+  test_local(banned);
+}
+
+/// Scores of every unit and Gram matrices of every group, beside the fitted columns.
+void StructureTest::project(const std::vector<int>& columns) {
+  const auto& all = statistics_.all();
+  const auto p = all.candidate_value.size();
+  const auto m = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(m, p);
+  Eigen::VectorXd fitted = Eigen::VectorXd::Zero(m);
+  if (m > 0) {
+    Eigen::MatrixXd gram = all.model_model(columns, columns);
+    gram.diagonal() *= 1.0 + 1e-12;
+    gram.diagonal().array() += 1e-30;
+    inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+    coefficients = inverse * all.model_candidate(columns, Eigen::all);
+    fitted = inverse * all.model_value(columns);
+  }
+  const std::size_t groups = problem_.groups.size();
+  projected_.resize(groups);
+  flipped_.resize(groups);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const CandidateGroup& group = problem_.groups[g];
+    const auto seq = Eigen::seqN(group.first_column, group.columns);
+    const Eigen::MatrixXd cross = all.model_candidate(columns, seq);
+    projected_[g] = statistics_.group_gram(static_cast<int>(g), 0) -
+                    cross.transpose() * coefficients(Eigen::all, seq);
+    flipped_[g] = projected_[g] - statistics_.zero_loss(static_cast<int>(g));
+  }
+  absorbed_ = coefficients;
+  fitted_ = fitted;
+  unit_scores_.resize(p, statistics_.units());
+  for (int unit = 0; unit < statistics_.units(); ++unit) {
+    const auto& sums = statistics_.unit(unit);
+    if (m == 0) {
+      unit_scores_.col(unit) = sums.candidate_value;
+      continue;
+    }
+    const Eigen::MatrixXd gram = sums.model_model(columns, columns);
+    const Eigen::VectorXd left = sums.model_value(columns) - gram * fitted;
+    const Eigen::MatrixXd cross = sums.model_candidate(columns, Eigen::all);
+    unit_scores_.col(unit) = sums.candidate_value - cross.transpose() * fitted -
+                             coefficients.transpose() * left;
+    const Eigen::MatrixXd overlap = cross - gram * coefficients;
+    const Eigen::MatrixXd weighted = inverse * overlap;
+    for (std::size_t g = 0; g < groups; ++g) {
+      const CandidateGroup& group = problem_.groups[g];
+      const auto seq = Eigen::seqN(group.first_column, group.columns);
+      flipped_[g] -= overlap(Eigen::all, seq).transpose() * weighted(Eigen::all, seq);
+    }
+  }
+  observable_.assign(groups, true);
+  testable_.assign(groups, true);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const Eigen::VectorXd own = statistics_.group_gram(static_cast<int>(g), 0).diagonal();
+    // Four times per turn seen on four teeth has a cosine only: its sine is rounding.
+    if (!(own.minCoeff() > kRounding * own.maxCoeff())) observable_[g] = testable_[g] = false;
+    for (int k = 0; k < own.size(); ++k) {
+      if (!(projected_[g](k, k) > kAbsorbed * own[k]) || !(own[k] > 0.0))
+        observable_[g] = testable_[g] = false;
+      else if (!(flipped_[g](k, k) > 0.05 * projected_[g](k, k)))
+        testable_[g] = false;
+    }
+    if (observable_[g] && projected_[g].determinant() <=
+                            1e-6 * projected_[g].diagonal().prod())
+      observable_[g] = testable_[g] = false;
+  }
+}
+
+void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
+  const std::size_t groups = problem_.groups.size();
+  group_p_values_.assign(groups, 1.0);
+  const Eigen::MatrixXf scores =
+      unit_scores_.cast<float>() * flip_signs(statistics_.units(), flips);
+  const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
+  std::vector<double> own(groups, -1.0);
+  Eigen::VectorXd statistic(flips);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const CandidateGroup& group = problem_.groups[g];
+    if (!testable_[g] || group.local_family >= 0 || (!banned.empty() && banned[g])) continue;
+    const auto seq = Eigen::seqN(group.first_column, group.columns);
+    const Eigen::LDLT<Eigen::MatrixXd> under_flips(flipped_[g]);
+    if (under_flips.info() != Eigen::Success || !under_flips.isPositive()) continue;
+    const Eigen::MatrixXd s = scores(seq, Eigen::all).cast<double>();
+    statistic = (s.array() * under_flips.solve(s).array()).colwise().sum();
+    const Eigen::VectorXd o = observed(seq);
+    const double t = o.dot(projected_[g].ldlt().solve(o));
+    // The group's own scale: correlation within units widens low modes more than high ones.
+    const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
+    if (!(scale > 0.0)) continue;
+    own[g] = minus_log_chi_square_tail(t / scale, group.columns);
+    for (int k = 0; k < flips; ++k)
+      largest[k] = std::max(largest[k],
+                            minus_log_chi_square_tail(statistic[k] / scale, group.columns));
+    if (likest_ < 0 || own[g] > own[likest_]) likest_ = static_cast<int>(g);
+  }
+  if (likest_ < 0) return;
+  std::sort(largest.data(), largest.data() + flips);
+  for (std::size_t g = 0; g < groups; ++g) {
+    if (own[g] < 0.0) continue;
+    const auto above = largest.data() + flips -
+                       std::lower_bound(largest.data(), largest.data() + flips, own[g]);
+    group_p_values_[g] = (1.0 + static_cast<double>(above)) / (flips + 1.0);
+  }
+  p_value_ = group_p_values_[likest_];
+  likest_single_p_value_ = std::exp(-own[likest_]);
+}
+
+/// The groups that live in few whole traces or flanks, by how much these agree.
+void StructureTest::test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned) {
+  const std::vector<double> single = agreement_of_wholes(
+      problem_, statistics_, {columns, absorbed_, fitted_}, projected_, observable_);
+  if (single.empty()) return;
+  double tested = 0.0;
+  // Two tests are made of one question: each has half of the level.
+  constexpr double kTests = 2.0;
+  p_value_ = std::min(1.0, kTests * p_value_);
+  for (double& p : group_p_values_) p = std::min(1.0, kTests * p);
+  for (std::size_t g = 0; g < single.size(); ++g)
+    if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
+  for (std::size_t g = 0; g < single.size(); ++g) {
+    if (!(single[g] < 1.0) || (!banned.empty() && banned[g])) continue;
+    const double p = std::min(1.0, kTests * tested * single[g]);
+    group_p_values_[g] = std::min(group_p_values_[g], p);
+    if (p >= p_value_) continue;
+    p_value_ = p;
+    likest_ = static_cast<int>(g);
+    likest_single_p_value_ = std::min(likest_single_p_value_, single[g]);
+  }
+}
+
+/// Each local group against the others of its family: studentised with itself left out.
+void StructureTest::test_local(const std::vector<bool>& banned) {
+  std::map<int, std::vector<int>> families;
+  int tested = 0;
+  for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
+    const CandidateGroup& group = problem_.groups[g];
+    if (group.local_family < 0 || group.columns != 1 || !observable_[g]) continue;
+    if (!banned.empty() && banned[g]) continue;
+    families[group.local_family].push_back(g);
+    ++tested;
+  }
+  const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
+  for (const auto& [family, members] : families) {
+    const double n = static_cast<double>(members.size());
+    if (n < 8) continue;
+    // Weighted by what each can tell: a half measured tooth scatters more.
+    std::vector<double> score;
+    double sum = 0.0, squares = 0.0;
+    for (const int g : members) {
+      const double value = observed[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
+      score.push_back(value);
+      sum += value;
+      squares += value * value;
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const double mean = (sum - score[i]) / (n - 1.0);
+      const double variance =
+          (squares - score[i] * score[i] - (n - 1.0) * mean * mean) / (n - 2.0);
+      if (!(variance > 0.0)) continue;
+      const double t = (score[i] - mean) / std::sqrt(variance * n / (n - 1.0));
+      const double p = std::min(1.0, tested * student_two_sided(std::abs(t), n - 2.0));
+      if (p < local_p_value_) {
+        local_p_value_ = p;
+        likest_local_ = members[i];
+      }
+    }
+  }
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/discovery/block_statistics.h"
+
+namespace trueflank::loop {
+
+/// Does the residual of a model hold structure of the candidates' kinds? Sign flips of whole units:
+/// under no structure the scores of independent, symmetric errors are as likely with any signs.
+/// Source: Hemerik, Goeman, Finos 2020, doi 10.1111/rssb.12369 (sign flips of effective scores), here
+/// with the mean spread each group loses to the fitted columns put back.
+/// Of few traces or flanks all signs are soon tried: candidates that differ between them fit any signs. There
+/// whether they agree is asked, too: an F test (agreement.h) with Bonferroni's correction.
+class StructureTest {
+ public:
+  StructureTest(const DiscoveryProblem& problem, const BlockStatistics& statistics,
+                const std::vector<int>& columns, int flips, const std::vector<bool>& banned);
+
+  /// Of any structure, corrected for all candidates.
+  [[nodiscard]] double p_value() const { return p_value_; }
+  /// Of one group, corrected for all candidates; 1 where it cannot be tested.
+  [[nodiscard]] double p_value_of(int group) const { return group_p_values_[group]; }
+  [[nodiscard]] int likest() const { return likest_; }
+  /// chi-square p of the likest group alone, uncorrected: for comparison with the local ones.
+  [[nodiscard]] double likest_single_p_value() const { return likest_single_p_value_; }
+  /// Of one local group standing out of its family, corrected for all local groups.
+  [[nodiscard]] double local_p_value() const { return local_p_value_; }
+  [[nodiscard]] int likest_local() const { return likest_local_; }
+  [[nodiscard]] const std::vector<bool>& observable() const { return observable_; }
+
+ private:
+  void project(const std::vector<int>& columns);
+  void test_by_flips(int flips, const std::vector<bool>& banned);
+  void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
+  void test_local(const std::vector<bool>& banned);
+
+  const DiscoveryProblem& problem_;
+  const BlockStatistics& statistics_;
+  Eigen::MatrixXd unit_scores_;                ///< P x units
+  Eigen::MatrixXd absorbed_;                   ///< M x P: coefficients of the candidates on the model
+  Eigen::VectorXd fitted_;                     ///< M: of the value
+  std::vector<Eigen::MatrixXd> projected_;     ///< per group: Gram matrix after projection
+  std::vector<Eigen::MatrixXd> flipped_;       ///< per group: mean Gram matrix under flips
+  std::vector<bool> observable_, testable_;
+  std::vector<double> group_p_values_;
+  double p_value_ = 1.0, local_p_value_ = 1.0, likest_single_p_value_ = 1.0;
+  int likest_ = -1, likest_local_ = -1;
+};
+
+}  // namespace trueflank::loop

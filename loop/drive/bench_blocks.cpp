@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "trueflank/loop/drive/bench_table.h"
+
+// Which rows may share their error, and which are locked away before anything is looked at.
+namespace trueflank::loop {
+namespace {
+
+/// Rows in a row stay one set point while speed and load move less than this share of their range.
+constexpr double kSamePoint = 0.02;
+/// Fewer units than this would leave the sign flips nothing to count.
+constexpr int kFewUnits = 9;
+/// Correlation of neighbours that is told from none: to merge in vain costs little.
+constexpr double kLeastCorrelation = 0.12, kCorrelationErrors = 1.5;
+
+struct Range {
+  double low = 1e300, high = -1e300;
+  void add(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  [[nodiscard]] double span() const { return std::max(high - low, 1e-300); }
+};
+
+void cut_into_set_points(BenchTable& table) {
+  Range speed, load;
+  for (const BenchPoint& p : table.points) {
+    speed.add(p.speed_rpm);
+    load.add(p.load_nm);
+  }
+  int unit = -1;
+  const BenchPoint* start = nullptr;
+  for (BenchPoint& p : table.points) {
+    const bool same = start != nullptr && start->file == p.file && start->forward == p.forward &&
+                      std::abs(start->speed_rpm - p.speed_rpm) <= kSamePoint * speed.span() &&
+                      std::abs(start->load_nm - p.load_nm) <= kSamePoint * load.span();
+    if (!same) {
+      ++unit;
+      start = &p;
+    }
+    p.unit = unit;
+  }
+  table.units = unit + 1;
+}
+
+/// Correlation of neighbouring units' mean residuals, in their noise's units.
+double correlation(const BenchTable& table, const SmoothFit& fit) {
+  std::vector<double> sum(table.units, 0.0), count(table.units, 0.0);
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const BenchPoint& p = table.points[i];
+    sum[p.unit] += fit.residual_nm[i] / p.sigma_nm;
+    count[p.unit] += 1.0;
+  }
+  double product = 0.0, square = 0.0;
+  for (int u = 0; u < table.units; ++u) {
+    const double here = sum[u] / std::sqrt(std::max(1.0, count[u]));
+    square += here * here;
+    if (u > 0) product += here * sum[u - 1] / std::sqrt(std::max(1.0, count[u - 1]));
+  }
+  return square > 0.0 ? product / square : 0.0;
+}
+
+/// Neighbouring units of one file and direction become one; true where that changed anything.
+bool merge_neighbours(BenchTable& table) {
+  std::vector<int> merged(table.units, -1);
+  std::vector<std::pair<int, bool>> kind(table.units);
+  for (const BenchPoint& p : table.points) kind[p.unit] = {p.file, p.forward};
+  int next = -1;
+  for (int u = 0; u < table.units; ++u) {
+    if (u > 0 && kind[u] == kind[u - 1] && (u < 2 || merged[u - 1] != merged[u - 2])) {
+      merged[u] = next;
+      continue;
+    }
+    merged[u] = ++next;
+  }
+  if (next + 1 == table.units) return false;
+  for (BenchPoint& p : table.points) p.unit = merged[p.unit];
+  table.units = next + 1;
+  return true;
+}
+
+/// Folds of n members in shuffled order: two tenths are locked.
+int fold_of_rank(int rank) {
+  const int tenth = rank % 10;
+  return tenth == 0 || tenth == 5 ? 0 : tenth < 5 ? tenth : tenth - 1;
+}
+
+/// Cells of direction, speed and load: repeats of a set point stay together.
+std::vector<int> cells_of(const BenchTable& table) {
+  Range speed, load;
+  for (const BenchPoint& p : table.points) {
+    speed.add(p.speed_rpm);
+    load.add(p.load_nm);
+  }
+  std::map<int, std::array<double, 3>> means;  // unit -> speed, load, count
+  for (const BenchPoint& p : table.points) {
+    auto& m = means[p.unit];
+    m[0] += p.speed_rpm;
+    m[1] += p.load_nm;
+    m[2] += 1.0;
+  }
+  std::vector<int> cell(table.points.size());
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const auto& m = means[table.points[i].unit];
+    const int v = static_cast<int>(15.0 * (m[0] / m[2] - speed.low) / speed.span() + 0.5);
+    const int t = static_cast<int>(15.0 * (m[1] / m[2] - load.low) / load.span() + 0.5);
+    cell[i] = (table.points[i].forward ? 0 : 10000) + 100 * v + t;
+  }
+  return cell;
+}
+
+void lock_hold_out(BenchTable& table, bool log) {
+  std::vector<int> cell = cells_of(table);
+  for (const bool forward : {true, false}) {
+    std::map<int, int> rank;
+    for (int pass = 0; pass < 2; ++pass) {
+      rank.clear();
+      for (std::size_t i = 0; i < table.points.size(); ++i)
+        if (table.points[i].forward == forward) rank[cell[i]] = 0;
+      if (pass == 0 && (log || rank.size() < 10)) {
+        // A log, or too few set points to spare one in five: whole stretches or repeats.
+        for (std::size_t i = 0; i < table.points.size(); ++i)
+          if (table.points[i].forward == forward) cell[i] = table.points[i].unit;
+        continue;
+      }
+      break;
+    }
+    std::vector<int> keys;
+    for (const auto& [key, unused] : rank) keys.push_back(key);
+    std::mt19937_64 random(20260107);
+    for (std::size_t i = keys.size(); i > 1; --i) std::swap(keys[i - 1], keys[random() % i]);
+    for (std::size_t i = 0; i < keys.size(); ++i) rank[keys[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < table.points.size(); ++i)
+      if (table.points[i].forward == forward) table.points[i].fold = fold_of_rank(rank[cell[i]]);
+  }
+}
+
+}  // namespace
+
+void assign_blocks(BenchTable& table, const SmoothFit& fit) {
+  cut_into_set_points(table);
+  bool log = false;
+  while (table.units > 2 * kFewUnits &&
+         correlation(table, fit) >
+             std::max(kLeastCorrelation,
+                      kCorrelationErrors / std::sqrt(static_cast<double>(table.units)))) {
+    if (!merge_neighbours(table)) break;
+    log = true;
+  }
+  table.drifts = log;
+  lock_hold_out(table, log);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/drive/bench_table.h"
+
+// Data that cannot be what they say: signs, units, sides.
+namespace trueflank::loop {
+namespace {
+
+/// Torques below this share of their column's largest may have any sign: they are noise about zero.
+constexpr double kNearZero = 0.05;
+/// An apparent efficiency beyond these is no loss but another unit.
+constexpr double kUnitHigh = 30.0, kUnitLow = 0.003;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return kNaN;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string text(double value) { return printed("%.4g", value); }
+
+struct Side {
+  const char* column;
+  double BenchRow::*torque;
+};
+constexpr std::array<Side, 2> kSides{{{"input_torque_nm", &BenchRow::input_nm},
+                                      {"output_torque_nm", &BenchRow::output_nm}}};
+
+/// Rows of one direction of one file with torque enough to judge by.
+struct Apparent {
+  std::vector<const BenchRow*> rows;
+  std::vector<double> efficiency;
+};
+Apparent apparent_efficiencies(const DriveModel& model, const BenchData& data, int file,
+                               bool forward) {
+  std::vector<double> driving;
+  for (const BenchRow& row : data.rows)
+    if (row.file == file && row.forward == forward)
+      driving.push_back(forward ? row.input_nm : row.output_nm);
+  driving.erase(std::remove_if(driving.begin(), driving.end(), [](double t) { return !(t > 0.0); }),
+                driving.end());
+  const double enough = 0.5 * median(driving);
+  Apparent result;
+  for (const BenchRow& row : data.rows) {
+    if (row.file != file || row.forward != forward) continue;
+    const double in = forward ? row.input_nm : row.output_nm;
+    const double out = forward ? row.output_nm : row.input_nm;
+    if (!(in >= enough) || !(in > 0.0) || !(out > 0.0)) continue;
+    result.rows.push_back(&row);
+    result.efficiency.push_back(forward ? out / (model.ratio * in) : out * model.ratio / in);
+  }
+  return result;
+}
+
+Error unit_error(const BenchData& data, const BenchRow& row, const std::string& what) {
+  return {.code = ErrorCode::kInconsistent,
+          .message = what,
+          .key = "input_torque_nm, output_torque_nm",
+          .value = text(row.input_nm) + ", " + text(row.output_nm),
+          .remedy = "torques of both sides in newton metres, in every row",
+          .file = data.files[row.file],
+          .line = row.line};
+}
+
+}  // namespace
+
+Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
+  Errors errors;
+  for (int file = 0; file < static_cast<int>(data.files.size()); ++file)
+    for (const bool forward : {true, false})
+      for (const Side& side : kSides) {
+        std::vector<BenchRow*> rows;
+        double most = 0.0;
+        for (BenchRow& row : data.rows)
+          if (row.file == file && row.forward == forward) {
+            rows.push_back(&row);
+            most = std::max(most, std::abs(row.*side.torque));
+          }
+        int minus = 0, plus = 0;
+        for (const BenchRow* row : rows) {
+          if (row->*side.torque < -kNearZero * most) ++minus;
+          if (row->*side.torque > kNearZero * most) ++plus;
+        }
+        if (minus > 0 && plus == 0) {
+          for (BenchRow* row : rows) row->*side.torque = -(row->*side.torque);
+          notes.push_back(data.files[file] + ": " + side.column + " of all " +
+                          (forward ? "forward" : "backward") +
+                          " rows is negative: a sign convention of the sensor; magnitudes were taken");
+          continue;
+        }
+        if (minus == 0) continue;
+        const bool odd_is_minus = minus <= plus;
+        const auto odd = std::find_if(rows.begin(), rows.end(), [&](const BenchRow* row) {
+          return odd_is_minus ? row->*side.torque < -kNearZero * most
+                              : row->*side.torque > kNearZero * most;
+        });
+        errors.push_back({.code = ErrorCode::kInconsistent,
+                          .message = std::string(side.column) + " changes its sign among the " +
+                                     (forward ? "forward" : "backward") + " rows (" +
+                                     std::to_string(std::min(minus, plus)) + " of " +
+                                     std::to_string(rows.size()) +
+                                     "): the power flows the other way there, or a sensor is swapped",
+                          .key = side.column,
+                          .value = text((*odd)->*side.torque),
+                          .remedy = "magnitudes, each row under the direction in which its power flows",
+                          .file = data.files[file],
+                          .line = (*odd)->line});
+      }
+  return errors;
+}
+
+Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& swapped) {
+  Errors errors;
+  const double turn = 2.0 * std::log(model.ratio);
+  int columns_swapped = 0, directions_above = 0, judged = 0;
+  for (int file = 0; file < static_cast<int>(data.files.size()); ++file)
+    for (const bool forward : {true, false}) {
+      const Apparent a = apparent_efficiencies(model, data, file, forward);
+      if (a.rows.empty()) continue;
+      ++judged;
+      const double middle = median(a.efficiency);
+      const double l = std::log(middle);
+      if (model.ratio > 3.0 && std::abs(l + (forward ? turn : -turn)) < std::log(2.5)) {
+        ++columns_swapped;
+        continue;
+      }
+      if (middle > kUnitHigh || middle < kUnitLow) {
+        errors.push_back(unit_error(
+            data, *a.rows.front(),
+            "the torques differ by a factor of " + text(middle) +
+                " from what the ratio of " + text(model.ratio) +
+                " allows: one of the two columns is in another unit (mN m, N cm, kg cm?)"));
+        continue;
+      }
+      std::vector<const BenchRow*> odd;
+      for (std::size_t i = 0; i < a.rows.size(); ++i)
+        if (a.efficiency[i] > kUnitHigh * middle || a.efficiency[i] * kUnitHigh < middle)
+          odd.push_back(a.rows[i]);
+      if (!odd.empty())
+        errors.push_back(unit_error(
+            data, *odd.front(),
+            std::to_string(odd.size()) + " of " + std::to_string(a.rows.size()) +
+                " rows differ from the others by a factor of more than 30: mixed units"));
+      // Who is called driving is driven: the losses come out as gains, of about their size.
+      const DriveEfficiency e = model.at(model.friction);
+      const double other = forward ? e.backward : e.forward;
+      const bool above = std::all_of(a.efficiency.begin(), a.efficiency.end(),
+                                     [](double x) { return x > 1.0; });
+      if (above && std::abs(1.0 / middle - other) < 0.1) ++directions_above;
+    }
+  if (judged > 0 && columns_swapped == judged) swapped = Impossible::kSwappedColumns;
+  else if (columns_swapped > 0)
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "in some files or directions input and output torque are interchanged",
+                      .key = "input_torque_nm, output_torque_nm",
+                      .remedy = "the sun side's torque under input_torque_nm, everywhere",
+                      .file = data.files.front()});
+  else if (judged > 1 && directions_above == judged) swapped = Impossible::kSwappedDirections;
+  return errors;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/bench_table.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <tuple>
+
+#include "trueflank/base/number_text.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr std::size_t kFewestRows = 8;
+/// A row this many sigma off a smooth fit is an outlier, where few are.
+constexpr double kOutlier = 6.0;
+constexpr double kMostOutliers = 0.03;
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Huber regression of one direction's driven torque on powers of load, speed, temperature.
+double fit_direction(const std::vector<BenchPoint>& points, bool forward,
+                     std::vector<double>& residual) {
+  std::vector<int> rows;
+  double load = 1e-300, speed = 1e-300, middle_temperature = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].forward == forward) {
+      rows.push_back(static_cast<int>(i));
+      load = std::max(load, points[i].load_nm);
+      speed = std::max(speed, points[i].speed_rpm);
+      if (!std::isnan(points[i].temperature_c)) middle_temperature += points[i].temperature_c;
+    }
+  if (rows.empty()) return kNaN;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  middle_temperature /= static_cast<double>(n);
+  const int columns = n >= 40 ? 12 : n >= 16 ? 6 : 3;
+  Eigen::MatrixXd x(n, columns);
+  Eigen::VectorXd y(n), w = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const BenchPoint& p = points[rows[r]];
+    const double t = p.load_nm / load, v = p.speed_rpm / speed;
+    const double c =
+        std::isnan(p.temperature_c) ? 0.0 : 0.02 * (p.temperature_c - middle_temperature);
+    const double all[12] = {1.0,       t,   v, t * t, t * v, v * v,
+                            t * t * t, v * v * v, c, c * v, c * t, std::exp(-5.0 * v)};
+    for (int k = 0; k < columns; ++k) x(r, k) = all[k];
+    y[r] = p.driven_nm;
+  }
+  Eigen::VectorXd left = y;
+  double sigma = 0.0;
+  for (int round = 0; round < 12; ++round) {
+    Eigen::MatrixXd gram = x.transpose() * w.asDiagonal() * x;
+    gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
+    left = y - x * gram.ldlt().solve(x.transpose() * w.asDiagonal() * y);
+    std::vector<double> size(n);
+    for (Eigen::Index r = 0; r < n; ++r) size[r] = std::abs(left[r]);
+    sigma = 1.4826 * median_of(size) *
+            std::sqrt(static_cast<double>(n) / std::max<double>(1.0, static_cast<double>(n - columns)));
+    for (Eigen::Index r = 0; r < n; ++r)
+      w[r] = std::abs(left[r]) > 2.0 * sigma ? 2.0 * sigma / std::abs(left[r]) : 1.0;
+  }
+  for (Eigen::Index r = 0; r < n; ++r) residual[rows[r]] = left[r];
+  // Data without noise: far below any sensor, so that weights stay finite.
+  return std::max(sigma, 1e-9 * y.cwiseAbs().maxCoeff() + 1e-300);
+}
+
+int count_levels(const BenchTable& table, double BenchPoint::*member) {
+  constexpr int kMost = 8;
+  std::vector<double> values;
+  for (const BenchPoint& p : table.points) values.push_back(p.*member);
+  std::sort(values.begin(), values.end());
+  const double apart = 0.04 * (values.back() - values.front());
+  int levels = 1;
+  double level = values.front();
+  for (const double value : values)
+    if (value - level > apart) {
+      level = value;
+      ++levels;
+    }
+  return std::min(levels, kMost);
+}
+
+class TableMaker {
+ public:
+  TableMaker(const DriveModel& model, BenchData data) : model_(model), data_(std::move(data)) {}
+
+  ResultAll<BenchTable> make() {
+    table_.notes = data_.notes;
+    if (Errors errors = settle_signs(data_, table_.notes); !errors.empty())
+      return fail_all(std::move(errors));
+    Impossible swapped = Impossible::kNothing;
+    if (Errors errors = judge_units(model_, data_, swapped); !errors.empty())
+      return fail_all(std::move(errors));
+    undo(swapped);
+    take_points();
+    if (table_.points.size() < kFewestRows)
+      return fail_all({{.code = ErrorCode::kOutOfRange,
+                        .message = "the bench data hold " + std::to_string(table_.points.size()) +
+                                   " usable rows",
+                        .remedy = "at least " + std::to_string(kFewestRows) +
+                                  "; for a few numbers the quantity,value form",
+                        .file = data_.files.empty() ? "" : data_.files.front()}});
+    SmoothFit fit = smooth_fit(table_.points);
+    if (leave_out_outliers(fit)) fit = smooth_fit(table_.points);
+    for (BenchPoint& p : table_.points)
+      if (std::isnan(p.sigma_nm)) p.sigma_nm = p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
+    assign_blocks(table_, fit);
+    measure_extent(table_);
+    if (swapped == Impossible::kNothing) look_for_gains();
+    return std::move(table_);
+  }
+
+ private:
+  void undo(Impossible swapped) {
+    table_.impossible = swapped;
+    if (swapped == Impossible::kSwappedColumns) {
+      for (BenchRow& row : data_.rows) std::swap(row.input_nm, row.output_nm);
+      table_.impossible_text =
+          "input_torque_nm and output_torque_nm are interchanged: the input's is the larger by the "
+          "square of the ratio than the drive can make it";
+    } else if (swapped == Impossible::kSwappedDirections) {
+      for (BenchRow& row : data_.rows) row.forward = !row.forward;
+      table_.impossible_text =
+          "forward and backward are interchanged: as labelled, every row gains the power that the drive "
+          "should lose";
+    }
+  }
+
+  void take_points() {
+    double before = kNaN, turns = 0.0;
+    int file = -1;
+    bool wrapped = false;
+    double least = 1e300, most = -1e300;
+    for (const BenchRow& row : data_.rows) {
+      BenchPoint p;
+      p.forward = row.forward;
+      p.speed_rpm = row.speed_rpm;
+      p.driving_nm = row.forward ? row.input_nm : row.output_nm;
+      p.driven_nm = row.forward ? row.output_nm : row.input_nm;
+      p.load_nm = row.forward ? row.input_nm : row.output_nm / model_.ratio;
+      p.temperature_c = row.temperature_c;
+      p.sigma_nm = row.sigma_nm;
+      p.file = row.file;
+      p.line = row.line;
+      p.angle_rad = rad_from_deg(row.angle_deg);
+      if (!std::isnan(row.angle_deg)) {
+        least = std::min(least, row.angle_deg);
+        most = std::max(most, row.angle_deg);
+        if (row.file == file && row.angle_deg < before - 180.0) wrapped = true;
+        before = row.angle_deg;
+        file = row.file;
+      }
+      table_.points.push_back(p);
+    }
+    turns = most > least ? (most - least) / 360.0 : 0.0;
+    const auto known = [&](double BenchPoint::*value) {
+      return std::none_of(table_.points.begin(), table_.points.end(),
+                          [&](const BenchPoint& p) { return std::isnan(p.*value); });
+    };
+    table_.has_temperature = known(&BenchPoint::temperature_c);
+    table_.has_angle = known(&BenchPoint::angle_rad) && turns > 0.5;
+    table_.turns = turns;
+    if (table_.has_angle && turns <= 1.0 && wrapped)
+      table_.notes.push_back(
+          "input_angle_deg starts again every turn: only whole orders of the input can be told; an angle "
+          "that counts on would show carrier, planets and output too");
+  }
+
+  /// True where rows were left out.
+  bool leave_out_outliers(const SmoothFit& fit) {
+    std::vector<std::size_t> far;
+    for (std::size_t i = 0; i < table_.points.size(); ++i) {
+      const double sigma =
+          table_.points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
+      if (std::abs(fit.residual_nm[i]) > kOutlier * sigma) far.push_back(i);
+    }
+    const auto alone = [&](std::size_t k) {
+      return (k == 0 || far[k - 1] + 1 != far[k]) && (k + 1 == far.size() || far[k] + 1 != far[k + 1]);
+    };
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < far.size(); ++k)
+      if (alone(k)) out.push_back(far[k]);
+    // Many rows far off, or neighbours together, are structure and no slips.
+    if (out.empty() || static_cast<double>(out.size()) >
+                           std::max(1.0, kMostOutliers * static_cast<double>(table_.points.size())))
+      return false;
+    for (std::size_t k = 0; k < out.size() && k < 5; ++k) {
+      const BenchPoint& p = table_.points[out[k]];
+      const std::string text = printed(": outlier left out: driven torque %.4g N m lies %.0f sigma off",
+          p.driven_nm, std::abs(fit.residual_nm[out[k]]) /
+                           (p.forward ? fit.sigma_forward_nm : fit.sigma_backward_nm));
+      table_.notes.push_back(data_.files[p.file] + ":" + std::to_string(p.line) + text);
+    }
+    if (out.size() > 5)
+      table_.notes.push_back(std::to_string(out.size() - 5) + " more outliers left out");
+    table_.outliers = static_cast<int>(out.size());
+    for (auto it = out.rbegin(); it != out.rend(); ++it)
+      table_.points.erase(table_.points.begin() + static_cast<std::ptrdiff_t>(*it));
+    return true;
+  }
+
+  /// Set points of one direction and a sixth of its loads that deliver more than they take.
+  void look_for_gains() {
+    struct Cell {
+      double excess = 0.0, taken = 0.0, count = 0.0;
+      std::map<int, std::pair<double, int>> units;
+      double speed = 0.0;
+    };
+    std::map<std::tuple<bool, int, int>, Cell> cells;  // direction, load, file
+    for (const BenchPoint& p : table_.points) {
+      const int sixth = std::min(5, static_cast<int>(6.0 * p.load_nm / table_.most_load_nm));
+      Cell& cell = cells[{p.forward, sixth, p.file}];
+      const double lossless = p.forward ? model_.ratio * p.driving_nm : p.driving_nm / model_.ratio;
+      cell.excess += p.driven_nm - lossless;
+      cell.taken += lossless;
+      cell.count += 1.0;
+      auto& [sum, rows] = cell.units[p.unit];
+      sum += p.driven_nm - lossless;
+      ++rows;
+    }
+    for (const auto& [key, cell] : cells) {
+      if (cell.units.size() < 3 || !(cell.excess > 0.0)) continue;
+      const double mean = cell.excess / cell.count;
+      double spread = 0.0;
+      for (const auto& [unit, part] : cell.units) {
+        const double off = part.first - part.second * mean;
+        spread += off * off;
+      }
+      const double units = static_cast<double>(cell.units.size());
+      const double error = std::sqrt(spread * units / (units - 1.0)) / cell.count;
+      if (mean < 4.5 * error || cell.excess < 2e-3 * cell.taken) continue;
+      const std::string text = printed(
+                    "%s, the apparent efficiency at %s load is %.3f (+-%.3f): no gearbox delivers more "
+                    "than it takes",
+                    std::get<0>(key) ? "forward" : "backward",
+                    std::get<1>(key) <= 1 ? "low" : std::get<1>(key) <= 3 ? "middle" : "high",
+                    1.0 + cell.excess / cell.taken, 2.0 * error * cell.count / cell.taken);
+      table_.impossible = Impossible::kEfficiencyAboveOne;
+      table_.impossible_text = data_.files[std::get<2>(key)] + ": " + text;
+    }
+  }
+
+  const DriveModel& model_;
+  BenchData data_;
+  BenchTable table_;
+};
+
+}  // namespace
+
+bool BenchTable::has(bool forward) const {
+  return std::any_of(points.begin(), points.end(),
+                     [&](const BenchPoint& p) { return p.forward == forward; });
+}
+
+void measure_extent(BenchTable& table) {
+  double low = 1e300, high = -1e300, sum = 0.0;
+  table.least_speed_rpm = 1e300;
+  for (const BenchPoint& p : table.points) {
+    table.most_speed_rpm = std::max(table.most_speed_rpm, p.speed_rpm);
+    table.least_speed_rpm = std::min(table.least_speed_rpm, p.speed_rpm);
+    table.most_load_nm = std::max(table.most_load_nm, p.load_nm);
+    low = std::min(low, p.temperature_c);
+    high = std::max(high, p.temperature_c);
+    sum += p.temperature_c;
+  }
+  table.levels = {count_levels(table, &BenchPoint::load_nm), count_levels(table, &BenchPoint::speed_rpm), 0};
+  if (!table.has_temperature) return;
+  table.levels[2] = high - low >= 3.0 ? count_levels(table, &BenchPoint::temperature_c) : 0;
+  table.mean_temperature_c = sum / static_cast<double>(table.points.size());
+  table.temperature_span_c = high - low;
+}
+
+SmoothFit smooth_fit(const std::vector<BenchPoint>& points) {
+  SmoothFit fit;
+  fit.residual_nm.assign(points.size(), 0.0);
+  fit.sigma_forward_nm = fit_direction(points, true, fit.residual_nm);
+  fit.sigma_backward_nm = fit_direction(points, false, fit.residual_nm);
+  return fit;
+}
+
+ResultAll<BenchTable> make_bench_table(const DriveModel& model, const BenchData& data) {
+  return TableMaker(model, data).make();
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "trueflank/loop/drive/drive_model.h"
+#include "trueflank/loop/measured/bench_data.h"
+
+// Bench rows as the engine needs them: who drives whom, what may share its error, what is held out.
+namespace trueflank::loop {
+
+/// One usable row, seen from the driving side.
+struct BenchPoint {
+  bool forward = true;
+  double speed_rpm = 0.0;
+  double driving_nm = 0.0, driven_nm = 0.0;
+  double load_nm = 0.0;     ///< the driving torque as the lossless drive passes it to the input
+  double temperature_c = kNaN;
+  double angle_rad = kNaN;  ///< of the input, unwrapped
+  double sigma_nm = kNaN;   ///< of driven_nm: as given, else estimated for its direction
+  int unit = 0;             ///< rows of one set point, or of a stretch of a log
+  int fold = 0;             ///< 0 locked hold-out, 1 ... 8 cross-validation
+  int file = 0, line = 0;
+  [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }
+};
+
+/// What no gearbox can do, and what it is instead.
+enum class Impossible {
+  kNothing,
+  kEfficiencyAboveOne,  ///< one direction gains power: a torque scale or an offset
+  kSwappedColumns,      ///< input and output torque are interchanged
+  kSwappedDirections,   ///< forward is backward and the reverse
+};
+
+struct BenchTable {
+  std::vector<BenchPoint> points;
+  int units = 0;
+  int outliers = 0;
+  bool drifts = false;  ///< neighbouring set points hang together: a log, or a drifting zero
+  bool has_temperature = false, has_angle = false;
+  double turns = 0.0;   ///< of the input that the angles span
+  double most_speed_rpm = 0.0, least_speed_rpm = 0.0, most_load_nm = 0.0;
+  std::array<int, 3> levels{};  ///< distinct loads, speeds, temperatures, up to 8
+  double mean_temperature_c = kNaN, temperature_span_c = 0.0;
+  Impossible impossible = Impossible::kNothing;
+  std::string impossible_text;  ///< one sentence: where, and how far
+  std::vector<std::string> notes;
+
+  [[nodiscard]] bool has(bool forward) const;
+};
+
+inline constexpr int kBenchFolds = 8;
+
+/// Judges the rows and puts them into the table. Swapped columns or directions are put right in it and
+/// told by `impossible`.
+/// Errors: torques in another unit than N m or in mixed units, signs that change inside a direction,
+/// fewer than 8 rows.
+[[nodiscard]] ResultAll<BenchTable> make_bench_table(const DriveModel& model, const BenchData& data);
+
+/// @name Steps of it, for its own use and tests
+/// @{
+/// Magnitudes: a side whose torques all come with a minus is turned, and told. Errors: mixed signs.
+[[nodiscard]] Errors settle_signs(BenchData& data, std::vector<std::string>& notes);
+/// Errors: another unit than N m, or mixed ones. Tells swapped columns and directions.
+[[nodiscard]] Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& swapped);
+/// Residual of a smooth fit of each direction over load, speed and temperature, which knows nothing of
+/// any effect: what is noise, which rows lie far off.
+struct SmoothFit {
+  std::vector<double> residual_nm;
+  double sigma_forward_nm = kNaN, sigma_backward_nm = kNaN;
+};
+[[nodiscard]] SmoothFit smooth_fit(const std::vector<BenchPoint>& points);
+/// Ranges and levels of the points.
+void measure_extent(BenchTable& table);
+/// Units and folds of points in the order they were taken.
+void assign_blocks(BenchTable& table, const SmoothFit& fit);
+/// @}
+
+}  // namespace trueflank::loop

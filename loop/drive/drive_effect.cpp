@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/drive_effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank::loop {
+namespace {
+
+constexpr double kCurveStep = 0.02, kCurveEnd = 0.6;
+/// Step of the friction where no secant exists yet.
+constexpr double kFrictionStep = 1e-3;
+
+}  // namespace
+
+EfficiencyCurve::EfficiencyCurve(const DriveModel& model) {
+  for (double mu = 0.0; mu <= kCurveEnd + 3.5 * kCurveStep; mu += kCurveStep) {
+    const DriveEfficiency e = model.at(mu);
+    forward_.push_back(e.forward);
+    backward_.push_back(e.backward);
+  }
+}
+
+double EfficiencyCurve::at(bool forward, double friction) const {
+  const std::vector<double>& y = forward ? forward_ : backward_;
+  const double x = std::clamp(friction, 0.0, kCurveEnd) / kCurveStep;
+  const auto i = static_cast<std::size_t>(
+      std::clamp(std::floor(x) - 1.0, 0.0, static_cast<double>(y.size()) - 4.0));
+  const double t = x - static_cast<double>(i);
+  // Lagrange through four neighbours
+  return -y[i] * (t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0 + y[i + 1] * t * (t - 2.0) * (t - 3.0) / 2.0 -
+         y[i + 2] * t * (t - 1.0) * (t - 3.0) / 2.0 + y[i + 3] * t * (t - 1.0) * (t - 2.0) / 6.0;
+}
+
+double DriveContext::friction(const BenchPoint& p) const {
+  double mu = designed_friction(p) + state.shift + (p.forward ? -0.5 : 0.5) * state.difference;
+  if (state.load_value != 0.0)
+    mu += state.load_value *
+          std::pow(std::max(p.load_nm, 0.0) / table.most_load_nm, state.load_exponent);
+  if (state.mixed_value != 0.0) {
+    const double x = p.speed_rpm / state.mixed_speed_rpm;
+    mu += state.mixed_value * std::exp(-x * x);
+  }
+  return mu;
+}
+
+double DriveContext::friction_slope(const BenchPoint& p) const {
+  const double designed = designed_friction(p);
+  double now = friction(p);
+  if (std::abs(now - designed) < 1e-6) now = designed + kFrictionStep;
+  return gain(p) * p.driving_nm *
+         (curve.at(p.forward, now) - curve.at(p.forward, designed)) / (now - designed);
+}
+
+double DriveContext::load_coordinate(const BenchPoint& p) const {
+  return 2.0 * p.load_nm / std::max(table.most_load_nm, 1e-300) - 1.0;
+}
+
+double DriveContext::speed_coordinate(const BenchPoint& p) const {
+  const double most = table.most_speed_rpm, least = table.least_speed_rpm;
+  if (!(most > least)) return 0.0;
+  if (least > 0.1 * most) return 2.0 * (p.speed_rpm - least) / (most - least) - 1.0;
+  // Friction changes most at the low end of a wide range.
+  const double start = 0.05 * most;
+  return 2.0 * std::log((start + p.speed_rpm) / (start + least)) /
+             std::log((start + most) / (start + least)) - 1.0;
+}
+
+double DriveContext::temperature_coordinate(const BenchPoint& p) const {
+  if (!table.has_temperature || !(table.temperature_span_c > 0.0)) return 0.0;
+  return 2.0 * (p.temperature_c - table.mean_temperature_c) / table.temperature_span_c;
+}
+
+double DriveContext::quantity_at(double over, double coordinate) const {
+  if (over == 0.0) return 0.5 * (coordinate + 1.0) * table.most_load_nm;
+  if (over == 2.0) return table.mean_temperature_c + 0.5 * coordinate * table.temperature_span_c;
+  // By halving: the speed's coordinate grows with it.
+  BenchPoint p;
+  double low = table.least_speed_rpm, high = table.most_speed_rpm;
+  for (int i = 0; i < 50; ++i) {
+    p.speed_rpm = 0.5 * (low + high);
+    (speed_coordinate(p) < coordinate ? low : high) = p.speed_rpm;
+  }
+  return p.speed_rpm;
+}
+
+std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model) {
+  std::vector<DriveEfficiency> slopes;
+  const double mu = model.friction;
+  const double mu_back =
+      model.losses ? model.losses->backward_friction.value_or(mu) : mu;
+  const double forward = model.at(mu).forward, backward = model.at(mu_back).backward;
+  for (std::size_t k = 0; k < model.meshes.size(); ++k) {
+    std::vector<double> one(model.meshes.size(), mu), other(model.meshes.size(), mu_back);
+    one[k] += kFrictionStep;
+    other[k] += kFrictionStep;
+    slopes.push_back({(model.efficiency(one).forward - forward) / kFrictionStep,
+                      (model.efficiency(other).backward - backward) / kFrictionStep});
+  }
+  return slopes;
+}
+
+double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve, const BenchPoint& p) {
+  const double efficiency = curve.at(p.forward, model.friction_at(p.at()));
+  double known = 0.0;
+  if (model.losses)
+    known = loss_torque_nm(*model.losses, p.at(), p.forward ? efficiency * p.load_nm : p.load_nm);
+  if (p.forward) return model.ratio * efficiency * (p.driving_nm - known);
+  return efficiency * p.driving_nm / model.ratio - known;
+}
+
+const DriveFamily* find_drive_family(const std::string& id) {
+  for (const DriveFamily& family : drive_library())
+    if (family.id == id) return &family;
+  return nullptr;
+}
+
+std::vector<DriveEffect> drive_candidates(const DriveContext& context) {
+  std::vector<DriveEffect> effects;
+  for (const DriveFamily& family : drive_library()) {
+    if (!family.shapes) {
+      effects.push_back({&family, {}});
+      continue;
+    }
+    for (const auto& shape : family.shapes(context)) effects.push_back({&family, shape});
+  }
+  return effects;
+}
+
+}  // namespace trueflank::loop

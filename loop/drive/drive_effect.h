@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/drive/bench_table.h"
+#include "trueflank/loop/drive/drive_model.h"
+#include "trueflank/loop/result/effect_facts.h"
+
+namespace trueflank::loop {
+
+/// Efficiencies of a drive's meshes over their common friction, tabulated once.
+class EfficiencyCurve {
+ public:
+  explicit EfficiencyCurve(const DriveModel& model);
+  /// Accuracy: 1e-7 for friction up to 0.6 (cubic between steps of 0.02); beyond, the end's value.
+  [[nodiscard]] double at(bool forward, double friction) const;
+
+ private:
+  std::vector<double> forward_, backward_;
+};
+
+/// What is found so far of all that changes friction, and of the scale: about it effects are linear.
+struct DriveState {
+  double shift = 0.0;        ///< friction_coefficient less the design's
+  double difference = 0.0;   ///< direction_dependent_friction
+  double load_value = 0.0, load_exponent = 1.0;     ///< load_dependent_friction
+  double mixed_value = 0.0, mixed_speed_rpm = 1.0;  ///< mixed_friction
+  double scale = 1.0;
+};
+
+/// Where columns are evaluated: the drive, the bench's extent, the state.
+struct DriveContext {
+  const DriveModel& model;
+  const EfficiencyCurve& curve;
+  const BenchTable& table;
+  const std::vector<DriveEfficiency>& mesh_slopes;  ///< of efficiency over one mesh's friction alone
+  DriveState state;
+
+  /// The meshes' friction at a point: as designed, and as the state has it.
+  [[nodiscard]] double designed_friction(const BenchPoint& p) const {
+    return model.friction_at(p.at());
+  }
+  [[nodiscard]] double friction(const BenchPoint& p) const;
+  [[nodiscard]] double efficiency(const BenchPoint& p) const { return curve.at(p.forward, friction(p)); }
+  /// Driven torque per unit of driving torque of the lossless drive.
+  [[nodiscard]] double gain(const BenchPoint& p) const {
+    return p.forward ? model.ratio : 1.0 / model.ratio;
+  }
+  /// N m on the driven side per N m lost at the input.
+  [[nodiscard]] double lever(const BenchPoint& p) const {
+    return p.forward ? model.ratio * efficiency(p) : 1.0;
+  }
+  /// Change of the driven torque for a unit of mesh friction: the secant from the design to the state, so
+  /// that effects whose sum is the state's are exact.
+  [[nodiscard]] double friction_slope(const BenchPoint& p) const;
+  /// -1 ... 1 over the bench's loads and speeds (logarithmic where they span decades), temperatures.
+  [[nodiscard]] double load_coordinate(const BenchPoint& p) const;
+  [[nodiscard]] double speed_coordinate(const BenchPoint& p) const;
+  [[nodiscard]] double temperature_coordinate(const BenchPoint& p) const;
+  /// The other way: the load, speed or temperature (over = 0, 1, 2) at a coordinate.
+  [[nodiscard]] double quantity_at(double over, double coordinate) const;
+};
+
+/// Slopes of the efficiencies at the designed friction over one mesh's friction alone.
+[[nodiscard]] std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model);
+/// Driven torque of the model as designed [N m].
+[[nodiscard]] double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve,
+                                  const BenchPoint& p);
+
+/// Shape values of an effect: speed, exponent, mesh, order, ...
+using DriveShape = std::vector<double>;
+
+/// What is known of one shape value.
+struct DriveShapeValue {
+  bool continuous = false;  ///< refined after the choice
+  bool is_place = false;    ///< a place in a range (-1 ... 1), moved by sums; else a size, by factors
+  std::function<std::pair<double, double>(const DriveContext&)> limits = {};  ///< where it means its name
+};
+
+/// A figure that a parameter needs to be read: the temperature or load it holds at.
+using DriveReference = std::pair<std::string, double>;
+
+struct CalibratedLosses;
+
+/// One kind of effect of a drive. One object in one file of effects/, listed in effects/registry.cpp;
+/// nothing else knows an effect by its name. Columns: change of the driven torque [N m] per unit
+/// coefficient.
+struct DriveFamily : EffectFacts {
+  std::string side = {};                ///< of sensor effects: input or output
+  bool is_loss = true;                  ///< takes power: never fitted to data that gain power
+  bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
+
+  /// @name Columns
+  /// @{
+  std::vector<DriveShapeValue> shape_values = {};  ///< as many as shape_names; empty: none is refined
+  std::function<std::vector<DriveShape>(const DriveContext&)> shapes = {};
+  std::function<int(const DriveShape&)> columns = {};
+  std::function<void(const DriveContext&, const BenchPoint&, const DriveShape&, double* columns)>
+      evaluate = {};
+  /// False where an amount cannot be this effect; empty: any can.
+  std::function<bool(const DriveModel&, double coefficient)> plausible = {};
+  /// What moves the place about which the model is linear.
+  std::function<void(DriveState&, const DriveShape&, double coefficient)> into_state = {};
+  /// Waves per turn of the input; empty: it is none.
+  std::function<double(const DriveShape&)> order = {};
+  /// The shape of a wave that the spectrum proposes; empty: it takes none.
+  std::function<DriveShape(double order)> shape_of_wave = {};
+  /// @}
+
+  /// @name How it is told
+  /// @{
+  std::function<double(const DriveContext&)> base = {};  ///< added to the coefficient in the report
+  std::function<std::vector<DriveReference>(const DriveContext&)> references = {};
+  /// Added to the description, of which mesh or order it is.
+  std::function<std::string(const DriveModel&, const DriveShape&)> detail = {};
+  /// In words, with figures of the bench where a context is given; empty: its id.
+  std::function<std::string(const DriveModel&, const DriveShape&, const DriveContext*)> words = {};
+  /// Effects without a name: the shapes of the terms it is written as, in the form of drive_term_keys().
+  std::function<std::vector<DriveShape>(const DriveShape&)> term_shapes = {};
+  /// @}
+
+  /// @name How it is corrected
+  /// @{
+  /// Puts it into a design's [losses]; false where another of its kind with another shape is there.
+  /// Empty: a design cannot carry it, and `not_carried` says why.
+  std::function<bool(CalibratedLosses&, const DriveShape&, double coefficient)> calibrate = {};
+  std::string not_carried = {};
+  /// @}
+};
+
+struct DriveEffect {
+  const DriveFamily* family = nullptr;
+  DriveShape shape;
+  [[nodiscard]] int columns() const { return family->columns(shape); }
+  [[nodiscard]] double order() const { return family->order ? family->order(shape) : 0.0; }
+};
+
+/// The library: loss effects, sensor effects, free form. Lives as long as the program.
+[[nodiscard]] const std::vector<DriveFamily>& drive_library();
+[[nodiscard]] const DriveFamily* find_drive_family(const std::string& id);
+/// Every candidate that this bench's columns can carry.
+[[nodiscard]] std::vector<DriveEffect> drive_candidates(const DriveContext& context);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/drive_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+
+namespace trueflank::loop {
+namespace {
+
+/// Columns may differ by many powers of ten: solved with unit diagonal.
+Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right) {
+  if (right.size() == 0) return right;
+  const Eigen::VectorXd scale =
+      gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd unit = scale.asDiagonal() * gram * scale.asDiagonal();
+  unit.diagonal().array() += 1e-12;
+  return scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * right);
+}
+
+}  // namespace
+
+DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
+                   std::vector<DriveEffect> effects, FitRows rows)
+    : context_(context), value_(value), effects_(std::move(effects)), rows_(rows) {
+  int columns = 0;
+  for (const DriveEffect& effect : effects_) {
+    first_column_.push_back(columns);
+    columns += effect.columns();
+  }
+  for (const DriveEffect& effect : effects_) {
+    shape_column_.emplace_back();
+    for (std::size_t k = 0; k < effect.shape.size(); ++k)
+      shape_column_.back().push_back(effect.family->shape_values[k].continuous ? columns + shapes_++ : -1);
+  }
+  columns_.resize(static_cast<Eigen::Index>(context_.table.points.size()), columns);
+  fill_columns();
+  coefficients_ = without(std::vector<bool>(effects_.size(), false));
+  const Eigen::VectorXd left = value_ - columns_ * coefficients_;
+  residual_square_ = (weight_.array() * left.array().square()).sum();
+}
+
+bool DriveFit::sees(int point) const {
+  return rows_ == FitRows::kAll || context_.table.points[point].fold != 0;
+}
+
+void DriveFit::fill_columns() {
+  const auto& points = context_.table.points;
+  weight_.resize(static_cast<Eigen::Index>(points.size()));
+  std::vector<double> values(16);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    weight_[row] = sees(static_cast<int>(i)) ? 1.0 / (points[i].sigma_nm * points[i].sigma_nm) : 0.0;
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      effects_[e].family->evaluate(context_, points[i], effects_[e].shape, values.data());
+      for (int k = 0; k < effects_[e].columns(); ++k)
+        columns_(row, first_column_[e] + k) = values[k];
+    }
+  }
+}
+
+Eigen::VectorXd DriveFit::explained_nm(int effect) const {
+  const int first = first_column_[effect], count = effects_[effect].columns();
+  return columns_.middleCols(first, count) * coefficients_.segment(first, count);
+}
+
+Eigen::VectorXd DriveFit::without(const std::vector<bool>& left_out) const {
+  std::vector<int> kept;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    for (int k = 0; k < effects_[e].columns() && !left_out[e]; ++k) kept.push_back(first_column_[e] + k);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(columns_.cols());
+  if (kept.empty()) return result;
+  const Eigen::MatrixXd x = columns_(Eigen::all, kept);
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * x;
+  result(kept) = solve_scaled(x.transpose() * weighted, weighted.transpose() * value_);
+  return result;
+}
+
+Eigen::VectorXd DriveFit::fold_errors() const {
+  const auto& points = context_.table.points;
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(kBenchFolds);
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * columns_;
+  const Eigen::MatrixXd gram = columns_.transpose() * weighted;
+  const Eigen::VectorXd right = weighted.transpose() * value_;
+  for (int fold = 1; fold <= kBenchFolds; ++fold) {
+    Eigen::MatrixXd g = gram;
+    Eigen::VectorXd r = right;
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].fold != fold) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      rows.push_back(row);
+      g -= weighted.row(row).transpose() * columns_.row(row);
+      r -= weighted.row(row).transpose() * value_[row];
+    }
+    const Eigen::VectorXd b = solve_scaled(g, r);
+    for (const Eigen::Index row : rows) {
+      const double left = value_[row] - (b.size() > 0 ? columns_.row(row).dot(b) : 0.0);
+      errors[fold - 1] += weight_[row] * left * left;
+    }
+  }
+  return errors;
+}
+
+/// Change of the explained torque per unit of every continuous shape value.
+Eigen::MatrixXd DriveFit::shape_slopes() const {
+  const auto& points = context_.table.points;
+  Eigen::MatrixXd slopes =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), shapes_);
+  std::vector<double> low(16), high(16);
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    for (std::size_t k = 0; k < effects_[e].shape.size(); ++k) {
+      const int column = shape_column_[e][k];
+      if (column < 0) continue;
+      std::vector<double> below = effects_[e].shape, above = below;
+      const double step = 1e-4 * std::abs(below[k]) + 1e-12;
+      below[k] -= step;
+      above[k] += step;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        effects_[e].family->evaluate(context_, points[i], below, low.data());
+        effects_[e].family->evaluate(context_, points[i], above, high.data());
+        double slope = 0.0;
+        for (int c = 0; c < effects_[e].columns(); ++c)
+          slope += coefficients_[first_column_[e] + c] * (high[c] - low[c]) / (2.0 * step);
+        slopes(static_cast<Eigen::Index>(i), column - columns_.cols()) = slope;
+      }
+    }
+  return slopes;
+}
+
+Eigen::MatrixXd DriveFit::covariance() const {
+  const auto& points = context_.table.points;
+  Eigen::MatrixXd x(columns_.rows(), columns_.cols() + shapes_);
+  x << columns_, shape_slopes();
+  const auto p = x.cols();
+  const Eigen::VectorXd left = value_ - columns_ * coefficients_;
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * x;
+  const Eigen::MatrixXd gram = x.transpose() * weighted;
+  std::map<int, std::vector<Eigen::Index>> units;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (sees(static_cast<int>(i))) units[points[i].unit].push_back(static_cast<Eigen::Index>(i));
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p, p);
+  for (const auto& [unit, rows] : units) {
+    const Eigen::MatrixXd part = x(rows, Eigen::all), part_weighted = weighted(rows, Eigen::all);
+    const Eigen::VectorXd change = solve_scaled(gram - part.transpose() * part_weighted,
+                                                part_weighted.transpose() * left(rows));
+    covariance += change * change.transpose();
+  }
+  const double n = static_cast<double>(units.size());
+  return covariance * ((n - 1.0) / n);
+}
+
+double DriveFit::degrees() const {
+  std::map<int, int> units;
+  const auto& points = context_.table.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (sees(static_cast<int>(i))) units[points[i].unit] = 1;
+  return std::max(1.0, static_cast<double>(units.size()) -
+                           static_cast<double>(columns_.cols() + shapes_));
+}
+
+void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
+                         std::vector<DriveEffect>& effects) {
+  // One shape value after the other, by golden section about where it is: few, and never far.
+  constexpr double kGolden = 0.3819660112501051;
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t e = 0; e < effects.size(); ++e)
+      for (std::size_t k = 0; k < effects[e].shape.size(); ++k) {
+        const DriveShapeValue& value_of_shape = effects[e].family->shape_values[k];
+        if (!value_of_shape.continuous) continue;
+        const double here = effects[e].shape[k];
+        const auto square = [&](double shape) {
+          effects[e].shape[k] = shape;
+          return DriveFit(context, value, effects, rows).residual_square();
+        };
+        const double spread = round == 0 ? 1.7 : 1.25;
+        double low = here / spread, high = here * spread;
+        if (value_of_shape.is_place) {
+          low = here - 0.3 * (spread - 1.0);
+          high = here + 0.3 * (spread - 1.0);
+        }
+        if (value_of_shape.limits) {
+          const auto [least, most] = value_of_shape.limits(context);
+          low = std::clamp(low, least, most);
+          high = std::clamp(high, low, most);
+        }
+        double a = low + kGolden * (high - low), b = high - kGolden * (high - low);
+        double at_a = square(a), at_b = square(b);
+        for (int i = 0; i < 16; ++i) {
+          if (at_a < at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            at_a = square(a = low + kGolden * (high - low));
+          } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            at_b = square(b = high - kGolden * (high - low));
+          }
+        }
+        effects[e].shape[k] = 0.5 * (low + high);
+      }
+}
+
+LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorXd& left) {
+  constexpr double kHighest = 14.0;     // above the meshes of common trains
+  constexpr double kMostLines = 3e5;
+  const BenchTable& table = context.table;
+  LikeliestOrder best;
+  if (!table.has_angle || table.turns < 0.9) return best;
+  std::vector<double> angle, size;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const BenchPoint& p = table.points[i];
+    if (p.fold == 0) continue;
+    angle.push_back(p.angle_rad);
+    size.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
+
+    sum += size.back() * size.back();
+  }
+  const double n = static_cast<double>(angle.size());
+  if (n < 12.0 || !(sum > 0.0)) return best;
+  const bool wrapped = table.turns <= 1.01;
+  const double step = wrapped ? 1.0 : std::max(0.25 / table.turns, kHighest / kMostLines);
+  double highest = 0.0;
+  int lines = 0;
+  // Every row's phase is turned on by one step of the order a line.
+  std::vector<std::complex<double>> phase, turn;
+  const double first = wrapped ? 1.0 : std::max(step, 1.5 / table.turns);
+  for (const double a : angle) {
+    phase.push_back(std::polar(1.0, first * a));
+    turn.push_back(std::polar(1.0, step * a));
+  }
+  for (double order = first; order <= kHighest; order = first + step * lines) {
+    double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
+    for (std::size_t i = 0; i < angle.size(); ++i) {
+      const double x = phase[i].real(), y = phase[i].imag();
+      c += size[i] * x;
+      s += size[i] * y;
+      cc += x * x;
+      cs += x * y;
+      const double u = turn[i].real(), v = turn[i].imag();
+      phase[i] = {x * u - y * v, x * v + y * u};
+    }
+    ++lines;
+    const double ss = n - cc, determinant = cc * ss - cs * cs;
+    if (!(determinant > 1e-3 * n * n)) continue;
+    const double power = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
+    if (power <= highest) continue;
+    highest = power;
+    best.order = order;
+  }
+  // Every line tried could have been the highest.
+  const double single = std::pow(std::max(0.0, 1.0 - highest / sum), 0.5 * (n - 3.0));
+  best.p_value = std::min(1.0, single * lines);
+  return best;
+}
+
+DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorXd& value,
+                               const std::vector<DriveEffect>& candidates) {
+  const auto& points = context.table.points;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  DiscoveryProblem problem;
+  problem.value = value;
+  problem.weight.resize(n);
+  problem.nuisance.resize(n, 0);
+  std::map<std::pair<const DriveFamily*, double>, int> kin;
+  int columns = 0;
+  for (const DriveEffect& candidate : candidates) {
+    CandidateGroup group;
+    group.first_column = columns;
+    group.columns = candidate.columns();
+    group.preference = candidate.family->preference;
+    const bool shaped = std::any_of(candidate.family->shape_values.begin(),
+                                    candidate.family->shape_values.end(),
+                                    [](const DriveShapeValue& shape) { return shape.continuous; });
+    if (shaped)
+      group.kin = kin.emplace(std::pair(candidate.family, 0.0), static_cast<int>(kin.size()))
+                      .first->second;
+    columns += group.columns;
+    problem.groups.push_back(group);
+  }
+  problem.candidates.resize(n, columns);
+  std::vector<double> values(16);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const BenchPoint& p = points[static_cast<std::size_t>(i)];
+    problem.weight[i] = 1.0 / (p.sigma_nm * p.sigma_nm);
+    problem.unit.push_back(p.unit);
+    problem.fold.push_back(p.fold);
+    problem.zero.push_back(-1);
+    for (std::size_t g = 0; g < candidates.size(); ++g) {
+      candidates[g].family->evaluate(context, p, candidates[g].shape, values.data());
+      for (int k = 0; k < problem.groups[g].columns; ++k)
+        problem.candidates(i, problem.groups[g].first_column + k) = static_cast<float>(values[k]);
+    }
+  }
+  // Columns of one size: the engine's small ridges are relative to none of ours.
+  for (int c = 0; c < columns; ++c) {
+    const double size =
+        std::sqrt((problem.weight.array() * problem.candidates.col(c).cast<double>().array().square())
+                      .sum() / std::max<double>(1.0, static_cast<double>(n)));
+    if (size > 0.0) problem.candidates.col(c) /= static_cast<float>(size);
+  }
+  return problem;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trueflank/loop/discovery/discovery.h"
+#include "trueflank/loop/drive/drive_effect.h"
+
+namespace trueflank::loop {
+
+/// Which rows a fit may see.
+enum class FitRows { kTraining, kAll };
+
+/// Joint weighted least squares of chosen effects on the rows of a bench.
+class DriveFit {
+ public:
+  /// `value`: measured less designed driven torque [N m] of every point.
+  DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
+           std::vector<DriveEffect> effects, FitRows rows);
+
+  [[nodiscard]] const std::vector<DriveEffect>& effects() const { return effects_; }
+  [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
+  [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }
+  [[nodiscard]] double residual_square() const { return residual_square_; }
+  /// What the effects add to the driven torque of every point [N m].
+  [[nodiscard]] Eigen::VectorXd explained_nm() const { return columns_ * coefficients_; }
+  [[nodiscard]] Eigen::VectorXd explained_nm(int effect) const;
+
+  /// Coefficients of this fit's rows with some effects left out; zeros for those.
+  [[nodiscard]] Eigen::VectorXd without(const std::vector<bool>& left_out) const;
+  [[nodiscard]] const Eigen::MatrixXd& columns() const { return columns_; }
+
+  /// Weighted squared error on each of the folds 1 ... 8, fitted to the others.
+  [[nodiscard]] Eigen::VectorXd fold_errors() const;
+
+  /// Covariance of coefficients, then of the continuous shape values in order, by leaving out one unit
+  /// after the other.
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+  /// Column of a shape value in the covariance; -1: fixed.
+  [[nodiscard]] int shape_column(int effect, int value) const { return shape_column_[effect][value]; }
+  /// Units less what was fitted.
+  [[nodiscard]] double degrees() const;
+
+ private:
+  void fill_columns();
+  [[nodiscard]] Eigen::MatrixXd shape_slopes() const;
+  [[nodiscard]] bool sees(int point) const;
+
+  const DriveContext& context_;
+  const Eigen::VectorXd& value_;
+  std::vector<DriveEffect> effects_;
+  FitRows rows_;
+  std::vector<int> first_column_;
+  std::vector<std::vector<int>> shape_column_;
+  int shapes_ = 0;
+  Eigen::MatrixXd columns_;
+  Eigen::VectorXd weight_;  ///< 0 for rows not seen
+  Eigen::VectorXd coefficients_;
+  double residual_square_ = 0.0;
+};
+
+/// Moves the continuous shapes of effects to the least squares of the rows seen.
+void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
+                         std::vector<DriveEffect>& effects);
+
+/// The wave over the input's angle that what is left holds most of, from the spectrum of the training
+/// rows.
+struct LikeliestOrder {
+  double order = kNaN;    ///< per input turn; NaN: no angles
+  double p_value = 1.0;   ///< of so high a line anywhere in the spectrum of noise
+};
+[[nodiscard]] LikeliestOrder likeliest_order(const DriveContext& context,
+                                             const Eigen::VectorXd& left);
+
+/// The engine's problem for the candidates of a bench.
+[[nodiscard]] DiscoveryProblem drive_problem(const DriveContext& context,
+                                             const Eigen::VectorXd& value,
+                                             const std::vector<DriveEffect>& candidates);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/drive_model.h"
+
+#include <cmath>
+#include <memory>
+
+#include "trueflank/train/efficiency.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// A wave of order n on a gear is met n times per turn of that gear against its mates' place: the
+/// carrier for sun and rings, so a planet's counts against the carrier too.
+std::vector<MemberOrder> member_orders(const GearTrain& train) {
+  const Topology& topology = train.topology();
+  const std::vector<double>& w = train.speeds.of;
+  std::vector<MemberOrder> orders;
+  const auto add = [&](const std::string& member, double order) {
+    order = std::abs(order);
+    if (!std::isfinite(order) || order < 1e-6) return;
+    orders.push_back({member, order});
+  };
+  const auto add_twice = [&](const std::string& member, double order) {
+    add(member, order);
+    add(member + ", twice", 2.0 * order);
+  };
+  add_twice("input shaft", 1.0);
+  if (topology.has_planets()) {
+    const int planets = train.design.planets, planet = topology.first_planet();
+    const double carrier = train.speeds.of_arm(topology.carrier_of(planet));
+    const TrainGear* first = nullptr;
+    double first_against = 0.0;
+    int central = 0;
+    // the gears on the train's own axis in their order, carrier and planets after the first of them
+    for (std::size_t g = 0; g < train.gears.size(); ++g) {
+      if (topology.is_planet_gear(g)) continue;
+      const TrainGear& gear = train.gears[g];
+      const double against = w[static_cast<std::size_t>(topology.gears[g].member)] - carrier;
+      if (++central == 1) {
+        first = &gear;
+        first_against = against;
+        add_twice(gear.name + " against the carrier", against);
+        add("planets passing the " + gear.name, planets * against);
+        add_twice("carrier", carrier);
+        add_twice("planet against the carrier", w[static_cast<std::size_t>(planet)] - carrier);
+        continue;
+      }
+      add(gear.name + " against the carrier", against);
+      add("planets passing " + gear.name, planets * against);
+      if (central == 2)
+        add("mesh of " + first->name + " and planets", first->profile.gear().teeth * first_against);
+      if (gear.layer > 1)
+        add("mesh of planets and " + gear.name, gear.profile.gear().teeth * against);
+    }
+    add("output", train.speeds.output);
+  } else {
+    add_twice(topology.name_of(topology.output), train.speeds.output);
+    add("mesh", train.gears[0].profile.gear().teeth);
+  }
+  // Of orders that coincide the first name stands, with the other beside it.
+  std::vector<MemberOrder> distinct;
+  for (const MemberOrder& order : orders) {
+    bool known = false;
+    for (MemberOrder& other : distinct)
+      if (std::abs(other.order - order.order) < 1e-6) {
+        other.member += " or " + order.member;
+        known = true;
+      }
+    if (!known) distinct.push_back(order);
+  }
+  return distinct;
+}
+
+}  // namespace
+
+Result<DriveModel> drive_model(const GearTrain& train) {
+  if (train.meshes.empty())
+    return fail({.code = ErrorCode::kUsage,
+                 .message = "bench data belong to a drive, and this design is a single gear",
+                 .key = "gearbox.kind",
+                 .value = train.topology().kind,
+                 .remedy = "a design of a drive: two gears or more"});
+  const double output = train.speeds.output;
+  if (!std::isfinite(output) || output == 0.0)
+    return fail({.code = ErrorCode::kInfeasible,
+                 .message = "the output of this design stands still: it has no efficiency",
+                 .remedy = "other tooth numbers"});
+  for (const MeshEfficiency& mesh : trueflank::efficiency(train).meshes)
+    if (std::isnan(mesh.by_path_integral))
+      return fail({.code = ErrorCode::kInfeasible,
+                   .message = "contact is interrupted in " + mesh.name + ": the drive has no efficiency",
+                   .remedy = "a design that passes the check contact_ratio"});
+  DriveModel model;
+  model.ratio = std::abs(1.0 / output);
+  model.friction = train.design.friction;
+  model.losses = train.design.losses;
+  for (const TrainMesh& mesh : train.meshes) model.meshes.push_back(mesh.name);
+  const auto copy = std::make_shared<const GearTrain>(train);
+  model.efficiency = [copy](const std::vector<double>& friction) {
+    const EfficiencyResult result = trueflank::efficiency(*copy, {.mesh_friction = friction});
+    return DriveEfficiency{result.forward_locking ? 0.0 : result.forward,
+                           result.self_locking ? 0.0 : result.backward};
+  };
+  model.orders = member_orders(train);
+  return model;
+}
+
+}  // namespace trueflank::loop

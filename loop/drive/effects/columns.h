@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+#include "trueflank/loop/drive/calibrated_losses.h"
+#include "trueflank/loop/drive/drive_effect.h"
+
+// What several effects of a drive are made of. Torques are at the input shaft; forms and sources:
+// docs/drive-loop.md.
+namespace trueflank::loop::drive_effects {
+
+/// A loss torque at the input [N m per unit], as it shows on the driven side.
+template <class Loss>
+auto loss(Loss torque) {
+  return [torque](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
+    c[0] = -context.lever(p) * torque(context, p, shape);
+  };
+}
+
+/// Scales of a course over speed that the bench's speeds can show, and where they may move to.
+[[nodiscard]] std::vector<DriveShape> speed_shapes(const DriveContext& context);
+[[nodiscard]] std::pair<double, double> speed_limits(const DriveContext& context);
+/// Rates per degree at which something thins, where the bench grew warm.
+[[nodiscard]] std::vector<DriveShape> rate_shapes(const DriveContext& context);
+[[nodiscard]] std::pair<double, double> rate_limits(const DriveContext& context);
+/// exp(-rate (t - the bench's mean)).
+[[nodiscard]] double thinning(const DriveContext& context, const BenchPoint& p, double rate);
+[[nodiscard]] std::vector<DriveReference> mean_temperature(const DriveContext& context);
+
+/// True where the design's friction with this change can be one of flanks that rub.
+[[nodiscard]] bool can_be_friction(const DriveModel& model, double change);
+
+/// "in a wave of order 0.25 per input turn (carrier)".
+[[nodiscard]] std::string wave_in_words(const DriveModel& model, double order);
+[[nodiscard]] std::string short_text(double value);
+[[nodiscard]] inline double first_value(const DriveShape& shape) { return shape[0]; }
+
+/// How all terms of a drive's effects without a name are written.
+[[nodiscard]] std::vector<TermKey> drive_term_keys();
+/// Facts that all of them share.
+[[nodiscard]] DriveFamily without_a_name();
+/// Orthogonal on -1 ... 1.
+[[nodiscard]] double legendre(int degree, double x);
+/// -1 ... 1 over load, speed or temperature (over = 0, 1, 2).
+[[nodiscard]] double coordinate(const DriveContext& context, const BenchPoint& p, double over);
+[[nodiscard]] const char* name_of_quantity(double over);
+
+inline constexpr const char* kOfTheBench = "it is the bench's, not the drive's";
+
+}  // namespace trueflank::loop::drive_effects

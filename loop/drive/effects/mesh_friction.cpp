@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/effects/registry.h"
+
+namespace trueflank::loop::drive_effects {
+
+DriveFamily mesh_friction() {
+  DriveFamily f;
+  f.id = "mesh_friction";
+  f.description = "one mesh rubs otherwise than designed: its coefficient less the others'";
+  f.cause = "that mesh's lubricant, finish or damage";
+  f.correction = "inspect that mesh";
+  f.parameters = {"difference"};
+  f.shape_names = {"mesh"};
+  f.preference = 4;
+  f.shapes = [](const DriveContext& context) {
+    std::vector<DriveShape> shapes;
+    if (context.model.meshes.size() > 1)
+      for (std::size_t k = 0; k < context.model.meshes.size(); ++k)
+        shapes.push_back({static_cast<double>(k + 1)});
+    return shapes;
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
+    const DriveEfficiency& slope = context.mesh_slopes[static_cast<std::size_t>(shape[0]) - 1];
+    c[0] = context.gain(p) * p.driving_nm * (p.forward ? slope.forward : slope.backward);
+  };
+  f.plausible = can_be_friction;
+  f.detail = [](const DriveModel& model, const DriveShape& shape) {
+    return " (" + model.meshes[static_cast<std::size_t>(shape[0]) - 1] + ")";
+  };
+  const char* run = "a second ratio, or one layer locked: the two shafts alone cannot tell the meshes apart";
+  f.told_from = {{"friction_coefficient", run}, {"direction_dependent_friction", run}};
+  return f;
+}
+
+}  // namespace trueflank::loop::drive_effects

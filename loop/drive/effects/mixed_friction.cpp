@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/effects/registry.h"
+
+namespace trueflank::loop::drive_effects {
+
+DriveFamily mixed_friction() {
+  DriveFamily f;
+  f.id = "mixed_friction";
+  f.description = "the flanks' friction coefficient is higher at low speed: + value exp(-(n/n0)^2)";
+  f.cause = "mixed lubrication of the flanks at low speed";
+  f.correction = "viscosity, finish of the flanks";
+  f.parameters = {"value"};
+  f.shape_names = {"speed_rpm"};
+  f.only_positive = true;
+  f.preference = 3;
+  f.shapes = speed_shapes;
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
+    const double x = p.speed_rpm / shape[0];
+    c[0] = context.friction_slope(p) * std::exp(-x * x);
+  };
+  f.shape_values = {{.continuous = true, .limits = speed_limits}};
+  f.into_state = [](DriveState& state, const DriveShape& shape, double b) {
+    state.mixed_value = b;
+    state.mixed_speed_rpm = shape[0];
+  };
+  f.calibrate = [](CalibratedLosses& c, const DriveShape& shape, double b) {
+    return CalibratedLosses::add(c.losses.mixed_friction, b, c.losses.mixed_friction_speed_rpm, shape[0]);
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::drive_effects

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/effects/registry.h"
+
+namespace trueflank::loop {
+
+const std::vector<DriveFamily>& drive_library() {
+  using namespace drive_effects;
+  // In this order candidates are tried: of two that do the same the earlier one wins.
+  static const std::vector<DriveFamily> library = [] {
+    std::vector<DriveFamily> all{
+        friction_coefficient(),
+        drag_torque(),
+        viscous_drag(),
+        bearing_friction(),
+        bearing_load_friction(),
+        stribeck_friction(),
+        mixed_friction(),
+        load_dependent_friction(),
+        temperature_viscosity(),
+        temperature_drag(),
+        direction_dependent_friction(),
+        mesh_friction(),
+        angle_periodic_friction(),
+        torque_scale(),
+        input_torque_offset(),
+        output_torque_offset(),
+        direction_dependent_drag(),
+        unnamed_form(),
+        unnamed_course(),
+        unnamed_step(),
+        unnamed_hump(),
+    };
+    for (DriveFamily& family : all) {
+      family.shape_values.resize(family.shape_names.size());
+      if (family.columns) continue;
+      const int columns = static_cast<int>(family.parameters.size());
+      family.columns = [columns](const DriveShape&) { return columns; };
+    }
+    return all;
+  }();
+  return library;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/drive/drive_effect.h"
+
+// The effects of a drive: a source each. A new one is a source, a line here and one in registry.cpp.
+namespace trueflank::loop::drive_effects {
+
+/// @name Take power
+/// @{
+[[nodiscard]] DriveFamily friction_coefficient();
+[[nodiscard]] DriveFamily drag_torque();
+[[nodiscard]] DriveFamily viscous_drag();
+[[nodiscard]] DriveFamily bearing_friction();
+[[nodiscard]] DriveFamily bearing_load_friction();
+[[nodiscard]] DriveFamily stribeck_friction();
+[[nodiscard]] DriveFamily mixed_friction();
+[[nodiscard]] DriveFamily load_dependent_friction();
+[[nodiscard]] DriveFamily temperature_viscosity();
+[[nodiscard]] DriveFamily temperature_drag();
+[[nodiscard]] DriveFamily direction_dependent_friction();
+[[nodiscard]] DriveFamily mesh_friction();
+[[nodiscard]] DriveFamily angle_periodic_friction();
+/// @}
+
+/// @name Are the bench's, or look like it
+/// @{
+[[nodiscard]] DriveFamily torque_scale();
+[[nodiscard]] DriveFamily input_torque_offset();
+[[nodiscard]] DriveFamily output_torque_offset();
+[[nodiscard]] DriveFamily direction_dependent_drag();
+/// @}
+
+/// @name Described, not explained
+/// @{
+[[nodiscard]] DriveFamily unnamed_form();
+[[nodiscard]] DriveFamily unnamed_course();
+[[nodiscard]] DriveFamily unnamed_step();
+[[nodiscard]] DriveFamily unnamed_hump();
+/// @}
+
+}  // namespace trueflank::loop::drive_effects

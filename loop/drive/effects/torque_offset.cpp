@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/effects/columns.h"
+#include "trueflank/loop/drive/effects/registry.h"
+
+namespace trueflank::loop::drive_effects {
+
+namespace {
+
+DriveFamily offset(bool input) {
+  DriveFamily f;
+  f.id = "torque_offset";
+  f.description = input ? "the input's torque reads this much too high"
+                        : "the output's torque reads this much too high";
+  f.cause = "zero of the sensor or of a motor current";
+  f.correction = "zero the sensor before each run; run both senses of rotation";
+  f.parameters = {"offset_nm"};
+  f.side = input ? "input" : "output";
+  f.is_loss = false;
+  f.preference = 3;
+  f.evaluate = [input](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
+    // What the driving side reads too much is missed on the driven side.
+    c[0] = input != p.forward ? 1.0 : -context.gain(p) * context.efficiency(p);
+  };
+  f.not_carried = kOfTheBench;
+  f.told_from = {{"drag_torque", "both directions, and a zero reading at rest"},
+                 {"direction_dependent_drag", "both senses of rotation, and a zero reading at rest"},
+                 {"torque_scale", "a sweep of the load, zero included"}};
+  return f;
+}
+
+}  // namespace
+
+DriveFamily input_torque_offset() { return offset(true); }
+DriveFamily output_torque_offset() { return offset(false); }
+
+}  // namespace trueflank::loop::drive_effects

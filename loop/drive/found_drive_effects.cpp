@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/found_drive_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/result/describe.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Rows that carry less than this share of the largest load say little about efficiency.
+constexpr double kLoaded = 0.2;
+
+double rms_of(const DriveContext& context, const Eigen::VectorXd& left, bool held_out, bool points) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < context.table.points.size(); ++i) {
+    const BenchPoint& p = context.table.points[i];
+    if (held_out && p.fold != 0) continue;
+    double error = left[static_cast<Eigen::Index>(i)];
+    if (points) {
+      if (p.load_nm < kLoaded * context.table.most_load_nm) continue;
+      error *= 100.0 / (p.load_nm * (p.forward ? context.model.ratio : 1.0));
+    }
+    sum += error * error;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kNaN;
+}
+
+class Describer {
+ public:
+  explicit Describer(const DriveSources& s)
+      : s_(s), covariance_(s.all.covariance()), t_(student_95(s.all.degrees())) {}
+
+  std::vector<FoundEffect> run() {
+    std::map<double, std::size_t> unnamed_at;  // order -> place in found_
+    for (int e = 0; e < static_cast<int>(s_.all.effects().size()); ++e) {
+      const DriveEffect& effect = s_.all.effects()[e];
+      if (effect.family->named) {
+        found_.push_back(common(e));
+        add_parameters(found_.back(), e);
+        members_.push_back({e});
+        continue;
+      }
+      const double order = effect.order();
+      const auto [place, is_new] = unnamed_at.emplace(order, found_.size());
+      if (is_new) {
+        found_.push_back(common(e));
+        members_.push_back({});
+      }
+      members_[place->second].push_back(e);
+      add_terms(found_[place->second].terms, e);
+    }
+    for (const auto& [order, place] : unnamed_at) finish_unnamed(found_[place], order);
+    for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    return std::move(found_);
+  }
+
+ private:
+  FoundEffect common(int e) const {
+    const DriveEffect& effect = s_.all.effects()[e];
+    const DriveFamily& family = *effect.family;
+    const ChosenGroup& chosen = s_.chosen[e];
+    FoundEffect found;
+    found.id = family.id;
+    found.named = family.named;
+    found.description = family.description;
+    found.cause = family.cause;
+    found.correction = family.correction;
+    found.side = family.side;
+    found.p_value = chosen.p_value;
+    found.bic_gain = chosen.bic_gain;
+    found.correctable = family.is_loss && family.named;
+    if (family.detail) found.description += family.detail(s_.context.model, effect.shape);
+    const auto add = [&](const std::string& id) {
+      if (id != found.id && std::find(found.confounded_with.begin(), found.confounded_with.end(), id) ==
+                                found.confounded_with.end())
+        found.confounded_with.push_back(id);
+    };
+    for (const int group : chosen.confounded)
+      if (s_.candidates[group].family->named) add(s_.candidates[group].family->id);
+    if (const auto others = s_.exchangeable.find(family.id); others != s_.exchangeable.end())
+      for (const std::string& id : others->second) add(id);
+    if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne) {
+      // Not tried, and not because the data exclude them.
+      for (const DriveFamily& hidden : drive_library())
+        if (hidden.hides_in_gains) add(hidden.id);
+      if (!s_.context.table.has(true) || !s_.context.table.has(false)) add("swapped_side");
+    }
+    std::sort(found.confounded_with.begin(), found.confounded_with.end());
+    return found;
+  }
+
+  [[nodiscard]] double half(int column) const {
+    return t_ * std::sqrt(std::max(0.0, covariance_(column, column)));
+  }
+
+  void add_parameters(FoundEffect& found, int e) const {
+    const DriveEffect& effect = s_.all.effects()[e];
+    const DriveFamily& family = *effect.family;
+    const int column = s_.all.first_column(e);
+    const auto& b = s_.all.coefficients();
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      const int shape = s_.all.shape_column(e, static_cast<int>(k));
+      const double h = shape < 0 ? 0.0 : half(shape);
+      found.parameters.push_back(parameter_of(family.shape_names[k], effect.shape[k], h));
+    }
+    if (family.form == ParameterForm::kWave) {
+      const auto [amplitude, phase] =
+          wave_parameters(family, b[column], b[column + 1], covariance_.block<2, 2>(column, column), t_);
+      found.parameters.push_back(amplitude);
+      found.parameters.push_back(phase);
+      return;
+    }
+    // A friction is given as the whole coefficient, not as its change.
+    const double base = family.base ? family.base(s_.context) : 0.0;
+    for (int k = 0; k < effect.columns(); ++k)
+      found.parameters.push_back(parameter_of(family.parameters[k], base + b[column + k], half(column + k)));
+    if (!family.references) return;
+    for (const auto& [name, value] : family.references(s_.context))
+      found.parameters.push_back(parameter_of(name, value, 0.0));
+  }
+
+  void add_terms(std::vector<Term>& terms, int e) const {
+    const DriveEffect& effect = s_.all.effects()[e];
+    int column = s_.all.first_column(e);
+    const auto shapes = effect.family->term_shapes(effect.shape);
+    const int each = effect.columns() / static_cast<int>(shapes.size());
+    for (const DriveShape& shape : shapes) {
+      Term t = term_of(*effect.family, shape);
+      t.text = words_for(s_.context.model, effect, &s_.context);
+      t.cos = s_.all.coefficients()[column];
+      t.half_width = half(column);
+      if (each == 2) {
+        t.sin = s_.all.coefficients()[column + 1];
+        t.half_width = std::max(t.half_width, half(column + 1));
+      }
+      column += each;
+      terms.push_back(std::move(t));
+    }
+  }
+
+  void finish_unnamed(FoundEffect& found, double order) const {
+    sort_by_size(found.terms);
+    found.description = "a loss at the input ";
+    bool first = true;
+    for (const Term& t : found.terms) {
+      if (found.description.find(t.text) != std::string::npos) continue;
+      found.description += (first ? "" : "; and ") + t.text;
+      first = false;
+    }
+    found.parameters = parameters_of_terms(found.terms, order, "amplitude_nm", false);
+  }
+
+  void add_figures(FoundEffect& found, const std::vector<int>& members) const {
+    std::vector<bool> left_out(s_.all.effects().size(), false);
+    for (const int e : members) left_out[e] = true;
+    const auto square = [&](const Eigen::VectorXd& left) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
+        const double x = left[static_cast<Eigen::Index>(i)] / s_.context.table.points[i].sigma_nm;
+        sum += x * x;
+      }
+      return sum;
+    };
+    const Eigen::VectorXd with = s_.value - s_.all.explained_nm();
+    const Eigen::VectorXd lost = s_.value - s_.all.columns() * s_.all.without(left_out);
+    found.explained_fraction =
+        std::clamp((square(lost) - square(with)) / std::max(square(s_.value), 1e-300), 0.0, 1.0);
+    const Eigen::VectorXd held = s_.value - s_.training.explained_nm();
+    const Eigen::VectorXd held_lost = s_.value - s_.training.columns() * s_.training.without(left_out);
+    found.held_out_gain = rms_of(s_.context, held_lost, true, false) -
+                          rms_of(s_.context, held, true, false);
+  }
+
+  const DriveSources& s_;
+  const Eigen::MatrixXd covariance_;
+  const double t_;
+  std::vector<FoundEffect> found_;
+  std::vector<std::vector<int>> members_;
+};
+
+}  // namespace
+
+std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources) {
+  return Describer(sources).run();
+}
+
+std::string words_for(const DriveModel& model, const DriveEffect& effect, const DriveContext* context) {
+  return effect.family->words ? effect.family->words(model, effect.shape, context) : effect.family->id;
+}
+
+std::vector<std::string> runs_that_separate(const BenchTable& table,
+                                            const std::vector<FoundEffect>& effects) {
+  std::vector<std::string> runs;
+  const auto say = [&](const std::string& sentence) { say_once(runs, sentence); };
+  if (table.impossible == Impossible::kEfficiencyAboveOne)
+    say("before any loss is read from these data: a run without the gearbox (or with the roles of the two "
+        "sides swapped), and each torque against a lever and weights, to separate torque_scale and "
+        "torque_offset from friction");
+  for (const FoundEffect& found : effects)
+    for (const std::string& other : found.confounded_with)
+      say(found.id + " and " + other + " cannot be told apart here; run " +
+          measurement_between(found.id, find_drive_family(found.id), other, find_drive_family(other),
+                              "more loads, speeds, both directions and temperatures"));
+  if (!table.has(true) || !table.has(false))
+    say("only one direction was run: the other separates torque scale and offset from friction and drag");
+  if (!(table.most_speed_rpm > 1.5 * table.least_speed_rpm))
+    say("the speed hardly changes: a speed sweep separates drag, viscous, bearing and Stribeck losses");
+  if (!table.has_temperature)
+    say("log temperature_c: without it the lubricant's thinning is not seen");
+  if (!table.has_angle)
+    say("log input_angle_deg, counting on over many turns: without it no eccentric member is seen");
+  return runs;
+}
+
+ErrorFigures drive_errors(const DriveContext& context, const Eigen::VectorXd& left_all,
+                          const Eigen::VectorXd& left_training) {
+  ErrorFigures figures;
+  figures.rms = rms_of(context, left_all, false, false);
+  figures.held_out_rms = rms_of(context, left_training, true, false);
+  figures.max = left_all.size() > 0 ? left_all.cwiseAbs().maxCoeff() : 0.0;
+  figures.rms_points = rms_of(context, left_all, false, true);
+  figures.held_out_rms_points = rms_of(context, left_training, true, true);
+  return figures;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "trueflank/loop/drive/drive_fit.h"
+#include "trueflank/loop/result/loop_result.h"
+
+// From chosen columns to what people read: parameters with intervals, words, what cannot be told apart.
+namespace trueflank::loop {
+
+struct DriveSources {
+  const DriveContext& context;        ///< at the state of the fit to all rows
+  const DriveFit& all;                ///< fitted to all rows
+  const DriveFit& training;           ///< the same effects fitted without the hold-out
+  const Eigen::VectorXd& value;
+  const std::vector<ChosenGroup>& chosen;  ///< of the engine, in the order of the effects
+  const std::vector<DriveEffect>& candidates;
+  /// id -> ids that predict as well in its place.
+  const std::map<std::string, std::set<std::string>>& exchangeable;
+};
+
+/// Named effects in the order they were chosen, unnamed terms gathered by their order.
+[[nodiscard]] std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources);
+
+/// A candidate in words: "angle_periodic_friction at 0.1176 per input turn (carrier)".
+[[nodiscard]] std::string words_for(const DriveModel& model, const DriveEffect& effect,
+                                    const DriveContext* context = nullptr);
+
+/// The run that would separate what is confounded, or show what this bench cannot.
+[[nodiscard]] std::vector<std::string> runs_that_separate(const BenchTable& table,
+                                                          const std::vector<FoundEffect>& effects);
+
+/// Plain root mean squares [N m] and in points of efficiency of the loaded rows.
+[[nodiscard]] ErrorFigures drive_errors(const DriveContext& context, const Eigen::VectorXd& left_all,
+                                        const Eigen::VectorXd& left_training);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/close_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/part_frame.h"
+#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/several_parts.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit) {
+  LoopResult result;
+  result.observations = fit.observations();
+  result.held_out = fit.held_out();
+  result.outliers = loop.table().outliers;
+  result.noise = fit.noise_um();
+  result.notes = loop.table().notes;
+  const auto none = PointFit(geometry, loop.measured(), loop.patches(), {}).errors({});
+  const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
+  result.before = {none.rms_um, none.held_out_rms_um, 0.0};
+  result.after = {all.rms_um, all.held_out_rms_um, 0.0};
+  result.not_observable = loop.not_observable();
+  result.structure_p_value = loop.discovery().first_p_value;
+  result.structure_left_p_value = loop.discovery().p_left;
+  result.structure_left = loop.structure_left();
+  const ShapeUncertainty uncertainty =
+      shape_uncertainty(geometry, loop.table(), loop.patches(), fit);
+  result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
+                                     result.not_observable});
+  result.measure_next = measurements_that_separate(result.effects, result.not_observable);
+  if (loop.structure_is_left()) result.verdict = Verdict::kPartlyExplained;
+  else result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
+  return result;
+}
+
+GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, Observations table,
+                   const LoopOptions& options) {
+  PartLoop loop(geometry, std::move(table), {.declared = options.declared});
+  loop.run();
+  const PointFit fit(geometry, loop.table(), loop.patches(), loop.effects());
+  GearLoop done{result_of(geometry, loop, fit), geometry, {}, {}, {}};
+  done.result.gear = gear_name;
+  std::vector<float> unused;
+  PointFit(geometry, loop.measured(), loop.patches(), {}).residuals(done.before_um, unused);
+  fit.residuals(unused, done.after_um);
+  done.table = loop.table();
+  find_largest_errors(done);
+  return done;
+}
+
+/// Names of the parts in the order of the files; empty where all data are of one.
+std::vector<std::string> parts_of(const MeasuredData& data) {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& files) {
+    for (const auto& file : files)
+      if (std::find(names.begin(), names.end(), file.part) == names.end()) names.push_back(file.part);
+  };
+  add(data.scans);
+  add(data.inspections);
+  add(data.sizes);
+  if (names.size() < 2) names.clear();
+  return names;
+}
+
+template <class T>
+std::vector<T> of_part(const std::vector<T>& files, const std::string& part) {
+  std::vector<T> kept;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(kept),
+               [&](const T& file) { return file.part == part; });
+  return kept;
+}
+
+/// Deviations that no gear of this design can have are another unit's or another gear's.
+void doubt_unit_and_gear(const FlankGeometry& geometry, const MeasuredData& data, LoopResult& result) {
+  constexpr double kFinest_um = 0.02, kLargeInModules = 0.08;
+  const double rms = result.before.rms, module_um = 1e3 * geometry.gear().normal_module_mm;
+  if (data.scans.empty() && rms > 1e-4 && rms < kFinest_um)
+    result.notes.push_back(
+        printed("deviations of %.2g um rms are finer than any machine measures: are they in millimetres?", rms));
+  else if (rms > kLargeInModules * module_um)
+    result.notes.push_back(
+        printed("deviations of %.3g um rms are large for a module of %.4g mm: is this the gear of the design?", rms,
+                1e-3 * module_um));
+}
+
+Errors too_few(const Observations& table, const std::string& part) {
+  constexpr std::size_t kFewest = 3;
+  if (table.rows.size() >= kFewest) return {};
+  return {{.code = ErrorCode::kOutOfRange,
+           .message = "the data" + (part.empty() ? "" : " of part " + part) + " hold " +
+                      std::to_string(table.rows.size()) +
+                      " usable values; the loop needs more than that"}};
+}
+
+}  // namespace
+
+void find_largest_errors(GearLoop& done) {
+  for (std::size_t i = 0; i < done.table.rows.size(); ++i) {
+    if (!counts_as_error(done.table.rows[i].kind)) continue;
+    const auto raise = [i](double& largest, const std::vector<float>& values) {
+      largest = std::max(largest, static_cast<double>(std::abs(values[i])));
+    };
+    raise(done.result.before.max, done.before_um);
+    raise(done.result.after.max, done.after_um);
+  }
+}
+
+ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string& gear_name,
+                               const MeasuredData& data, const LoopOptions& options) {
+  const std::vector<std::string> names = parts_of(data);
+  if (names.empty()) {
+    auto table = make_observations(geometry, data, {.aligned = options.aligned});
+    if (!table) return fail_all(std::move(table.error()));
+    if (auto few = too_few(*table, {}); !few.empty()) return fail_all(std::move(few));
+    return close_one(geometry, gear_name, std::move(*table), options);
+  }
+  std::vector<PartTable> parts;
+  Errors errors;
+  for (const std::string& name : names) {
+    MeasuredData of_one{of_part(data.scans, name), of_part(data.inspections, name),
+                        of_part(data.sizes, name), {}};
+    auto table = make_observations(geometry, of_one, {.aligned = options.aligned});
+    Errors found = table ? too_few(*table, name) : table.error();
+    errors.insert(errors.end(), found.begin(), found.end());
+    if (table && found.empty()) parts.push_back({name.empty() ? "(unnamed)" : name, std::move(*table)});
+  }
+  if (!errors.empty()) return fail_all(std::move(errors));
+  GearLoop done = close_loop_of_parts(geometry, std::move(parts), options);
+  done.result.gear = gear_name;
+  done.result.notes.insert(done.result.notes.begin(), data.notes.begin(), data.notes.end());
+  return done;
+}
+
+ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_name,
+                               const std::vector<std::string>& files, const LoopOptions& options) {
+  const TrainGear* gear = train.find(gear_name);
+  if (gear == nullptr) {
+    std::string names;
+    for (const TrainGear& known : train.gears) names += (names.empty() ? "" : ", ") + known.name;
+    return fail_all({{.code = ErrorCode::kUsage,
+                      .message = "the design has no gear \"" + gear_name + "\"",
+                      .key = "--gear",
+                      .value = gear_name,
+                      .remedy = "one of " + names}});
+  }
+  auto data = read_measured_files(files);
+  if (!data) return fail_all(std::move(data.error()));
+  double bore_radius = 0.0;
+  if (const GearDesign* design = find_gear(train.design, gear_name))
+    if (design->bore.kind == BoreKind::kRound) bore_radius = 0.5 * design->bore.diameter_mm;
+  const FlankGeometry geometry(*gear, bore_radius);
+  if (options.aligned) move_into_gear_frame(train, *gear, geometry, *data);
+  auto closed = close_loop(geometry, gear_name, *data, options);
+  if (closed) doubt_unit_and_gear(geometry, *data, closed->result);
+  return closed;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/involute.h"
+#include "trueflank/loop/gear/declared_effect.h"
+#include "trueflank/loop/gear/mesh_slicing.h"
+
+namespace trueflank::loop {
+namespace {
+
+using Json = nlohmann::json;
+using Point3 = std::array<double, 3>;
+
+Error broken(const std::string& what, const std::string& key = {}) {
+  return {.code = ErrorCode::kWrongType, .message = what, .key = key};
+}
+
+Result<Json> parsed(std::string_view text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    return fail({.code = ErrorCode::kSyntax, .message = "this is no JSON document"});
+  if (!json.is_object() || json.value("format", "") != "trueflank-loop")
+    return fail(broken("this is no loop.json", "format"));
+  return json;
+}
+
+/// Value of a parameter; NaN where it is not there.
+double value_of(const Json& effect, const std::string& name) {
+  const auto parameters = effect.find("parameters");
+  if (parameters == effect.end() || !parameters->is_object()) return kNaN;
+  const auto parameter = parameters->find(name);
+  if (parameter == parameters->end() || !parameter->is_object()) return kNaN;
+  const auto value = parameter->find("value");
+  return value != parameter->end() && value->is_number() ? value->get<double>() : kNaN;
+}
+
+FlankChoice flank_of(const Json& effect) {
+  const std::string text = effect.value("flank", "both");
+  return text == "left" ? FlankChoice::kLeft : text == "right" ? FlankChoice::kRight : FlankChoice::kBoth;
+}
+
+/// Shape and coefficients from the parameters people read.
+bool read_parameters(const Json& json, const EffectFamily& family, std::vector<double>& shape,
+                     std::vector<double>& coefficients) {
+  for (const std::string& name : family.shape_names) shape.push_back(value_of(json, name));
+  if (family.form == ParameterForm::kWave) {
+    const double amplitude = value_of(json, family.parameters[0]);
+    const double angle = rad_from_deg(value_of(json, family.parameters[1])) * family.phase_divisor;
+    coefficients = {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+  } else {
+    for (const std::string& name : family.parameters) coefficients.push_back(value_of(json, name));
+  }
+  const auto bad = [](double value) { return !std::isfinite(value); };
+  return std::none_of(shape.begin(), shape.end(), bad) &&
+         std::none_of(coefficients.begin(), coefficients.end(), bad);
+}
+
+/// A term of an effect without a name.
+bool read_term(const Json& term, const EffectFamily& family, std::vector<double>& shape,
+               std::vector<double>& coefficients) {
+  if (!term.is_object()) return false;
+  const auto number = [&](const std::string& key) {
+    const auto found = term.find(key);
+    return found != term.end() && found->is_number() ? found->get<double>() : kNaN;
+  };
+  for (const TermKey& key : family.term_keys)
+    shape.push_back(key.kind == TermKey::Kind::kWord ? (term.value(key.name, "") == key.words[1] ? 1.0 : 0.0)
+                                                     : number(key.name));
+  constexpr double kMostDegree = 1000.0;  // degrees and orders: far beyond what any data can show
+  const auto bad = [](double value) { return !std::isfinite(value); };
+  const auto no_degree = [](double value) {
+    return !(value >= 0.0 && value <= kMostDegree) || value != std::floor(value);
+  };
+  if (std::any_of(shape.begin(), shape.end(), no_degree) || shape.size() != family.shape_names.size())
+    return false;
+  for (int k = 0; k < family.columns(shape); ++k) coefficients.push_back(number(family.parameters[k]));
+  return std::none_of(coefficients.begin(), coefficients.end(), bad);
+}
+
+/// A user's effect carries its formulas in loop.json, so that the correction needs no other file.
+Result<EffectFamily> declared_family_of(const Json& item) {
+  DeclaredEffect declared{.id = item["id"], .correctable = item.value("correctable", true)};
+  declared.correction = item.value("correction", "");
+  const Json& form = item["form"];
+  if (!form.is_object()) return fail(broken("an effect without its formulas", "effects." + declared.id));
+  for (const auto& [name, formula] : form.items()) {
+    if (!formula.is_string())
+      return fail(broken("an effect without its formulas", "effects." + declared.id + ".form"));
+    declared.columns.emplace_back(name, formula.get<std::string>());
+  }
+  auto family = declared_family(declared);
+  if (!family) return fail(family.error().front());
+  return std::move(*family);
+}
+
+}  // namespace
+
+Result<std::string> Correction::gear_of(std::string_view loop_json) {
+  const auto json = parsed(loop_json);
+  if (!json) return fail(json.error());
+  const auto gear = json->find("gear");
+  if (gear == json->end() || !gear->is_string()) return fail(broken("loop.json names no gear", "gear"));
+  return gear->get<std::string>();
+}
+
+Result<Correction> Correction::make(std::string_view loop_json, const FlankGeometry& geometry) {
+  const auto json = parsed(loop_json);
+  if (!json) return fail(json.error());
+  const auto effects = json->find("effects");
+  if (effects == json->end() || !effects->is_array())
+    return fail(broken("loop.json has no list of effects", "effects"));
+  Correction result(geometry);
+  for (const Json& item : *effects) {
+    if (!item.is_object() || !item.contains("id") || !item["id"].is_string())
+      return fail(broken("an effect without id", "effects"));
+    const std::string id = item["id"];
+    if (!item.value("repeatable", true)) {
+      result.left_.push_back(id + ": one-off, on part " + item.value("part", std::string("?")) +
+                             " only; what does not repeat is not corrected");
+      continue;
+    }
+    const EffectFamily* family = find_family(id);
+    if (family == nullptr && item.contains("form")) {
+      auto declared = declared_family_of(item);
+      if (!declared) return fail(declared.error());
+      result.declared_.push_back(std::make_shared<const EffectFamily>(std::move(*declared)));
+      family = result.declared_.back().get();
+    }
+    if (family == nullptr)
+      return fail({.code = ErrorCode::kUnknownKey,
+                   .message = "an effect nobody knows",
+                   .key = "effects.id",
+                   .value = id});
+    if (!family->named) {
+      const auto terms = item.find("terms");
+      if (terms == item.end() || !terms->is_array()) {
+        result.left_.push_back(id + ": stands on one tooth; inspect or reject the part");
+        continue;
+      }
+      for (const Json& term : *terms) {
+        Part part;
+        part.effect.family = family;
+        if (!read_term(term, *family, part.effect.shape, part.coefficients))
+          return fail(broken("a term without its numbers", "effects.terms"));
+        result.parts_.push_back(std::move(part));
+      }
+      result.corrected_.push_back(id);
+      continue;
+    }
+    if (family->correctable != Correctable::kGeometry) {
+      result.left_.push_back(id + ": " + family->correction);
+      continue;
+    }
+    Part part;
+    part.effect.family = family;
+    part.effect.flank = flank_of(item);
+    if (!read_parameters(item, *family, part.effect.shape, part.coefficients))
+      return fail(broken("an effect without its parameters", "effects." + id));
+    result.parts_.push_back(std::move(part));
+    result.corrected_.push_back(id);
+  }
+  return result;
+}
+
+/// Deviation of a flank from all effects that are no displacement of the body.
+double Correction::flank_deviation_mm(int tooth, int side, double roll_mm, double z_mm) const {
+  const int z = geometry_.teeth();
+  const Place place = geometry_.on_flank((tooth - 1 + z) % z + 1, side, roll_mm, z_mm);
+  double sum = 0.0, values[8];
+  for (const Part& part : parts_) {
+    if (part.effect.family->displacement_mm) continue;
+    part.effect.evaluate(geometry_, place, values);
+    for (std::size_t k = 0; k < part.coefficients.size(); ++k) sum += values[k] * part.coefficients[k];
+  }
+  return mm_from_um(sum);
+}
+
+/// The turn about the axis that takes the flanks' deviations away at a point: on a flank that flank's,
+/// over the tip from one flank to the other, in the gap from this tooth to the next.
+double Correction::turn_rad(const Point3& p) const {
+  const double radius = std::hypot(p[0], p[1]);
+  const double pitch = kTwoPi / geometry_.teeth();
+  const double from_first = std::atan2(p[1], p[0]) - geometry_.twist_rad(p[2]);
+  const int tooth = static_cast<int>(std::round(from_first / pitch)) + 1;
+  const double offset = from_first - pitch * (tooth - 1);
+  const int z = geometry_.teeth();
+  const int number = ((tooth - 1) % z + z) % z + 1;
+  const double low = std::min(geometry_.root_form_roll_mm(), geometry_.tip_form_roll_mm());
+  const double high = std::max(geometry_.root_form_roll_mm(), geometry_.tip_form_roll_mm());
+  const double roll = std::clamp(geometry_.roll_at_radius_mm(radius), low, high);
+  const auto turn_of = [&](int of_tooth, int side) {
+    const double transverse =
+        flank_deviation_mm(of_tooth, side, roll, p[2]) / std::cos(geometry_.base_helix_rad());
+    return -side * transverse / geometry_.base_radius_mm();
+  };
+  const double xi = roll / geometry_.base_radius_mm();
+  const double half = geometry_.base_half_angle() - geometry_.sense() * (xi - std::atan(xi));
+  const double w = half > 0.0 ? offset / half : (offset >= 0.0 ? 1.0 : -1.0);
+  const double ahead = turn_of(number, 1), behind = turn_of(number, -1);
+  if (std::abs(w) <= 1.0) return 0.5 * (1.0 + w) * ahead + 0.5 * (1.0 - w) * behind;
+  const int side = w > 0.0 ? 1 : -1;
+  const double q = std::clamp((std::abs(offset) - half) / (0.5 * pitch - half), 0.0, 1.0);
+  const double own = side > 0 ? ahead : behind;
+  return own + 0.5 * q * (turn_of(number + side, -side) - own);
+}
+
+Point3 Correction::displacement_mm(const Point3& p) const {
+  // Where will the process take the point? The field there, turned round; twice for second order.
+  Point3 sum{0.0, 0.0, 0.0};
+  for (int step = 0; step < 3; ++step) {
+    const Point3 at{p[0] + sum[0], p[1] + sum[1], p[2] + sum[2]};
+    sum = {0.0, 0.0, 0.0};
+    for (const Part& part : parts_) {
+      if (!part.effect.family->displacement_mm) continue;
+      const auto u = part.effect.family->displacement_mm(geometry_, at, part.effect.shape,
+                                                         part.coefficients.data());
+      for (int k = 0; k < 3; ++k) sum[k] -= u[k];
+    }
+  }
+  const double turn = turn_rad(p);
+  const double c = std::cos(turn) - 1.0, s = std::sin(turn);
+  sum[0] += c * p[0] - s * p[1];
+  sum[1] += s * p[0] + c * p[1];
+  // Offsets of all walls: tip and root circles move too, the flanks already have.
+  double offset = 0.0;
+  for (const Part& part : parts_)
+    if (part.effect.family->moves_circles)
+      offset += mm_from_um(part.effect.family->walls_outside_um(geometry_, part.coefficients.data()));
+  if (offset == 0.0) return sum;
+  const double radius = std::hypot(p[0], p[1]);
+  const double root = geometry_.root_radius_mm(), tip = geometry_.tip_radius_mm();
+  const double root_form = std::hypot(geometry_.base_radius_mm(), geometry_.root_form_roll_mm());
+  const double down = root_form == root ? 0.0 : (radius - root_form) / (root - root_form);
+  const double share = std::clamp(down, 0.0, 1.0);
+  // The tip circle moves whole: what of the flanks stands beyond the new one is brought onto it.
+  const double new_tip = tip - geometry_.sense() * offset;
+  const double beyond = geometry_.sense() * (radius - new_tip);
+  const bool at_tip = geometry_.sense() * (radius - tip) > -2e-3;
+  if (at_tip || beyond > 0.0) {
+    sum[0] += (new_tip - radius) * p[0] / radius;
+    sum[1] += (new_tip - radius) * p[1] / radius;
+    return sum;
+  }
+  const double radial = -geometry_.sense() * offset * share;
+  sum[0] += radial * p[0] / radius;
+  sum[1] += radial * p[1] / radius;
+  return sum;
+}
+
+bool Correction::bends_over_the_face() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
+    const EffectFamily& family = *part.effect.family;
+    return family.bends_over_the_face && family.bends_over_the_face(part.effect.shape);
+  });
+}
+
+Correction Correction::only(bool whole_part) const {
+  Correction some = *this;
+  std::erase_if(some.parts_,
+                [&](const Part& p) { return p.effect.family->moves_whole_part != whole_part; });
+  return some;
+}
+
+bool Correction::moves_whole_part() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part& p) { return p.effect.family->moves_whole_part; });
+}
+
+double Correction::walls_outside_mm() const {
+  double outside = 0.0;
+  for (const Part& part : parts_)
+    if (part.effect.family->walls_outside_um)
+      outside += mm_from_um(part.effect.family->walls_outside_um(geometry_, part.coefficients.data()));
+  return outside;
+}
+
+TriangleMesh Correction::apply(const TriangleMesh& mesh, double z_lower_mm) const {
+  const double b = geometry_.face_width_mm();
+  TriangleMesh result = mesh;
+  if (bends_over_the_face()) {
+    std::vector<double> heights;
+    constexpr int kLayers = 32;
+    for (int i = 1; i < kLayers; ++i) heights.push_back(z_lower_mm + b * i / kLayers);
+    // First layers bulge within tenths of a millimetre.
+    for (const double z : {0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9})
+      if (z < b) heights.push_back(z_lower_mm + z);
+    std::sort(heights.begin(), heights.end());
+    result = sliced(mesh, heights);
+  }
+  // Of the body only the ring of the teeth moves; a scale is of the whole part.
+  const bool whole = moves_whole_part();
+  const double root = geometry_.root_radius_mm(), margin = 1e-3;
+  for (auto& vertex : result.vertices) {
+    const double radius = std::hypot(vertex[0], vertex[1]);
+    const bool toothed = geometry_.sense() > 0.0 ? radius > root - margin : radius < root + margin;
+    const double z = vertex[2] - z_lower_mm;
+    if ((!toothed && !whole) || z < -1e-9 || z > b + 1e-9 || radius == 0.0) continue;
+    const Point3 u = displacement_mm({vertex[0], vertex[1], z});
+    for (int k = 0; k < 3; ++k) vertex[k] += u[k];
+  }
+  return result;
+}
+
+}  // namespace trueflank::loop

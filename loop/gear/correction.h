@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/loop/gear/effect.h"
+#include "trueflank/solid/mesh/triangle_mesh.h"
+
+namespace trueflank::loop {
+
+/// What to change on the model so that the same process makes the gear as designed: the effects of a
+/// loop.json that geometry can cancel, the other way round.
+class Correction {
+ public:
+  /// Errors: kSyntax (no JSON, with the place), kWrongType, kUnknownKey (an effect nobody knows),
+  /// kInconsistent (a drive's loop.json).
+  [[nodiscard]] static Result<Correction> make(std::string_view loop_json,
+                                               const FlankGeometry& geometry);
+  /// The gear a loop.json is of. Errors: as make().
+  [[nodiscard]] static Result<std::string> gear_of(std::string_view loop_json);
+
+  /// Displacement [mm] of a point of the toothing as designed, in the gear's frame. Body effects: the
+  /// field turned round, with its second order (the point is looked up where it will be). Effects on
+  /// flanks: along the circle, so that tip and root keep their radii; offsets of all walls also
+  /// move tip and root. Continuous over tip, flank, fillet and gap.
+  [[nodiscard]] std::array<double, 3> displacement_mm(const std::array<double, 3>& point_mm) const;
+
+  /// The mesh of the gear's part with its toothing corrected; z_lower_mm is the lower face of the gear
+  /// in the part. Bore and rim stay where they are, but for a scale. Walls are cut at heights where the
+  /// correction bends over the face. Guarantees: closed where the mesh was closed.
+  [[nodiscard]] TriangleMesh apply(const TriangleMesh& mesh, double z_lower_mm) const;
+
+  /// Whether bore and rim are corrected, too: a scale. Then only meshes can hold it: what without_scale()
+  /// holds displaces the toothing first, so that facets follow it, and apply() of the scale comes last.
+  [[nodiscard]] bool moves_whole_part() const;
+  /// The scale alone, or all but the scale. Their succession differs from both at once by the product of
+  /// the two, some hundredths of a micrometre.
+  [[nodiscard]] Correction scale_alone() const { return only(true); }
+  [[nodiscard]] Correction without_scale() const { return only(false); }
+  /// How far all walls were found to stand outside the model [mm], normal to them: contour offset and
+  /// tooth thickness, the two that a process's horizontal expansion shows as.
+  [[nodiscard]] double walls_outside_mm() const;
+  [[nodiscard]] bool empty() const { return parts_.empty(); }
+  [[nodiscard]] const std::vector<std::string>& corrected() const { return corrected_; }
+  /// What stays, and why: one sentence each.
+  [[nodiscard]] const std::vector<std::string>& left() const { return left_; }
+
+ private:
+  struct Part {
+    Effect effect;
+    std::vector<double> coefficients;
+  };
+  explicit Correction(const FlankGeometry& geometry) : geometry_(geometry) {}
+  [[nodiscard]] Correction only(bool whole_part) const;
+  [[nodiscard]] double flank_deviation_mm(int tooth, int side, double roll_mm, double z_mm) const;
+  [[nodiscard]] double turn_rad(const std::array<double, 3>& point_mm) const;
+  [[nodiscard]] bool bends_over_the_face() const;
+
+  FlankGeometry geometry_;
+  std::vector<std::shared_ptr<const EffectFamily>> declared_;  ///< parts may point into these
+  std::vector<Part> parts_;
+  std::vector<std::string> corrected_, left_;
+};
+
+}  // namespace trueflank::loop

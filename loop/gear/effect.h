@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/flank_geometry.h"
+#include "trueflank/loop/result/effect_facts.h"
+
+namespace trueflank::loop {
+
+/// Which flanks an effect acts on.
+enum class FlankChoice { kBoth, kLeft, kRight };
+
+/// What the correction may do with an effect.
+enum class Correctable { kGeometry, kNoCause };
+
+/// Shape values of an effect: order, height, tooth, ...
+using EffectShape = std::vector<double>;
+
+/// Along what a gear must have been measured before an effect can be seen.
+struct NeedsToBeSeen {
+  bool along_profile = false, along_face = false;
+  bool crossed = false;  ///< profile at several heights, or helix at several diameters
+};
+
+/// One kind of effect of a gear: where its columns come from and how it is told. One object in one file of
+/// effects/, listed in effects/registry.cpp; nothing else knows an effect by its name.
+/// Columns are the deviation [um, + = material, along the normal] per unit coefficient; coefficients are
+/// in the parameters' unit.
+struct EffectFamily : EffectFacts {
+  bool one_flank_too = false;       ///< may act on one flank only
+  bool flank_only = false;          ///< must act on one flank only
+  bool local = false;               ///< lives on one tooth
+  Correctable correctable = Correctable::kGeometry;
+  /// Declared by a user: name and formula of every parameter, as declared.
+  std::vector<std::pair<std::string, std::string>> formulas = {};
+
+  /// @name Columns
+  /// @{
+  std::function<int(const EffectShape&)> columns;
+  std::function<std::vector<EffectShape>(const FlankGeometry&)> shapes;
+  std::function<void(const FlankGeometry&, const Place&, const EffectShape&, double* columns)> evaluate;
+  bool shape_is_continuous = false;  ///< refined after the choice
+  bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
+  /// Where the k-th shape value still means what its name says.
+  std::function<std::pair<double, double>(const FlankGeometry&, std::size_t k)> shape_limits = {};
+  /// @}
+
+  /// @name How it is chosen
+  /// @{
+  std::function<NeedsToBeSeen(const EffectShape&)> needs = {};  ///< empty: any data show it
+  /// Waves around the gear; empty: it is none.
+  std::function<double(const EffectShape&)> order = {};
+  /// Share of what a wave explains that may stay unexplained at its order before its name is doubted; 0:
+  /// never is. From the second order on.
+  double doubt_share = 0.0;
+  bool doubted_by_any_order = false;
+  bool shows_in_sizes = false;    ///< span, over pins, diameters tell it
+  int penalty_of_traces = 0;      ///< on top of the preference where only traces were measured
+  std::function<double(const EffectShape&)> complexity = {};  ///< among equals the simplest wins
+  /// @}
+
+  /// @name How it is told
+  /// @{
+  /// In words; empty: its id and shape values.
+  std::function<std::string(const EffectShape&, FlankChoice)> words = {};
+  /// @}
+
+  /// @name How it is corrected
+  /// @{
+  /// Effects that move the body: the displacement [mm] of a point [mm] for coefficients in the
+  /// parameters' units; empty where the deviation along the normal says all.
+  std::function<std::array<double, 3>(const FlankGeometry&, const std::array<double, 3>& point,
+                                      const EffectShape&, const double* coefficients)>
+      displacement_mm;
+  bool moves_whole_part = false;  ///< bore and rim too
+  bool moves_circles = false;     ///< tip and root circles move as the walls do
+  /// How far all walls stand outside the model [um]; empty: they do not as a whole.
+  std::function<double(const FlankGeometry&, const double* coefficients)> walls_outside_um = {};
+  std::function<bool(const EffectShape&)> bends_over_the_face = {};  ///< empty: it does not
+  /// @}
+};
+
+/// An effect with its shape fixed: what a candidate of the selection is.
+struct Effect {
+  const EffectFamily* family = nullptr;
+  FlankChoice flank = FlankChoice::kBoth;
+  EffectShape shape;
+
+  [[nodiscard]] int columns() const { return family->columns(shape); }
+  /// Columns at a place; zero where the effect does not act on that flank.
+  void evaluate(const FlankGeometry& geometry, const Place& place, double* values) const;
+  /// Waves around the gear; 0: none.
+  [[nodiscard]] double order() const { return family->order ? family->order(shape) : 0.0; }
+  [[nodiscard]] NeedsToBeSeen needs() const {
+    return family->needs ? family->needs(shape) : NeedsToBeSeen{};
+  }
+  /// A term of a description without a name, gathered with others of its order.
+  [[nodiscard]] bool is_term() const { return !family->named && !family->local; }
+};
+
+/// The library: all families, named ones first. Lives as long as the program.
+[[nodiscard]] const std::vector<EffectFamily>& effect_library();
+/// The family of an id; nullptr where there is none.
+[[nodiscard]] const EffectFamily* find_family(const std::string& id);
+/// Families a user declared. Shared: effects point into them.
+using DeclaredFamilies = std::shared_ptr<const std::vector<EffectFamily>>;
+/// Every candidate for a gear: of the library and of what the user declared.
+[[nodiscard]] std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
+                                                    const DeclaredFamilies& declared = nullptr);
+
+/// Share of the flank's normal that lies in the transverse plane: what a displacement there is worth.
+[[nodiscard]] double normal_part(const FlankGeometry& geometry, const Place& place, double ux,
+                                 double uy);
+
+}  // namespace trueflank::loop

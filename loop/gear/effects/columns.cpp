@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+
+#include <algorithm>
+
+namespace trueflank::loop::gear_effects {
+
+void two_directions(const FlankGeometry& g, const Place& place, double factor, double* c) {
+  const bool teeth = place.surface == Surface::kFlank;
+  c[0] = teeth ? factor * normal_part(g, place, 1.0, 0.0) : 0.0;
+  c[1] = teeth ? factor * normal_part(g, place, 0.0, 1.0) : 0.0;
+}
+
+std::vector<EffectShape> whole_numbers(int from, int to) {
+  std::vector<EffectShape> shapes;
+  for (int n = from; n <= to; ++n) shapes.push_back({static_cast<double>(n)});
+  return shapes;
+}
+
+std::vector<EffectShape> heights(const FlankGeometry& g, double from_mm, double to_mm, int count,
+                                 bool in_ratios) {
+  std::vector<EffectShape> shapes;
+  for (int i = 0; i < count; ++i) {
+    const double f = static_cast<double>(i) / (count - 1);
+    const double h = in_ratios ? from_mm * std::pow(to_mm / from_mm, f) : from_mm + f * (to_mm - from_mm);
+    if (h < g.face_width_mm()) shapes.push_back({h});
+  }
+  return shapes;
+}
+
+std::pair<double, double> height_limits(const FlankGeometry& g) { return {0.02, g.face_width_mm()}; }
+
+std::pair<double, double> diameter_limits(const FlankGeometry& g) {
+  const double root = 2.0 * std::hypot(g.base_radius_mm(), g.root_form_roll_mm());
+  const double tip = 2.0 * std::hypot(g.base_radius_mm(), g.tip_form_roll_mm());
+  const double inset = 0.02 * (tip - root);
+  return {std::min(root + inset, tip - inset), std::max(root + inset, tip - inset)};
+}
+
+double diameter_at_roll_share(const FlankGeometry& g, double share) {
+  const double roll = g.root_form_roll_mm() + share * (g.tip_form_roll_mm() - g.root_form_roll_mm());
+  return 2.0 * std::hypot(g.base_radius_mm(), roll);
+}
+
+}  // namespace trueflank::loop::gear_effects

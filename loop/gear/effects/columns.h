@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+#include "trueflank/loop/gear/effect.h"
+
+// What several effects' columns are made of.
+namespace trueflank::loop::gear_effects {
+
+using Point3 = std::array<double, 3>;
+
+struct PlanePoint {
+  double x, y;
+};
+/// The place in the transverse plane [mm].
+[[nodiscard]] inline PlanePoint point_of(const Place& place) {
+  return {place.radius_mm * std::cos(place.polar_rad), place.radius_mm * std::sin(place.polar_rad)};
+}
+
+/// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on height.
+void two_directions(const FlankGeometry& geometry, const Place& place, double factor, double* columns);
+
+/// A family whose one column is a function of profile coordinate u (-1 root form ... +1 tip), face
+/// coordinate v (-1 ... +1 from bottom to top) and side, on flanks only.
+template <class Function>
+[[nodiscard]] EffectFamily on_flanks(Function function) {
+  EffectFamily f;
+  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape&, double* c) {
+    c[0] = p.surface == Surface::kFlank
+               ? function(g, g.profile_coordinate(p.roll_mm), g.face_coordinate(p.z_mm), p.side)
+               : 0.0;
+  };
+  return f;
+}
+
+/// One shape a number, from ... to.
+[[nodiscard]] std::vector<EffectShape> whole_numbers(int from, int to);
+/// Heights below the face width, in equal steps or equal ratios.
+[[nodiscard]] std::vector<EffectShape> heights(const FlankGeometry& geometry, double from_mm, double to_mm,
+                                               int count, bool in_ratios);
+
+/// Limits of a height over the face, and of a diameter between root form and tip.
+[[nodiscard]] std::pair<double, double> height_limits(const FlankGeometry& geometry);
+[[nodiscard]] std::pair<double, double> diameter_limits(const FlankGeometry& geometry);
+/// Diameter at a share of the roll length from root form (0) to tip form (1).
+[[nodiscard]] double diameter_at_roll_share(const FlankGeometry& geometry, double share);
+
+/// The first shape value is the order.
+[[nodiscard]] inline double first_value(const EffectShape& shape) { return shape[0]; }
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily flank_twist() {
+  auto f = on_flanks([](const FlankGeometry&, double u, double v, int) { return u * v; });
+  f.id = "flank_twist";
+  f.description = "the profile slope changes over the face (bias)";
+  f.cause = "crowning of a helical gear by radial motion, diagonal grinding";
+  f.correction = "twist-free dressing or shift strategy";
+  f.parameters = {"amount_um"};
+  f.one_flank_too = true;
+  f.preference = 1;
+  f.needs = [](const EffectShape&) {
+    return NeedsToBeSeen{.along_profile = true, .along_face = true, .crossed = true};
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

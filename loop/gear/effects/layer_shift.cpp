@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily layer_shift() {
+  EffectFamily f;
+  f.id = "layer_shift";
+  f.description = "everything above a height is moved sideways";
+  f.cause = "the printer skipped steps, or the part was struck";
+  f.correction = "printer: belts, current, speed, collisions; geometry cannot cancel it";
+  f.parameters = {"dx_um", "dy_um"};
+  f.shape_names = {"height_mm"};
+  f.shape_is_continuous = true;
+  f.correctable = Correctable::kNoCause;
+  f.shapes = [](const FlankGeometry& g) {
+    const double b = g.face_width_mm();
+    return heights(g, 0.06 * b, 0.94 * b, 15, false);
+  };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    two_directions(g, p, p.z_mm > shape[0] ? 1.0 : 0.0, c);
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape& shape,
+                         const double* b) -> Point3 {
+    const double on = p[2] > shape[0] ? 1e-3 : 0.0;
+    return {on * b[0], on * b[1], 0.0};
+  };
+  f.shape_is_step = true;
+  f.shape_limits = [](const FlankGeometry& g, std::size_t) { return height_limits(g); };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily lobing() {
+  EffectFamily f;
+  f.id = "lobing";
+  f.description = "the gear is out of round";
+  f.cause = "jaws of the chuck, gates of the mould, press fit of a ring, ovality";
+  f.correction = "softer clamping, gate layout; a radial wave in the model where it repeats";
+  f.parameters = {"amplitude_um", "phase_deg"};
+  f.shape_names = {"order"};
+  f.form = ParameterForm::kWave;
+  f.shapes = [](const FlankGeometry& g) { return whole_numbers(2, std::min(16, (g.teeth() - 1) / 2)); };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double radial = normal_part(g, p, std::cos(p.polar_rad), std::sin(p.polar_rad));
+    c[0] = radial * std::cos(shape[0] * p.polar_rad);
+    c[1] = radial * std::sin(shape[0] * p.polar_rad);
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape& shape,
+                         const double* b) -> Point3 {
+    const double polar = std::atan2(p[1], p[0]);
+    const double radial = 1e-3 * (b[0] * std::cos(shape[0] * polar) + b[1] * std::sin(shape[0] * polar));
+    return {radial * std::cos(polar), radial * std::sin(polar), 0.0};
+  };
+  f.order = first_value;
+  f.doubt_share = 0.05;
+  f.told_from = {{"pitch_wave", "both flanks, or the radial runout"}};
+  f.causes_told_by = "chuck jaws, gates and press fits look alike; measure before and after unclamping, "
+                     "compare the phase with jaws and gates";
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily pitch_wave() {
+  EffectFamily f;
+  f.id = "pitch_wave";
+  f.description = "the teeth stand ahead and behind in a wave around the gear";
+  f.cause = "rotary table, worm of the machine, steps or belt of a drive";
+  f.correction = "calibrate the table; turn the teeth of the model the other way";
+  f.parameters = {"amplitude_um", "phase_deg"};
+  f.shape_names = {"order"};
+  f.form = ParameterForm::kWave;
+  f.shapes = [](const FlankGeometry& g) { return whole_numbers(1, std::min(60, (g.teeth() - 1) / 2)); };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
+    const double lever = p.side * g.base_radius_mm() / g.reference_radius_mm() *
+                         std::cos(g.base_helix_rad());
+    c[0] = lever * std::cos(shape[0] * p.centre_rad);
+    c[1] = lever * std::sin(shape[0] * p.centre_rad);
+  };
+  f.order = first_value;
+  f.doubt_share = 0.05;
+  f.causes_told_by = "an error of the measuring table looks like one of the gear; measure at two "
+                     "orientations on the table";
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

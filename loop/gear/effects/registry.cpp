@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop {
+
+const std::vector<EffectFamily>& effect_library() {
+  using namespace gear_effects;
+  // In this order candidates are tried: of two that do the same the earlier one wins.
+  static const std::vector<EffectFamily> library = [] {
+    std::vector<EffectFamily> all{
+        eccentricity(),
+        axis_tilt(),
+        scale(),
+        scale_xy(),
+        skew(),
+        contour_offset(),
+        elephant_foot(),
+        layer_shift(),
+        tooth_thickness(),
+        pressure_angle_error(),
+        profile_crowning(),
+        tip_relief(),
+        helix_error(),
+        taper(),
+        crowning(),
+        flank_twist(),
+        flank_wear(),
+        pitch_wave(),
+        lobing(),
+        ghost_order(),
+        single_tooth(),
+        unnamed(),
+        unnamed_flank(),
+    };
+    for (EffectFamily& family : all) {
+      if (family.columns) continue;
+      const int columns = static_cast<int>(family.parameters.size());
+      family.columns = [columns](const EffectShape&) { return columns; };
+    }
+    return all;
+  }();
+  return library;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/effect.h"
+
+// The effects of a gear: a source each. A new one is a source, a line here and one in registry.cpp.
+namespace trueflank::loop::gear_effects {
+
+/// @name Move the tooth system or all walls
+/// @{
+[[nodiscard]] EffectFamily eccentricity();
+[[nodiscard]] EffectFamily axis_tilt();
+[[nodiscard]] EffectFamily scale();
+[[nodiscard]] EffectFamily scale_xy();
+[[nodiscard]] EffectFamily skew();
+[[nodiscard]] EffectFamily contour_offset();
+[[nodiscard]] EffectFamily elephant_foot();
+[[nodiscard]] EffectFamily layer_shift();
+/// @}
+
+/// @name Shape every flank alike
+/// @{
+[[nodiscard]] EffectFamily tooth_thickness();
+[[nodiscard]] EffectFamily pressure_angle_error();
+[[nodiscard]] EffectFamily profile_crowning();
+[[nodiscard]] EffectFamily tip_relief();
+[[nodiscard]] EffectFamily helix_error();
+[[nodiscard]] EffectFamily taper();
+[[nodiscard]] EffectFamily crowning();
+[[nodiscard]] EffectFamily flank_twist();
+[[nodiscard]] EffectFamily flank_wear();
+/// @}
+
+/// @name Vary around the gear
+/// @{
+[[nodiscard]] EffectFamily pitch_wave();
+[[nodiscard]] EffectFamily lobing();
+[[nodiscard]] EffectFamily ghost_order();
+[[nodiscard]] EffectFamily single_tooth();
+/// @}
+
+/// @name Described, not explained
+/// @{
+[[nodiscard]] EffectFamily unnamed();
+[[nodiscard]] EffectFamily unnamed_flank();
+/// @}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily scale() {
+  EffectFamily f;
+  f.id = "scale";
+  f.description = "the whole part is too big or too small";
+  f.cause = "shrinkage of moulding, sintering or curing, heat, steps per millimetre";
+  f.correction = "scale of mould or print by 1/(1 + scale)";
+  f.parameters = {"percent"};
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape&, double* c) {
+    constexpr double kUmPerPercent = 10.0;  // of a millimetre
+    const PlanePoint x = point_of(p);
+    c[0] = kUmPerPercent * (normal_part(g, p, x.x, x.y) + g.normal_z(p) * p.z_mm);
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape&, const double* b) -> Point3 {
+    const double s = 1e-2 * b[0];
+    return {s * p[0], s * p[1], s * p[2]};
+  };
+  f.shows_in_sizes = true;
+  f.penalty_of_traces = 1;  // traces show no size: a leaning profile is likelier than a part that has grown
+  f.moves_whole_part = true;
+  f.told_from = {{"pressure_angle_error", "tooth thickness (span or over pins) and a tip or bore diameter"},
+                 {"contour_offset", "tip, root or bore diameter, or profile traces with a common zero"},
+                 {"tooth_thickness", "profile traces over the whole flank, and the tip diameter"}};
+  f.causes_told_by = "shrinkage of the part, heat and a scale error of the measuring device look alike; note "
+                     "the temperature, remeasure at 20 degrees, measure a gauge block in the same setup";
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

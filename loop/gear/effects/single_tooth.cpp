@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily single_tooth() {
+  EffectFamily f;
+  f.id = "single_tooth";
+  f.description = "one tooth stands out on both flanks";
+  f.cause = "damage, a burr, a chip, a fault of one pass";
+  f.correction = "inspect or reject the part; nothing to correct in the geometry";
+  f.parameters = {"amount_um"};
+  f.shape_names = {"tooth"};
+  f.local = true;
+  f.correctable = Correctable::kNoCause;
+  f.shapes = [](const FlankGeometry& g) { return whole_numbers(1, g.teeth()); };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
+  };
+  f.told_from = {{"pitch_wave", "index of all teeth"}};
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

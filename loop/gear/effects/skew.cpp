@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily skew() {
+  EffectFamily f;
+  f.id = "skew";
+  f.description = "x and y are not square to each other";
+  f.cause = "the axes of the printer or machine are not square";
+  f.correction = "square the axes or enter the skew in the firmware; shear the model the other way";
+  f.parameters = {"percent"};
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape&, double* c) {
+    const PlanePoint x = point_of(p);
+    c[0] = p.surface == Surface::kFlank ? 5.0 * normal_part(g, p, x.y, x.x) : 0.0;
+  };
+  f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape&, const double* b) -> Point3 {
+    const double s = 0.5 * 1e-2 * b[0];
+    return {s * p[1], s * p[0], 0.0};
+  };
+  f.order = [](const EffectShape&) { return 2.0; };
+  f.doubt_share = 0.3;
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

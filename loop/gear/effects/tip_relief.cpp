@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily tip_relief() {
+  EffectFamily f;
+  f.id = "tip_relief";
+  f.description = "material is missing at the tip, from a diameter on";
+  f.cause = "relief by tool or dresser, wear of the tip, rounding of the print";
+  f.correction = "tool relief; design it, or take it out of the model";
+  f.only_positive = true;
+  f.parameters = {"amount_um"};
+  f.shape_names = {"start_diameter_mm"};
+  f.shape_is_continuous = true;
+  f.one_flank_too = true;
+  f.shapes = [](const FlankGeometry& g) {
+    std::vector<EffectShape> shapes;
+    for (const double part : {0.25, 0.4, 0.5, 0.6, 0.7, 0.8, 0.88})
+      shapes.push_back({diameter_at_roll_share(g, part)});
+    return shapes;
+  };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double start = g.roll_at_radius_mm(0.5 * shape[0]);
+    const double past = (p.roll_mm - start) / (g.tip_form_roll_mm() - start);
+    if (past > 0.0) c[0] = -past * past;
+  };
+  f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
+  f.shape_limits = [](const FlankGeometry& g, std::size_t) { return diameter_limits(g); };
+  f.told_from = {{"flank_wear", "the unworn (coast) flank"},
+                 {"profile_crowning", "profile traces with more points near the tip"},
+                 {"pressure_angle_error", "profile traces over the whole flank"}};
+  f.causes_told_by = "wear looks like relief; measure the unworn (coast) flank, or a new part";
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily tooth_thickness() {
+  auto f = on_flanks([](const FlankGeometry& g, double, double, int) {
+    return 0.5 * std::cos(g.pressure_angle_rad()) * std::cos(g.base_helix_rad());
+  });
+  f.id = "tooth_thickness";
+  f.description = "the teeth are too thick or too thin, the tips as designed";
+  f.cause = "infeed of the tool (profile shift error), tool thickness";
+  f.correction = "infeed; profile shift or thinning of the model";
+  f.parameters = {"amount_um"};
+  f.shows_in_sizes = true;
+  // both flanks of the tooth, from the reference circle to the flank's normal
+  f.walls_outside_um = [](const FlankGeometry& g, const double* b) {
+    return 0.5 * b[0] * g.base_radius_mm() / g.reference_radius_mm();
+  };
+  f.shown_by = "these data cannot show the tooth thickness; measure span or over pins";
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+// The free form: Legendre over profile and face, times an order around the gear, alike or opposite on the
+// two flanks. It describes and is given no cause.
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Orthogonal on -1 ... 1.
+double legendre(int degree, double x) {
+  double before = 1.0, now = x;
+  if (degree == 0) return 1.0;
+  for (int k = 1; k < degree; ++k) {
+    const double next = ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0);
+    before = now;
+    now = next;
+  }
+  return now;
+}
+
+constexpr int kMostProfileDegree = 4, kMostFaceDegree = 4;
+
+std::vector<EffectShape> free_shapes(const FlankGeometry& g) {
+  std::vector<EffectShape> shapes;
+  const int half = (g.teeth() - 1) / 2;
+  for (int i = 0; i <= kMostProfileDegree; ++i)
+    for (int j = 0; j <= kMostFaceDegree; ++j) {
+      if (i + j > 4) continue;
+      const int most = std::min(half, i + j == 0 ? 60 : i + j <= 2 ? 6 : 3);
+      for (int n = 0; n <= most; ++n)
+        for (const int flanks : {0, 1}) {
+          if (i + j == 0 && n == 0 && flanks == 1) continue;  // a turn: no effect
+          shapes.push_back({double(i), double(j), double(n), double(flanks)});
+        }
+    }
+  return shapes;
+}
+
+std::string course(int degree, const std::string& over) {
+  switch (degree) {
+    case 0: return "constant over the " + over;
+    case 1: return "sloping over the " + over;
+    case 2: return "crowned over the " + over;
+    case 3: return "S-shaped over the " + over;
+    default: return "in a wave of degree " + std::to_string(degree) + " over the " + over;
+  }
+}
+
+std::string in_words(const EffectShape& shape) {
+  const int order = static_cast<int>(shape[2]);
+  std::string text = order == 0   ? "the same on every tooth"
+                     : order == 1 ? "once per turn"
+                     : order == 2 ? "twice per turn"
+                                  : std::to_string(order) + " times per turn";
+  text += ", " + course(static_cast<int>(shape[0]), "profile");
+  text += ", " + course(static_cast<int>(shape[1]), "face");
+  text += shape[3] != 0.0 ? ", opposite on the two flanks" : ", equal on both flanks";
+  return text;
+}
+
+}  // namespace
+
+EffectFamily unnamed() {
+  EffectFamily f;
+  f.id = "unnamed";
+  f.description = "structure that no named effect explains";
+  f.parameters = {"cos_um", "sin_um"};
+  f.shape_names = {"profile_degree", "face_degree", "order", "opposite_flanks"};
+  f.term_keys = {{"profile_degree"}, {"face_degree"}, {"order"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.named = false;
+  f.preference = 3;
+  f.columns = [](const EffectShape& shape) { return shape[2] == 0.0 ? 1 : 2; };
+  f.shapes = free_shapes;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const bool wave = shape[2] != 0.0;
+    c[0] = 0.0;
+    if (wave) c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double value = legendre(static_cast<int>(shape[0]), g.profile_coordinate(p.roll_mm)) *
+                         legendre(static_cast<int>(shape[1]), g.face_coordinate(p.z_mm)) *
+                         (shape[3] != 0.0 ? p.side : 1);
+    if (!wave) {
+      c[0] = value;
+      return;
+    }
+    c[0] = value * std::cos(shape[2] * p.centre_rad);
+    c[1] = value * std::sin(shape[2] * p.centre_rad);
+  };
+  f.order = [](const EffectShape& shape) { return shape[2]; };
+  f.needs = [](const EffectShape& shape) {
+    return NeedsToBeSeen{.along_profile = shape[0] > 0.0,
+                         .along_face = shape[1] > 0.0,
+                         .crossed = shape[0] > 0.0 && shape[1] > 0.0};
+  };
+  // Low degrees first, low orders among them.
+  f.complexity = [](const EffectShape& shape) { return shape[0] + shape[1] + 0.01 * shape[2]; };
+  f.words = [](const EffectShape& shape, FlankChoice) { return in_words(shape); };
+  f.bends_over_the_face = [](const EffectShape& shape) { return shape[1] > 1.0; };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+EffectFamily unnamed_flank() {
+  EffectFamily f;
+  f.id = "unnamed_flank";
+  f.description = "one flank of one tooth stands out";
+  f.parameters = {"amount_um"};
+  f.shape_names = {"tooth"};
+  f.named = false;
+  f.flank_only = true;
+  f.local = true;
+  f.preference = 4;
+  f.correctable = Correctable::kNoCause;
+  f.shapes = [](const FlankGeometry& g) { return whole_numbers(1, g.teeth()); };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
+  };
+  f.words = [](const EffectShape& shape, FlankChoice flank) {
+    return "the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") + " flank of tooth " +
+           std::to_string(static_cast<int>(shape[0])) + " stands out";
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

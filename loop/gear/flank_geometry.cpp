@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/flank_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/involute.h"
+
+namespace trueflank::loop {
+
+FlankGeometry::FlankGeometry(const ToothProfile& profile, double face_width_mm,
+                             double bore_radius_mm, bool herringbone)
+    : gear_(profile.gear()),
+      sense_(gear_.kind == GearKind::kExternal ? 1.0 : -1.0),
+      base_radius_(trueflank::base_radius_mm(gear_)),
+      reference_radius_(trueflank::reference_radius_mm(gear_)),
+      tip_radius_(profile.tip_radius_mm()),
+      root_radius_(profile.root_radius_mm()),
+      bore_radius_(bore_radius_mm),
+      face_width_(face_width_mm),
+      base_helix_(base_helix_angle_rad(gear_)),
+      half_angle_(base_half_angle_rad(gear_)),
+      pressure_angle_(transverse_pressure_angle_rad(gear_)),
+      root_roll_(profile.root_form_roll_length_mm()),
+      tip_roll_(profile.tip_form_roll_length_mm()),
+      twist_per_mm_(std::tan(base_helix_) / base_radius_),
+      herringbone_(herringbone) {
+  TRUEFLANK_EXPECTS(face_width_mm > 0.0);
+}
+
+FlankGeometry::FlankGeometry(const TrainGear& gear, double bore_radius_mm)
+    : FlankGeometry(gear.profile, gear.face_width_mm, bore_radius_mm, gear.twist.herringbone) {
+  designed_ = gear.deviation;
+  edge_chamfer_ = gear.edge_chamfer_mm;
+}
+
+double FlankGeometry::designed_deviation_mm(const Place& place) const {
+  if (designed_.empty() || place.surface != Surface::kFlank) return 0.0;
+  const Flank flank =
+      flank_side(Flank::kLeft, gear_.kind) == place.side ? Flank::kLeft : Flank::kRight;
+  return designed_.deviation_mm(place.tooth - 1, flank, place.roll_mm, place.z_mm);
+}
+
+double FlankGeometry::profile_coordinate(double roll_mm) const {
+  return 2.0 * (roll_mm - root_roll_) / (tip_roll_ - root_roll_) - 1.0;
+}
+
+double FlankGeometry::face_coordinate(double z_mm) const { return 2.0 * z_mm / face_width_ - 1.0; }
+
+double FlankGeometry::twist_rad(double z_mm) const {
+  if (herringbone_ && z_mm > 0.5 * face_width_) return twist_per_mm_ * (face_width_ - z_mm);
+  return twist_per_mm_ * z_mm;
+}
+
+double FlankGeometry::normal_z(const Place& place) const {
+  if (place.surface != Surface::kFlank) return 0.0;
+  const double hand = herringbone_ && place.z_mm > 0.5 * face_width_ ? -1.0 : 1.0;
+  return -hand * place.side * std::sin(base_helix_);
+}
+
+double FlankGeometry::roll_at_radius_mm(double radius_mm) const {
+  return roll_length_mm(radius_mm, base_radius_);
+}
+
+Place FlankGeometry::on_flank(int tooth, int side, double roll_mm, double z_mm) const {
+  Place place;
+  place.surface = Surface::kFlank;
+  place.tooth = tooth;
+  place.side = side;
+  place.roll_mm = roll_mm;
+  place.z_mm = z_mm;
+  place.centre_rad = kTwoPi * (tooth - 1) / gear_.teeth;
+  const double xi = roll_mm / base_radius_;
+  const double inv = xi - std::atan(xi);
+  const double centre = place.centre_rad + twist_rad(z_mm);
+  place.radius_mm = std::hypot(base_radius_, roll_mm);
+  place.polar_rad = centre + side * (half_angle_ - sense_ * inv);
+  place.normal_rad = centre + side * (0.5 * kPi + half_angle_ - sense_ * xi);
+  return place;
+}
+
+Place FlankGeometry::on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
+                               double z_mm) const {
+  Place place;
+  place.surface = surface;
+  place.tooth = tooth;
+  place.z_mm = z_mm;
+  place.radius_mm = radius_mm;
+  place.polar_rad = polar_rad;
+  // Walls of the toothing face outwards on a gear, inwards on a ring; a bore faces the axis.
+  const bool outwards = surface != Surface::kBore && sense_ > 0.0;
+  place.normal_rad = outwards ? polar_rad : polar_rad + kPi;
+  place.centre_rad = kTwoPi * (tooth - 1) / gear_.teeth;
+  return place;
+}
+
+PlacedPoint FlankGeometry::nearest_flank(const std::array<double, 3>& p, double margin) const {
+  PlacedPoint result;
+  const double radius = std::hypot(p[0], p[1]);
+  const double polar = std::atan2(p[1], p[0]);
+  const double pitch = kTwoPi / gear_.teeth;
+  const double from_first = polar - twist_rad(p[2]);
+  const double number = std::round(from_first / pitch);
+  const double offset = from_first - number * pitch;
+  int tooth = static_cast<int>(number) % gear_.teeth;
+  if (tooth < 0) tooth += gear_.teeth;
+  const int side = offset >= 0.0 ? 1 : -1;
+  if (radius <= base_radius_) {
+    result.place.surface = Surface::kNone;
+    result.place.tooth = tooth + 1;
+    return result;
+  }
+  const double roll = std::sqrt((radius - base_radius_) * (radius + base_radius_));
+  const double involute = roll - base_radius_ * std::atan2(roll, base_radius_);
+  const double transverse =
+      base_radius_ * (side * offset - half_angle_) + sense_ * involute;
+  result.place = on_flank(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
+  result.distance_mm =
+      transverse * std::cos(base_helix_) - designed_deviation_mm(result.place);
+  const double u = profile_coordinate(result.place.roll_mm);
+  if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;
+  return result;
+}
+
+PlacedPoint FlankGeometry::nearest(const std::array<double, 3>& p, double reach_mm) const {
+  PlacedPoint flank = nearest_flank(p, 0.03);
+  if (flank.place.surface == Surface::kFlank && std::abs(flank.distance_mm) < reach_mm)
+    return flank;
+  const double radius = std::hypot(p[0], p[1]);
+  const double polar = std::atan2(p[1], p[0]);
+  const double pitch = kTwoPi / gear_.teeth;
+  const double from_tooth = std::abs(centred_rad(polar - twist_rad(p[2]), pitch));
+  PlacedPoint result;
+  result.place.surface = Surface::kNone;
+  const double tip_half = tooth_half_angle_rad(gear_, std::max(tip_radius_, base_radius_));
+  const double root_half =
+      0.5 * pitch - tooth_half_angle_rad(gear_, std::max(root_radius_, base_radius_));
+  const auto place_on = [&](Surface surface, double nominal) {
+    result.place = on_circle(surface, flank.place.tooth, polar, nominal, p[2]);
+    const double outward = surface == Surface::kBore ? -1.0 : sense_;
+    result.distance_mm = outward * (radius - nominal);
+  };
+  if (std::abs(radius - tip_radius_) < reach_mm && from_tooth < 0.7 * tip_half)
+    place_on(Surface::kTip, tip_radius_);
+  else if (std::abs(radius - root_radius_) < reach_mm &&
+           0.5 * pitch - from_tooth < std::min(0.25 * root_half, 0.05 * pitch))
+    place_on(Surface::kRoot, root_radius_);
+  else if (bore_radius_ > 0.0 && std::abs(radius - bore_radius_) < reach_mm)
+    place_on(Surface::kBore, bore_radius_);
+  return result;
+}
+
+FlankGeometry::BallContact FlankGeometry::ball_contact(double diameter_mm) const {
+  // The ball's centre lies on the involute parallel to the flank at the transverse ball radius.
+  const double radius = 0.5 * diameter_mm / std::cos(base_helix_);
+  const double inv = sense_ > 0.0 ? radius / base_radius_ + half_angle_ - kPi / gear_.teeth
+                                  : kPi / gear_.teeth - half_angle_ - radius / base_radius_;
+  BallContact contact;
+  if (inv <= 0.0) return {kNaN, kNaN};
+  contact.centre_angle_rad = inverse_involute_rad(inv);
+  contact.roll_mm = base_radius_ * std::tan(contact.centre_angle_rad) - sense_ * radius;
+  return contact;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/found_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/result/describe.h"
+
+namespace trueflank::loop {
+namespace {
+
+std::string flank_text(FlankChoice flank) {
+  switch (flank) {
+    case FlankChoice::kLeft: return "left";
+    case FlankChoice::kRight: return "right";
+    default: return "both";
+  }
+}
+
+/// Standard errors of a 95 % interval.
+double t_of(double degrees) { return student_95(std::max(1.0, degrees)); }
+
+class Describer {
+ public:
+  explicit Describer(const EffectSources& sources) : sources_(sources) {}
+
+  std::vector<FoundEffect> run() {
+    const auto& effects = sources_.fit.effects();
+    std::map<int, std::size_t> unnamed_at;  // order -> place in found_
+    for (int e = 0; e < static_cast<int>(effects.size()); ++e) {
+      if (!sources_.only.empty() && !sources_.only[e]) continue;
+      if (effects[e].is_term()) {
+        const int order = static_cast<int>(effects[e].order());
+        const auto [place, is_new] = unnamed_at.emplace(order, found_.size());
+        if (is_new) {
+          found_.push_back(common(e));
+          members_.push_back({});
+        }
+        members_[place->second].push_back(e);
+        found_[place->second].terms.push_back(term(e));
+      } else {
+        found_.push_back(common(e));
+        add_parameters(found_.back(), e);
+        members_.push_back({e});
+      }
+    }
+    for (const auto& [order, place] : unnamed_at) finish_unnamed(found_[place], order);
+    for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    return std::move(found_);
+  }
+
+ private:
+  FoundEffect common(int e) const {
+    const Effect& effect = sources_.fit.effects()[e];
+    const EffectFamily& family = *effect.family;
+    const ChosenGroup& chosen = sources_.discovery.chosen[e];
+    FoundEffect found;
+    found.id = family.named ? family.id : "unnamed";
+    found.named = family.named;
+    found.description = family.description;
+    found.cause = family.cause;
+    found.correction = family.correction;
+    found.flank = flank_text(effect.flank);
+    found.p_value = chosen.p_value;
+    found.bic_gain = chosen.bic_gain;
+    found.correctable = family.correctable == Correctable::kGeometry;
+    found.form = family.formulas;
+    if (!family.named && family.local) found.description = words_for(effect);
+    for (const int group : chosen.confounded) {
+      const EffectFamily& other = *sources_.candidates[group].family;
+      const bool listed = std::find(found.confounded_with.begin(), found.confounded_with.end(),
+                                    other.id) != found.confounded_with.end();
+      if (other.named && other.id != family.id && !listed) found.confounded_with.push_back(other.id);
+    }
+    return found;
+  }
+
+  void add_parameters(FoundEffect& found, int e) const {
+    const Effect& effect = sources_.fit.effects()[e];
+    const EffectFamily& family = *effect.family;
+    const int column = sources_.fit.first_column(e);
+    const auto& b = sources_.fit.coefficients();
+    const auto& covariance = sources_.uncertainty.covariance;
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      const double value = effect.shape[k];
+      const double error = sources_.uncertainty.errors[e][k];
+      const double half = std::isnan(error) ? 0.0 : 1.96 * error;
+      found.parameters.push_back(parameter_of(family.shape_names[k], value, half));
+    }
+    if (family.form == ParameterForm::kWave) {
+      const auto [amplitude, phase] =
+          wave_parameters(family, b[column], b[column + 1], covariance.block<2, 2>(column, column),
+                          t_of(sources_.fit.degrees(column)));
+      found.parameters.push_back(amplitude);
+      found.parameters.push_back(phase);
+      return;
+    }
+    for (int k = 0; k < effect.columns(); ++k)
+      found.parameters.push_back(
+          parameter_of(family.parameters[k], b[column + k],
+                       t_of(sources_.fit.degrees(column + k)) *
+                           std::sqrt(std::max(0.0, covariance(column + k, column + k)))));
+  }
+
+  Term term(int e) const {
+    const Effect& effect = sources_.fit.effects()[e];
+    const int column = sources_.fit.first_column(e);
+    const auto& b = sources_.fit.coefficients();
+    const auto& covariance = sources_.uncertainty.covariance;
+    Term result = term_of(*effect.family, effect.shape);
+    result.text = words_for(effect);
+    result.cos = b[column];
+    double variance = covariance(column, column);
+    if (effect.columns() == 2) {
+      result.sin = b[column + 1];
+      variance = std::max(variance, covariance(column + 1, column + 1));
+    }
+    result.half_width = t_of(sources_.fit.degrees(column)) * std::sqrt(std::max(0.0, variance));
+    return result;
+  }
+
+  void finish_unnamed(FoundEffect& found, int order) const {
+    sort_by_size(found.terms);
+    found.description.clear();
+    for (const Term& t : found.terms) found.description += (found.description.empty() ? "" : "; and ") + t.text;
+    found.parameters = parameters_of_terms(found.terms, order, "amplitude_um", order > 0);
+  }
+
+  void add_figures(FoundEffect& found, const std::vector<int>& members) const {
+    const std::size_t count = sources_.fit.effects().size();
+    std::vector<bool> with(count, true);
+    const auto full = sources_.fit.errors(with);
+    for (const int e : members) {
+      with[e] = false;
+      found.explained_fraction += sources_.fit.explained_fraction(e);
+    }
+    found.explained_fraction = std::min(1.0, found.explained_fraction);
+    found.held_out_gain =
+        sources_.fit.errors(with).held_out_rms_um - full.held_out_rms_um;
+  }
+
+  const EffectSources& sources_;
+  std::vector<FoundEffect> found_;
+  std::vector<std::vector<int>> members_;
+};
+
+}  // namespace
+
+std::vector<FoundEffect> describe_effects(const EffectSources& sources) {
+  return Describer(sources).run();
+}
+
+std::vector<std::pair<std::string, double>> parameter_values(const Effect& effect,
+                                                             const Eigen::VectorXd& b) {
+  const EffectFamily& family = *effect.family;
+  std::vector<std::pair<std::string, double>> values;
+  for (std::size_t k = 0; k < effect.shape.size(); ++k)
+    values.emplace_back(family.shape_names[k], effect.shape[k]);
+  if (family.form == ParameterForm::kWave) {
+    values.emplace_back(family.parameters[0], std::hypot(b[0], b[1]));
+    values.emplace_back(family.parameters[1],
+                        deg_from_rad(std::atan2(b[1], b[0])) / family.phase_divisor);
+  } else {
+    for (Eigen::Index k = 0; k < b.size(); ++k) values.emplace_back(family.parameters[k], b[k]);
+  }
+  return values;
+}
+
+std::string words_for(const Effect& effect) {
+  if (effect.family->words) return effect.family->words(effect.shape, effect.flank);
+  std::string text = effect.family->id;
+  for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+    std::string value = std::to_string(effect.shape[k]);
+    while (value.back() == '0') value.pop_back();
+    if (value.back() == '.') value.pop_back();
+    text += " (" + effect.family->shape_names[k] + " " + value + ")";
+  }
+  return text;
+}
+
+namespace {
+
+/// What would show an effect that these data cannot: said where everything that it would show is hidden.
+void say_what_is_hidden(const std::vector<std::string>& not_observable, std::vector<std::string>& sentences) {
+  const auto hidden = [&](const EffectFamily& family) {
+    return std::find(not_observable.begin(), not_observable.end(), family.id) != not_observable.end();
+  };
+  const auto& library = effect_library();
+  for (const EffectFamily& family : library) {
+    if (family.shown_by.empty()) continue;
+    const bool all = std::all_of(library.begin(), library.end(), [&](const EffectFamily& other) {
+      return other.shown_by != family.shown_by || hidden(other);
+    });
+    if (all) say_once(sentences, family.shown_by);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> measurements_that_separate(const std::vector<FoundEffect>& effects,
+                                                    const std::vector<std::string>& not_observable) {
+  std::vector<std::string> sentences;
+  for (const FoundEffect& found : effects)
+    for (const std::string& other : found.confounded_with)
+      say_once(sentences,
+               found.id + " and " + other + " cannot be told apart here; measure " +
+                   measurement_between(found.id, find_family(found.id), other, find_family(other),
+                                       "the same gear in more records: both flanks, profile, helix, "
+                                       "index and sizes"));
+  for (const FoundEffect& found : effects)
+    if (const EffectFamily* family = find_family(found.id); family && !family->causes_told_by.empty())
+      say_once(sentences, found.id + ": " + family->causes_told_by);
+  const bool one_part = std::any_of(effects.begin(), effects.end(), [](const FoundEffect& found) {
+    return found.correctable && !found.repeatable;
+  });
+  if (one_part)
+    say_once(sentences,
+             "one part cannot show what repeats; measure a second part of the process before correcting it");
+  say_what_is_hidden(not_observable, sentences);
+  return sentences;
+}
+
+}  // namespace trueflank::loop

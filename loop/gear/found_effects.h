@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/discovery/discovery.h"
+#include "trueflank/loop/result/loop_result.h"
+#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+// From chosen columns to what people read: parameters with intervals, words, what cannot be told apart.
+namespace trueflank::loop {
+
+struct EffectSources {
+  const FlankGeometry& geometry;
+  const PointFit& fit;
+  const DiscoveryResult& discovery;             ///< chosen groups in the order of the fit's effects
+  const std::vector<Effect>& candidates;
+  const ShapeUncertainty& uncertainty;
+  const std::vector<std::string>& not_observable;
+  /// Which of the fit's effects to describe; empty: all.
+  std::vector<bool> only = {};
+};
+
+/// Value of every parameter for the coefficients of an effect.
+[[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(
+    const Effect& effect, const Eigen::VectorXd& coefficients);
+
+/// Named effects in the order they were chosen, unnamed terms gathered by their order.
+[[nodiscard]] std::vector<FoundEffect> describe_effects(const EffectSources& sources);
+
+/// A candidate in words: "twice per turn, sloping over the face, equal on both flanks".
+[[nodiscard]] std::string words_for(const Effect& effect);
+
+/// For what is confounded or hidden: the measurement that would tell (one sentence each).
+[[nodiscard]] std::vector<std::string> measurements_that_separate(
+    const std::vector<FoundEffect>& effects, const std::vector<std::string>& not_observable);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/measured_lands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Fewer points than this say nothing of a land; so many of one tooth say where its own is.
+constexpr std::size_t kFewest = 20, kOfOneTooth = 5;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan, const Pose& pose,
+                             double reach_mm)
+    : geometry_(geometry),
+      normals_(!scan.normals.empty()),
+      tip_mm_(static_cast<std::size_t>(geometry.teeth()), geometry.tip_radius_mm()) {
+  const double pitch = kTwoPi / geometry.teeth(), tip = geometry.tip_radius_mm();
+  const double half = tooth_half_angle_rad(geometry.gear(), std::max(tip, geometry.base_radius_mm()));
+  std::vector<std::vector<double>> of_tooth(tip_mm_.size());
+  std::vector<double> tips, roots;
+  for (const auto& point : scan.points_mm) {
+    const auto p = pose(point);
+    if (p[2] < 0.0 || p[2] > geometry.face_width_mm()) continue;
+    const double radius = std::hypot(p[0], p[1]);
+    const double from_first = std::atan2(p[1], p[0]) - geometry.twist_rad(p[2]);
+    const double number = std::round(from_first / pitch), offset = std::abs(from_first - number * pitch);
+    const int z = geometry.teeth();
+    if (offset < 0.5 * half && std::abs(radius - tip) < reach_mm) {
+      of_tooth[static_cast<std::size_t>(((static_cast<int>(number) % z) + z) % z)].push_back(radius);
+      tips.push_back(radius);
+    }
+    if (0.5 * pitch - offset < 0.05 * pitch && std::abs(radius - geometry.root_radius_mm()) < reach_mm)
+      roots.push_back(radius - geometry.root_radius_mm());
+  }
+  if (roots.size() >= kFewest) root_mm_ = geometry.sense() * median(roots);
+  if (tips.size() < kFewest) return;
+  const double whole = median(tips);
+  std::vector<double> scatter;
+  for (std::size_t k = 0; k < tip_mm_.size(); ++k) {
+    tip_mm_[k] = of_tooth[k].size() >= kOfOneTooth ? median(of_tooth[k]) : whole;
+    for (const double radius : of_tooth[k]) scatter.push_back(std::abs(radius - tip_mm_[k]));
+  }
+  constexpr double kSigmaOfMedian = 1.4826;
+  guard_mm_ = std::min(3.0 * kSigmaOfMedian * median(scatter), 0.1 * geometry.gear().normal_module_mm);
+}
+
+bool MeasuredLands::covers(const Place& place, const std::array<double, 3>& point) const {
+  const double s = geometry_.sense(), radius = std::hypot(point[0], point[1]);
+  if (!normals_ && guard_mm_ > 0.0) {
+    const double tip = tip_mm_[static_cast<std::size_t>(place.tooth - 1)];
+    if (s * (radius - tip) > -guard_mm_) return true;
+  }
+  // Fillets that moved outwards reach into what the design has as flank.
+  const double root_form = std::hypot(geometry_.base_radius_mm(), geometry_.root_form_roll_mm());
+  return root_mm_ > 0.0 && s * (radius - root_form) < root_mm_ + guard_mm_;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "trueflank/geometry/tooth_span.h"
+#include "trueflank/loop/gear/measured_lands.h"
+#include "trueflank/loop/measured/text_table.h"
+
+namespace trueflank::loop {
+namespace {
+
+std::string number_text(double value) {
+  std::string text = std::to_string(value);
+  while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
+    const bool dot = text.back() == '.';
+    text.pop_back();
+    if (dot) break;
+  }
+  return text;
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class TableBuilder {
+ public:
+  TableBuilder(const FlankGeometry& geometry, const ObservationOptions& options)
+      : geometry_(geometry), options_(options) {}
+
+  void add_scan(const ScanData& scan, int source) {
+    Pose pose;
+    if (!options_.aligned) {
+      const auto fitted = fit_pose(geometry_, scan);
+      if (!fitted) {
+        errors.push_back(fitted.error());
+        return;
+      }
+      pose = *fitted;
+    }
+    const PoseQuality quality = pose_quality(geometry_, scan, pose);
+    if (!(quality.share > 0.2) ||
+        !(quality.median_mm < 0.15 * geometry_.gear().normal_module_mm)) {
+      errors.push_back(
+          {.code = ErrorCode::kInconsistent,
+           .message = "the scan does not fit the gear as designed: " +
+                      number_text(std::round(1000.0 * quality.share) / 10.0) +
+                      " % of its points in the ring of the teeth lie near a flank" +
+                      (options_.aligned ? ", taken as aligned" : ""),
+           .remedy = options_.aligned ? "leave out --aligned, or check the gear and the unit (mm)"
+                                      : "check --gear, the design and the unit (mm)",
+           .file = scan.file});
+      return;
+    }
+    table.poses.push_back(pose);
+    table.pose_is_free.push_back(!options_.aligned);
+    add_points(scan, pose, source);
+  }
+
+  void add_inspection(const InspectionData& data, int source) {
+    BadLines bad(data.file);
+    const std::size_t before = table.rows.size();
+    std::map<std::array<int, 4>, int> traces;
+    for (const InspectionRow& row : data.rows) {
+      const std::string wrong = add_inspection_row(data, row, source, traces);
+      if (!wrong.empty()) bad.add(row.line, wrong);
+    }
+    if (table.rows.size() == before) {
+      errors.push_back(bad.error("no row of the file fits this gear"));
+      return;
+    }
+    if (!data.from_design) take_design_off(before);
+    bad.tell(table.notes);
+  }
+
+  void add_sizes(const SizeData& data, int source) {
+    BadLines bad(data.file);
+    const std::size_t before = table.rows.size();
+    for (const SizeRow& row : data.rows) {
+      const std::string wrong = add_size(row, source);
+      if (!wrong.empty()) bad.add(row.line, wrong);
+    }
+    if (table.rows.size() == before && !data.rows.empty()) {
+      errors.push_back(bad.error("no size of the file fits this gear"));
+      return;
+    }
+    take_design_off(before);
+    bad.tell(table.notes);
+  }
+
+  Observations table;
+  Errors errors;
+
+ private:
+  Observation& add_row(ObservationKind kind, double deviation_um, double sigma_um, int source) {
+    Observation row;
+    row.kind = kind;
+    row.deviation_um = deviation_um;
+    row.sigma_um = sigma_um;
+    row.source = source;
+    row.first_place = static_cast<std::uint32_t>(table.places.size());
+    row.places = 0;
+    table.rows.push_back(row);
+    return table.rows.back();
+  }
+  /// Machines draw traces against the plain involute and helix, sizes are compared with the plain
+  /// gear's: what the design itself relieves is no deviation.
+  void take_design_off(std::size_t from) {
+    for (std::size_t i = from; i < table.rows.size(); ++i) {
+      Observation& row = table.rows[i];
+      for (std::uint32_t k = 0; k < row.places; ++k) {
+        const WeightedPlace& place = table.places[row.first_place + k];
+        row.deviation_um -=
+            place.weight * um_from_mm(geometry_.designed_deviation_mm(place.place));
+      }
+    }
+  }
+  void add_place(Observation& row, const Place& place, double weight) {
+    table.places.push_back({place, weight});
+    ++row.places;
+  }
+
+  void add_points(const ScanData& scan, const Pose& pose, int source) {
+    const double reach = 0.35 * geometry_.gear().normal_module_mm;
+    const double chamfer = geometry_.edge_chamfer_mm();
+    const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1) + chamfer;
+    const double b = geometry_.face_width_mm();
+    const MeasuredLands lands(geometry_, scan, pose, reach);
+    std::size_t unused = 0;
+    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
+      const auto p = pose(scan.points_mm[i]);
+      const PlacedPoint placed = geometry_.nearest(p, reach);
+      // Without normals, points at the very ends of the face may lie on the end faces.
+      const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
+      const bool usable = placed.place.surface != Surface::kNone && p[2] > inside &&
+                          p[2] < b - inside && looks_outwards(scan, i, pose, placed.place) &&
+                          !(placed.place.surface == Surface::kFlank && lands.covers(placed.place, p));
+      if (!usable) {
+        ++unused;
+        continue;
+      }
+      const double sigma = scan.sigma_um.empty() ? kNaN : scan.sigma_um[i];
+      Observation& row = add_row(kind_of(placed.place.surface), um_from_mm(placed.distance_mm),
+                                 sigma, source);
+      add_place(row, placed.place, 1.0);
+      table.points_mm.push_back(p);
+    }
+    if (10 * unused > 7 * scan.points_mm.size())
+      table.notes.push_back(scan.file + ": " + std::to_string(unused) + " of " +
+                            std::to_string(scan.points_mm.size()) +
+                            " points lie on no flank, tip, root or bore and are not used");
+  }
+
+  [[nodiscard]] bool looks_outwards(const ScanData& scan, std::size_t i, const Pose& pose,
+                                    const Place& place) const {
+    if (scan.normals.empty()) return true;
+    const auto& n = scan.normals[i];
+    const Eigen::Vector3d m = pose.rotation * Eigen::Vector3d(n[0], n[1], n[2]);
+    const double nz = geometry_.normal_z(place);
+    const double nt = std::sqrt(1.0 - nz * nz);
+    return nt * (m.x() * std::cos(place.normal_rad) + m.y() * std::sin(place.normal_rad)) +
+               nz * m.z() > 0.7;
+  }
+
+  static ObservationKind kind_of(Surface surface) {
+    switch (surface) {
+      case Surface::kTip: return ObservationKind::kScanTip;
+      case Surface::kRoot: return ObservationKind::kScanRoot;
+      case Surface::kBore: return ObservationKind::kScanBore;
+      default: return ObservationKind::kScanFlank;
+    }
+  }
+
+  std::string add_inspection_row(const InspectionData& data, const InspectionRow& row, int source,
+                                 std::map<std::array<int, 4>, int>& traces) {
+    if (row.tooth > geometry_.teeth())
+      return "tooth " + std::to_string(row.tooth) + " of a gear with " +
+             std::to_string(geometry_.teeth()) + " teeth";
+    if (std::abs(row.deviation_um) > 500.0 * geometry_.gear().normal_module_mm)
+      return "a deviation of " + number_text(row.deviation_um) + " um is no deviation of this gear";
+    const double middle_roll = geometry_.roll_at_radius_mm(geometry_.reference_radius_mm());
+    double roll = std::isnan(row.diameter_mm) ? middle_roll
+                                              : geometry_.roll_at_radius_mm(0.5 * row.diameter_mm);
+    if (!std::isnan(row.diameter_to_mm))
+      roll += row.fraction * (geometry_.roll_at_radius_mm(0.5 * row.diameter_to_mm) - roll);
+    const double z = std::isnan(row.z_mm) ? 0.5 * geometry_.face_width_mm() : row.z_mm;
+    const double u = geometry_.profile_coordinate(roll);
+    if (row.record != RecordKind::kRadial && std::abs(u) > 1.05)
+      return "diameter " + number_text(row.diameter_mm) + " mm is not on the involute";
+    if (std::abs(geometry_.face_coordinate(z)) > 1.02)
+      return "z " + number_text(z) + " mm is not on the face";
+    if (row.record == RecordKind::kRadial) return add_radial(data, row, source, traces, z);
+    constexpr std::array kKinds{ObservationKind::kProfile, ObservationKind::kHelix,
+                                ObservationKind::kIndex};
+    const int side = flank_side(row.flank, geometry_.gear().kind);
+    // A trace has its own zero; all index values of a flank share theirs.
+    const bool index = row.record == RecordKind::kIndex;
+    const std::array<int, 4> key{static_cast<int>(row.record), index ? 0 : row.tooth, side, source};
+    const int trace = zero_of(data, key, traces);
+    // Along the circle the flank goes further than along its normal, by 1 / (cos(alpha_y) cos(beta_b)).
+    const double share = row.along_circle
+                             ? side * geometry_.base_radius_mm() /
+                                   std::hypot(geometry_.base_radius_mm(), roll) *
+                                   std::cos(geometry_.base_helix_rad())
+                             : 1.0;
+    Observation& added = add_row(kKinds[static_cast<int>(row.record)], share * row.deviation_um,
+                                 row.sigma_um, source);
+    added.trace = trace;
+    add_place(added, geometry_.on_flank(row.tooth, side, roll, z), 1.0);
+    return {};
+  }
+
+  int zero_of(const InspectionData& data, const std::array<int, 4>& key,
+              std::map<std::array<int, 4>, int>& traces) {
+    if (data.common_zero) return -1;
+    const auto [found, is_new] = traces.emplace(key, table.traces);
+    if (is_new) ++table.traces;
+    return found->second;
+  }
+
+  /// Ball in the gap after a tooth: it is pushed out by the mean of both flanks over sin(a_M).
+  std::string add_radial(const InspectionData& data, const InspectionRow& row, int source,
+                         std::map<std::array<int, 4>, int>& traces, double z) {
+    double ball = data.ball_diameter_mm;
+    if (!(ball > 0.0)) ball = recommended_pin_diameter_mm(geometry_.gear());
+    const auto contact = geometry_.ball_contact(ball);
+    if (std::isnan(contact.roll_mm))
+      return "a ball of " + number_text(ball) + " mm touches no flank of this gear";
+    const int trace = zero_of(data, {static_cast<int>(row.record), 0, 0, source}, traces);
+    Observation& added =
+        add_row(ObservationKind::kRadial, row.deviation_um, row.sigma_um, source);
+    added.trace = trace;
+    const double weight = 0.5 / (std::sin(contact.centre_angle_rad) *
+                                 std::cos(geometry_.base_helix_rad()));
+    const int next = row.tooth % geometry_.teeth() + 1;
+    add_place(added, geometry_.on_flank(row.tooth, 1, contact.roll_mm, z), weight);
+    add_place(added, geometry_.on_flank(next, -1, contact.roll_mm, z), weight);
+    return {};
+  }
+
+  void add_both_flanks(Observation& row, double roll, double total_weight) {
+    const double weight = 0.5 * total_weight / geometry_.teeth();
+    for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth)
+      for (const int side : {1, -1})
+        add_place(row, geometry_.on_flank(tooth, side, roll, 0.5 * geometry_.face_width_mm()),
+                  weight);
+  }
+
+  std::string add_size(const SizeRow& size, int source) {
+    double nominal = kNaN, roll = kNaN, weight = 0.0;
+    Surface surface = Surface::kFlank;
+    double radius = 0.0;
+    const double cos_helix = std::cos(geometry_.base_helix_rad());
+    switch (size.quantity) {
+      case SizeQuantity::kSpan:
+        nominal = base_tangent_length_mm(geometry_.gear(), static_cast<int>(size.detail));
+        roll = 0.5 * nominal * cos_helix;
+        weight = 2.0;
+        if (std::isnan(nominal)) return "a ring has no span";
+        break;
+      case SizeQuantity::kOverPins: {
+        nominal = over_pins_mm(geometry_.gear(), size.detail);
+        if (std::isnan(nominal))
+          return "a pin of " + number_text(size.detail) + " mm touches no flank";
+        const auto contact = geometry_.ball_contact(size.detail);
+        roll = contact.roll_mm;
+        const double odd =
+            geometry_.teeth() % 2 == 0 ? 1.0 : std::cos(0.5 * kPi / geometry_.teeth());
+        weight = geometry_.sense() * 2.0 * odd / (std::sin(contact.centre_angle_rad) * cos_helix);
+        break;
+      }
+      case SizeQuantity::kTipDiameter: surface = Surface::kTip; radius = geometry_.tip_radius_mm(); break;
+      case SizeQuantity::kRootDiameter: surface = Surface::kRoot; radius = geometry_.root_radius_mm(); break;
+      case SizeQuantity::kBore: surface = Surface::kBore; radius = geometry_.bore_radius_mm(); break;
+    }
+    if (surface == Surface::kBore && radius <= 0.0) return "the design has no round bore here";
+    if (surface != Surface::kFlank) {
+      nominal = 2.0 * radius;
+      weight = surface == Surface::kBore ? -2.0 : 2.0 * geometry_.sense();
+    }
+    const double deviation = um_from_mm(size.value_mm - nominal);
+    if (std::abs(deviation) > 1000.0 * geometry_.gear().normal_module_mm)
+      return "a size of " + number_text(size.value_mm) + " mm, designed " + number_text(nominal) +
+             " mm, is no size of this gear";
+    Observation& row = add_row(ObservationKind::kSize, deviation, size.sigma_um, source);
+    if (surface == Surface::kFlank) add_both_flanks(row, roll, weight);
+    else add_place(row, geometry_.on_circle(surface, 1, 0.0, radius,
+                                            0.5 * geometry_.face_width_mm()), weight);
+    return {};
+  }
+
+  const FlankGeometry& geometry_;
+  ObservationOptions options_;
+};
+
+constexpr std::size_t kFewInPatch = 5;
+using PatchRows = std::map<std::array<int, 5>, std::vector<std::size_t>>;
+
+/// Patches of a flank with too few values to judge by are judged together.
+void gather_small_patches(PatchRows& patches) {
+  PatchRows gathered;
+  for (auto patch = patches.begin(); patch != patches.end();) {
+    if (patch->second.size() >= kFewInPatch) {
+      ++patch;
+      continue;
+    }
+    std::array<int, 5> key = patch->first;
+    key[3] = key[4] = -1;
+    auto& rows = gathered[key];
+    rows.insert(rows.end(), patch->second.begin(), patch->second.end());
+    patch = patches.erase(patch);
+  }
+  patches.merge(gathered);
+}
+
+/// Leaves out what lies far from its neighbours on the same flank: an effect moves them together.
+void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
+  PatchRows patches;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial ||
+        row.kind == ObservationKind::kSize)
+      continue;
+    const Place& place = table.place(row);
+    const auto part = [](double c, int parts) {
+      return std::clamp(static_cast<int>(0.5 * (c + 1.0) * parts), 0, parts - 1);
+    };
+    const bool flank = place.surface == Surface::kFlank;
+    const bool trace = row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+    const int u = flank ? part(geometry.profile_coordinate(place.roll_mm), trace ? 6 : 4) : 0;
+    const int v = part(geometry.face_coordinate(place.z_mm), trace ? 6 : 4);
+    const int tooth = place.surface == Surface::kBore
+                          ? static_cast<int>(wrapped_rad(place.polar_rad) / kTwoPi * 16)
+                          : place.tooth;
+    patches[{static_cast<int>(row.kind) * 64 + row.source, tooth, place.side, u, v}].push_back(i);
+  }
+  gather_small_patches(patches);
+  // One spread for each kind: the median of the patches' own.
+  std::map<int, std::vector<double>> spreads;
+  std::map<int, double> spread_of;
+  std::vector<double> values;
+  const auto centre_and_spread = [&](const std::vector<std::size_t>& patch) {
+    values.clear();
+    for (const std::size_t i : patch) values.push_back(table.rows[i].deviation_um);
+    const double centre = median(values);
+    for (double& value : values) value = std::abs(value - centre);
+    return std::pair(centre, 1.4826 * median(values));
+  };
+  for (const auto& [key, patch] : patches)
+    if (patch.size() >= kFewInPatch) spreads[key[0]].push_back(centre_and_spread(patch).second);
+  for (auto& [kind, list] : spreads) spread_of[kind] = median(list);
+  std::vector<bool> out(table.rows.size(), false);
+  for (const auto& [key, patch] : patches) {
+    if (patch.size() < kFewInPatch) continue;
+    const auto [centre, own] = centre_and_spread(patch);
+    // A patch full of outliers must not set its own limit.
+    const double kind = std::max(spread_of[key[0]], 0.02);
+    const double limit = 6.0 * std::clamp(own, kind, 3.0 * kind);
+    std::vector<std::size_t> far;
+    for (const std::size_t i : patch)
+      if (std::abs(table.rows[i].deviation_um - centre) > limit) far.push_back(i);
+    // Many that agree with each other are no accident: a step runs through the patch.
+    const bool step = far.size() >= 3 && 4 * far.size() > patch.size() &&
+                      centre_and_spread(far).second < 0.5 * limit;
+    for (const std::size_t i : far) out[i] = !step;
+  }
+  std::size_t kept = 0;
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (out[i]) continue;
+    if (i < table.points_mm.size()) table.points_mm[points++] = table.points_mm[i];
+    table.rows[kept++] = table.rows[i];
+  }
+  table.points_mm.resize(points);
+  table.outliers = static_cast<int>(table.rows.size() - kept);
+  table.rows.resize(kept);
+}
+
+}  // namespace
+
+ResultAll<Observations> make_observations(const FlankGeometry& geometry, const MeasuredData& data,
+                                          const ObservationOptions& options) {
+  TableBuilder builder(geometry, options);
+  builder.table.notes = data.notes;
+  int source = 0;
+  for (const ScanData& scan : data.scans) builder.add_scan(scan, source++);
+  for (const InspectionData& inspection : data.inspections)
+    builder.add_inspection(inspection, source++);
+  for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
+  if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
+  leave_out_outliers(geometry, builder.table);
+  return std::move(builder.table);
+}
+
+}  // namespace trueflank::loop

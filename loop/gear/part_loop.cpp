@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/part_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Level of a second effect, and of a part's own beside what is of all.
+constexpr double kNextLevel = 0.01;
+
+}  // namespace
+
+PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options options)
+    : geometry_(geometry),
+      options_(std::move(options)),
+      measured_(std::move(table)),
+      table_(measured_),
+      candidates_(candidate_effects(geometry, options_.declared)) {
+  banned_.assign(candidates_.size(), false);
+}
+
+void PartLoop::run() {
+  patches_ = make_patches(geometry_, table_);
+  ban_what_cannot_be_seen();
+  unseen_ = banned_;
+  ban_given();
+  for (int round = 0; round < 5; ++round) {
+    select();
+    // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
+    // leaves is taken for another effect.
+    bool again = put_refined_shapes_on_the_grid();
+    again = ban_misnamed() || again;
+    again = linearise() || again;
+    if (!again) break;
+  }
+  if (!is_rounding()) look_at_single_teeth();
+  look_at_sizes();
+  if (!is_rounding() && !options_.joined) look_at_neighbours();
+}
+
+/// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
+bool PartLoop::is_rounding() const {
+  constexpr double kFileRounding_um = 0.01;
+  const PointFit plain(geometry_, measured_, patches_, {});
+  return plain.observations() > 0 && plain.errors({}).rms_um < kFileRounding_um;
+}
+
+/// What the data cannot show is not looked for under another name: shapes over the profile where nothing
+/// was measured along it, over the face likewise. A wave over the generating rotation shows along the
+/// profile only; in values one a tooth every order looks like a lower one.
+void PartLoop::ban_what_cannot_be_seen() {
+  bool along_profile = false, along_face = false;
+  // A product of both shows where flanks were scanned, or traced at several heights or diameters.
+  constexpr double kSeveral = 0.2;
+  double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
+  bool scanned = false;
+  for (const Observation& row : table_.rows) {
+    const bool scan = row.kind == ObservationKind::kScanFlank;
+    scanned = scanned || scan;
+    const double u = geometry_.profile_coordinate(table_.place(row).roll_mm);
+    const double v = geometry_.face_coordinate(table_.place(row).z_mm);
+    if (row.kind == ObservationKind::kHelix) {
+      least_u = std::min(least_u, u);
+      most_u = std::max(most_u, u);
+    }
+    if (row.kind == ObservationKind::kProfile) {
+      least_v = std::min(least_v, v);
+      most_v = std::max(most_v, v);
+    }
+    along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
+    along_face = along_face || scan || row.kind == ObservationKind::kHelix;
+  }
+  const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
+  for (std::size_t g = 0; g < candidates_.size(); ++g) {
+    const NeedsToBeSeen needs = candidates_[g].needs();
+    if ((needs.along_profile && !along_profile) || (needs.along_face && !along_face) ||
+        (needs.crossed && !crossed))
+      banned_[g] = true;
+  }
+}
+
+/// What is given does not enter again, nor at a neighbouring shape.
+void PartLoop::ban_given() {
+  for (const Effect& given : options_.given)
+    for (std::size_t g = 0; g < candidates_.size(); ++g) {
+      const Effect& candidate = candidates_[g];
+      if (candidate.family == given.family && candidate.flank == given.flank &&
+          (candidate.shape == given.shape || given.family->shape_is_continuous))
+        banned_[g] = true;
+    }
+}
+
+void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
+  const auto before = problem.nuisance.cols();
+  problem.nuisance.conservativeResize(Eigen::NoChange, before + fitted.candidates.cols());
+  problem.nuisance.rightCols(fitted.candidates.cols()) = fitted.candidates.cast<double>();
+}
+
+void PartLoop::select() {
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, candidates_);
+  if (!options_.given.empty())
+    add_nuisance(problem, make_problem(geometry_, table_, patches_, options_.given));
+  DiscoveryOptions options;
+  options.banned = banned_;
+  // What no flip reaches is as sure as flips can say.
+  options.next_level = std::max(kNextLevel / options_.tables, 1.01 / (options.flips + 1.0));
+  // With effects given, something was found already.
+  options.first_level = options_.given.empty() ? options.first_level / options_.tables : options.next_level;
+  options.local_level /= options_.tables;
+  discovery_ = discover(problem, options);
+  if (is_rounding()) {
+    discovery_.chosen.clear();
+    discovery_.first_p_value = discovery_.p_left = 1.0;
+  }
+  effects_ = options_.given;
+  for (const ChosenGroup& chosen : discovery_.chosen) effects_.push_back(candidates_[chosen.group]);
+  ChosenGroup record;
+  record.group = -1;
+  discovery_.chosen.insert(discovery_.chosen.begin(), options_.given.size(), record);
+}
+
+void PartLoop::leave_out_across_steps() {
+  for (const Effect& effect : effects_)
+    if (effect.family->shape_is_step) patches_.leave_out_across(effect.shape[0]);
+}
+
+/// True where a shape moved noticeably.
+bool PartLoop::put_refined_shapes_on_the_grid() {
+  const std::vector<Effect> chosen = effects_;
+  refine_shapes(geometry_, table_, patches_, effects_);
+  std::copy(options_.given.begin(), options_.given.end(), effects_.begin());
+  leave_out_across_steps();
+  bool moved = false;
+  for (std::size_t i = options_.given.size(); i < effects_.size(); ++i) {
+    for (std::size_t k = 0; k < effects_[i].shape.size(); ++k)
+      moved = moved || std::abs(effects_[i].shape[k] - chosen[i].shape[k]) >
+                           3e-3 * std::abs(chosen[i].shape[k]);
+    candidates_[discovery_.chosen[i].group].shape = effects_[i].shape;
+  }
+  return moved;
+}
+
+/// True where finite displacements changed the deviations by more than the noise can hide.
+bool PartLoop::linearise() {
+  const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+    return static_cast<bool>(effect.family->displacement_mm);
+  });
+  if (!body || measured_.points_mm.empty()) return false;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  const double change = linearise_at(geometry_, fit, measured_, table_);
+  if (!(change > 0.02 * fit.noise_um())) return false;
+  patches_ = make_patches(geometry_, table_);
+  leave_out_across_steps();
+  return true;
+}
+
+std::vector<std::string> PartLoop::not_observable() const {
+  std::vector<std::string> seen, hidden;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (g < discovery_.observable.size() && discovery_.observable[g] && !unseen_[g])
+      seen.push_back(candidates_[g].family->id);
+  for (const Effect& given : options_.given) seen.push_back(given.family->id);
+  const auto look = [&](const EffectFamily& family) {
+    if (family.named && !family.local && std::find(seen.begin(), seen.end(), family.id) == seen.end())
+      hidden.push_back(family.id);
+  };
+  if (options_.declared)
+    for (const EffectFamily& family : *options_.declared) look(family);
+  for (const EffectFamily& family : effect_library()) look(family);
+  return hidden;
+}
+
+/// Bans named effects that cannot be meant: an amount of the wrong sign; a wave whose kin of the same
+/// order remain unexplained, which is not that wave and is better described. True where any was.
+bool PartLoop::ban_misnamed() {
+  bool any = ban_wrong_signs();
+  const auto ban = [&](std::size_t group) {
+    any = any || !banned_[group];
+    banned_[group] = true;
+  };
+  for (const ChosenGroup& named : discovery_.chosen) {
+    if (named.group < 0) continue;
+    const Effect& effect = candidates_[named.group];
+    const double order = effect.order(), share = effect.family->doubt_share;
+    if (!(share > 0.0) || order < 2.0) continue;
+    for (const ChosenGroup& other : discovery_.chosen) {
+      if (other.group < 0) continue;
+      const Effect& term = candidates_[other.group];
+      if (!term.is_term() || other.gain < share * named.gain) continue;
+      if (effect.family->doubted_by_any_order ? term.order() == 0.0 : term.order() != order) continue;
+      for (std::size_t g = 0; g < candidates_.size(); ++g)
+        if (candidates_[g].family->named && candidates_[g].shape == effect.shape &&
+            candidates_[g].family->shape_names == effect.family->shape_names)
+          ban(g);
+    }
+  }
+  return any;
+}
+
+bool PartLoop::ban_wrong_signs() {
+  if (effects_.empty()) return false;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  bool any = false;
+  for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (!effect.family->only_positive) continue;
+    if (fit.coefficients()[fit.first_column(static_cast<int>(e))] > 0.0) continue;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank)
+        banned_[g] = any = true;
+  }
+  return any;
+}
+
+/// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.
+void PartLoop::look_at_single_teeth() {
+  std::vector<Effect> local;
+  for (const Effect& effect : candidates_) {
+    if (!effect.family->local) continue;
+    const bool chosen = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& e) {
+      return e.family == effect.family && e.shape == effect.shape && e.flank == effect.flank;
+    });
+    if (!chosen) local.push_back(effect);
+  }
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, local);
+  add_nuisance(problem, make_problem(geometry_, table_, patches_, effects_));
+  for (int& fold : problem.fold)
+    if (fold == 0) fold = 1;
+  DiscoveryOptions options;
+  options.first_level = options.next_level = 0.0;
+  options.local_level /= options_.tables;
+  options.flips = 1;
+  options.most_effects = 3;
+  for (const ChosenGroup& chosen : discover(problem, options).chosen) {
+    effects_.push_back(local[chosen.group]);
+    ChosenGroup record = chosen;
+    record.group = -1;
+    discovery_.chosen.push_back(record);
+  }
+}
+
+/// Sizes are few and know their own error: what they say of thickness, which traces with zeros of their own
+/// cannot show, is judged by chi-square.
+void PartLoop::look_at_sizes() {
+  constexpr double kSure = 1e-3, kTie = 4.0;
+  const auto sizes = std::count_if(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+    return row.kind == ObservationKind::kSize;
+  });
+  for (int round = 0; round < 2 && sizes > 0; ++round) {
+    const double before = PointFit(geometry_, table_, patches_, effects_).residual_square();
+    int best = -1;
+    std::vector<std::pair<int, double>> tried;
+    for (int g = 0; g < static_cast<int>(candidates_.size()); ++g) {
+      const Effect& effect = candidates_[g];
+      if (!effect.family->shows_in_sizes || banned_[g] ||
+          std::any_of(effects_.begin(), effects_.end(),
+                      [&](const Effect& e) { return e.family == effect.family; }))
+        continue;
+      std::vector<Effect> with = effects_;
+      with.push_back(effect);
+      const PointFit fit(geometry_, table_, patches_, with);
+      if (fit.retained(fit.first_column(static_cast<int>(effects_.size()))) < 2e-3) continue;
+      tried.emplace_back(g, before - fit.residual_square());
+      if (best < 0 || tried.back().second > tried[best].second) best = static_cast<int>(tried.size()) - 1;
+    }
+    if (best < 0) return;
+    const double tests = static_cast<double>(tried.size()) * options_.tables;
+    const double p = std::min(1.0, tests * std::exp(-minus_log_chi_square_tail(tried[best].second, 1)));
+    if (p > kSure) return;
+    ChosenGroup record;
+    record.group = tried[best].first;
+    record.p_value = p;
+    for (const auto& [group, gain] : tried)
+      if (group != record.group && tried[best].second - gain < kTie) record.confounded.push_back(group);
+    effects_.push_back(candidates_[record.group]);
+    discovery_.chosen.push_back(record);
+  }
+}
+
+/// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor is it a
+/// single tooth where the teeth beside it share it.
+void PartLoop::look_at_neighbours() {
+  std::vector<Effect> common;
+  for (const Effect& effect : effects_)
+    if (!effect.family->local) common.push_back(effect);
+  const auto shared_without = [&](const std::vector<Effect>& effects) {
+    std::vector<float> before_um, after_um;
+    PointFit(geometry_, table_, patches_, effects).residuals(before_um, after_um);
+    return shared_by_neighbours(geometry_, patches_, after_um);
+  };
+  neighbours_ = shared_without(common);
+  if (common.size() == effects_.size()) return;
+  if (!neighbours_share()) {
+    neighbours_ = shared_without(effects_);
+    return;
+  }
+  const int z = geometry_.teeth();
+  for (std::size_t e = effects_.size(); e-- > options_.given.size();) {
+    if (!effects_[e].family->local) continue;
+    const int off = std::abs(static_cast<int>(effects_[e].shape[0]) - neighbours_.tooth);
+    if (std::min(off, z - off) > 1) continue;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+  }
+}
+
+bool PartLoop::neighbours_share() const { return neighbours_.p_value <= 0.002 / options_.tables; }
+
+bool PartLoop::structure_is_left() const {
+  constexpr double kLeft = 0.01, kLeftOfNothing = 0.01;
+  if (neighbours_share()) return true;
+  if (effects_.empty()) return discovery_.first_p_value <= kLeftOfNothing / options_.tables;
+  return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
+}
+
+std::string PartLoop::structure_left() const {
+  if (neighbours_share()) return words_for(neighbours_);
+  if (!structure_is_left() || discovery_.likest_left < 0)
+    return "nothing beyond the measurement's own noise was found";
+  return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);
+}
+
+}  // namespace trueflank::loop

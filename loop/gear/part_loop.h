@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/loop/gear/close_loop.h"
+#include "trueflank/loop/gear/neighbour_teeth.h"
+#include "trueflank/loop/gear/point_fit.h"
+
+namespace trueflank::loop {
+
+/// The procedure on one table: selection, shapes off the grid, finite displacements, single teeth.
+class PartLoop {
+ public:
+  struct Options {
+    DeclaredFamilies declared = nullptr;
+    /// Effects that are in the model from the start (with free coefficients): found on other data.
+    std::vector<Effect> given = {};
+    bool joined = false;  ///< parts in one table: what is one part's own is looked at there
+    int tables = 1;  ///< of how many this is one: the false alarm rate is shared among them
+  };
+  PartLoop(const FlankGeometry& geometry, Observations table, Options options);
+
+  void run();
+
+  [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
+  [[nodiscard]] const DiscoveryResult& discovery() const { return discovery_; }
+  [[nodiscard]] const std::vector<Effect>& candidates() const { return candidates_; }
+  /// About the effects found: exact for finite displacements.
+  [[nodiscard]] const Observations& table() const { return table_; }
+  [[nodiscard]] const Observations& measured() const { return measured_; }
+  [[nodiscard]] const Patches& patches() const { return patches_; }
+  [[nodiscard]] std::vector<std::string> not_observable() const;
+  /// True where the test of structure that is left answers yes, and what it looks like.
+  [[nodiscard]] bool structure_is_left() const;
+  [[nodiscard]] std::string structure_left() const;
+
+ private:
+  void ban_what_cannot_be_seen();
+  void ban_given();
+  [[nodiscard]] bool is_rounding() const;
+  void select();
+  [[nodiscard]] bool put_refined_shapes_on_the_grid();
+  [[nodiscard]] bool linearise();
+  [[nodiscard]] bool ban_misnamed();
+  [[nodiscard]] bool ban_wrong_signs();
+  void look_at_single_teeth();
+  void look_at_sizes();
+  void look_at_neighbours();
+  [[nodiscard]] bool neighbours_share() const;
+  void leave_out_across_steps();
+
+  const FlankGeometry& geometry_;
+  Options options_;
+  Observations measured_;  ///< deviations of the gear as designed
+  Observations table_;
+  Patches patches_;
+  std::vector<Effect> candidates_;
+  std::vector<bool> banned_, unseen_;
+  DiscoveryResult discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
+  std::vector<Effect> effects_;
+  SharedByNeighbours neighbours_;
+};
+
+/// Columns of effects that are fitted whatever is selected.
+void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted);
+
+}  // namespace trueflank::loop

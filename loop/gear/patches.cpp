@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace trueflank::loop {
+namespace {
+
+constexpr int kMostPatches = 24000;
+constexpr int kFolds = 8;           // of the cross-validation
+constexpr int kAnchorFold = kFolds + 1;  // tips, roots and sizes
+constexpr int kFewestUnits = 24;    // below, units are cut into parts
+constexpr double kDefaultSizeSigma_um = 2.0;
+
+bool is_trace(ObservationKind kind) {
+  return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
+}
+bool is_single(ObservationKind kind) {
+  return kind == ObservationKind::kIndex || kind == ObservationKind::kRadial ||
+         kind == ObservationKind::kSize;
+}
+
+int part_of(double coordinate, int parts) {
+  return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * parts), 0, parts - 1);
+}
+
+/// Numbers 0 ... n-1 in an order that no wave follows; the same every time.
+std::vector<int> shuffled(int n) {
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937_64 random(20260102);
+  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
+  return order;
+}
+
+double median_of(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+/// Variance from squares of a centred normal variable: by the median, or the mean of few.
+double robust_variance(std::vector<double>& squares) {
+  if (squares.size() < 8)
+    return squares.empty() ? 0.0
+                           : std::accumulate(squares.begin(), squares.end(), 0.0) /
+                                 static_cast<double>(squares.size());
+  return median_of(squares) / 0.4549;
+}
+
+class PatchMaker {
+ public:
+  PatchMaker(const FlankGeometry& geometry, const Observations& table)
+      : geometry_(geometry), table_(table) {
+    const int per_height = 2 * geometry.teeth() * kProfileParts;
+    face_parts_ = std::clamp(kMostPatches / per_height, 8, 20);
+  }
+
+  Patches make() {
+    gather();
+    number_units();
+    assign_folds();
+    weigh();
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr int kProfileParts = 12, kTraceParts = 40;
+  using Key = std::array<int, 7>;  // kind, source, zero, tooth, side, profile part, face part
+
+  /// Height band; the lowest millimetre is cut finer, because first layers are.
+  [[nodiscard]] int face_part(double z) const {
+    const int part = part_of(geometry_.face_coordinate(z), face_parts_);
+    if (z >= 1.0) return part + 8;
+    return std::min(part, static_cast<int>(std::max(0.0, z) * 8.0));
+  }
+
+  [[nodiscard]] Key key_of(const Observation& row, int number) const {
+    const Place& place = table_.place(row);
+    Key key{static_cast<int>(row.kind), row.source, row.trace, place.tooth, place.side, 0, 0};
+    if (is_single(row.kind)) key[5] = number;
+    else if (row.kind == ObservationKind::kProfile)
+      key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kTraceParts);
+    else if (row.kind == ObservationKind::kHelix)
+      key[6] = part_of(geometry_.face_coordinate(place.z_mm), kTraceParts);
+    else if (row.kind == ObservationKind::kScanFlank) {
+      key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kProfileParts);
+      key[6] = face_part(place.z_mm);
+    } else if (row.kind == ObservationKind::kScanBore) {
+      key[3] = static_cast<int>(wrapped_rad(place.polar_rad) / kTwoPi * 16) + 1;
+      key[6] = part_of(geometry_.face_coordinate(place.z_mm), 4);
+    }
+    return key;
+  }
+
+  void gather() {
+    struct Sum {
+      double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
+    };
+    std::map<Key, int> numbers;
+    std::vector<Sum> sums;
+    result_.patch_of_row.assign(table_.rows.size(), -1);
+    const double b = geometry_.face_width_mm();
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+      const Observation& row = table_.rows[i];
+      const Place& place = table_.place(row);
+      const bool circle =
+          row.kind == ObservationKind::kScanTip || row.kind == ObservationKind::kScanRoot;
+      // Tip and root serve as sizes: taken where face effects are small.
+      if (circle && (place.z_mm < 0.3 * b || place.z_mm > 0.7 * b)) continue;
+      const Key key = key_of(row, static_cast<int>(i));
+      const auto [found, is_new] = numbers.emplace(key, static_cast<int>(sums.size()));
+      if (is_new) {
+        sums.emplace_back();
+        Patches::Patch patch;
+        patch.kind = row.kind;
+        patch.source = row.source;
+        patch.zero = row.trace;
+        patch.places.assign(table_.places.begin() + row.first_place,
+                            table_.places.begin() + row.first_place + row.places);
+        result_.patches.push_back(std::move(patch));
+        keys_.push_back(key);
+      }
+      result_.patch_of_row[i] = found->second;
+      Sum& sum = sums[found->second];
+      const double w = std::isnan(row.sigma_um) ? 1.0 : 1.0 / (row.sigma_um * row.sigma_um);
+      sum.weight += w;
+      sum.value += w * row.deviation_um;
+      sum.roll += w * place.roll_mm;
+      sum.z += w * place.z_mm;
+      sum.x += w * std::cos(place.polar_rad);
+      sum.y += w * std::sin(place.polar_rad);
+      sum.count += 1.0;
+      Patches::Patch& patch = result_.patches[found->second];
+      patch.z_low_mm = std::min(patch.z_low_mm, place.z_mm);
+      patch.z_high_mm = std::max(patch.z_high_mm, place.z_mm);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      Patches::Patch& patch = result_.patches[i];
+      const Sum& s = sums[i];
+      patch.mean_um = s.value / s.weight;
+      patch.count = s.count;
+      if (is_single(patch.kind)) continue;
+      Place& place = patch.places.front().place;
+      if (place.surface == Surface::kFlank)
+        place = geometry_.on_flank(place.tooth, place.side, s.roll / s.weight, s.z / s.weight);
+      else
+        place = geometry_.on_circle(place.surface, place.tooth, std::atan2(s.y, s.x),
+                                    place.radius_mm, s.z / s.weight);
+    }
+  }
+
+  /// What may share its random error: a flank of a scan, a trace, a single value. Where there are few,
+  /// they are cut across, far longer than the error hangs together.
+  void number_units() {
+    std::map<std::array<int, 3>, std::set<int>> members;  // of kind and source: ids
+    const auto id_of = [&](std::size_t i) {
+      const Key& k = keys_[i];
+      if (is_trace(result_.patches[i].kind))
+        return k[2] >= 0 ? k[2] : k[3] * 2 + (k[4] > 0 ? 1 : 0);
+      if (is_single(result_.patches[i].kind)) return k[5];
+      return k[3] * 2 + (k[4] > 0 ? 1 : 0);
+    };
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+      members[{keys_[i][0], keys_[i][1], 0}].insert(id_of(i));
+    std::map<std::array<int, 4>, int> numbers;
+    std::map<std::array<int, 3>, int> wholes;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      Patches::Patch& patch = result_.patches[i];
+      const int count = static_cast<int>(members[{keys_[i][0], keys_[i][1], 0}].size());
+      int part = 0;
+      if (!is_single(patch.kind) && count < kFewestUnits) {
+        const int parts = std::min((kFewestUnits + count - 1) / count, is_trace(patch.kind) ? 6 : 4);
+        const Place& place = patch.places.front().place;
+        part = patch.kind == ObservationKind::kProfile
+                   ? part_of(geometry_.profile_coordinate(place.roll_mm), parts)
+                   : part_of(geometry_.face_coordinate(place.z_mm), parts);
+      }
+      const auto [found, is_new] = numbers.emplace(
+          std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
+          static_cast<int>(numbers.size()));
+      patch.unit = found->second;
+      if (is_trace(patch.kind) || patch.kind == ObservationKind::kScanFlank)
+        patch.whole = wholes.emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
+                                     static_cast<int>(wholes.size())).first->second;
+    }
+    result_.units = static_cast<int>(numbers.size());
+  }
+
+  void assign_folds() {
+    // Traces are often of three or four teeth, an index of all: each is shared out by itself, lest the
+    // lock takes most of the traces.
+    std::set<int> trace_teeth, single_teeth;
+    std::set<int> traces;
+    for (const auto& patch : result_.patches) {
+      const int tooth = patch.places.front().place.tooth;
+      if (is_trace(patch.kind)) {
+        trace_teeth.insert(tooth);
+        traces.insert(patch.whole);
+      } else if (patch.kind == ObservationKind::kIndex || patch.kind == ObservationKind::kRadial) {
+        single_teeth.insert(tooth);
+      }
+    }
+    const std::vector<int> order = shuffled(geometry_.teeth());
+    // Rank of each measured tooth in shuffled order: folds of equal size whatever was measured.
+    const auto ranks_of = [&](const std::set<int>& teeth) {
+      std::map<int, int> rank;
+      for (const int number : order)
+        if (teeth.contains(number + 1)) rank.emplace(number + 1, static_cast<int>(rank.size()));
+      return rank;
+    };
+    const std::map<int, int> trace_rank = ranks_of(trace_teeth), single_rank = ranks_of(single_teeth);
+    const auto fold_of_class = [](int c) { return c == 0 || c == 5 ? 0 : c < 5 ? c : c - 1; };
+    int single = 0;
+    for (std::size_t i = 0; i < result_.patches.size(); ++i) {
+      Patches::Patch& patch = result_.patches[i];
+      const Place& place = patch.places.front().place;
+      if (patch.kind == ObservationKind::kScanFlank) {
+        const int band = part_of(geometry_.face_coordinate(place.z_mm), 5);
+        patch.fold = fold_of_class((order[place.tooth - 1] + 2 * band) % 10);
+      } else if (is_trace(patch.kind) || patch.kind == ObservationKind::kIndex ||
+                 patch.kind == ObservationKind::kRadial) {
+        const auto& rank = is_trace(patch.kind) ? trace_rank : single_rank;
+        if (rank.size() >= 10) patch.fold = fold_of_class(rank.at(place.tooth) % 10);
+        else if (rank.size() >= 5) patch.fold = rank.at(place.tooth) % 5;
+        else if (!is_trace(patch.kind)) patch.fold = 1 + keys_[i][5] % 4;
+        else if (traces.size() >= 5) patch.fold = patch.whole % 5;
+        else patch.fold = 1 + patch.whole % 4;
+        patch.fold = std::max(0, patch.fold);
+      } else if (patch.kind == ObservationKind::kScanBore) {
+        patch.fold = 1 + single++ % kFolds;
+      } else {
+        patch.fold = kAnchorFold;
+      }
+    }
+  }
+
+  /// Variance of a patch mean of each kind, from neighbours: effects hardly change between them.
+  [[nodiscard]] double variance_of(int kind, int source, const std::vector<int>& members) const {
+    std::map<Key, int> at;
+    for (const int i : members) at[keys_[i]] = i;
+    std::vector<double> squares;
+    for (const int i : members) {
+      Key right = keys_[i], left = keys_[i];
+      const auto single = static_cast<ObservationKind>(kind);
+      if (is_single(single)) continue;
+      const int axis = single == ObservationKind::kHelix || single == ObservationKind::kScanBore ? 6
+                       : single == ObservationKind::kProfile || single == ObservationKind::kScanFlank
+                           ? 5
+                           : 3;
+      ++right[axis];
+      --left[axis];
+      const auto r = at.find(right), l = at.find(left);
+      if (r == at.end() || l == at.end()) continue;
+      const double d = result_.patches[l->second].mean_um - 2.0 * result_.patches[i].mean_um +
+                       result_.patches[r->second].mean_um;
+      squares.push_back(d * d / 6.0);
+    }
+    static_cast<void>(source);
+    return robust_variance(squares);
+  }
+
+  /// Of values one a tooth: second differences around the gear, each flank apart.
+  [[nodiscard]] double variance_around(const std::vector<int>& members) const {
+    std::map<std::pair<int, int>, int> at;
+    for (const int i : members) at[{keys_[i][4], keys_[i][3]}] = i;
+    std::vector<double> squares;
+    for (const auto& [key, i] : at) {
+      const auto l = at.find({key.first, key.second - 1}), r = at.find({key.first, key.second + 1});
+      if (l == at.end() || r == at.end()) continue;
+      const double d = result_.patches[l->second].mean_um - 2.0 * result_.patches[i].mean_um +
+                       result_.patches[r->second].mean_um;
+      squares.push_back(d * d / 6.0);
+    }
+    return robust_variance(squares);
+  }
+
+  void weigh() {
+    std::map<std::pair<int, int>, std::vector<int>> classes;
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+      classes[{keys_[i][0], keys_[i][1]}].push_back(static_cast<int>(i));
+    for (const auto& [key, members] : classes) {
+      const auto kind = static_cast<ObservationKind>(key.first);
+      double variance =
+          kind == ObservationKind::kIndex || kind == ObservationKind::kRadial
+              ? variance_around(members)
+              : variance_of(key.first, key.second, members);
+      double mean_count = 0.0;
+      for (const int i : members)
+        mean_count += result_.patches[i].count / static_cast<double>(members.size());
+      // Tip and root circles are turned, not cut with the teeth: trusted to a few um only.
+      if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot)
+        variance = std::max(variance, 1.0) * static_cast<double>(members.size()) / 8.0;
+      if (!(variance > 1e-6)) variance = 1e-6;
+      for (const int i : members) {
+        Patches::Patch& patch = result_.patches[i];
+        const double own = is_single(kind) ? 1.0 : 2.0 * patch.count / (patch.count + mean_count);
+        patch.weight = own / variance;
+      }
+    }
+    // Single values say their own error; sizes have no neighbours to ask.
+    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+      const Observation& observation = table_.rows[row];
+      if (!is_single(observation.kind)) continue;
+      Patches::Patch& patch = result_.patches[result_.patch_of_row[row]];
+      const double sigma = observation.kind == ObservationKind::kSize && std::isnan(observation.sigma_um)
+                               ? kDefaultSizeSigma_um
+                               : observation.sigma_um;
+      if (!std::isnan(sigma)) patch.weight = 1.0 / (sigma * sigma);
+    }
+  }
+
+  const FlankGeometry& geometry_;
+  const Observations& table_;
+  int face_parts_ = 8;
+  std::vector<Key> keys_;
+  Patches result_;
+};
+
+}  // namespace
+
+Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
+  return PatchMaker(geometry, table).make();
+}
+
+NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observations& table)
+    : geometry_(geometry) {
+  // Scans come first among the sources (make_observations).
+  for (const bool free : table.pose_is_free) {
+    first_of_source_.push_back(count_);
+    free_of_source_.push_back(free);
+    count_ += free ? 5 : 1;
+  }
+}
+
+void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, double weight,
+                          double* values) const {
+  if (source >= static_cast<int>(first_of_source_.size())) return;
+  if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot) return;
+  double* c = values + first_of_source_[source];
+  const double x = place.radius_mm * std::cos(place.polar_rad);
+  const double y = place.radius_mm * std::sin(place.polar_rad);
+  const double nx = normal_part(geometry_, place, 1.0, 0.0);
+  const double ny = normal_part(geometry_, place, 0.0, 1.0);
+  c[0] += weight * (x * ny - y * nx);  // turn about the axis
+  if (!free_of_source_[source]) return;
+  const double nz = geometry_.normal_z(place);
+  const double z = place.z_mm - 0.5 * geometry_.face_width_mm();
+  c[1] += weight * nx;
+  c[2] += weight * ny;
+  c[3] += weight * (y * nz - z * ny);
+  c[4] += weight * (z * nx - x * nz);
+}
+
+DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
+                              const Patches& patches, const std::vector<Effect>& effects) {
+  const NuisanceColumns nuisance(geometry, table);
+  const bool traces_only =
+      std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
+        return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kHelix ||
+               patch.kind == ObservationKind::kIndex;
+      });
+  DiscoveryProblem problem;
+  const auto n = static_cast<Eigen::Index>(patches.patches.size());
+  int columns = 0, kin = 0;
+  const EffectFamily* before = nullptr;
+  std::map<const EffectFamily*, int> local_families;
+  for (const Effect& effect : effects) {
+    if (effect.family != before) ++kin;
+    before = effect.family;
+    CandidateGroup group;
+    group.first_column = columns;
+    group.columns = effect.columns();
+    group.preference = effect.family->preference +
+                       (effect.flank != FlankChoice::kBoth && !effect.family->local ? 2 : 0);
+    if (traces_only) group.preference += effect.family->penalty_of_traces;
+    group.named = effect.family->named;
+    if (effect.family->complexity) group.complexity = effect.family->complexity(effect.shape);
+    if (effect.family->local)
+      group.local_family =
+          local_families.emplace(effect.family, static_cast<int>(local_families.size())).first->second;
+    if (effect.family->shape_is_continuous) group.kin = 3 * kin + static_cast<int>(effect.flank);
+    problem.groups.push_back(group);
+    columns += group.columns;
+  }
+  if (std::any_of(patches.patches.begin(), patches.patches.end(),
+                  [](const auto& patch) { return patch.fold == kAnchorFold; }))
+    problem.anchor_fold = kAnchorFold;
+  problem.value.resize(n);
+  problem.weight.resize(n);
+  problem.nuisance.setZero(n, nuisance.count());
+  problem.candidates.setZero(n, columns);
+  Eigen::VectorXd row(columns), one(8), pose(nuisance.count());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Patches::Patch& patch = patches.patches[i];
+    problem.value[i] = patch.mean_um;
+    problem.weight[i] = patch.weight;
+    problem.unit.push_back(patch.unit);
+    problem.fold.push_back(patch.fold);
+    problem.zero.push_back(patch.zero);
+    problem.whole.push_back(patch.whole);
+    row.setZero();
+    pose.setZero();
+    for (const WeightedPlace& place : patch.places) {
+      nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
+      for (std::size_t g = 0; g < effects.size(); ++g) {
+        effects[g].evaluate(geometry, place.place, one.data());
+        for (int k = 0; k < problem.groups[g].columns; ++k)
+          row[problem.groups[g].first_column + k] += place.weight * one[k];
+      }
+    }
+    problem.candidates.row(i) = row.transpose().cast<float>();
+    problem.nuisance.row(i) = pose.transpose();
+  }
+  return problem;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trueflank/loop/discovery/discovery.h"
+#include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/observations.h"
+
+namespace trueflank::loop {
+
+/// Observations gathered into small patches of a flank (or pieces of a trace): their means carry all
+/// the effects at a fraction of the rows, and random error that hangs together stays inside.
+struct Patches {
+  struct Patch {
+    std::vector<WeightedPlace> places;  ///< at the patch's mean roll and height
+    double mean_um = 0.0;
+    double count = 0.0;
+    double weight = 0.0;
+    double z_low_mm = 1e300, z_high_mm = -1e300;  ///< of its values
+    int unit = 0, fold = 0, zero = -1, source = 0;
+    int whole = -1;  ///< the trace or flank it is a piece of; -1: a single value, tip, root or bore
+    ObservationKind kind = ObservationKind::kScanFlank;
+  };
+  std::vector<Patch> patches;
+  std::vector<int> patch_of_row;
+  int units = 0;
+
+  /// Takes the weight from patches with values on both sides of a step: their mean is on neither.
+  void leave_out_across(double z_mm) {
+    for (Patch& patch : patches)
+      if (patch.z_low_mm <= z_mm && patch.z_high_mm > z_mm) patch.weight *= 1e-6;
+  }
+};
+
+/// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and one
+/// of five height bands, so that every tooth and every height is also seen; traces, index and radial
+/// values by whole teeth, or by whole traces where fewer than five teeth were measured.
+/// Weights: inverse variance of the patch means of each kind, from differences of neighbours.
+[[nodiscard]] Patches make_patches(const FlankGeometry& geometry, const Observations& table);
+
+/// Nuisance columns of a table: what the pose of each scan can still do.
+class NuisanceColumns {
+ public:
+  NuisanceColumns(const FlankGeometry& geometry, const Observations& table);
+  [[nodiscard]] int count() const { return count_; }
+  /// Adds weight times the columns at a place of a source.
+  void add(const Place& place, ObservationKind kind, int source, double weight,
+           double* values) const;
+
+ private:
+  const FlankGeometry& geometry_;
+  std::vector<int> first_of_source_;
+  std::vector<bool> free_of_source_;
+  int count_ = 0;
+};
+
+/// The discovery problem of a table: one row a patch.
+[[nodiscard]] DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
+                                            const Patches& patches,
+                                            const std::vector<Effect>& effects);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/point_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace trueflank::loop {
+
+bool counts_as_error(ObservationKind kind) {
+  return kind == ObservationKind::kScanFlank || kind == ObservationKind::kProfile ||
+         kind == ObservationKind::kHelix || kind == ObservationKind::kIndex ||
+         kind == ObservationKind::kRadial;
+}
+
+PointFit::PointFit(const FlankGeometry& geometry, const Observations& table,
+                   const Patches& patches, std::vector<Effect> effects, std::size_t stride)
+    : geometry_(geometry),
+      table_(table),
+      patches_(patches),
+      stride_(stride),
+      nuisance_(geometry, table),
+      effects_(std::move(effects)) {
+  columns_ = nuisance_.count();
+  for (const Effect& effect : effects_) {
+    first_column_.push_back(columns_);
+    columns_ += effect.columns();
+  }
+  average_zeros();
+  accumulate();
+  solve();
+}
+
+/// Nuisance and effect columns of a row, the value last.
+void PointFit::features(const Observation& row, double* values) const {
+  std::fill_n(values, columns_ + 1, 0.0);
+  double one[8];
+  for (std::uint32_t i = 0; i < row.places; ++i) {
+    const WeightedPlace& place = table_.places[row.first_place + i];
+    nuisance_.add(place.place, row.kind, row.source, place.weight, values);
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      effects_[e].evaluate(geometry_, place.place, one);
+      for (int k = 0; k < effects_[e].columns(); ++k)
+        values[first_column_[e] + k] += place.weight * one[k];
+    }
+  }
+  values[columns_] = row.deviation_um;
+}
+
+/// Means of all columns over every trace: what its unknown zero takes out of them. The hold-out has
+/// its own, so that nothing is learnt from it.
+void PointFit::average_zeros() {
+  zero_means_.assign(2 * table_.traces, Eigen::VectorXd::Zero(columns_ + 1));
+  whole_zero_means_.assign(table_.traces, Eigen::VectorXd::Zero(columns_ + 1));
+  std::vector<double> weights(2 * table_.traces, 0.0);
+  Eigen::VectorXd row(columns_ + 1);
+  for (std::size_t i = 0; i < table_.rows.size(); i += stride_) {
+    const int trace = table_.rows[i].trace;
+    if (trace < 0 || patches_.patch_of_row[i] < 0) continue;
+    const auto& patch = patches_.patches[patches_.patch_of_row[i]];
+    const double w = patch.weight / patch.count;
+    features(table_.rows[i], row.data());
+    const int slot = 2 * trace + (patch.fold == 0 ? 1 : 0);
+    zero_means_[slot] += w * row;
+    weights[slot] += w;
+  }
+  for (int t = 0; t < table_.traces; ++t) {
+    const double both = weights[2 * t] + weights[2 * t + 1];
+    if (both > 0.0) whole_zero_means_[t] = (zero_means_[2 * t] + zero_means_[2 * t + 1]) / both;
+    zeros_ += both > 0.0 ? 1 : 0;
+  }
+  for (std::size_t s = 0; s < weights.size(); ++s)
+    if (weights[s] > 0.0) zero_means_[s] /= weights[s];
+}
+
+void PointFit::accumulate() {
+  const int n = columns_ + 1;
+  unit_grams_.assign(patches_.units, Eigen::MatrixXd());
+  unit_kind_.assign(patches_.units, -1);
+  unit_sums_.assign(patches_.units, Eigen::VectorXd::Zero(n + 1));
+  train_ = all_ = plain_held_ = plain_all_ = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd row(n), part(n);
+  for (std::size_t i = 0; i < table_.rows.size(); i += stride_) {
+    if (patches_.patch_of_row[i] < 0) continue;
+    const Observation& observation = table_.rows[i];
+    const auto& patch = patches_.patches[patches_.patch_of_row[i]];
+    const double w = patch.weight / patch.count;
+    features(observation, row.data());
+    const bool held = patch.fold == 0;
+    part = row;
+    if (observation.trace >= 0) {
+      part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
+      row -= whole_zero_means_[observation.trace];
+    }
+    Eigen::MatrixXd& unit = unit_grams_[patch.unit];
+    if (unit.size() == 0) unit = Eigen::MatrixXd::Zero(n, n);
+    unit.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
+    unit_kind_[patch.unit] = static_cast<int>(patch.kind);
+    unit_sums_[patch.unit].head(n) += w * row;
+    unit_sums_[patch.unit][n] += w;
+    if (!held) train_.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
+    if (!counts_as_error(observation.kind)) continue;
+    ++observations_;
+    plain_all_.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    if (!held) continue;
+    ++held_out_;
+    plain_held_.selfadjointView<Eigen::Lower>().rankUpdate(part);
+  }
+  const auto fill = [](Eigen::MatrixXd& m) {
+    if (m.size() > 0) m.triangularView<Eigen::StrictlyUpper>() = m.transpose();
+  };
+  for (Eigen::MatrixXd& unit : unit_grams_) {
+    fill(unit);
+    if (unit.size() > 0) all_ += unit;
+  }
+  for (Eigen::MatrixXd* m : {&train_, &plain_held_, &plain_all_}) fill(*m);
+}
+
+Eigen::VectorXd PointFit::solution(const Eigen::MatrixXd& gram,
+                                   const std::vector<int>& columns) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(columns_);
+  if (columns.empty()) return result;
+  Eigen::MatrixXd normal = gram(columns, columns);
+  normal.diagonal() *= 1.0 + 1e-12;
+  normal.diagonal().array() += 1e-30;
+  const Eigen::VectorXd right = gram(columns, columns_);
+  const Eigen::VectorXd solved = normal.ldlt().solve(right);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    result[columns[i]] = solved[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
+std::vector<int> PointFit::columns_with(const std::vector<bool>& with_effect) const {
+  std::vector<int> columns;
+  for (int i = 0; i < nuisance_.count(); ++i) columns.push_back(i);
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    for (int k = 0; with_effect[e] && k < effects_[e].columns(); ++k)
+      columns.push_back(first_column_[e] + k);
+  return columns;
+}
+
+namespace {
+double square_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
+  const auto n = b.size();
+  return gram(n, n) - 2.0 * b.dot(gram.col(n).head(n)) + b.dot(gram.topLeftCorner(n, n) * b);
+}
+}  // namespace
+
+PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
+  const std::vector<int> columns = columns_with(with_effect);
+  Errors result;
+  const double all = square_error(plain_all_, solution(all_, columns));
+  const double held = square_error(plain_held_, solution(train_, columns));
+  if (observations_ > 0) result.rms_um = std::sqrt(std::max(0.0, all) / observations_);
+  result.held_out_rms_um = held_out_ > 0 ? std::sqrt(std::max(0.0, held) / held_out_) : kNaN;
+  return result;
+}
+
+double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
+  const int pose = nuisance_.count();
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(columns_);
+  b.tail(columns_ - pose) = effect_coefficients;
+  if (pose > 0) {
+    Eigen::MatrixXd normal = all_.topLeftCorner(pose, pose);
+    normal.diagonal() *= 1.0 + 1e-12;
+    normal.diagonal().array() += 1e-30;
+    const Eigen::VectorXd right =
+        all_.col(columns_).head(pose) - all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
+    b.head(pose) = normal.ldlt().solve(right);
+  }
+  return observations_ > 0 ? std::sqrt(std::max(0.0, square_error(plain_all_, b)) / observations_)
+                           : kNaN;
+}
+
+double PointFit::column_size(int column) const {
+  return observations_ > 0 ? std::sqrt(plain_all_(column, column) / observations_) : 0.0;
+}
+
+double PointFit::explained_fraction(int effect) const {
+  std::vector<bool> with(effects_.size(), true);
+  const double full = square_error(plain_all_, solution(all_, columns_with(with)));
+  with[effect] = false;
+  const double without = square_error(plain_all_, solution(all_, columns_with(with)));
+  with.assign(effects_.size(), false);
+  const double none = square_error(plain_all_, solution(all_, columns_with(with)));
+  return none > 0.0 ? std::clamp((without - full) / none, 0.0, 1.0) : 0.0;
+}
+
+void PointFit::solve() {
+  const int p = columns_;
+  const std::vector<int> columns = columns_with(std::vector<bool>(effects_.size(), true));
+  coefficients_ = solution(all_, columns);
+  residual_square_ = square_error(all_, coefficients_);
+  const double plain = square_error(plain_all_, coefficients_);
+  const double free = std::max(1.0, observations_ - p - zeros_ * 1.0);
+  noise_um_ = std::sqrt(std::max(0.0, plain) / free);
+  covariance_ = Eigen::MatrixXd::Zero(p, p);
+  degrees_.assign(p, 2.0);
+  retained_.assign(p, 0.0);
+  if (p == 0) return;
+  Eigen::MatrixXd normal = all_.topLeftCorner(p, p);
+  normal.diagonal() *= 1.0 + 1e-12;
+  normal.diagonal().array() += 1e-30;
+  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  std::set<int> local;
+  for (int k = 0; k < p; ++k) {
+    if (normal(k, k) > 1e-20) retained_[k] = 1.0 / (inverse(k, k) * normal(k, k));
+    double sum = 0.0, squares = 0.0;
+    for (const Eigen::MatrixXd& unit : unit_grams_) {
+      if (unit.size() == 0) continue;
+      sum += unit(k, k);
+      squares += unit(k, k) * unit(k, k);
+    }
+    const double bearing = squares > 0.0 ? sum * sum / squares : 1.0;
+    degrees_[k] = std::max(1.0, bearing - 1.0);
+    // What only sizes tell: their own error is known, and their scatter too few to ask.
+    const double threshold = 1e-6 * sum;
+    bool sizes_only = sum > 0.0;
+    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+      sizes_only = sizes_only && (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) <= threshold ||
+                                  unit_kind_[b] == static_cast<int>(ObservationKind::kSize));
+    if (bearing < 2.6 || sizes_only) local.insert(k);
+  }
+  // Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
+  double used = 0.0;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
+  for (const Eigen::MatrixXd& unit : unit_grams_) {
+    if (unit.size() == 0) continue;
+    const Eigen::MatrixXd rest = normal - unit.topLeftCorner(p, p);
+    Eigen::VectorXd score = unit.col(p).head(p) - unit.topLeftCorner(p, p) * coefficients_;
+    Eigen::MatrixXd safe = rest;
+    for (int k = 0; k < p; ++k)
+      if (!(rest(k, k) > 1e-6 * normal(k, k))) {
+        safe.row(k).setZero();
+        safe.col(k).setZero();
+        safe(k, k) = 1.0;
+        score[k] = 0.0;
+      }
+    const Eigen::VectorXd change = safe.ldlt().solve(score);
+    sum += change * change.transpose();
+    used += 1.0;
+  }
+  covariance_ = sum * ((used - 1.0) / std::max(1.0, used));
+  for (const int k : local) {
+    // How far the means of the other units scatter, against what their weights promise.
+    double scatter = 0.0, count = 0.0;
+    std::set<int> kinds;
+    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+      if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 1e-6 * normal(k, k) &&
+          unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
+          unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
+        kinds.insert(unit_kind_[b]);
+    for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
+      if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 1e-6 * normal(k, k)) continue;
+      if (!kinds.contains(unit_kind_[b])) continue;
+      const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
+      scatter += sum_b * sum_b / unit_sums_[b][p + 1];
+      count += 1.0;
+    }
+    covariance_.row(k).setZero();
+    covariance_.col(k).setZero();
+    // Sizes come with their own error, and are too few to tell a smaller one.
+    const bool sizes_only =
+        kinds.size() == 1 && kinds.contains(static_cast<int>(ObservationKind::kSize));
+    const double scale = count > 0.0 ? scatter / count : 1.0;
+    covariance_(k, k) = inverse(k, k) * (sizes_only ? std::max(1.0, scale) : scale);
+    degrees_[k] = std::max(4.0, count - 1.0);
+  }
+}
+
+void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& after_um) const {
+  before_um.assign(table_.rows.size(), 0.0f);
+  after_um.assign(table_.rows.size(), 0.0f);
+  const Eigen::VectorXd none =
+      solution(all_, columns_with(std::vector<bool>(effects_.size(), false)));
+  Eigen::VectorXd row(columns_ + 1);
+  for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+    if (patches_.patch_of_row[i] < 0) continue;
+    features(table_.rows[i], row.data());
+    if (table_.rows[i].trace >= 0) row -= whole_zero_means_[table_.rows[i].trace];
+    before_um[i] = static_cast<float>(row[columns_] - none.dot(row.head(columns_)));
+    after_um[i] = static_cast<float>(row[columns_] - coefficients_.dot(row.head(columns_)));
+  }
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trueflank/loop/gear/patches.h"
+
+namespace trueflank::loop {
+
+/// True for values that error figures are made of: flank points, traces, index, radial; not tips,
+/// bores and sizes, which only help to tell effects apart.
+[[nodiscard]] bool counts_as_error(ObservationKind kind);
+
+/// Joint least squares of effects and nuisance on the single values, with the patches' weights.
+/// Linear in the values: one pass gathers normal equations per unit. With a stride only every n-th
+/// value is used.
+class PointFit {
+ public:
+  PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+           std::vector<Effect> effects, std::size_t stride = 1);
+
+  [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
+  [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
+
+  struct Errors {
+    double rms_um = 0.0, held_out_rms_um = 0.0;
+  };
+  /// Errors with some effects left out (and all else refitted): held-out ones from a fit to the
+  /// training part, the others from a fit to all.
+  [[nodiscard]] Errors errors(const std::vector<bool>& with_effect) const;
+  /// Error [um] with the effects' coefficients given (in the order of columns, the nuisance left out) and
+  /// only the nuisance fitted: what a model learnt elsewhere leaves here.
+  [[nodiscard]] double rms_with_um(const Eigen::VectorXd& effect_coefficients) const;
+  /// Share of a column that is left beside all others: 0 where these data cannot show it.
+  [[nodiscard]] double retained(int column) const { return retained_[column]; }
+  /// Root mean square of a column over the values [um a unit of its coefficient].
+  [[nodiscard]] double column_size(int column) const;
+  /// Weighted share of the variance before that vanishes without an effect.
+  [[nodiscard]] double explained_fraction(int effect) const;
+
+  /// Coefficients of the fit to all data, effects' columns in order after the nuisance.
+  [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }
+  /// Covariance by leaving out one unit after the other; of columns that live in one or two units by
+  /// the spread of the other units' means.
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// Units that bear on a column, as degrees of freedom.
+  [[nodiscard]] double degrees(int column) const { return degrees_[column]; }
+  /// Standard deviation of the random error: residual over the degrees of freedom left.
+  [[nodiscard]] double noise_um() const { return noise_um_; }
+  /// Weighted residual square of the fit to all.
+  [[nodiscard]] double residual_square() const { return residual_square_; }
+
+  /// Residual of every row [um]: as fitted with all effects, and with none.
+  void residuals(std::vector<float>& before_um, std::vector<float>& after_um) const;
+
+  [[nodiscard]] int observations() const { return observations_; }
+  [[nodiscard]] int held_out() const { return held_out_; }
+
+ private:
+  void features(const Observation& row, double* values) const;
+  void average_zeros();
+  void accumulate();
+  void solve();
+  [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
+                                         const std::vector<int>& columns) const;
+  [[nodiscard]] std::vector<int> columns_with(const std::vector<bool>& with_effect) const;
+
+  const FlankGeometry& geometry_;
+  const Observations& table_;
+  const Patches& patches_;
+  std::size_t stride_;
+  NuisanceColumns nuisance_;
+  std::vector<Effect> effects_;
+  std::vector<int> first_column_;
+  int columns_ = 0;
+  std::vector<Eigen::VectorXd> zero_means_;  ///< per trace, training and held-out apart
+  std::vector<Eigen::VectorXd> whole_zero_means_;
+  std::vector<Eigen::MatrixXd> unit_grams_;  ///< last row and column: the values
+  std::vector<int> unit_kind_;
+  std::vector<Eigen::VectorXd> unit_sums_;   ///< weighted sums of all columns, the weight last
+  Eigen::MatrixXd train_, all_, plain_held_, plain_all_;
+  Eigen::VectorXd coefficients_;
+  Eigen::MatrixXd covariance_;
+  std::vector<double> degrees_, retained_;
+  double noise_um_ = 0.0, residual_square_ = 0.0;
+  int observations_ = 0, held_out_ = 0, zeros_ = 0;
+};
+
+}  // namespace trueflank::loop

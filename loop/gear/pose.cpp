@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/pose.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+namespace {
+
+using Points = std::vector<std::array<double, 3>>;
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+double quantile(std::vector<double> values, double share) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(
+                                        share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Every n-th point, so that at most about `most` remain: the same points every time.
+Points thinned(const Points& points, std::size_t most) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / most);
+  Points result;
+  for (std::size_t i = 0; i < points.size(); i += step) result.push_back(points[i]);
+  return result;
+}
+
+/// Principal directions of the points, the far ones left out step by step.
+Eigen::Matrix3d principal_directions(const Points& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> c;
+    for (const auto& p : points) c.push_back(p[k]);
+    mean[k] = quantile(c, 0.5);
+  }
+  double reach = 1e300;
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+  for (int round = 0; round < 4; ++round) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    std::vector<double> distances;
+    double count = 0.0;
+    for (const auto& p : points) {
+      const Eigen::Vector3d d = Eigen::Vector3d(p[0], p[1], p[2]) - mean;
+      distances.push_back(d.norm());
+      if (d.norm() > reach) continue;
+      sum += d;
+      moment += d * d.transpose();
+      count += 1.0;
+    }
+    sum /= count;
+    directions = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment / count -
+                                                                sum * sum.transpose())
+                     .eigenvectors();
+    mean += sum;
+    reach = 1.5 * quantile(distances, 0.9);
+  }
+  return directions;
+}
+
+Eigen::Matrix3d turn_onto_z(Eigen::Vector3d axis) {
+  if (axis.z() < 0.0) axis = -axis;
+  return Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+class PoseSearch {
+ public:
+  PoseSearch(const FlankGeometry& geometry, const Points& points)
+      : geometry_(geometry), coarse_(thinned(points, 1500)), fine_(thinned(points, 6000)) {}
+
+  Pose best() {
+    const Eigen::Matrix3d directions = principal_directions(fine_);
+    Pose best;
+    double best_cost = 1e300;
+    for (int k = 0; k < 3; ++k) {
+      Pose pose = start(turn_onto_z(directions.col(k)));
+      const double cost = search_phase(pose);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = pose;
+      }
+    }
+    return refined(best, fine_, 12);
+  }
+
+  /// Gauss-Newton with Tukey weights whose width follows the residual down.
+  Pose refined(Pose pose, const Points& points, int rounds) const {
+    double width = 0.3 * geometry_.gear().normal_module_mm;
+    for (int round = 0; round < rounds; ++round) {
+      const Vector5 step = newton_step(pose, points, width);
+      const Eigen::Vector3d turn(step[2], step[3], step[4]);
+      const double angle = turn.norm();
+      const Eigen::Matrix3d rotation =
+          angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
+                      : Eigen::Matrix3d::Identity();
+      pose.rotation = rotation * pose.rotation;
+      pose.translation_mm = rotation * pose.translation_mm + Eigen::Vector3d(step[0], step[1], 0.0);
+      place_height(pose, points);
+      if (round > 6 && step.norm() < 1e-11) break;
+    }
+    return pose;
+  }
+
+ private:
+  /// Middle of the points' height range onto the middle of the face.
+  void place_height(Pose& pose, const Points& points) const {
+    std::vector<double> z;
+    for (const auto& p : points) z.push_back(pose(p)[2]);
+    pose.translation_mm.z() +=
+        0.5 * (geometry_.face_width_mm() - quantile(z, 0.005) - quantile(z, 0.995));
+  }
+
+  /// Axis on z, centre by the tip circle.
+  Pose start(const Eigen::Matrix3d& rotation) const {
+    Pose pose;
+    pose.rotation = rotation;
+    place_height(pose, coarse_);
+    Eigen::Vector2d centre = circle_centre(pose);
+    for (int round = 0; round < 6; ++round) centre += tip_circle_step(pose, centre);
+    pose.translation_mm.head<2>() = -centre;
+    return pose;
+  }
+
+  /// Algebraic circle through all points: right within the tooth height for any sector.
+  [[nodiscard]] Eigen::Vector2d circle_centre(const Pose& pose) const {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const auto& p : coarse_) {
+      const auto q = pose(p);
+      const Eigen::Vector3d row(q[0], q[1], 1.0);
+      normal += row * row.transpose();
+      right += row * (q[0] * q[0] + q[1] * q[1]);
+    }
+    return 0.5 * normal.ldlt().solve(right).head<2>();
+  }
+
+  /// Step of the centre that brings the outermost (ring: innermost) points of each pitch onto the tip
+  /// circle.
+  [[nodiscard]] Eigen::Vector2d tip_circle_step(const Pose& pose, const Eigen::Vector2d& centre) const {
+    const int bins = std::clamp(geometry_.teeth(), 8, 48);
+    std::vector<std::vector<double>> radii(bins);
+    for (const auto& p : fine_) {
+      const auto q = pose(p);
+      const double x = q[0] - centre.x(), y = q[1] - centre.y();
+      const int bin = static_cast<int>(wrapped_rad(std::atan2(y, x)) / kTwoPi * bins) % bins;
+      radii[bin].push_back(geometry_.sense() * std::hypot(x, y));
+    }
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Identity() * 1e-9;
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    const double width = 2.0 * geometry_.gear().normal_module_mm;
+    for (int bin = 0; bin < bins; ++bin) {
+      if (radii[bin].size() < 5) continue;
+      const double gap = geometry_.sense() * quantile(radii[bin], 0.96) - geometry_.tip_radius_mm();
+      const double w = std::max(0.0, 1.0 - gap * gap / (width * width));
+      const double angle = (bin + 0.5) * kTwoPi / bins;
+      const Eigen::Vector2d row(std::cos(angle), std::sin(angle));
+      normal += w * row * row.transpose();
+      right += w * gap * row;
+    }
+    return normal.ldlt().solve(right);
+  }
+
+  [[nodiscard]] double cost(const Pose& pose) const {
+    const double reach = 0.2 * geometry_.gear().normal_module_mm;
+    double sum = 0.0;
+    for (const auto& p : coarse_) {
+      const PlacedPoint placed = geometry_.nearest(pose(p), reach);
+      sum += placed.place.surface == Surface::kNone ? reach : std::abs(placed.distance_mm);
+    }
+    return sum;
+  }
+
+  /// Best turn about the axis (and small shift), by trial; returns its cost.
+  double search_phase(Pose& pose) const {
+    const double pitch = kTwoPi / geometry_.teeth();
+    const double step = 0.25 * geometry_.gear().normal_module_mm;
+    constexpr int kPhases = 24;
+    std::vector<std::pair<double, Pose>> tried;
+    for (int i = 0; i < kPhases; ++i) {
+      Pose turned = pose;
+      const Eigen::Matrix3d r =
+          Eigen::AngleAxisd(pitch * i / kPhases, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      turned.rotation = r * turned.rotation;
+      turned.translation_mm = r * turned.translation_mm;
+      for (int dx = -1; dx <= 1; ++dx)
+        for (int dy = -1; dy <= 1; ++dy) {
+          Pose moved = turned;
+          moved.translation_mm += Eigen::Vector3d(dx * step, dy * step, 0.0);
+          tried.emplace_back(cost(moved), moved);
+        }
+    }
+    std::sort(tried.begin(), tried.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    double best = 1e300;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, tried.size()); ++i) {
+      const Pose refined_pose = refined(tried[i].second, coarse_, 8);
+      const double value = cost(refined_pose);
+      if (value < best) {
+        best = value;
+        pose = refined_pose;
+      }
+    }
+    return best;
+  }
+
+  /// Step (dx, dy, rotation vector) of one Gauss-Newton round; the width is the reach, then follows.
+  Vector5 newton_step(const Pose& pose, const Points& points, double& width) const {
+    struct Row {
+      double distance;
+      Vector5 gradient;
+    };
+    std::vector<Row> rows;
+    std::vector<double> sizes;
+    const double cos_helix = std::cos(geometry_.base_helix_rad());
+    for (const auto& p : points) {
+      const auto q = pose(p);
+      const PlacedPoint placed = geometry_.nearest_flank(q, 0.03);
+      if (placed.place.surface != Surface::kFlank || std::abs(placed.distance_mm) > width) continue;
+      const double nx = cos_helix * std::cos(placed.place.normal_rad);
+      const double ny = cos_helix * std::sin(placed.place.normal_rad);
+      const double nz = geometry_.normal_z(placed.place);
+      Vector5 g;
+      g << nx, ny, q[1] * nz - q[2] * ny, q[2] * nx - q[0] * nz, q[0] * ny - q[1] * nx;
+      rows.push_back({placed.distance_mm, g});
+      sizes.push_back(std::abs(placed.distance_mm));
+    }
+    if (rows.size() < 20) return Vector5::Zero();
+    Matrix5 normal = Matrix5::Zero();
+    Vector5 right = Vector5::Zero();
+    for (const Row& row : rows) {
+      const double t = row.distance / width;
+      const double w = (1.0 - t * t) * (1.0 - t * t);
+      normal += w * row.gradient * row.gradient.transpose();
+      right -= w * row.distance * row.gradient;
+    }
+    normal.diagonal() += Vector5::Constant(1e-9 * normal.trace());
+    const double scale = 1.4826 * quantile(sizes, 0.5);
+    width = std::clamp(6.0 * scale, 2e-3, width);
+    return normal.ldlt().solve(right);
+  }
+
+  const FlankGeometry& geometry_;
+  Points coarse_, fine_;
+};
+
+/// Of the equal poses (turned by whole pitches) the one that turns the scan least about z.
+Pose least_turned(const FlankGeometry& geometry, Pose pose) {
+  const Eigen::Matrix3d& r = pose.rotation;
+  const double angle = std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1));
+  const double pitch = kTwoPi / geometry.teeth();
+  const Eigen::Matrix3d back =
+      Eigen::AngleAxisd(-pitch * std::round(angle / pitch), Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  pose.rotation = back * pose.rotation;
+  pose.translation_mm = back * pose.translation_mm;
+  return pose;
+}
+
+}  // namespace
+
+PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan, const Pose& pose) {
+  const double reach = 0.3 * geometry.gear().normal_module_mm;
+  std::vector<double> distances;
+  double near = 0.0, all = 0.0;
+  for (const auto& p : thinned(scan.points_mm, 5000)) {
+    const auto q = pose(p);
+    const double radius = std::hypot(q[0], q[1]);
+    // Faces, hub and rim are no teeth: only what lies in the ring of the teeth counts.
+    const double low = std::min(geometry.tip_radius_mm(), geometry.root_radius_mm());
+    const double high = std::max(geometry.tip_radius_mm(), geometry.root_radius_mm());
+    if (radius < low - reach || radius > high + reach) continue;
+    all += 1.0;
+    const PlacedPoint placed = geometry.nearest_flank(q, 0.03);
+    if (placed.place.surface != Surface::kFlank) continue;
+    if (std::abs(placed.distance_mm) > reach) continue;
+    near += 1.0;
+    distances.push_back(placed.distance_mm);
+  }
+  PoseQuality quality;
+  quality.share = all > 0.0 ? near / all : 0.0;
+  if (distances.empty()) return quality;
+  // Points at random lie as far from a flank as the search reaches: half of them beyond half of it.
+  const double centre = quantile(distances, 0.5);
+  std::vector<double> spread;
+  for (const double d : distances) spread.push_back(std::abs(d - centre));
+  if (quantile(spread, 0.5) > 0.4 * reach) quality.share = 0.0;
+  for (double& d : distances) d = std::abs(d);
+  quality.median_mm = quantile(distances, 0.5);
+  return quality;
+}
+
+Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan) {
+  if (scan.points_mm.size() < 100)
+    return fail({.code = ErrorCode::kOutOfRange,
+                 .message = "a scan in free pose needs at least 100 points, this one has " +
+                            std::to_string(scan.points_mm.size()),
+                 .file = scan.file});
+  PoseSearch search(geometry, scan.points_mm);
+  Pose pose = search.best();
+  pose = search.refined(pose, thinned(scan.points_mm, 40000), 8);
+  return least_turned(geometry, pose);
+}
+
+}  // namespace trueflank::loop

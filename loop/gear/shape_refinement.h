@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/point_fit.h"
+
+namespace trueflank::loop {
+
+/// Moves the continuous shapes (heights, diameters, widths) of chosen effects from the grid they were
+/// chosen on to the best fit: Gauss-Newton jointly with all coefficients, a step's height by trial.
+void refine_shapes(const FlankGeometry& geometry, const Observations& table,
+                   const Patches& patches, std::vector<Effect>& effects);
+
+/// Uncertainty of a fit with what the shapes add to it.
+struct ShapeUncertainty {
+  /// Standard error of every shape value of every effect; NaN for fixed ones. For the height of a step
+  /// the resolution it was searched with.
+  std::vector<std::vector<double>> errors;
+  /// Covariance of the fit's coefficients with the shapes free too, in the fit's order of columns.
+  Eigen::MatrixXd covariance;
+};
+[[nodiscard]] ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry,
+                                                 const Observations& table, const Patches& patches,
+                                                 const PointFit& fit);
+
+}  // namespace trueflank::loop

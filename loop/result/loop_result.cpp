@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/result/loop_result.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trueflank/base/number_text.h"
+
+namespace trueflank::loop {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nine significant digits: far below any measurement, and the same text for the same result.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == 0.0) return 0.0;
+  const double scale = std::pow(10.0, 8.0 - std::floor(std::log10(std::abs(value))));
+  const double rounded = std::round(value * scale) / scale;
+  return std::isfinite(rounded) ? rounded : value;
+}
+
+/// A key that ends with the unit.
+std::string in(const ResultUnit& unit, const char* key) { return std::string(key) + "_" + unit.key; }
+
+Json figures(const ErrorFigures& f, const ResultUnit& unit) {
+  Json json = {{in(unit, "rms"), number(f.rms)},
+               {in(unit, "held_out_rms"), number(f.held_out_rms)},
+               {in(unit, "max"), number(f.max)}};
+  if (!unit.efficiency_points) return json;
+  json["rms_points"] = number(f.rms_points);
+  json["held_out_rms_points"] = number(f.held_out_rms_points);
+  return json;
+}
+
+Json terms_json(const std::vector<Term>& terms, const ResultUnit& unit) {
+  Json json = Json::array();
+  for (const Term& t : terms) {
+    Json term = Json::object();
+    for (const auto& [key, value] : t.keys) {
+      if (const double* real = std::get_if<double>(&value)) term[key] = number(*real);
+      else if (const int* whole = std::get_if<int>(&value)) term[key] = *whole;
+      else term[key] = std::get<std::string>(value);
+    }
+    term[in(unit, "cos")] = number(t.cos);
+    term[in(unit, "sin")] = number(t.sin);
+    term[in(unit, "amplitude")] = number(t.amplitude());
+    term[in(unit, "ci95_half")] = number(t.half_width);
+    term["text"] = t.text;
+    json.push_back(std::move(term));
+  }
+  return json;
+}
+
+Json possible_json(const std::vector<PossibleExplanation>& possible) {
+  Json json = Json::array();
+  for (const PossibleExplanation& p : possible) {
+    Json parameters = Json::object();
+    for (const Parameter& q : p.parameters) parameters[q.name] = number(q.value);
+    json.push_back({{"id", p.id},
+                    {"parameters", parameters},
+                    {"load_nm", number(p.load_nm)},
+                    {"explains", p.explains},
+                    {"left_points", number(p.left_points)},
+                    {"left_nm", number(p.left_nm)},
+                    {"text", p.text}});
+  }
+  return json;
+}
+
+Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
+  Json parameters = Json::object();
+  for (const Parameter& p : e.parameters)
+    parameters[p.name] = {{"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}};
+  Json json = {{"id", e.id},
+               {"named", e.named},
+               {"description", e.description},
+               {"cause", e.cause},
+               {"correction", e.correction},
+               {"flank", e.flank},
+               {"parameters", parameters},
+               {"explained_fraction", number(e.explained_fraction)},
+               {in(unit, "held_out_gain"), number(e.held_out_gain)},
+               {"confounded_with", e.confounded_with},
+               {"p_value", number(e.p_value)},
+               {"bic_gain", number(e.bic_gain)},
+               {"correctable", e.correctable}};
+  if (!e.side.empty()) json["side"] = e.side;
+  if (e.repeatable) {
+    json["repeatable"] = *e.repeatable;
+    json["repeatability_p_value"] = number(e.repeat_p_value);
+    if (!e.part.empty()) json["part"] = e.part;
+    Json in_parts = Json::object();
+    for (const auto& in_part : e.in_parts)
+      for (const auto& [name, value] : in_part.parameters) in_parts[in_part.part][name] = number(value);
+    json["in_parts"] = in_parts;
+  }
+  if (!e.form.empty()) {
+    Json form = Json::object();
+    for (const auto& [name, formula] : e.form) form[name] = formula;
+    json["form"] = form;
+  }
+  if (!e.terms.empty()) json["terms"] = terms_json(e.terms, unit);
+  return json;
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "-";
+  return std::abs(value) >= 100.0 ? printed("%.1f", value) : printed("%.3g", value);
+}
+
+}  // namespace
+
+double Term::amplitude() const { return std::hypot(cos, sin); }
+
+const char* to_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoEffect: return "no_effect";
+    case Verdict::kExplained: return "explained";
+    default: return "partly_explained";
+  }
+}
+
+std::string loop_json(const LoopResult& r) {
+  Json effects = Json::array();
+  for (const FoundEffect& effect : r.effects) effects.push_back(effect_json(effect, r.unit));
+  Json json = {{"format", "trueflank-loop"},
+               {"version", 1},
+               {"gear", r.gear},
+               {"data",
+                {{"observations", r.observations},
+                 {"held_out", r.held_out},
+                 {in(r.unit, "noise"), number(r.noise)},
+                 {"outliers", r.outliers}}},
+               {"before", figures(r.before, r.unit)},
+               {"after", figures(r.after, r.unit)},
+               {"structure", {{"p_value", number(r.structure_p_value)}}},
+               {"effects", effects},
+               {"structure_left",
+                {{"p_value", number(r.structure_left_p_value)}, {"description", r.structure_left}}},
+               {"verdict", to_text(r.verdict)},
+               {"not_observable", r.not_observable},
+               {"measure_next", r.measure_next},
+               {"notes", r.notes}};
+  if (!r.possible.empty()) json["possible"] = possible_json(r.possible);
+  if (!r.parts.empty()) {
+    Json parts = Json::array();
+    for (const auto& part : r.parts)
+      parts.push_back({{"name", part.name},
+                       {"observations", part.observations},
+                       {"before", figures(part.before, r.unit)},
+                       {"after", figures(part.after, r.unit)}});
+    json["parts"] = parts;
+    json["new_part"] = {{in(r.unit, "rms_before"), number(r.new_part_before)},
+                        {in(r.unit, "rms_after"), number(r.new_part_after)}};
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string loop_text(const LoopResult& r) {
+  const std::string unit = r.unit.text;
+  std::string text = r.gear + ": " + to_text(r.verdict) + "\n";
+  text += "  " + std::to_string(r.observations) + " values, " + std::to_string(r.held_out) +
+          " held out, " + std::to_string(r.outliers) + " outliers; noise " +
+          short_number(r.noise) + " " + unit + "\n";
+  text += "  error before " + short_number(r.before.rms) + " " + unit + " rms (held out " +
+          short_number(r.before.held_out_rms) + "), after " + short_number(r.after.rms) +
+          " (held out " + short_number(r.after.held_out_rms) + ")\n";
+  if (std::isfinite(r.before.rms_points))
+    text += "  in points of efficiency before " + short_number(r.before.rms_points) + " (held out " +
+            short_number(r.before.held_out_rms_points) + "), after " +
+            short_number(r.after.rms_points) + " (held out " +
+            short_number(r.after.held_out_rms_points) + ")\n";
+  for (const FoundEffect& e : r.effects) {
+    text += "  " + e.id + (e.flank == "both" ? "" : " (" + e.flank + " flank)") + ": " +
+            e.description + "\n";
+    if (e.repeatable)
+      text += *e.repeatable ? "    repeats from part to part (p = " + short_number(e.repeat_p_value) + ")\n"
+                            : "    one-off, on part " + e.part + "\n";
+    for (const Parameter& p : e.parameters) {
+      text += "    " + p.name + " = " + short_number(p.value);
+      if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
+      text += "\n";
+    }
+    if (std::isfinite(e.explained_fraction)) text += "    explains " + short_number(100.0 * e.explained_fraction) +
+            " % of the variance; without it the held-out error is " +
+            short_number(e.held_out_gain) + " " + unit + " larger\n";
+    if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
+    if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
+    if (!e.confounded_with.empty()) {
+      text += "    cannot be told from:";
+      for (const std::string& other : e.confounded_with) text += " " + other;
+      text += "\n";
+    }
+  }
+  if (!r.parts.empty())
+    text += "  a part not fitted to: " + short_number(r.new_part_before) + " " + unit +
+            " rms as designed, " + short_number(r.new_part_after) +
+            " with the repeatable effects of the others\n";
+  text += "  left: " + r.structure_left + " (p = " + short_number(r.structure_left_p_value) + ")\n";
+  for (const PossibleExplanation& p : r.possible) text += "  possible: " + p.text + "\n";
+  for (const std::string& next : r.measure_next) text += "  next: " + next + "\n";
+  for (const std::string& note : r.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/report/drawing/gear_table.h"
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "trueflank/export/number_text.h"
+#include "trueflank/geometry/flank_tolerance.h"
+
+namespace trueflank::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The value of one gear in one row; empty: the row says nothing of it.
+using Cell = std::function<std::string(const TrainGear&, const Json&)>;
+
+std::string number_of(const Json& gear, const char* key, int decimals) {
+  const Json& value = gear.at(key);
+  return value.is_number() ? drawing_number(value.get<double>(), decimals) : std::string();
+}
+
+Cell number(const char* key, int decimals) {
+  return [key, decimals](const TrainGear&, const Json& gear) { return number_of(gear, key, decimals); };
+}
+
+/// A size with its limits where the design has a thickness allowance.
+Cell with_limits(const char* key, const char* least, const char* most) {
+  return [=](const TrainGear&, const Json& gear) {
+    std::string text = number_of(gear, key, 3);
+    const Json& allowance = gear.at("thickness_allowance");
+    if (text.empty() || allowance.is_null() || !allowance.at(least).is_number()) return text;
+    return number_of(allowance, least, 3) + " .. " + number_of(allowance, most, 3);
+  };
+}
+
+std::string helix(const TrainGear&, const Json& gear) {
+  const double angle = gear.at("helix_angle_deg").get<double>();
+  if (angle == 0.0) return "0";
+  return drawing_number(std::abs(angle), 4) + " " + gear.at("hand").get<std::string>();
+}
+
+std::string rack_text(const TrainGear& gear, const Json&) {
+  const BasicRack& rack = gear.profile.gear().rack;
+  return drawing_number(rack.addendum, 3) + " / " + drawing_number(rack.dedendum, 3) + " / " +
+         drawing_number(gear.profile.root_radius_coefficient(), 3);
+}
+
+std::string diametral_pitch(const TrainGear&, const Json& gear) {
+  return drawing_number(25.4 / gear.at("normal_module_mm").get<double>(), 4);
+}
+
+/// Flank tolerances, or why there are none.
+Cell tolerance(int tolerance_class, double FlankTolerances::* value) {
+  return [=](const TrainGear& gear, const Json&) {
+    const auto tolerances =
+        flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), tolerance_class);
+    return tolerances ? drawing_number(1e-3 * (*tolerances).*value, 4) : std::string();
+  };
+}
+
+/// The meshes of a gear, in the order of the train.
+std::vector<const TrainMesh*> meshes_of(const GearTrain& train, const TrainGear& gear) {
+  std::vector<const TrainMesh*> meshes;
+  for (const TrainMesh& mesh : train.meshes)
+    if (&train.gears[static_cast<std::size_t>(mesh.gear1)] == &gear ||
+        &train.gears[static_cast<std::size_t>(mesh.gear2)] == &gear)
+      meshes.push_back(&mesh);
+  return meshes;
+}
+
+std::string mate_text(const GearTrain& train, const TrainMesh& mesh, const TrainGear& gear) {
+  const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
+  const TrainGear& mate = &gear1 == &gear ? train.gears[static_cast<std::size_t>(mesh.gear2)] : gear1;
+  return mate.name + ", z " + std::to_string(mate.profile.gear().teeth);
+}
+
+}  // namespace
+
+std::string drawing_number(double value, int decimals) {
+  if (std::isnan(value)) return "-";
+  const double unit = std::pow(10.0, decimals);
+  std::string text;
+  append_decimal(text, std::round(value * unit) / unit);
+  return text;
+}
+
+std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<const TrainGear*>& gears,
+                                     const Json& report, int tolerance_class) {
+  std::vector<GearTableRow> rows;
+  const auto add = [&](const char* name, const char* symbol, const Cell& cell) {
+    GearTableRow row{name, symbol, {}};
+    bool says = false;
+    for (const TrainGear* gear : gears) {
+      row.values.push_back(cell(*gear, report.at("gears").at(gear->name)));
+      says = says || !row.values.back().empty();
+    }
+    if (says) rows.push_back(std::move(row));
+  };
+  add("Gear", "", [](const TrainGear& g, const Json&) { return g.name; });
+  add("Number of teeth", "z", number("teeth", 0));
+  add("Normal module", "m_n", number("normal_module_mm", 6));
+  add("Normal diametral pitch", "P_nd", diametral_pitch);
+  add("Normal pressure angle, deg", "α_n", number("normal_pressure_angle_deg", 4));
+  add("Helix angle, deg", "β", helix);
+  add("Basic rack h_aP / h_fP / ρ_fP", "", rack_text);
+  add("Profile shift coefficient", "x", number("shift", 5));
+  add("Reference diameter", "d", number("reference_diameter_mm", 4));
+  add("Base diameter", "d_b", number("base_diameter_mm", 4));
+  add("Tip diameter", "d_a", number("tip_diameter_mm", 4));
+  add("Root diameter", "d_f", number("root_diameter_mm", 4));
+  add("Root form diameter", "d_Ff", number("root_form_diameter_mm", 4));
+  add("Start of active profile", "d_Nf", number("start_active_profile_diameter_mm", 4));
+  add("Thickness on d, transverse", "s_t", number("reference_thickness_mm", 4));
+  add("Teeth spanned", "k", number("span_teeth", 0));
+  add("Base tangent length", "W_k", with_limits("span_mm", "span_min_mm", "span_max_mm"));
+  add("Pin or ball diameter", "D_M", number("pin_diameter_mm", 3));
+  add("Over or between pins", "M_d", with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
+  add("Face width", "b", number("face_width_mm", 3));
+  add("Lead", "p_z", number("lead_mm", 4));
+  add("Centre distance", "a", [&](const TrainGear&, const Json&) {
+    const Json& a = report.at("train").at("centre_distance_mm");
+    return a.is_number() ? drawing_number(a.get<double>(), 4) : std::string();
+  });
+  for (std::size_t i = 0;; ++i) {
+    const std::size_t before = rows.size();
+    add("Mating gear", "", [&](const TrainGear& g, const Json&) {
+      const auto meshes = meshes_of(train, g);
+      return i < meshes.size() ? mate_text(train, *meshes[i], g) : std::string();
+    });
+    add("Circumferential backlash with it", "j_wt", [&](const TrainGear& g, const Json&) {
+      const auto meshes = meshes_of(train, g);
+      return i < meshes.size() ? number_of(report.at("meshes").at(meshes[i]->name), "backlash_mm", 4) : std::string();
+    });
+    if (rows.size() == before) break;
+  }
+  add("Flank tolerance class", "ISO 1328-1", [&](const TrainGear& g, const Json&) {
+    return flank_tolerances(tolerance_size(g.profile.gear(), g.face_width_mm), tolerance_class)
+               ? std::to_string(tolerance_class)
+               : std::string("outside its scope");
+  });
+  add("Single pitch", "±f_pT", tolerance(tolerance_class, &FlankTolerances::single_pitch_um));
+  add("Cumulative pitch", "F_pT", tolerance(tolerance_class, &FlankTolerances::total_cumulative_pitch_um));
+  add("Profile slope", "±f_HαT", tolerance(tolerance_class, &FlankTolerances::profile_slope_um));
+  add("Profile form", "f_fαT", tolerance(tolerance_class, &FlankTolerances::profile_form_um));
+  add("Total profile", "F_αT", tolerance(tolerance_class, &FlankTolerances::total_profile_um));
+  add("Helix slope", "±f_HβT", tolerance(tolerance_class, &FlankTolerances::helix_slope_um));
+  add("Helix form", "f_fβT", tolerance(tolerance_class, &FlankTolerances::helix_form_um));
+  add("Total helix", "F_βT", tolerance(tolerance_class, &FlankTolerances::total_helix_um));
+  add("Runout", "F_rT", tolerance(tolerance_class, &FlankTolerances::runout_um));
+  return rows;
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/report/drawing/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::io {
+namespace {
+
+constexpr double kArrowLength_mm = 2.8, kArrowHalfWidth_mm = 0.5;
+constexpr double kExtensionGap_mm = 0.8, kExtensionOver_mm = 1.6;
+constexpr double kTextGap_mm = 0.8, kDimensionText_mm = 2.5;
+
+}  // namespace
+
+double width_mm(Pen pen) {
+  switch (pen) {
+    case Pen::kThick: return 0.5;
+    case Pen::kThin: return 0.25;
+    case Pen::kChain: return 0.25;
+    case Pen::kHatch: return 0.18;
+    case Pen::kFrame: return 0.7;
+  }
+  return 0.25;
+}
+
+const char* to_text(Pen pen) {
+  switch (pen) {
+    case Pen::kThick: return "VISIBLE";
+    case Pen::kThin: return "THIN";
+    case Pen::kChain: return "CENTRE";
+    case Pen::kHatch: return "HATCH";
+    case Pen::kFrame: return "FRAME";
+  }
+  return "0";
+}
+
+void Sheet::line(const Point2& from, const Point2& to, Pen pen) {
+  paths.push_back({.points = {from, to}, .pen = pen});
+}
+
+void Sheet::circle(const Point2& centre, double radius_mm, Pen pen) {
+  arcs.push_back({.centre = centre, .radius_mm = radius_mm, .from_rad = 0.0, .to_rad = kTwoPi, .pen = pen});
+}
+
+void Sheet::box(const Point2& low, const Point2& high, Pen pen) {
+  paths.push_back({.points = {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, .closed = true, .pen = pen});
+}
+
+void Sheet::text(const Point2& at, std::string_view words, double letter_mm, TextAnchor anchor,
+                 double rotation_rad) {
+  texts.push_back({at, std::string(words), letter_mm, anchor, rotation_rad});
+}
+
+void Sheet::arrow(const Point2& tip, const Point2& direction) {
+  const Point2 back = tip - kArrowLength_mm * direction;
+  const Point2 side(-direction.y(), direction.x());
+  fills.push_back({tip, back + kArrowHalfWidth_mm * side, back - kArrowHalfWidth_mm * side});
+}
+
+void Sheet::hatch(const Point2& low, const Point2& high, bool rising, double spacing_mm) {
+  // lines y = c + s x with c on one grid for the whole sheet
+  const double s = rising ? 1.0 : -1.0;
+  const double step = spacing_mm * std::numbers::sqrt2;
+  const double c1 = low.y() - s * (rising ? high.x() : low.x());
+  const double c2 = high.y() - s * (rising ? low.x() : high.x());
+  for (double k = std::ceil(c1 / step); k * step < c2; k += 1.0) {
+    const double c = k * step;
+    double x1 = (low.y() - c) / s, x2 = (high.y() - c) / s;
+    if (x1 > x2) std::swap(x1, x2);
+    x1 = std::max(x1, low.x());
+    x2 = std::min(x2, high.x());
+    if (x2 - x1 > 0.05) line({x1, c + s * x1}, {x2, c + s * x2}, Pen::kHatch);
+  }
+}
+
+double text_width_mm(std::string_view utf8, double height_mm) {
+  // Helvetica: capitals are 0.72 of the type size, a mean letter 0.52 of it wide
+  const auto letters = std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  return 0.74 * height_mm * static_cast<double>(letters);
+}
+
+void horizontal_dimension(Sheet& sheet, const Dimension& d) {
+  const double y = d.line_at_mm;
+  const double x1 = std::min(d.from.x(), d.to.x()), x2 = std::max(d.from.x(), d.to.x());
+  for (const Point2& p : {d.from, d.to}) {
+    const double up = y > p.y() ? 1.0 : -1.0;
+    sheet.line({p.x(), p.y() + up * kExtensionGap_mm}, {p.x(), y + up * kExtensionOver_mm}, Pen::kThin);
+  }
+  const double width = text_width_mm(d.text, kDimensionText_mm);
+  const bool inside = x2 - x1 > 2.0 * kArrowLength_mm + 1.0;
+  const double reach = inside ? 0.0 : 6.0;
+  const bool text_inside = x2 - x1 > width + 1.0;
+  sheet.line({x1 - reach, y}, {x2 + reach, y}, Pen::kThin);
+  sheet.arrow({x1, y}, inside ? Point2(-1.0, 0.0) : Point2(1.0, 0.0));
+  sheet.arrow({x2, y}, inside ? Point2(1.0, 0.0) : Point2(-1.0, 0.0));
+  if (text_inside || inside)
+    sheet.text({0.5 * (x1 + x2), y + kTextGap_mm}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
+  else  // above the line, out of the way of its neighbours' texts
+    sheet.text({0.5 * (x1 + x2), y + kTextGap_mm + kDimensionText_mm + 0.7}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
+}
+
+void vertical_dimension(Sheet& sheet, const Dimension& d) {
+  const double x = d.line_at_mm;
+  const double y1 = std::min(d.from.y(), d.to.y()), y2 = std::max(d.from.y(), d.to.y());
+  for (const Point2& p : {d.from, d.to}) {
+    const double right = x > p.x() ? 1.0 : -1.0;
+    sheet.line({p.x() + right * kExtensionGap_mm, p.y()}, {x + right * kExtensionOver_mm, p.y()}, Pen::kThin);
+  }
+  const double width = text_width_mm(d.text, kDimensionText_mm);
+  const bool inside = y2 - y1 > 2.0 * kArrowLength_mm + 1.0;
+  const bool text_inside = y2 - y1 > width + 1.0;
+  const double reach = inside ? 0.0 : 6.0;
+  const double middle = 0.5 * (y1 + y2), beside = text_inside ? 0.0 : 0.5 * width;
+  sheet.line({x, std::min(y1 - reach, middle - beside)}, {x, std::max(y2 + reach, middle + beside)}, Pen::kThin);
+  sheet.arrow({x, y1}, inside ? Point2(0.0, -1.0) : Point2(0.0, 1.0));
+  sheet.arrow({x, y2}, inside ? Point2(0.0, 1.0) : Point2(0.0, -1.0));
+  sheet.text({x - kTextGap_mm, middle}, d.text, kDimensionText_mm, TextAnchor::kMiddle, 0.5 * kPi);
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/report/drawing/sheet_frame.h"
+
+#include <numeric>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::io {
+namespace {
+
+constexpr double kTableText_mm = 2.2, kLabel_mm = 1.6;
+
+void cell(Sheet& sheet, const Point2& low, const Point2& high, const std::string& label,
+          const std::string& words, double height_mm) {
+  sheet.box(low, high, Pen::kThin);
+  sheet.text({low.x() + 1.2, high.y() - 2.6}, label, kLabel_mm);
+  // long names shrink rather than leave their cell
+  const double room = high.x() - low.x() - 3.0;
+  const double width = text_width_mm(words, height_mm);
+  sheet.text({low.x() + 1.8, low.y() + 1.6}, words, width > room ? height_mm * room / width : height_mm);
+}
+
+/// The truncated cone that tells first-angle projection (ISO 5456-2).
+void projection_symbol(Sheet& sheet, const Point2& centre) {
+  const Point2 cone = centre + Point2(-4.5, 0.0), ends = centre + Point2(4.5, 0.0);
+  sheet.paths.push_back({.points = {cone + Point2(-3.0, -1.2), cone + Point2(3.0, -2.4), cone + Point2(3.0, 2.4),
+                                    cone + Point2(-3.0, 1.2)},
+                         .closed = true,
+                         .pen = Pen::kThin});
+  sheet.circle(ends, 2.4, Pen::kThin);
+  sheet.circle(ends, 1.2, Pen::kThin);
+  sheet.line(cone + Point2(-4.0, 0.0), ends + Point2(3.2, 0.0), Pen::kChain);
+}
+
+}  // namespace
+
+void draw_frame(Sheet& sheet, const TitleBlock& title) {
+  const Point2 low(kBorderLeft_mm, kBorder_mm), high(sheet.width_mm - kBorder_mm, sheet.height_mm - kBorder_mm);
+  sheet.box(low, high, Pen::kFrame);
+  const double x = high.x() - kTitleWidth_mm, y = low.y();
+  const double row = kTitleHeight_mm / 3.0;
+  sheet.box({x, y}, {high.x(), y + kTitleHeight_mm}, Pen::kThick);
+  const auto put = [&](double x1, double x2, int line, const char* label, const std::string& words, double h) {
+    cell(sheet, {x + x1, y + line * row}, {x + x2, y + (line + 1) * row}, label, words, h);
+  };
+  put(0, 62, 2, "General tolerances", "ISO 2768-mK", 2.5);
+  put(62, 120, 2, "Material", title.material, 2.5);
+  put(120, 180, 2, "Mass", title.mass, 2.5);
+  put(0, 62, 1, "Projection", "", 2.5);
+  projection_symbol(sheet, {x + 40.0, y + 1.5 * row});
+  put(62, 180, 1, "Title", title.part, 4.0);
+  put(0, 62, 0, "Made by", std::string("Trueflank ") + TRUEFLANK_VERSION, 2.5);
+  put(62, 130, 0, "Design", title.design, 3.0);
+  put(130, 155, 0, "Scale", title.scale, 3.0);
+  put(155, 180, 0, "Sheet", title.sheet_size, 3.0);
+}
+
+void draw_table(Sheet& sheet, const Point2& corner, const std::vector<TableColumn>& columns,
+                const std::vector<std::vector<std::string>>& rows) {
+  const double width = std::accumulate(columns.begin(), columns.end(), 0.0,
+                                       [](double sum, const TableColumn& c) { return sum + c.width_mm; });
+  const double left = corner.x() - width;
+  const double bottom = corner.y() - kRowHeight_mm * static_cast<double>(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double y = corner.y() - kRowHeight_mm * static_cast<double>(i + 1);
+    sheet.line({left, y}, {corner.x(), y}, i == 0 ? Pen::kThick : Pen::kThin);
+    double x = left;
+    for (std::size_t k = 0; k < columns.size() && k < rows[i].size(); ++k) {
+      const double room = columns[k].width_mm - 2.0;
+      const double words = text_width_mm(rows[i][k], kTableText_mm);
+      const double height = words > room ? kTableText_mm * room / words : kTableText_mm;
+      const bool right = columns[k].anchor == TextAnchor::kRight;
+      sheet.text({right ? x + columns[k].width_mm - 1.0 : x + 1.0, y + 1.2}, rows[i][k], height, columns[k].anchor);
+      x += columns[k].width_mm;
+    }
+  }
+  double x = left;
+  for (const TableColumn& column : columns) {
+    sheet.line({x, bottom}, {x, corner.y()}, x == left ? Pen::kThick : Pen::kThin);
+    x += column.width_mm;
+  }
+  sheet.box({left, bottom}, corner, Pen::kThick);
+}
+
+void draw_notes(Sheet& sheet, const Point2& corner, const std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    sheet.text({corner.x(), corner.y() + 4.0 * static_cast<double>(notes.size() - 1 - i)},
+               std::to_string(i + 1) + ". " + notes[i], 2.0);
+}
+
+const std::vector<std::pair<std::string, double>>& drawing_scales() {
+  static const std::vector<std::pair<std::string, double>> kScales = {
+      {"50:1", 50.0}, {"20:1", 20.0}, {"10:1", 10.0}, {"5:1", 5.0},   {"2:1", 2.0},    {"1:1", 1.0},    {"1:2", 0.5},
+      {"1:5", 0.2},   {"1:10", 0.1},  {"1:20", 0.05}, {"1:50", 0.02}, {"1:100", 0.01}, {"1:200", 5e-3}, {"1:500", 2e-3},
+      {"1:1000", 1e-3}, {"1:2000", 5e-4}, {"1:5000", 2e-4}};
+  return kScales;
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/report/loop_page.h"
+
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/export/xml_text.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// The house's colours and type, as in report.html.
+constexpr const char* kStyle = R"(
+:root{--paper:#f6f7f9;--card:#fff;--ink:#16202c;--soft:#5a6675;--line:#dde2e8;--accent:#0b5cad;--accent-soft:#e3eefa;
+--pass:#1b7f4b;--pass-soft:#e2f4ea;--warn:#96600a;--warn-soft:#fdf1d8;--none:#6b7683;--none-soft:#eceff2;color-scheme:light dark;
+--shadow:0 1px 2px rgb(15 25 40/7%),0 4px 16px rgb(15 25 40/5%)}
+@media(prefers-color-scheme:dark){:root{--paper:#10151b;--card:#181f27;--ink:#e6ebf1;--soft:#9aa7b5;--line:#2b3540;--accent:#79b4f0;
+--accent-soft:#1a2c40;--pass:#68c993;--pass-soft:#16301f;--warn:#e8b45a;--warn-soft:#33270f;--none:#97a3b0;--none-soft:#242d36;--shadow:none}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+main{max-width:75rem;margin:0 auto;padding:0 1.25rem 3rem}
+.brand{margin:0;padding:.55rem 0;font-weight:700;color:var(--accent)}
+h1{margin:1.2rem 0 .6rem;font-size:clamp(1.6rem,4.5vw,2.4rem);line-height:1.15;letter-spacing:-.015em;overflow-wrap:anywhere}
+h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;font-size:1.15rem}
+.verdict{display:inline-block;margin:0;padding:.45rem .9rem;border-radius:10px;font-weight:600}
+.explained{color:var(--pass);background:var(--pass-soft)}.partly_explained{color:var(--warn);background:var(--warn-soft)}
+.no_effect{color:var(--none);background:var(--none-soft)}
+.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.8rem;margin:1.25rem 0 0}
+.cards>div,.card,figure{background:var(--card);border:1px solid var(--line);border-radius:12px;box-shadow:var(--shadow)}
+.cards>div{padding:.8rem 1rem}.cards dt{color:var(--soft);font-size:.85rem}
+.cards dd{margin:.1rem 0 0;font-size:1.5rem;font-weight:650;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
+.cards small{font-size:.85rem;font-weight:500;color:var(--soft);margin-left:.3em;letter-spacing:0}
+.card{padding:1rem 1.2rem;margin:0 0 .9rem}.card p{margin:.4rem 0}.id{color:var(--soft);font-weight:500;font-size:.9rem;margin-left:.5em}
+.share{height:.5rem;border-radius:9px;background:var(--none-soft);overflow:hidden;max-width:24rem}.share i{display:block;height:100%;background:var(--accent)}
+.note{color:var(--soft);font-size:.92rem;max-width:50rem}
+.two{display:grid;grid-template-columns:1fr 1fr;gap:.8rem}figure{margin:0;padding:.7rem .8rem}figcaption{font-size:.9rem;color:var(--soft)}
+figcaption b{color:var(--ink)}svg{display:block;width:100%;height:auto}svg text{fill:var(--soft);font-size:12px}
+.grid{stroke:var(--line);fill:none}.zero{stroke:var(--soft);fill:none;stroke-width:.7;opacity:.6}
+.f{fill:var(--none);opacity:.55}.a{fill:var(--accent)}.z{stroke:var(--line);fill:none}
+.four{display:grid;grid-template-columns:repeat(4,1fr);gap:.8rem}.four svg text{font-size:10px}
+.t{stroke:var(--accent);fill:none;stroke-width:1.1}.b{fill:var(--accent)}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.95rem}td,th{padding:.3rem .8rem .3rem 0;text-align:left}
+th{color:var(--soft);font-weight:600}td+td,th+th{text-align:right}.words :is(td,th){text-align:left;vertical-align:top}.scroll{overflow-x:auto}
+pre{white-space:pre-wrap;font-size:.85rem;background:var(--card);border:1px solid var(--line);border-radius:12px;padding:1rem}
+summary{cursor:pointer;color:var(--accent)}
+@media(max-width:62rem){.four{grid-template-columns:1fr 1fr}}
+@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}}
+@media print{body{background:#fff}figure,.card{break-inside:avoid;box-shadow:none}details{display:none}}
+)";
+
+std::string escaped(const std::string& text) { return io::xml_escaped(text); }
+
+std::string number(double value, const char* format = "%.2f") {
+  if (std::isnan(value)) return "–";
+  return printed_number(value, format);
+}
+
+/// "tooth_thickness" as words.
+std::string words(std::string id) {
+  for (char& c : id)
+    if (c == '_') c = ' ';
+  return id;
+}
+
+std::string verdict_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoEffect: return "Nothing beyond the measurement's own noise";
+    case Verdict::kExplained: return "Explained: what is left is the measurement's own noise";
+    case Verdict::kPartlyExplained: return "Partly explained: structure is left";
+  }
+  return "";
+}
+
+std::string figure_cards(const LoopResult& r) {
+  const auto card = [&](const char* name, double value, const std::string& small, const char* format = "%.3g") {
+    return std::string("<div><dt>") + name + "</dt><dd>" + number(value, format) + "<small>" + small + "</small></dd></div>";
+  };
+  const std::string unit = std::string(r.unit.sign) + " rms";
+  return "<dl class='cards'>" + card("error before", r.before.rms, unit) + card("error after", r.after.rms, unit) +
+         card("held out, before", r.before.held_out_rms, unit) + card("held out, after", r.after.held_out_rms, unit) +
+         card("noise of the measurement", r.noise, r.unit.sign) +
+         card("observations", r.observations, std::to_string(r.held_out) + " held out, " + std::to_string(r.outliers) + " outliers", "%.0f") +
+         "</dl>";
+}
+
+std::string effect_card(const FoundEffect& e, bool of_flanks) {
+  std::string html = "<div class='card'><h3>" + escaped(e.named ? words(e.id) : "unnamed structure");
+  if (of_flanks)
+    html += "<span class='id'>" + (e.flank == "both" ? "both" : escaped(e.flank)) + " flanks</span>";
+  html += "</h3><p>" + escaped(e.description) + "</p>";
+  if (!e.parameters.empty()) {
+    html += "<div class='scroll'><table><tr><th>parameter</th><th>value</th><th>95 % interval</th></tr>";
+    for (const Parameter& p : e.parameters)
+      html += "<tr><td>" + escaped(p.name) + "</td><td>" + number(p.value, "%.4g") + "</td><td>" +
+              number(p.low, "%.4g") + " … " + number(p.high, "%.4g") + "</td></tr>";
+    html += "</table></div>";
+  }
+  const double percent = 100.0 * e.explained_fraction;
+  html += "<p>Without it " + number(percent, "%.1f") + " % of the variance would stay unexplained.</p><div class='share'><i style='width:" +
+          number(std::isnan(percent) ? 0.0 : std::fmin(100.0, std::fmax(0.0, percent)), "%.1f") + "%'></i></div>";
+  if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
+  if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
+  if (!e.confounded_with.empty())
+    html += "<p class='note'>These data cannot tell it from " + escaped(joined(e.confounded_with)) + ".</p>";
+  return html + "</div>";
+}
+
+std::string left_over(const LoopResult& r) {
+  std::string html = "<h2>What is left</h2><p>" + escaped(r.structure_left) +
+                     (std::isnan(r.structure_left_p_value) ? "" : " (p = " + number(r.structure_left_p_value, "%.2g") + ")") + "</p>";
+  const auto list = [&](const char* title, const std::vector<std::string>& items) {
+    if (items.empty()) return;
+    html += std::string("<p><b>") + title + "</b>";
+    if (items.size() == 1) {
+      html += " " + escaped(items.front()) + "</p>";
+      return;
+    }
+    html += "</p><ul>";
+    for (const std::string& item : items) html += "<li>" + escaped(item) + "</li>";
+    html += "</ul>";
+  };
+  list("Measure next:", r.measure_next);
+  if (!r.not_observable.empty())
+    html += "<p><b>These data cannot show:</b> " + escaped(joined(r.not_observable)) + "</p>";
+  list("Notes:", r.notes);
+  return html;
+}
+
+/// For the inside of a script element: nothing there may look like its end.
+std::string script_text(std::string text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+}  // namespace
+
+std::string loop_page_opening(const LoopResult& r, const std::string& heading) {
+  std::string page =
+      "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
+      escaped(r.gear) + " – Trueflank loop</title><style>" + kStyle +
+      "</style></head><body><main><p class='brand'>Trueflank</p><h1>" + escaped(heading) +
+      "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + figure_cards(r);
+  page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
+  for (const FoundEffect& effect : r.effects) page += effect_card(effect, !r.unit.efficiency_points);
+  return page + left_over(r);
+}
+
+std::string loop_page_end(const LoopResult& r) {
+  return "<h2>The same as text</h2><details><summary>what the program printed</summary><pre>" + escaped(loop_text(r)) +
+         "</pre></details><script type='application/json' id='loop-data'>" + script_text(loop_json(r)) +
+         "</script></main></body></html>\n";
+}
+
+}  // namespace trueflank::loop

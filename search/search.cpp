@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/search/search.h"
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "trueflank/train/efficiency.h"
+
+namespace trueflank {
+namespace {
+
+constexpr int kTightenings = 4;
+/// First extra distance from a limit a check found broken, in modules; four times that each time.
+constexpr double kFirstTightening = 5e-5;
+
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Limits whose reserve may mend a failed check.
+std::vector<Limit> limits_behind(const std::string& check) {
+  if (check == "overlap" || check == "fillet_interference" || check == "involute_interference")
+    return {Limit::kFillet, Limit::kTrochoid};
+  if (check == "trochoid_interference") return {Limit::kTrochoid};
+  if (check == "contact_ratio") return {Limit::kContactRatio};
+  if (check == "tip_clearance") return {Limit::kTipClearance};
+  if (check == "tip_thickness") return {Limit::kTipThickness};
+  if (check == "planet_spacing") return {Limit::kPlanetSpacing};
+  return {};
+}
+
+bool dominates(const SearchCandidate& p, const SearchCandidate& q,
+               const std::vector<SearchObjective>& objectives) {
+  bool better = false;
+  for (const SearchObjective objective : objectives) {
+    if (p.merit(objective) < q.merit(objective)) return false;
+    better = better || p.merit(objective) > q.merit(objective);
+  }
+  return better;
+}
+
+/// Best first by the first objective, then the others, then the set: a total order.
+struct BetterCandidate {
+  const std::vector<SearchObjective>* objectives;
+  bool operator()(const RankedCandidate& p, const RankedCandidate& q) const {
+    for (const SearchObjective objective : *objectives) {
+      const double mp = p.candidate.merit(objective), mq = q.candidate.merit(objective);
+      if (mp != mq) return mp > mq;
+    }
+    return p.set_index < q.set_index;
+  }
+};
+
+void mark_front(std::vector<RankedCandidate>& ranking,
+                const std::vector<SearchObjective>& objectives) {
+  // best first by the first objective: only those before can dominate; the front so far suffices
+  std::vector<const RankedCandidate*> front;
+  for (RankedCandidate& candidate : ranking) {
+    candidate.on_front = std::none_of(front.begin(), front.end(), [&](const RankedCandidate* f) {
+      return dominates(f->candidate, candidate.candidate, objectives);
+    });
+    if (candidate.on_front) front.push_back(&candidate);
+  }
+}
+
+/// Judges one candidate, with more distance from its limits where a check asks for it.
+class Judging {
+ public:
+  Judging(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+          const DesignJudge& judge, SearchReport& report)
+      : r_(requirements), enumeration_(enumeration), judge_(judge), report_(report) {}
+
+  /// The design where it passes as it is; otherwise a later place for its set in the ranking, or
+  /// nothing where no distance mends it.
+  std::optional<FoundDesign> judge(const RankedCandidate& ranked,
+                                   std::optional<RankedCandidate>& again) {
+    const ToothSet& set = enumeration_.sets[ranked.set_index];
+    const SearchModel model(r_, set);
+    FoundDesign found{.set = set, .candidate = ranked.candidate,
+                      .design = model.design(ranked.candidate.free)};
+    ++report_.judged;
+    const auto train = lay_out(found.design);
+    if (!train) {
+      count("layout");
+      return std::nullopt;
+    }
+    if (judge_) found.verdict = judge_(*train);
+    State& state = states_[ranked.set_index];
+    if (found.verdict.failed.empty()) {
+      const EfficiencyResult exact =
+          trueflank::efficiency(*train, {.model = LossModel::kPathIntegral});
+      found.exact_forward = exact.forward;
+      found.exact_backward = exact.backward;
+      found.tightened = *std::max_element(state.reserve.begin(), state.reserve.end());
+      return found;
+    }
+    again = tightened(ranked, set, found.verdict.failed, state);
+    if (!again) count(found.verdict.failed.front());
+    return std::nullopt;
+  }
+
+ private:
+  struct State {
+    LimitReserve reserve{};
+    int tightenings = 0;
+  };
+
+  std::optional<RankedCandidate> tightened(const RankedCandidate& ranked, const ToothSet& set,
+                                           const std::vector<std::string>& failed, State& state) {
+    if (r_.objectives.size() > 1 || state.tightenings == kTightenings) return std::nullopt;
+    ++state.tightenings;
+    bool mendable = false;
+    for (const std::string& check : failed)
+      for (const Limit limit : limits_behind(check)) {
+        double& reserve = state.reserve[static_cast<std::size_t>(limit)];
+        reserve = reserve == 0.0 ? kFirstTightening : 4.0 * reserve;
+        mendable = true;
+      }
+    if (!mendable) return std::nullopt;
+    const SetResult result = optimise_set(r_, set, state.reserve);
+    report_.evaluations += result.evaluations;
+    if (result.candidates.empty()) return std::nullopt;
+    return RankedCandidate{ranked.set_index, result.candidates.front(), false};
+  }
+
+  void count(const std::string& check) {
+    for (SetClass& c : report_.fell_in_checks)
+      if (c.id == check) {
+        ++c.count;
+        return;
+      }
+    report_.fell_in_checks.push_back({check, "fails the check and no distance mends it", 1});
+  }
+
+  const SearchRequirements& r_;
+  const SetEnumeration& enumeration_;
+  const DesignJudge& judge_;
+  SearchReport& report_;
+  std::map<std::size_t, State> states_;
+};
+
+void count_records(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+                   const std::vector<SearchRecord>& records, SearchReport& report) {
+  report.considered = enumeration.considered;
+  report.classes = enumeration.rejected;
+  report.sets = enumeration.sets.size();
+  report.optimised = records.size();
+  std::map<std::string, SetClass> by_limit;
+  for (const SearchRecord& record : records) {
+    report.evaluations += record.result.evaluations;
+    for (const SearchCandidate& candidate : record.result.candidates)
+      report.ranking.push_back({record.index, candidate, false});
+    if (!record.result.candidates.empty()) {
+      ++report.feasible;
+      continue;
+    }
+    SetClass c{"limits", "no shifts found that keep all limits", 0};
+    if (record.result.failed_limit == static_cast<int>(kLimits)) {
+      c = {"torque", "no shifts carry the output torque asked for", 0};
+    } else if (record.result.failed_limit >= 0) {
+      const LimitEntry& entry =
+          limit_entries()[static_cast<std::size_t>(record.result.failed_limit)];
+      c.id = std::string(to_text(entry.limit)) + ":" + entry.where;
+      c.description = "no shifts keep this limit together with the others";
+    }
+    by_limit.try_emplace(c.id, c).first->second.count++;
+  }
+  for (const auto& [id, c] : by_limit) report.classes.push_back(c);
+  std::sort(report.ranking.begin(), report.ranking.end(),
+            BetterCandidate{&requirements.objectives});
+  mark_front(report.ranking, requirements.objectives);
+}
+
+}  // namespace
+
+std::vector<SearchRecord> run_search(const SearchRequirements& requirements,
+                                     const SetEnumeration& enumeration,
+                                     const SearchRunOptions& options) {
+  std::map<std::size_t, SearchRecord> records;
+  for (const SearchRecord& record : options.done)
+    if (options.part.holds(record.index)) records.insert({record.index, record});
+  std::vector<std::size_t> open;
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < enumeration.sets.size(); ++i) {
+    if (!options.part.holds(i)) continue;
+    ++total;
+    if (!records.contains(i)) open.push_back(i);
+  }
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      while (!(options.stop && options.stop->load())) {
+        const std::size_t k = next.fetch_add(1);
+        if (k >= open.size()) return;
+        SearchRecord record{open[k], optimise_set(requirements, enumeration.sets[open[k]])};
+        const std::lock_guard lock(mutex);
+        const auto it = records.insert({record.index, std::move(record)}).first;
+        if (options.on_record) options.on_record(it->second, records.size(), total);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = open.size();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int t = 1; t < thread_count(options.threads); ++t) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  std::vector<SearchRecord> result;
+  for (auto& [index, record] : records) result.push_back(std::move(record));
+  return result;
+}
+
+SearchReport conclude_search(const SearchRequirements& requirements,
+                             const SetEnumeration& enumeration,
+                             const std::vector<SearchRecord>& records, const DesignJudge& judge) {
+  SearchReport report;
+  count_records(requirements, enumeration, records, report);
+  const BetterCandidate better{&requirements.objectives};
+  std::vector<RankedCandidate> queue;
+  for (const RankedCandidate& candidate : report.ranking)
+    if (requirements.objectives.size() == 1 || candidate.on_front) queue.push_back(candidate);
+  Judging judging(requirements, enumeration, judge, report);
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    if (report.designs.size() >= static_cast<std::size_t>(requirements.results)) break;
+    std::optional<RankedCandidate> again;
+    if (auto found = judging.judge(queue[i], again)) {
+      report.designs.push_back(std::move(*found));
+    } else if (again) {
+      const auto from = queue.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      queue.insert(std::upper_bound(from, queue.end(), *again, better), *again);
+    }
+  }
+  return report;
+}
+
+}  // namespace trueflank

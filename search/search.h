@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trueflank/search/search_enumerate.h"
+#include "trueflank/search/search_optimise.h"
+#include "trueflank/search/search_requirements.h"
+#include "trueflank/train/gear_train.h"
+
+// A search: enumerate, optimise every set that is left (in parallel, in parts, resumable), then rank
+// and let the exact checks judge from the best downwards. Everything but the run itself is a pure
+// function, so that parts put together give the answer of one run.
+namespace trueflank {
+
+/// The optimised set of an index into SetEnumeration::sets.
+struct SearchRecord {
+  std::size_t index = 0;
+  SetResult result;
+};
+
+/// Part `part` (1-based) of `parts`: the sets whose index leaves part - 1 when divided by parts.
+struct SearchPart {
+  int part = 1, parts = 1;
+  [[nodiscard]] bool holds(std::size_t index) const {
+    return index % static_cast<std::size_t>(parts) == static_cast<std::size_t>(part - 1);
+  }
+};
+
+struct SearchRunOptions {
+  int threads = 0;  ///< 0: as many as the machine has
+  SearchPart part;
+  std::vector<SearchRecord> done;           ///< of an earlier run: not computed again
+  const std::atomic<bool>* stop = nullptr;  ///< set: what is under way is finished, no more started
+  /// Called for every new record, one call at a time, in no fixed order.
+  std::function<void(const SearchRecord&, std::size_t finished, std::size_t total)> on_record;
+};
+
+/// Optimises the sets of one part. Returns the records of the part, old and new, by index: all of
+/// them, or fewer where it was stopped.
+/// Guarantees: the same records for any number of threads and whatever was done before.
+[[nodiscard]] std::vector<SearchRecord> run_search(const SearchRequirements& requirements,
+                                                   const SetEnumeration& enumeration,
+                                                   const SearchRunOptions& options = {});
+
+/// What the exact checks say of a design.
+struct DesignVerdict {
+  std::vector<std::string> failed;  ///< ids; empty: it passes
+  std::vector<std::string> warned;
+};
+using DesignJudge = std::function<DesignVerdict(const GearTrain&)>;
+
+/// A candidate in the ranking.
+struct RankedCandidate {
+  std::size_t set_index = 0;
+  SearchCandidate candidate;
+  bool on_front = false;  ///< not dominated (one objective: the best)
+};
+
+/// A design that passed the checks.
+struct FoundDesign {
+  ToothSet set;
+  SearchCandidate candidate;
+  GearboxDesign design;
+  DesignVerdict verdict;
+  double exact_forward = kNaN, exact_backward = kNaN;  ///< by the path integral
+  double tightened = 0.0;  ///< reserve the checks asked for beyond the limits, in modules
+};
+
+struct SearchReport {
+  long long considered = 0;
+  std::vector<SetClass> classes;  ///< of everything that fell, whole numbers first, then shifts
+  std::size_t sets = 0;           ///< that were to be optimised
+  std::size_t optimised = 0;      ///< that were; fewer: stopped early
+  std::size_t feasible = 0;       ///< with shifts that keep all limits
+  long long evaluations = 0;      ///< of a layer
+  std::vector<RankedCandidate> ranking;  ///< of all candidates, best first
+  std::vector<FoundDesign> designs;      ///< judged, best first
+  std::size_t judged = 0;
+  std::vector<SetClass> fell_in_checks;  ///< by check id, of those judged
+};
+
+/// Ranks records and judges from the best until enough designs passed. A design that fails a check is
+/// optimised again with more distance from the limits concerned, at most three times.
+/// `threads` as above. Guarantees: a function of records alone, not of how they came about.
+[[nodiscard]] SearchReport conclude_search(const SearchRequirements& requirements,
+                                           const SetEnumeration& enumeration,
+                                           const std::vector<SearchRecord>& records,
+                                           const DesignJudge& judge);
+
+/// @name Journal: one line a record, read back bit for bit
+/// @{
+[[nodiscard]] std::string journal_header(const SearchRequirements& requirements,
+                                         const SetEnumeration& enumeration);
+[[nodiscard]] std::string journal_line(const SearchRecord& record);
+/// Reads header and records; a last line cut short is left out. Errors: kInconsistent where the
+/// journal is of other requirements, kSyntax.
+[[nodiscard]] Result<std::vector<SearchRecord>> read_journal(const std::string& text,
+                                                             const SearchRequirements& requirements,
+                                                             const SetEnumeration& enumeration);
+/// @}
+
+}  // namespace trueflank

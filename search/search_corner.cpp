@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The corner's path in the frame of the gear whose root it visits: at each radius of the root curve
+// the law of cosines gives the mate's position, the ratio the gear's. Derivation: docs/search.md.
+#include "trueflank/search/search_corner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank {
+namespace {
+
+constexpr int kFilletPoints = 24;
+constexpr int kFlankPoints = 8;
+constexpr int kGoldenSteps = 14;
+/// Between samples the clearance changes by less than this, of modules as of mm.
+constexpr double kClose_mm = 0.02;
+/// One sample in so many is looked at first. Where all of them are this far, the others do not
+/// matter: between them the clearance changes by less than half of it.
+constexpr int kSkipped = 4;
+constexpr double kFar_mm = 0.2;
+
+/// Tip corner of the mate, in the frame of the visited gear.
+struct CornerPath {
+  double centre_distance = 0.0;
+  double tip_radius = 0.0;      ///< of the mate
+  double half_angle = 0.0;      ///< of the mate's tooth at its tip
+  double mate_per_gear = 0.0;   ///< teeth of the mate / teeth of the visited gear
+  enum class Kind { kExternalPair, kRingTipInPlanet, kPlanetTipInRing } kind = Kind::kExternalPair;
+
+  /// Largest angle from the middle of the visited gap at which the corner crosses a radius; negative
+  /// where it never gets there.
+  [[nodiscard]] double widest_angle(double radius) const {
+    const double a = centre_distance, t = tip_radius;
+    const double sign = kind == Kind::kPlanetTipInRing ? -1.0 : 1.0;
+    const double cosine = sign * (a * a + t * t - radius * radius) / (2.0 * a * t);
+    if (cosine >= 1.0 || cosine <= -1.0) return -1.0;
+    // before and after the line of centres: (+-beta - half_angle) mate_per_gear -+ psi
+    const double beta = std::acos(cosine), across = t * std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    const double turned = beta * mate_per_gear - std::atan2(across, from_axis(t * cosine));
+    return std::abs(turned) + std::abs(half_angle) * mate_per_gear;
+  }
+
+ private:
+  /// Of the corner from the visited gear's axis along the line of centres.
+  [[nodiscard]] double from_axis(double along) const {
+    switch (kind) {
+      case Kind::kExternalPair: return centre_distance - along;
+      case Kind::kRingTipInPlanet: return along - centre_distance;
+      case Kind::kPlanetTipInRing: return centre_distance + along;
+    }
+    return 0.0;
+  }
+};
+
+double clearance_at(const CornerPath& path, const Point2& point, int teeth) {
+  const double radius = point.norm();
+  const double widest = path.widest_angle(radius);
+  if (widest < 0.0) return 1e9;
+  const double gap = kPi / teeth - std::atan2(point.y(), point.x());
+  return radius * (gap - widest);
+}
+
+/// Smallest clearance over a stretch of a curve: sampled, then refined between the neighbours of the
+/// smallest sample where that is close enough to matter.
+double least_over(const CornerPath& path, const Curve& curve, double from, double to, int count,
+                  int teeth) {
+  const auto clearance = [&](double u) {
+    return clearance_at(path, point_at(curve, from + (to - from) * u), teeth);
+  };
+  int nearest = 0;
+  double least = 1e9;
+  for (int i = 0; i <= count; i += kSkipped)
+    least = std::min(least, clearance(static_cast<double>(i) / count));
+  if (least > kFar_mm) return least;
+  least = 1e9;
+  for (int i = 0; i <= count; ++i) {
+    const double here = clearance(static_cast<double>(i) / count);
+    if (here < least) least = here, nearest = i;
+  }
+  if (least > kClose_mm) return least;
+  double low = std::max(0, nearest - 1) / static_cast<double>(count);
+  double high = std::min(count, nearest + 1) / static_cast<double>(count);
+  constexpr double kGolden = 0.6180339887498949;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = clearance(left), at_right = clearance(right);
+  for (int i = 0; i < kGoldenSteps; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      at_left = clearance(left = high - kGolden * (high - low));
+    } else {
+      low = left, left = right, at_left = at_right;
+      at_right = clearance(right = low + kGolden * (high - low));
+    }
+  }
+  return std::min({least, at_left, at_right});
+}
+
+/// `beyond_mm`: how far the mate's tip reaches past the tangent point of the base circle, if > 0.
+double least_clearance(const CornerPath& path, const ToothProfile& profile, double beyond_mm) {
+  const int teeth = profile.gear().teeth;
+  double least = 1e9;
+  for (const ProfilePiece& piece : profile.pieces()) {
+    const Curve& curve = piece.curve;
+    if (piece.kind == PieceKind::kFillet)
+      least = std::min(least, least_over(path, curve, curve.begin, curve.end, kFilletPoints, teeth));
+    if (piece.kind == PieceKind::kInvolute && beyond_mm > 0.0) {
+      // parameter = roll angle; pieces run from the tip, so `end` is at the root form circle
+      const double reach = 2.0 * beyond_mm / base_radius_mm(profile.gear());
+      const double span = std::min(reach, std::abs(curve.end - curve.begin));
+      const double top = curve.end + (curve.begin > curve.end ? span : -span);
+      least = std::min(least, least_over(path, curve, curve.end, top, kFlankPoints, teeth));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double corner_clearance_in_gear1_mm(const GearPair& pair) {
+  const ToothProfile& mate = *pair.profile2;
+  CornerPath path;
+  path.centre_distance = pair.centre_distance_mm;
+  path.tip_radius = mate.tip_form_radius_mm();
+  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
+  path.mate_per_gear = static_cast<double>(pair.gear2().teeth) / pair.gear1().teeth;
+  path.kind = pair.internal() ? CornerPath::Kind::kRingTipInPlanet : CornerPath::Kind::kExternalPair;
+  return least_clearance(path, *pair.profile1, -line_of_action(pair).start_mm);
+}
+
+double corner_clearance_in_gear2_mm(const GearPair& pair) {
+  const ToothProfile& mate = *pair.profile1;
+  CornerPath path;
+  path.centre_distance = pair.centre_distance_mm;
+  path.tip_radius = mate.tip_form_radius_mm();
+  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
+  path.mate_per_gear = static_cast<double>(pair.gear1().teeth) / pair.gear2().teeth;
+  path.kind = pair.internal() ? CornerPath::Kind::kPlanetTipInRing : CornerPath::Kind::kExternalPair;
+  double beyond = 0.0;
+  if (!pair.internal()) {
+    const double span = pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair));
+    beyond = line_of_action(pair).end_mm - span;
+  }
+  return least_clearance(path, *pair.profile2, beyond);
+}
+
+}  // namespace trueflank

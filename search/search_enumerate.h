@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/search/search_requirements.h"
+
+namespace trueflank {
+
+/// One choice of the whole numbers (and the ratio of the modules).
+struct ToothSet {
+  int sun = 0, planet1 = 0, ring1 = 0, planet2 = 0, ring2 = 0;
+  OutputMember output = OutputMember::kRing2;
+  double layer2_module_ratio = 1.0;
+  /// Centre distances, in modules of layer 1, at which all shifts can lie within their bounds.
+  double centre_distance_min = 0.0, centre_distance_max = 0.0;
+
+  bool operator==(const ToothSet&) const = default;
+};
+
+/// Sun speed over output speed, signed; infinite where the output stands still.
+[[nodiscard]] double signed_ratio(const ToothSet& set);
+
+/// Why a class of sets fell, and how many sets.
+struct SetClass {
+  std::string id;           ///< "assembly", "centre_distance_layer1", ...
+  std::string description;
+  long long count = 0;
+};
+
+struct SetEnumeration {
+  long long considered = 0;        ///< every combination within the tooth limits
+  std::vector<SetClass> rejected;  ///< in the order of the tests; their counts and the size of
+                                   ///< `sets` add up to `considered`
+  std::vector<ToothSet> sets;      ///< in a fixed order
+};
+
+/// Every tooth set within the limits that passes what can be decided from whole numbers and shift
+/// bounds alone: exact conditions, and for colliding planets a bound that no choice of shifts passes.
+/// Guarantees: no set that has a solution is left out (tested against plain enumeration).
+[[nodiscard]] SetEnumeration enumerate_sets(const SearchRequirements& requirements);
+
+/// @name The conditions themselves, for one set; enumerate_sets applies them in this order.
+/// @{
+[[nodiscard]] bool sun_and_ring_accept_planets(const ToothSet& set, int planets);
+[[nodiscard]] bool planets_are_identical(const ToothSet& set, int planets);
+[[nodiscard]] bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements);
+/// @}
+
+}  // namespace trueflank

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/search/search_requirements.h"
+
+#include <charconv>
+
+namespace trueflank {
+namespace {
+
+class Text {
+ public:
+  void add(const char* key, double value) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    text_ += std::string(key) + "=" + std::string(buffer, end) + "\n";
+  }
+  void add(const char* key, const std::string& value) {
+    text_ += std::string(key) + "=" + value + "\n";
+  }
+  void add(const char* key, const ToothRange& range) {
+    add(key, std::to_string(range.min) + ".." + std::to_string(range.max));
+  }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void add_strength(const StrengthOptions& s, Text& text) {
+  text.add("material", s.material);
+  for (const auto& [gear, material] : s.material_of) text.add("material_of", gear + ":" + material);
+  for (const Material& m : s.materials.all()) {
+    text.add("table", m.name);
+    for (const double v : {m.bending_limit_mpa, m.contact_limit_mpa, m.elastic_modulus_mpa,
+                           m.poisson_ratio})
+      text.add("value", v);
+  }
+  for (const double v : {s.reversing ? 1.0 : 0.0, s.overload_factor, s.dynamic_factor,
+                         s.face_load_factor, s.planet_load_factor, s.bending_life_factor,
+                         s.contact_life_factor, s.lubrication_factor, s.bending_safety,
+                         s.contact_safety})
+    text.add("factor", v);
+}
+
+void check_range(const char* key, const ToothRange& range, int least, Errors& errors) {
+  if (range.min < least || range.max < range.min || range.max > 1000)
+    errors.push_back({.code = ErrorCode::kOutOfRange,
+                      .message = "no tooth numbers in this range",
+                      .key = std::string("teeth.") + key,
+                      .value = std::to_string(range.min) + " to " + std::to_string(range.max),
+                      .remedy = "least " + std::to_string(least) + ", most 1000, in this order"});
+}
+
+void require(bool good, const char* key, double value, const char* message, const char* remedy,
+             Errors& errors) {
+  if (!good)
+    errors.push_back({.code = ErrorCode::kOutOfRange, .message = message, .key = key,
+                      .value = std::to_string(value), .remedy = remedy});
+}
+
+}  // namespace
+
+const char* to_text(OutputMember output) {
+  switch (output) {
+    case OutputMember::kRing2: return "ring2";
+    case OutputMember::kRing1: return "ring1";
+    case OutputMember::kCarrier: return "carrier";
+    case OutputMember::kRing: return "ring";
+  }
+  return "";
+}
+
+const char* to_text(SearchObjective objective) {
+  switch (objective) {
+    case SearchObjective::kForward: return "forward";
+    case SearchObjective::kBackward: return "backward";
+    case SearchObjective::kTorque: return "torque";
+    case SearchObjective::kSize: return "size";
+  }
+  return "";
+}
+
+Errors validate(const SearchRequirements& r) {
+  Errors errors;
+  require(r.ratio_min > 1.0, "ratio.min", r.ratio_min, "a reducer's ratio is above 1",
+          "input speed over output speed, above 1", errors);
+  require(r.ratio_max >= r.ratio_min, "ratio.max", r.ratio_max, "the ratio range is empty",
+          "not below ratio.min", errors);
+  require(r.planets >= 1 && r.planets <= 20, "gearbox.planets", r.planets, "no such planet carrier",
+          "1 to 20", errors);
+  check_range("sun", r.sun, 4, errors);
+  check_range("planet1", r.planet1, 4, errors);
+  check_range("ring1", r.ring1, 6, errors);
+  check_range("planet2", r.planet2, 4, errors);
+  check_range("ring2", r.ring2, 6, errors);
+  require(r.shift_max > r.shift_min, "shift.max", r.shift_max, "the shift range is empty",
+          "above shift.min", errors);
+  require(r.contact_ratio_min >= 1.0, "contact_ratio.min", r.contact_ratio_min,
+          "contact would be interrupted", "1 or more", errors);
+  require(r.contact_ratio_max > r.contact_ratio_min, "contact_ratio.max", r.contact_ratio_max,
+          "the contact ratio range is empty", "above contact_ratio.min", errors);
+  if (r.output_torque_nm)
+    require(*r.output_torque_nm > 0.0, "strength.output_torque_nm", *r.output_torque_nm,
+            "no torque to carry", "above 0, or leave it out", errors);
+  if (!r.strength.materials.find(r.strength.material))
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "no material of this name in the table",
+                      .key = "strength.material",
+                      .value = r.strength.material,
+                      .remedy = "a built-in material (docs/strength.md) or one of [materials]"});
+  return errors;
+}
+
+std::string fingerprint(const SearchRequirements& r) {
+  Text text;
+  for (const OutputMember output : r.outputs) text.add("output", to_text(output));
+  text.add("planets", r.planets);
+  text.add("friction", r.friction);
+  text.add("face_width_mm", r.face_width_mm);
+  text.add("backlash_mm", r.backlash_mm);
+  text.add("pressure_angle_rad", r.rack.pressure_angle_rad);
+  text.add("addendum", r.rack.addendum);
+  text.add("dedendum", r.rack.dedendum);
+  text.add("root_radius", r.rack.root_radius);
+  text.add("module_mm", r.module_mm);
+  text.add("outer_diameter_mm", r.outer_diameter_mm.value_or(kNaN));
+  text.add("rim", r.rim);
+  for (const double ratio : r.layer2_module_ratios) text.add("layer2_module_ratio", ratio);
+  text.add("ratio_min", r.ratio_min);
+  text.add("ratio_max", r.ratio_max);
+  text.add("direction", static_cast<int>(r.direction));
+  text.add("sun", r.sun);
+  text.add("planet1", r.planet1);
+  text.add("ring1", r.ring1);
+  text.add("planet2", r.planet2);
+  text.add("ring2", r.ring2);
+  text.add("identical_planets", r.identical_planets ? 1.0 : 0.0);
+  text.add("shift_min", r.shift_min);
+  text.add("shift_max", r.shift_max);
+  text.add("contact_ratio_min", r.contact_ratio_min);
+  text.add("contact_ratio_max", r.contact_ratio_max);
+  text.add("tip_clearance", r.tip_clearance);
+  text.add("tip_thickness", r.tip_thickness);
+  text.add("planet_clearance_mm", r.planet_clearance_mm);
+  text.add("output_torque_nm", r.output_torque_nm.value_or(kNaN));
+  text.add("loss_model", static_cast<int>(r.loss_model));
+  if (r.losses) {
+    const LossesDesign& l = *r.losses;
+    for (const double value :
+         {l.load_nm, l.input_speed_rpm, l.temperature_c.value_or(kNaN), l.reference_c, l.drag_torque_nm,
+          l.drag_per_c, l.viscous_nm_per_rpm, l.viscous_per_c, l.bearing_nm_at_1000_rpm,
+          l.bearing_load_share, l.stribeck_torque_nm, l.stribeck_speed_rpm,
+          l.backward_friction.value_or(kNaN), l.load_friction, l.load_friction_exponent,
+          l.load_friction_reference_nm, l.mixed_friction, l.mixed_friction_speed_rpm})
+      text.add("loss", value);
+  }
+  for (const SearchObjective objective : r.objectives) text.add("objective", to_text(objective));
+  add_strength(r.strength, text);
+  return text.take();
+}
+
+}  // namespace trueflank

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/result.h"
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/basic_rack.h"
+#include "trueflank/train/efficiency.h"
+#include "trueflank/train/gearbox_design.h"
+#include "trueflank/train/strength.h"
+
+// What a search for 3k designs is asked for (docs/search.md); the file is read by design/.
+namespace trueflank {
+
+/// The member that drives out of the sets searched for. 3k: ring2 (type I) or ring1 (type II).
+enum class OutputMember { kRing2, kRing1, kCarrier, kRing };
+[[nodiscard]] const char* to_text(OutputMember output);
+
+/// Inclusive range of tooth numbers.
+struct ToothRange {
+  int min = 0, max = 0;
+  [[nodiscard]] long long count() const { return max < min ? 0 : max - min + 1LL; }
+};
+
+enum class SearchObjective {
+  kForward,   ///< forward efficiency, to be large
+  kBackward,  ///< backward efficiency, to be large
+  kTorque,    ///< allowable output torque, to be large
+  kSize,      ///< outer diameter of the larger ring, to be small
+};
+[[nodiscard]] const char* to_text(SearchObjective objective);
+
+enum class OutputDirection { kAny, kSame, kOpposite };
+
+struct SearchRequirements {
+  std::string name = "search";
+  std::vector<OutputMember> outputs{OutputMember::kRing2};  ///< kRing2: type I, kRing1: type II
+  int planets = 3;
+  double friction = 0.1;
+  double face_width_mm = 10.0;
+  double backlash_mm = 0.0;
+  BasicRack rack;
+
+  /// Module of layer 1; with an outer diameter the module follows from it instead.
+  double module_mm = 1.0;
+  std::optional<double> outer_diameter_mm;
+  double rim = 2.5;  ///< of a ring outside its root circle, coefficient of its module
+  std::vector<double> layer2_module_ratios{1.0};  ///< module of layer 2 over that of layer 1
+
+  double ratio_min = kNaN, ratio_max = kNaN;  ///< of |input speed / output speed|
+  OutputDirection direction = OutputDirection::kAny;
+  ToothRange sun{6, 60}, planet1{6, 60}, ring1{12, 120}, planet2{6, 60}, ring2{12, 120};
+  bool identical_planets = true;  ///< bodies must all be alike at equal spacing
+
+  double shift_min = -2.0, shift_max = 2.0;
+  double contact_ratio_min = 1.0, contact_ratio_max = 2.0;
+  double tip_clearance = 0.1;        ///< least, coefficient of the module
+  double tip_thickness = 0.2;        ///< least, coefficient of the module
+  double planet_clearance_mm = 0.5;  ///< least, between tip circles of neighbouring planets
+  std::optional<double> output_torque_nm;  ///< to be carried
+  std::optional<LossesDesign> losses;      ///< measured on a like drive; written into the designs
+  StrengthOptions strength;
+  LossModel loss_model = LossModel::kContactRatios;
+
+  /// One: designs are ranked by it. Several: the Pareto front of them, ranked by the first.
+  std::vector<SearchObjective> objectives{SearchObjective::kForward};
+  int results = 20;  ///< design files written
+};
+
+/// Everything that contradicts itself or cannot be, all at once; empty where nothing does.
+[[nodiscard]] Errors validate(const SearchRequirements& requirements);
+
+/// A text of every value that decides the answer, the same for equal requirements: journals of a
+/// search carry it, so that no run resumes or merges another's.
+[[nodiscard]] std::string fingerprint(const SearchRequirements& requirements);
+
+}  // namespace trueflank

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/evaluate.h"
+
+#include <future>
+
+#include "trueflank/check/check_gearbox.h"
+#include "trueflank/design/requirements_file.h"
+#include "trueflank/solid/measure/mass_properties.h"
+#include "trueflank/solid/shape/part_shape.h"
+#include "trueflank/train/flank_modifications.h"
+
+namespace trueflank {
+
+namespace {
+
+/// Of a gear, or of every one that does not set its own. Requires: materials that are in the table.
+const Material& material_of(const StrengthOptions& options, const std::string& gear) {
+  const auto own = options.material_of.find(gear);
+  return *options.materials.find(own == options.material_of.end() ? options.material : own->second);
+}
+
+/// What a bench found to hold the input at rest; NaN where none was.
+double drag_of(const GearboxDesign& design) {
+  if (!design.losses) return kNaN;
+  return loss_torque_nm(*design.losses, {.temperature_c = design.losses->temperature_c.value_or(kNaN)}, 0.0);
+}
+
+/// Efficiency, strength and inertia.
+void add_drive(const Gearbox& gearbox, const StrengthOptions& strength_options, io::Report& report) {
+  const GearTrain& train = gearbox.train();
+  report.efficiency = efficiency(train);
+  if (train.meshes.empty()) return;
+  if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
+  const auto& shapes = gearbox.parts();  // what does not fit is told where the parts are made
+  if (!shapes) return;
+  // a body is of its first gear's material, a carrier of the gearbox's
+  const auto density_of = [&](const PartShape& part) {
+    const auto gears = train.topology().gears_of(part.member);
+    return material_of(strength_options, gears.empty() ? part.name : train.gear(gears.front()).name)
+        .density_kg_m3;
+  };
+  report.inertia = {material_of(strength_options, "").density_kg_m3,
+                    reflected_inertia(train, report.efficiency, body_inertias(train, *shapes, density_of),
+                                      {.rotor_kg_m2 = train.design.shafts.rotor_inertia_kg_m2,
+                                       .load_kg_m2 = train.design.shafts.load_inertia_kg_m2,
+                                       .drag_torque_nm = drag_of(train.design)})};
+}
+
+}  // namespace
+
+io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_options) {
+  const GearTrain& train = gearbox.train();
+  io::Report report;
+  report.train = gearbox.shared_train();
+  auto turning = std::async(std::launch::async, [&train] { return mesh_states(train); });
+  add_drive(gearbox, strength_options, report);
+  const std::vector<MeshState> states = turning.get();
+  report.findings = check_gearbox(train, states);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    report.sweeps.push_back(
+        {.mesh = train.meshes[i].name,
+         .minimum_clearance_um = um_from_mm(states[i].centred.minimum_clearance_mm()),
+         .penetration_um = um_from_mm(states[i].centred.penetration_mm())});
+  return report;
+}
+
+ResultAll<StrengthOptions> strength_options(const Gearbox& gearbox, const MaterialOptions& asked) {
+  const GearboxDesign& design = gearbox.design();
+  StrengthOptions options;
+  if (!asked.file.empty()) {
+    auto table = read_materials(asked.file);
+    if (!table) return fail_all(gearbox.located(table.error()));
+    options.materials = std::move(*table);
+  }
+  std::string known;
+  for (const Material& m : options.materials.all()) known += (known.empty() ? "" : ", ") + m.name;
+  Errors errors;
+  const auto take = [&](const std::string& name, const std::string& key, std::string& place) {
+    if (options.materials.find(name)) {
+      place = name;
+      return;
+    }
+    const bool option = key.starts_with("--");
+    errors.push_back({.code = option ? ErrorCode::kUsage : ErrorCode::kOutOfRange,
+                      .message = "no such material",
+                      .key = key,
+                      .value = name,
+                      .remedy = known + "; or --materials FILE with a table [material." + name + "]"});
+  };
+  if (!asked.material.empty()) {
+    take(asked.material, "--material", options.material);
+  } else {
+    if (!design.material.empty()) take(design.material, "gearbox.material", options.material);
+    for (const GearDesign& gear : design.gears)
+      if (!gear.material.empty())
+        take(gear.material, gear.name + ".material", options.material_of[gear.name]);
+    for (std::size_t i = 0; i < design.gears.size(); ++i)
+      if (const auto body = options.material_of.find(first_of_body(design, i).name);
+          body != options.material_of.end())
+        options.material_of.try_emplace(design.gears[i].name, std::string(body->second));
+  }
+  if (!errors.empty()) return fail_all(gearbox.located(std::move(errors)));
+  return with_factors_of(design, std::move(options));
+}
+
+}  // namespace trueflank

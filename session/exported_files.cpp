@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/exported_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank {
+namespace {
+
+std::string um(double length_mm) {
+  return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
+}
+
+std::string compensation_text(const Process& process, const CompensatedShapes& moved) {
+  std::string text = "meshes are compensated for " + process.name + ": walls " +
+                     um(process.horizontal_expansion_mm) + " inwards";
+  if (process.elephant_foot_mm > 0.0)
+    text += ", chamfered by " + um(process.elephant_foot_mm) +
+            " at the face that lies on the bed (z = 0 of each part)";
+  text += "\n";
+  for (const std::string& note : moved.notes) text += note + "\n";
+  return text;
+}
+
+}  // namespace
+
+Result<CompensatedShapes> compensated_walls(const PartShapes& shapes, const Process& process,
+                                            std::string& told) {
+  auto moved = compensated(shapes, process);
+  if (moved) told += compensation_text(process, *moved);
+  return moved;
+}
+
+ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& model,
+                                                        io::ExportOptions options, bool compensate,
+                                                        std::string& told) {
+  const auto& formats = options.formats;
+  if (options.kerf_mm > 0.0 &&
+      std::find(formats.begin(), formats.end(), io::FileFormat::kDxf) == formats.end())
+    told += "the kerf concerns DXF files, and none was written\n";
+  const auto& process = model.train->design.made.process;
+  if (!compensate || !process) return io::export_parts(model, options);
+  auto moved = compensated(*model.shapes, *process);
+  if (!moved) return fail_all({std::move(moved.error())});
+
+  io::ExportOptions meshes = options, others = options;
+  meshes.formats.clear();
+  others.formats.clear();
+  for (io::FileFormat format : options.formats)
+    (io::is_mesh(format) ? meshes : others).formats.push_back(format);
+  std::vector<io::ReportedFile> files;
+  if (!meshes.formats.empty()) {
+    auto made = io::export_parts({.train = model.train, .shapes = &moved->shapes}, meshes);
+    if (!made) return made;
+    for (io::ReportedFile& file : *made) file.compensated_for = process->name;
+    files = std::move(*made);
+    told += compensation_text(*process, *moved);
+  }
+  if (others.formats.empty()) return files;
+  auto made = io::export_parts(model, others);
+  if (!made) return made;
+  files.insert(files.end(), made->begin(), made->end());
+  return files;
+}
+
+}  // namespace trueflank

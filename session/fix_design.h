@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/base/result.h"
+
+namespace trueflank {
+
+/// A design file with the smallest joint change after which every check passes (check/joint_cure.h).
+struct FixedDesign {
+  bool cured = false;       ///< false: the nearest that was found, which still fails
+  std::string design_text;  ///< the file with its comments and layout kept
+  std::string summary;      ///< what was changed and what it costs, for a terminal
+};
+
+/// Errors: of the file, with line and key.
+[[nodiscard]] ResultAll<FixedDesign> fixed_design(const std::string& path);
+
+}  // namespace trueflank

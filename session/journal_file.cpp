@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/journal_file.h"
+
+#include <limits>
+
+#include "trueflank/design/design_file.h"
+#include "trueflank/export/atomic_file.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kFlushEvery_s = 1.0;
+
+}  // namespace
+
+Result<std::vector<SearchRecord>> JournalFile::open(const SearchTask& task,
+                                                const std::filesystem::path& path, bool resume,
+                                                JournalFile& journal) {
+  std::vector<SearchRecord> records;
+  std::error_code ignored;
+  if (resume && std::filesystem::exists(path, ignored)) {
+    const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
+    if (!text) return fail(text.error());
+    auto read = read_journal(*text, task.requirements, task.enumeration);
+    if (!read) {
+      Error error = read.error();
+      error.file = path.string();
+      return fail(std::move(error));
+    }
+    records = std::move(*read);
+  }
+  journal.path_ = path;
+  // whole first, so that a line cut short is gone; then it only grows
+  if (auto ok = journal.close(task, records); !ok) return fail(ok.error());
+  journal.stream_.open(path, std::ios::app | std::ios::binary);
+  if (!journal.stream_)
+    return fail({.code = ErrorCode::kDisk, .message = "cannot write the journal",
+                 .file = path.string()});
+  return records;
+}
+
+void JournalFile::append(const SearchRecord& record) {
+  stream_ << journal_line(record) << '\n';
+  const auto now = std::chrono::steady_clock::now();
+  if (std::chrono::duration<double>(now - flushed_).count() < kFlushEvery_s) return;
+  stream_.flush();
+  flushed_ = now;
+}
+
+Status JournalFile::close(const SearchTask& task, const std::vector<SearchRecord>& records) {
+  if (stream_.is_open()) stream_.close();
+  std::string text = journal_header(task.requirements, task.enumeration) + "\n";
+  for (const SearchRecord& record : records) text += journal_line(record) + "\n";
+  return io::write_file(path_, text);
+}
+
+}  // namespace trueflank

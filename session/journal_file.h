@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "trueflank/session/search_session.h"
+
+namespace trueflank {
+
+/// The journal of a part: appended while a search runs, so that nothing found is lost.
+class JournalFile {
+ public:
+  /// Records of the journal where `resume` is asked; none otherwise. The file then starts with them.
+  /// Errors: kInconsistent (a journal of other requirements), kDisk, ...
+  [[nodiscard]] static Result<std::vector<SearchRecord>> open(const SearchTask& task,
+                                                              const std::filesystem::path& path,
+                                                              bool resume, JournalFile& journal);
+  void append(const SearchRecord& record);
+  /// Puts all records in their order: equal searches leave equal bytes.
+  [[nodiscard]] Status close(const SearchTask& task, const std::vector<SearchRecord>& records);
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+  std::chrono::steady_clock::time_point flushed_{};
+};
+
+}  // namespace trueflank

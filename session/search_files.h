@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/session/search_session.h"
+
+// The files of a finished search as text; the same bytes for the same report.
+namespace trueflank {
+
+/// "design-001" of the rank 0; both the file's stem and, behind the search's name, the design's.
+[[nodiscard]] std::string design_stem(std::size_t rank);
+
+/// One line a candidate, best first; the designs that were written have their file's name.
+[[nodiscard]] std::string search_csv(const SearchTask& task, const SearchReport& report);
+/// Counts of every class, and the designs: format "trueflank-search", version 1.
+[[nodiscard]] std::string search_json(const SearchTask& task, const SearchReport& report);
+/// All candidates and the designs: first objective over the ratio, or over the second objective.
+[[nodiscard]] std::string search_svg(const SearchTask& task, const SearchReport& report);
+/// One offline page: plot with hover and links to the design files, sortable table, what fell and why.
+/// It holds search_json() whole and the first 4000 rows of search_csv().
+[[nodiscard]] std::string search_html(const SearchTask& task, const SearchReport& report);
+/// What the program prints.
+[[nodiscard]] std::string search_summary(const SearchReport& report);
+
+}  // namespace trueflank

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/search_session.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <regex>
+
+#include "trueflank/check/check_gearbox.h"
+#include "trueflank/design/design_file.h"
+#include "trueflank/design/design_file_writer.h"
+#include "trueflank/design/requirements_file.h"
+#include "trueflank/export/atomic_file.h"
+#include "trueflank/session/fixed_text.h"
+#include "trueflank/session/journal_file.h"
+#include "trueflank/session/search_files.h"
+
+namespace trueflank {
+namespace {
+
+/// Design files of an earlier search in this folder: they would stand beside the new ones.
+void remove_old_designs(const std::filesystem::path& folder) {
+  static const std::regex kOurs("design-[0-9]{3,}\\.toml");
+  std::error_code ignored;
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (std::regex_match(entry.path().filename().string(), kOurs)) old.push_back(entry.path());
+  for (const auto& path : old) std::filesystem::remove(path, ignored);
+}
+
+Status write_designs(const SearchReport& report, const std::filesystem::path& folder,
+                     const std::string& name) {
+  for (std::size_t i = 0; i < report.designs.size(); ++i) {
+    const FoundDesign& found = report.designs[i];
+    GearboxDesign design = found.design;
+    design.name = name + "-" + design_stem(i).substr(7);
+    const std::string comment = "Found by trueflank search: ratio " + fixed_text(signed_ratio(found.set), 4) +
+                                ", " + fixed_text(100 * found.candidate.forward, 2) + " % forward, " +
+                                fixed_text(100 * found.candidate.backward, 2) + " % backward";
+    const auto path = folder / (design_stem(i) + ".toml");
+    if (auto ok = io::write_file(path, design_file_text(design, comment)); !ok) return ok;
+  }
+  return {};
+}
+
+}  // namespace
+
+ResultAll<SearchTask> prepare_search(const std::string& requirements_file,
+                                     const std::string& materials_file) {
+  MaterialTable materials;
+  if (!materials_file.empty()) {
+    auto read = read_materials(materials_file);
+    if (!read) return fail_all(read.error());
+    materials = std::move(*read);
+  }
+  auto requirements = read_requirements(requirements_file, std::move(materials));
+  if (!requirements) return fail_all(requirements.error());
+  SearchTask task{.requirements = std::move(*requirements), .enumeration = {}};
+  task.enumeration = enumerate_sets(task.requirements);
+  return task;
+}
+
+DesignVerdict judged_by_checks(const GearTrain& train) {
+  DesignVerdict verdict;
+  const auto add = [](std::vector<std::string>& ids, const std::string& id) {
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  };
+  for (const Finding& finding : check_gearbox(train)) {
+    if (finding.status == CheckStatus::kFail) add(verdict.failed, finding.id);
+    if (finding.status == CheckStatus::kWarn) add(verdict.warned, finding.id);
+  }
+  return verdict;
+}
+
+std::filesystem::path journal_path(const std::filesystem::path& folder, const SearchPart& part) {
+  if (part.parts == 1) return folder / "search.journal";
+  return folder / ("search-" + std::to_string(part.part) + "-of-" + std::to_string(part.parts) +
+                   ".journal");
+}
+
+ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task,
+                                                     const SearchPartOptions& options) {
+  JournalFile journal;
+  auto done = JournalFile::open(task, journal_path(options.folder, options.part), options.resume, journal);
+  if (!done) return fail_all({done.error()});
+  SearchRunOptions run{.threads = options.threads, .part = options.part, .done = std::move(*done)};
+  run.stop = options.stop;
+  run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
+    journal.append(record);
+    if (options.on_record) options.on_record(record, finished, total);
+  };
+  const std::vector<SearchRecord> records = run_search(task.requirements, task.enumeration, run);
+  if (auto ok = journal.close(task, records); !ok) return fail_all({ok.error()});
+  return records;
+}
+
+ResultAll<std::vector<SearchRecord>> merge_search(const SearchTask& task,
+                                            const std::vector<std::string>& folders) {
+  std::map<std::size_t, SearchRecord> records;
+  Errors errors;
+  for (const std::string& folder : folders) {
+    std::error_code error;
+    std::vector<std::filesystem::path> journals;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+      if (entry.path().extension() == ".journal") journals.push_back(entry.path());
+    if (error || journals.empty())
+      errors.push_back({.code = error ? ErrorCode::kFileNotFound : ErrorCode::kInconsistent,
+                        .message = error ? "no such folder" : "no journal in this folder",
+                        .remedy = "output folders of trueflank search --shard",
+                        .file = folder});
+    std::sort(journals.begin(), journals.end());
+    for (const auto& path : journals) {
+      const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
+      auto read = text ? read_journal(*text, task.requirements, task.enumeration)
+                       : Result<std::vector<SearchRecord>>(fail(text.error()));
+      if (read) {
+        for (SearchRecord& record : *read) records.try_emplace(record.index, std::move(record));
+      } else {
+        Error wrong = read.error();
+        wrong.file = path.string();
+        errors.push_back(std::move(wrong));
+      }
+    }
+  }
+  const std::size_t total = task.enumeration.sets.size();
+  if (errors.empty() && records.size() < total)
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "the journals hold " + std::to_string(records.size()) + " of " +
+                                 std::to_string(total) + " tooth sets",
+                      .key = "--merge",
+                      .remedy = "the folders of all shards, each finished"});
+  if (!errors.empty()) return fail_all(std::move(errors));
+  std::vector<SearchRecord> result;
+  for (auto& [index, record] : records) result.push_back(std::move(record));
+  return result;
+}
+
+SearchReport finish_search(const SearchTask& task, const std::vector<SearchRecord>& records) {
+  return conclude_search(task.requirements, task.enumeration, records, judged_by_checks);
+}
+
+Status write_search(const SearchTask& task, const SearchReport& report,
+                    const std::filesystem::path& folder) {
+  remove_old_designs(folder);
+  if (auto ok = write_designs(report, folder, task.requirements.name); !ok) return ok;
+  const std::pair<const char*, std::string> files[] = {{"search.csv", search_csv(task, report)},
+                                                       {"search.json", search_json(task, report)},
+                                                       {"search.svg", search_svg(task, report)},
+                                                       {"search.html", search_html(task, report)}};
+  for (const auto& [name, text] : files)
+    if (auto ok = io::write_file(folder / name, text); !ok) return ok;
+  return {};
+}
+
+}  // namespace trueflank

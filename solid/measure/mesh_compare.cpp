@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/measure/mesh_compare.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <vector>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/measure/triangle_tree.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Above the tolerance, or the largest distance known, a bound is not worth sharpening further.
+constexpr double kSharpness = 1.01;
+/// How far a piece may stick out over the triangle it lies over, as shares of the bound, tried in turn:
+/// much for a rim that stands out, nothing where the piece is also off to one side.
+constexpr double kSlacks[] = {1.0, 0.5, 0.0};
+/// Narrower leftovers of a cut are rounding; a neighbour speaks for them.
+constexpr double kNarrowest_mm = 1e-9;
+/// Looks a facet may take on the average before the bound is left as it is.
+constexpr std::size_t kLooksPerFacet = 400;
+
+using Polygon = std::vector<Point3>;
+
+Point3 centroid(const Polygon& polygon) {
+  Point3 sum = Point3::Zero();
+  for (const Point3& p : polygon) sum += p;
+  return sum / static_cast<double>(polygon.size());
+}
+
+double radius_about(const Polygon& polygon, const Point3& centre) {
+  double radius2 = 0.0;
+  for (const Point3& p : polygon) radius2 = std::max(radius2, (p - centre).squaredNorm());
+  return std::sqrt(radius2);
+}
+
+double area_of(const Polygon& polygon) {
+  Point3 twice = Point3::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  return 0.5 * twice.norm();
+}
+
+/// Splits a convex polygon by a plane: what lies below it (normal . x <= offset), what above.
+struct Split {
+  Polygon below, above;
+};
+Split split(const Polygon& polygon, const Point3& normal, double offset) {
+  Split parts;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+    const double at_a = normal.dot(a) - offset, at_b = normal.dot(b) - offset;
+    if (at_a <= 0.0) parts.below.push_back(a);
+    if (at_a >= 0.0) parts.above.push_back(a);
+    if ((at_a < 0.0 && at_b > 0.0) || (at_a > 0.0 && at_b < 0.0)) {
+      const Point3 crossing = a + (b - a) * (at_a / (at_a - at_b));
+      parts.below.push_back(crossing);
+      parts.above.push_back(crossing);
+    }
+  }
+  return parts;
+}
+
+/// Distances of one mesh's surface from another mesh.
+class Directed {
+ public:
+  Directed(const TriangleMesh& mesh, const TriangleTree& other, double tolerance_mm)
+      : mesh_(mesh), other_(other), tolerance_mm_(tolerance_mm) {}
+
+  SurfaceDistance run() {
+    std::uint32_t hint = 0;
+    std::vector<bool> used(mesh_.vertices.size(), false);
+    for (const auto& t : mesh_.triangles)
+      for (std::uint32_t v : t) used[v] = true;
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+      if (used[v]) hint = look(Point3(mesh_.vertices[v].data()), hint).triangle;
+    looks_left_ = kLooksPerFacet * mesh_.triangles.size() + 100000;
+    for (const auto& t : mesh_.triangles) {
+      pending_.push_back({Point3(mesh_.vertices[t[0]].data()), Point3(mesh_.vertices[t[1]].data()),
+                          Point3(mesh_.vertices[t[2]].data())});
+      while (!pending_.empty()) {
+        const Polygon polygon = std::move(pending_.back());
+        pending_.pop_back();
+        hint = settle(polygon, hint);
+      }
+    }
+    result_.bound_mm = std::max(result_.bound_mm, result_.largest_mm);
+    result_.rms_mm = area_ > 0.0 ? std::sqrt(weighted_squares_ / area_) : 0.0;
+    result_.share_beyond = area_ > 0.0 ? beyond_ / area_ : 0.0;
+    return result_;
+  }
+
+ private:
+  /// Distance of one point, exactly.
+  TriangleTree::Nearest look(const Point3& p, std::uint32_t hint) {
+    const TriangleTree::Nearest nearest = other_.nearest(p, hint);
+    if (nearest.distance_mm > result_.largest_mm) {
+      result_.largest_mm = nearest.distance_mm;
+      result_.worst_place_mm = {p.x(), p.y(), p.z()};
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] double good_enough_mm() const {
+    return std::max(tolerance_mm_, kSharpness * result_.largest_mm);
+  }
+  /// Largest distance of a convex polygon from one triangle: that of a corner.
+  [[nodiscard]] double reach_mm(const Polygon& polygon, std::uint32_t triangle) const {
+    double reach2 = 0.0;
+    const auto& corners = other_.corners(triangle);
+    for (const Point3& p : polygon)
+      reach2 = std::max(reach2, (nearest_on_triangle(p, corners) - p).squaredNorm());
+    return std::sqrt(reach2);
+  }
+
+  void done(const Polygon& polygon, double bound_mm, double distance_mm) {
+    const double area = area_of(polygon);
+    area_ += area;
+    weighted_squares_ += area * distance_mm * distance_mm;
+    if (distance_mm > tolerance_mm_) beyond_ += area;
+    result_.bound_mm = std::max(result_.bound_mm, bound_mm);
+  }
+
+  /// Bounds a piece, or cuts it into pieces that will be; returns the triangle it lies over.
+  std::uint32_t settle(const Polygon& polygon, std::uint32_t hint) {
+    const Point3 centre = centroid(polygon);
+    const TriangleTree::Nearest nearest = look(centre, hint);
+    const double radius = radius_about(polygon, centre);
+    const double bound =
+        std::min(reach_mm(polygon, nearest.triangle), nearest.distance_mm + radius);
+    if (bound <= good_enough_mm() || radius <= kNarrowest_mm || looks_left_ == 0) {
+      done(polygon, bound, nearest.distance_mm);
+      return nearest.triangle;
+    }
+    --looks_left_;
+    if (!cut_along(polygon, nearest.triangle, nearest.distance_mm)) halve(polygon);
+    return nearest.triangle;
+  }
+
+  /// Takes from a piece what lies over a triangle and is near enough to it; false where that is nothing.
+  /// The piece may stick out beyond an edge by the slack, else it is cut off there.
+  bool cut_along(const Polygon& polygon, std::uint32_t triangle, double distance_mm) {
+    const auto& c = other_.corners(triangle);
+    const Point3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    if (!(normal.squaredNorm() > 0.0)) return false;
+    for (double share : kSlacks) {
+      const double slack = share * good_enough_mm();
+      const std::size_t before = pending_.size();
+      Polygon over = polygon;
+      for (std::size_t e = 0; e < 3 && is_something(over); ++e) {
+        const Point3 outward = (c[(e + 1) % 3] - c[e]).cross(normal).normalized();
+        const double edge = outward.dot(c[e]);
+        const bool sticks_out = std::any_of(over.begin(), over.end(), [&](const Point3& p) {
+          return outward.dot(p) - edge > slack;
+        });
+        if (!sticks_out) continue;
+        Split parts = split(over, outward, edge);
+        if (is_something(parts.above)) pending_.push_back(std::move(parts.above));
+        over = std::move(parts.below);
+      }
+      if (is_something(over)) {
+        const double bound = reach_mm(over, triangle);
+        if (bound <= good_enough_mm()) {
+          done(over, bound, distance_mm);
+          return true;
+        }
+      }
+      pending_.resize(before);
+    }
+    return false;
+  }
+
+  [[nodiscard]] static bool is_something(const Polygon& polygon) {
+    if (polygon.size() < 3) return false;
+    const double length = 2.0 * radius_about(polygon, polygon.front());
+    return area_of(polygon) > kNarrowest_mm * length;
+  }
+
+  void halve(const Polygon& polygon) {
+    std::size_t longest = 0;
+    double length2 = -1.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const double l = (polygon[(i + 1) % polygon.size()] - polygon[i]).squaredNorm();
+      if (l > length2) length2 = l, longest = i;
+    }
+    const Point3 &a = polygon[longest], &b = polygon[(longest + 1) % polygon.size()];
+    const Point3 along = (b - a).normalized();
+    Split parts = split(polygon, along, along.dot(0.5 * (a + b)));
+    if (parts.below.size() >= 3) pending_.push_back(std::move(parts.below));
+    if (parts.above.size() >= 3) pending_.push_back(std::move(parts.above));
+  }
+
+  const TriangleMesh& mesh_;
+  const TriangleTree& other_;
+  double tolerance_mm_;
+  std::vector<Polygon> pending_;
+  std::size_t looks_left_ = 0;
+  double area_ = 0.0, weighted_squares_ = 0.0, beyond_ = 0.0;
+  SurfaceDistance result_;
+};
+
+MeshSummary summary_of(const TriangleMesh& mesh, const MeshValidity& validity) {
+  MeshSummary summary{.vertices = mesh.vertices.size(),
+                      .triangles = mesh.triangles.size(),
+                      .components = validity.components,
+                      .volume_mm3 = validity.volume_mm3};
+  summary.closed = !mesh.triangles.empty() && validity.open_edges == 0 &&
+                   validity.misoriented_edges == 0 && validity.non_manifold_vertices == 0 &&
+                   validity.coordinates_finite;
+  bool first = true;
+  for (const auto& t : mesh.triangles) {
+    Polygon corners;
+    for (std::uint32_t v : t) {
+      const auto& p = mesh.vertices[v];
+      corners.emplace_back(p.data());
+      for (std::size_t i = 0; i < 3; ++i) {
+        summary.lower_mm[i] = first ? p[i] : std::min(summary.lower_mm[i], p[i]);
+        summary.upper_mm[i] = first ? p[i] : std::max(summary.upper_mm[i], p[i]);
+      }
+      first = false;
+    }
+    summary.area_mm2 += area_of(corners);
+  }
+  return summary;
+}
+
+}  // namespace
+
+MeshComparison compare_meshes(const TriangleMesh& golden, const TriangleMesh& made,
+                              const CompareOptions& options) {
+  TRUEFLANK_EXPECTS(options.tolerance_mm > 0.0);
+  const MeshValidity golden_validity = mesh_validity(golden), made_validity = mesh_validity(made);
+  TRUEFLANK_EXPECTS(golden_validity.indices_in_range && made_validity.indices_in_range);
+  MeshComparison comparison{.golden = summary_of(golden, golden_validity),
+                            .made = summary_of(made, made_validity),
+                            .from_golden = {},
+                            .from_new = {}};
+  if (golden.triangles.empty() || made.triangles.empty() || !golden_validity.coordinates_finite ||
+      !made_validity.coordinates_finite) {
+    const SurfaceDistance endless{kInfinity, kInfinity, kInfinity, 1.0, {}};
+    comparison.from_golden = comparison.from_new = endless;
+    return comparison;
+  }
+  const auto measure = [&](const TriangleMesh& mesh, const TriangleMesh& other) {
+    const TriangleTree tree(other);
+    return Directed(mesh, tree, options.tolerance_mm).run();
+  };
+  auto other_way = std::async(std::launch::async, [&] { return measure(made, golden); });
+  comparison.from_golden = measure(golden, made);
+  comparison.from_new = other_way.get();
+  comparison.same = comparison.largest_mm() <= options.tolerance_mm;
+  return comparison;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/shape/toothing_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
+#include "trueflank/geometry/polyline.h"
+
+namespace trueflank {
+namespace {
+
+using Point3 = Eigen::Vector3d;
+
+/// Columns start at this share of the tolerance where the surface differs from the screw of the
+/// section: a deviation that bends the flank a little need not split every chord.
+constexpr double kRoomForDeviation = 0.95;
+/// Facets are cut for this share of the tolerance: their error is taken from the middles of edges,
+/// right to a percent.
+constexpr double kAim = 0.985;
+/// Rounds of adding columns and rows. Each brings an error to its goal in one step where it is smooth.
+constexpr int kRounds = 8;
+/// Teeth looked at while columns and rows are found, where all differ; facets are cut on all.
+constexpr int kSomeTeeth = 6;
+/// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no end.
+constexpr double kShortest = 3.0;
+/// An edge whose parameter runs so unevenly that its middle is this share of it away from the chord's.
+constexpr double kUneven = 0.02;
+/// A break nearer to a vertex than this share of the tolerance is that vertex.
+constexpr double kSameVertex = 0.25;
+
+Point3 vector_of(const std::array<double, 3>& p) { return Point3(p.data()); }
+
+/// Largest distance of a paraboloid from the triangle through its points, from its (signed) distances
+/// at the middles of the edges. On saddles and cylinders the largest of these; on a dome the height over
+/// the circumcentre, in the metric of its curvature.
+double triangle_error(double a, double b, double c) {
+  const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
+  if (!((a > 0.0) == (b > 0.0) && (b > 0.0) == (c > 0.0))) return largest;
+  a = std::abs(a), b = std::abs(b), c = std::abs(c);
+  if (2.0 * largest >= a + b + c) return largest;  // obtuse
+  const double squares = a * a + b * b + c * c;
+  return std::max(largest, 4.0 * a * b * c / (2.0 * (a * b + b * c + c * a) - squares));
+}
+
+/// Distance of a surface point from a chord's middle, square to the chord.
+double off_chord(const Point3& from, const Point3& to, const Point3& on_surface, double share) {
+  const Point3 along = to - from, away = on_surface - (from + share * along);
+  const double length2 = along.squaredNorm();
+  if (!(length2 > 0.0)) return away.norm();
+  return (away - along * (away.dot(along) / length2)).norm();
+}
+
+/// Parameter at which a curve passes the middle of its chord. The middle of the parameters is far from it
+/// where an involute starts on its base circle: its way grows with the square of the roll angle.
+double middle_of_chord(const Curve& curve, double from, double to) {
+  const Point2 a = point_at(curve, from), chord = point_at(curve, to) - a;
+  const double half = 0.5 * chord.squaredNorm();
+  double low = from, high = to;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((point_at(curve, middle) - a).dot(chord) < half ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<double> sorted_heights(std::vector<double> heights) {
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end(),
+                            [](double a, double b) { return b - a < 1e-9; }),
+                heights.end());
+  return heights;
+}
+
+int parts_for(double error_mm, double tolerance_mm) {
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(error_mm / tolerance_mm) - 1e-3)), 2, 8);
+}
+
+}  // namespace
+
+ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm,
+                           double tolerance_mm)
+    : outline_(outline), toothing_(outline.toothing()), levels_mm_(std::move(levels_mm)) {
+  TRUEFLANK_EXPECTS(tolerance_mm > 0.0 && !levels_mm_.empty());
+  teeth_ = toothing_.profile->gear().teeth;
+  const bool deviates = toothing_.has_deviation(), moved = toothing_.displacement != nullptr;
+  plain_ = !deviates && !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr;
+  teeth_alike_ = !moved && !(deviates && toothing_.deviation->varies_by_tooth);
+  layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr &&
+                  !(deviates && toothing_.deviation->varies_along_face);
+  const double aim = kAim * tolerance_mm;
+  start_columns(plain_ ? aim : kRoomForDeviation * aim);
+  start_layers(plain_ ? aim : kRoomForDeviation * aim);
+  if (!plain_) {
+    refine_columns(aim);
+    refine_layers(aim);
+  }
+  for (int round = 0; cut(aim) > aim && round < kRounds; ++round) add_where_charged(aim);
+  section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
+  if (plain_ && toothing_.twist.turn_rad_per_mm != 0.0 && heights_mm_.size() > 2) try_strips(aim);
+}
+
+ToothingGrid::Point ToothingGrid::at(const Place& place, int tooth, double z_mm) const {
+  return surface_point(toothing_, {tooth, place.side, place.piece, place.parameter}, z_mm);
+}
+
+std::vector<int> ToothingGrid::some_teeth() const {
+  std::vector<int> teeth;
+  const int count = teeth_alike_ ? 1 : std::min(teeth_, kSomeTeeth);
+  for (int i = 0; i < count; ++i) teeth.push_back(i * teeth_ / count);
+  return teeth;
+}
+
+// -------------------------------------------------------------- columns
+
+void ToothingGrid::start_columns(double tolerance_mm) {
+  const HalfToothPolyline half = tessellate(*toothing_.profile, tolerance_mm);
+  const auto& pieces = toothing_.profile->pieces();
+  for (const HalfToothPolyline::Edge& e : half.edges)
+    edges_.push_back({static_cast<std::size_t>(e.piece), e.from, e.to});
+  vertex_at_tooth_middle_ = half.vertex_at_tooth_middle;
+  vertex_at_gap_middle_ = half.vertex_at_gap_middle;
+  section_error_mm_ = half.chord_error_mm;
+  add_roll_breaks(tolerance_mm);
+  // the end of a piece too short for an edge of its own is the half tooth's end all the same
+  first_ = {1, edges_.front().piece, edges_.front().from};
+  last_ = {1, edges_.back().piece, edges_.back().to};
+  if (vertex_at_tooth_middle_) first_ = {1, 0, pieces.front().curve.begin};
+  if (vertex_at_gap_middle_) last_ = {1, pieces.size() - 1, pieces.back().curve.end};
+  place_columns();
+}
+
+void ToothingGrid::add_roll_breaks(double tolerance_mm) {
+  if (!toothing_.has_deviation()) return;
+  const Gear& gear = toothing_.profile->gear();
+  const double r_b = base_radius_mm(gear);
+  const double sense = gear.kind == GearKind::kExternal ? 1.0 : -1.0;
+  for (const double roll_mm : toothing_.deviation->roll_breaks_mm) {
+    const double moved = toothing_.deviation->deviation_mm(0, Flank::kLeft, roll_mm,
+                                                           0.5 * toothing_.twist.face_width_mm) /
+                         std::cos(base_helix_angle_rad(gear));
+    const double angle = (roll_mm + sense * moved) / r_b;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      HalfEdge& e = edges_[i];
+      if (toothing_.profile->pieces()[e.piece].kind != PieceKind::kInvolute) continue;
+      const double nearest = std::min(std::abs(angle - e.from), std::abs(angle - e.to));
+      if ((angle - e.from) * (angle - e.to) >= 0.0 || nearest * roll_mm < kSameVertex * tolerance_mm)
+        continue;
+      const HalfEdge rest{e.piece, angle, e.to};
+      e.to = angle;
+      edges_.insert(edges_.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
+      break;
+    }
+  }
+}
+
+void ToothingGrid::place_columns() {
+  points_.clear(), middles_.clear(), chord_middles_.clear(), edge_of_.clear();
+  const auto& pieces = toothing_.profile->pieces();
+  const std::size_t m = edges_.size();
+  const auto place = [&](std::size_t i, int side) {
+    Place p = i == 0 ? first_ : i == m ? last_ : Place{1, edges_[i].piece, edges_[i].from};
+    p.side = side;
+    return p;
+  };
+  const auto add = [&](const Place& point, const Place& middle, std::size_t edge) {
+    points_.push_back(point);
+    middles_.push_back(middle);
+    edge_of_.push_back(edge);
+  };
+  const auto middle = [&](std::size_t edge, int side) {
+    return Place{side, edges_[edge].piece, 0.5 * (edges_[edge].from + edges_[edge].to)};
+  };
+  for (std::size_t i = m; i > 0; --i) add(place(i, -1), middle(i - 1, -1), i - 1);
+  if (!vertex_at_tooth_middle_)
+    add(place(0, -1), {1, 0, pieces.front().curve.begin}, 0);
+  for (std::size_t i = 0; i < m; ++i) add(place(i, 1), middle(i, 1), i);
+  if (!vertex_at_gap_middle_)
+    add(place(m, 1), {1, pieces.size() - 1, pieces.back().curve.end}, m - 1);
+  for (std::size_t i = 0; i < middles_.size(); ++i) {
+    const HalfEdge& e = edges_[edge_of_[i]];
+    Place at_chord = middles_[i];
+    if (at_chord.parameter == 0.5 * (e.from + e.to)) {
+      const double there = middle_of_chord(pieces[e.piece].curve, e.from, e.to);
+      if (std::abs(there - at_chord.parameter) > kUneven * std::abs(e.to - e.from))
+        at_chord.parameter = there;
+    }
+    chord_middles_.push_back(at_chord);
+  }
+}
+
+bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tolerance_mm) {
+  std::vector<HalfEdge> split;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const HalfEdge& e = edges_[i];
+    const Curve& curve = toothing_.profile->pieces()[e.piece].curve;
+    const bool is_short =
+        (point_at(curve, e.to) - point_at(curve, e.from)).norm() < kShortest * tolerance_mm;
+    const int parts =
+        error_mm[i] > tolerance_mm && !is_short ? parts_for(error_mm[i], tolerance_mm) : 1;
+    const auto part_end = [&](int k) { return k == parts ? e.to : e.from + (e.to - e.from) * k / parts; };
+    for (int k = 0; k < parts; ++k) split.push_back({e.piece, part_end(k), part_end(k + 1)});
+  }
+  const bool added = split.size() > edges_.size();
+  edges_ = std::move(split);
+  if (added) place_columns();
+  return added;
+}
+
+void ToothingGrid::refine_columns(double tolerance_mm) {
+  const std::vector<int> teeth = some_teeth();
+  std::vector<double> heights{levels_mm_.front()};
+  if (!layers_alike_ && heights_mm_.size() > 1)
+    for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j)
+      for (const double share : {0.0, 0.5, 1.0})
+        heights.push_back(std::lerp(heights_mm_[j], heights_mm_[j + 1], share));
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> error(edges_.size(), 0.0);
+    for (const int tooth : teeth)
+      for (const double z : heights)
+        for (const int side : {-1, 1})
+          for (std::size_t i = 0; i < edges_.size(); ++i) {
+            const HalfEdge& e = edges_[i];
+            const Point3 from = vector_of(at({side, e.piece, e.from}, tooth, z));
+            const Point3 to = vector_of(at({side, e.piece, e.to}, tooth, z));
+            for (const double share : {0.25, 0.5, 0.75}) {
+              const Place inside{side, e.piece, std::lerp(e.from, e.to, share)};
+              error[i] = std::max(error[i],
+                                  off_chord(from, to, vector_of(at(inside, tooth, z)), share));
+            }
+          }
+    if (!split_columns(error, tolerance_mm)) return;
+  }
+}
+
+// -------------------------------------------------------------- rows
+
+void ToothingGrid::start_layers(double tolerance_mm) {
+  const FaceTwist& twist = toothing_.twist;
+  std::vector<double> breaks = levels_mm_;
+  const auto add = [&](double z) {
+    if (z > levels_mm_.front() && z < levels_mm_.back()) breaks.push_back(z);
+  };
+  if (twist.herringbone) add(0.5 * twist.face_width_mm);
+  if (toothing_.edge_chamfer_mm > 0.0) {
+    add(toothing_.edge_chamfer_mm);
+    add(twist.face_width_mm - toothing_.edge_chamfer_mm);
+  }
+  if (toothing_.bed != nullptr) add(toothing_.bed_height_mm);
+  if (toothing_.has_deviation())
+    for (const double z : toothing_.deviation->z_breaks_mm) add(z);
+  breaks = sorted_heights(std::move(breaks));
+  breaks_mm_ = breaks;
+  // a helix of radius r departs from its chord of height h by r (1 - cos(turn h / 2))
+  const double radius =
+      std::max(toothing_.profile->tip_radius_mm(), toothing_.profile->root_radius_mm());
+  const double widest = 2.0 * std::acos(1.0 - std::min(1.0, tolerance_mm / radius));
+  heights_mm_ = {breaks.front()};
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double height = breaks[i + 1] - breaks[i];
+    const int layers = std::max(
+        1, static_cast<int>(std::ceil(std::abs(twist.turn_rad_per_mm) * height / widest - 1e-9)));
+    for (int k = 1; k < layers; ++k) heights_mm_.push_back(breaks[i] + height * k / layers);
+    heights_mm_.push_back(breaks[i + 1]);
+  }
+}
+
+double ToothingGrid::layer_error_mm(double lower_mm, double upper_mm, int samples) const {
+  double error = 0.0;
+  for (const int tooth : some_teeth())
+    for (const Place& place : points_) {
+      const Point3 lower = vector_of(at(place, tooth, lower_mm));
+      const Point3 upper = vector_of(at(place, tooth, upper_mm));
+      for (int k = 1; k < samples; ++k) {
+        const double share = static_cast<double>(k) / samples;
+        const Point3 inside = vector_of(at(place, tooth, std::lerp(lower_mm, upper_mm, share)));
+        error = std::max(error, off_chord(lower, upper, inside, share));
+      }
+    }
+  return error;
+}
+
+void ToothingGrid::refine_layers(double tolerance_mm) {
+  if (layers_alike_) return;
+  const double tall = 0.1 * toothing_.twist.face_width_mm;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> heights{heights_mm_.front()};
+    for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
+      const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
+      const double error = layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
+      const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
+      const int parts = split ? parts_for(error, tolerance_mm) : 1;
+      for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
+      heights.push_back(upper);
+    }
+    const bool done = heights.size() == heights_mm_.size();
+    heights_mm_ = std::move(heights);
+    if (done) return;
+  }
+}
+
+// -------------------------------------------------------------- facets
+
+ToothingGrid::ToothRow ToothingGrid::tooth_row(int tooth, double z_mm) const {
+  ToothRow row;
+  row.points.reserve(points_.size() + 1);
+  for (const Place& place : points_) row.points.push_back(at(place, tooth, z_mm));
+  row.points.push_back(at(points_.front(), (tooth + 1) % teeth_, z_mm));
+  for (std::size_t i = 0; i < middles_.size(); ++i) {
+    row.middles.push_back(at(middles_[i], tooth, z_mm));
+    row.chord_middles.push_back(is_even(i) ? row.middles.back() : at(chord_middles_[i], tooth, z_mm));
+  }
+  return row;
+}
+
+double ToothingGrid::cut(double tolerance_mm) {
+  const std::size_t layers = heights_mm_.size() - 1, n = points_.size();
+  const int teeth = teeth_alike_ ? 1 : teeth_;
+  rises_.assign(layers, std::vector<bool>(n * static_cast<std::size_t>(teeth), false));
+  column_error_mm_.assign(edges_.size(), 0.0);
+  layer_error_mm_.assign(layers, 0.0);
+  double largest = 0.0;
+  for (int tooth = 0; tooth < teeth; ++tooth) {
+    ToothRow lower = tooth_row(tooth, heights_mm_.front()), upper;
+    for (std::size_t j = 0; j < layers; ++j) {
+      const double z0 = heights_mm_[j], z1 = heights_mm_[j + 1];
+      const bool same_as_below =
+          j > 0 && layers_alike_ && std::abs((z1 - z0) - (z0 - heights_mm_[j - 1])) < 1e-9 &&
+          (section_turn_rad(toothing_.twist, z1) > section_turn_rad(toothing_.twist, z0)) ==
+              (section_turn_rad(toothing_.twist, z0) >
+               section_turn_rad(toothing_.twist, heights_mm_[j - 1]));
+      if (same_as_below) {  // a turned copy
+        rises_[j] = rises_[j - 1];
+        layer_error_mm_[j] = layer_error_mm_[j - 1];
+        continue;
+      }
+      if (j > 0 && layers_alike_) lower = tooth_row(tooth, z0);
+      upper = tooth_row(tooth, z1);
+      const ToothRow middle = tooth_row(tooth, 0.5 * (z0 + z1));
+      for (std::size_t i = 0; i < n; ++i) {
+        const Point3 a = vector_of(lower.points[i]), b = vector_of(lower.points[i + 1]);
+        const Point3 c = vector_of(upper.points[i + 1]), d = vector_of(upper.points[i]);
+        const auto error_of = [&](const Point3& p, const Point3& q, const Point3& r,
+                                  const Point& pq, const Point& qr, const Point& rp) {
+          const Point3 normal = (q - p).cross(r - p).normalized();
+          return triangle_error((vector_of(pq) - p).dot(normal), (vector_of(qr) - q).dot(normal),
+                                (vector_of(rp) - r).dot(normal));
+        };
+        const Point &ad = middle.points[i], &bc = middle.points[i + 1];
+        double rising = 0.0, falling = 0.0;
+        const auto look_at = [&](const Point& ab, const Point& cd, const Point& across) {
+          rising = std::max({rising, error_of(a, b, c, ab, bc, across), error_of(a, c, d, across, cd, ad)});
+          falling = std::max({falling, error_of(a, b, d, ab, across, ad), error_of(b, c, d, bc, cd, across)});
+        };
+        const Point &ab = lower.middles[i], &cd = upper.middles[i];
+        look_at(ab, cd, middle.middles[i]);
+        if (!is_even(i))
+          look_at(lower.chord_middles[i], upper.chord_middles[i], middle.chord_middles[i]);
+        rises_[j][static_cast<std::size_t>(tooth) * n + i] = rising <= falling;
+        const double error = std::min(rising, falling);
+        largest = std::max(largest, error);
+        if (error <= tolerance_mm) continue;
+        // charge it to the longer of the two ways across the quadrilateral
+        const double along = std::max(off_chord(a, b, vector_of(ab), 0.5), off_chord(d, c, vector_of(cd), 0.5));
+        const double up = std::max(off_chord(a, d, vector_of(ad), 0.5), off_chord(b, c, vector_of(bc), 0.5));
+        double& charged = along > up ? column_error_mm_[edge_of_[i]] : layer_error_mm_[j];
+        charged = std::max(charged, error);
+      }
+      std::swap(lower, upper);
+    }
+  }
+  facet_error_mm_ = largest / kAim;
+  return largest * (1.0 - 1e-9);
+}
+
+void ToothingGrid::add_where_charged(double tolerance_mm) {
+  std::vector<double> heights{heights_mm_.front()};
+  for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
+    const double z0 = heights_mm_[j], z1 = heights_mm_[j + 1], error = layer_error_mm_[j];
+    const bool split = error > tolerance_mm && z1 - z0 > kShortest * tolerance_mm;
+    const int parts = split ? parts_for(error, tolerance_mm) : 1;
+    for (int k = 1; k < parts; ++k) heights.push_back(z0 + (z1 - z0) * k / parts);
+    heights.push_back(z1);
+  }
+  heights_mm_ = std::move(heights);
+  split_columns(column_error_mm_, tolerance_mm);
+}
+
+bool ToothingGrid::rises(std::size_t layer, int tooth, int point) const {
+  const std::size_t first = teeth_alike_ ? 0 : static_cast<std::size_t>(tooth) * points_.size();
+  return rises_[layer][first + static_cast<std::size_t>(point)];
+}
+
+std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
+  std::vector<Point> result;
+  result.reserve(points_.size() * static_cast<std::size_t>(teeth_));
+  const double z = z_mm + outline_.z_lower_mm;
+  if (teeth_alike_) {
+    std::vector<Point2> tooth;
+    for (const Place& p : points_)
+      tooth.push_back(section_point(toothing_, {0, p.side, p.piece, p.parameter}, z_mm));
+    const double turn = outline_.rotation_rad + section_turn_rad(toothing_.twist, z_mm);
+    for (int k = 0; k < teeth_; ++k) {
+      const Point2 direction = unit_vector(turn + kTwoPi * k / teeth_);
+      for (const Point2& p : tooth)
+        result.push_back({direction.x() * p.x() - direction.y() * p.y(),
+                          direction.y() * p.x() + direction.x() * p.y(), z});
+    }
+    return result;
+  }
+  for (int k = 0; k < teeth_; ++k)
+    for (const Place& place : points_) {
+      const Point p = at(place, k, z_mm);
+      const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
+      result.push_back({turned.x(), turned.y(), p[2] + outline_.z_lower_mm});
+    }
+  return result;
+}
+
+OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm, double tolerance_mm) {
+  ToothedOutline flat = outline;
+  flat.twist.turn_rad_per_mm = 0.0;
+  const ToothingGrid grid(flat, {z_mm}, tolerance_mm);
+  OutlineLoop loop;
+  for (const auto& p : grid.row(z_mm)) loop.points.push_back({p[0], p[1]});
+  loop.teeth = grid.teeth();
+  loop.points_per_tooth = grid.points_per_tooth();
+  loop.teeth_alike = grid.teeth_alike();
+  loop.chord_error_mm = grid.chord_error_mm();
+  return loop;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/solid/shape/part_shape.h"
+
+namespace trueflank {
+
+/// The vertices of a toothing's mesh: columns (the same places of the profile in every row) and rows
+/// at heights, chosen so that every facet between them keeps a tolerance. Every vertex is a
+/// surface_point().
+/// How: the section's own chords give the columns, the curvature of the screw the rows; where a
+/// deviation or displacement bends the surface more, columns and rows are added until the triangles
+/// keep the tolerance. Each quadrilateral is cut along the diagonal that lies nearer to the surface: on
+/// an involute flank along the straight generator of the helicoid. Joints of profile pieces, the
+/// deviation's breaks, a herringbone's middle and chamfers are columns and rows.
+/// Source: docs/theory/helical-facets.md.
+class ToothingGrid {
+ public:
+  /// `levels_mm`: heights in the gear's frame, ascending; each becomes a row. One level alone makes
+  /// a section without facets.
+  /// Requires: tolerance_mm > 0, a level.
+  ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm, double tolerance_mm);
+
+  [[nodiscard]] int teeth() const { return teeth_; }
+  [[nodiscard]] int points_per_tooth() const { return static_cast<int>(points_.size()); }
+  /// Of the rows, in the gear's frame.
+  [[nodiscard]] const std::vector<double>& heights_mm() const { return heights_mm_; }
+  /// All teeth at a height (gear's frame): points of the part's frame, tooth by tooth as in
+  /// SectionPolygon.
+  [[nodiscard]] std::vector<std::array<double, 3>> row(double z_mm) const;
+  /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its lower
+  /// left to its upper right corner (seen from the axis' outside, the axis upwards).
+  [[nodiscard]] bool rises(std::size_t layer, int tooth, int point) const;
+  /// Flanks in strips along their generators: the columns [first, last] of a tooth between which only
+  /// the borders of a patch have vertices. A patch lies between two whole rows. None where the surface
+  /// is no helicoid, or strips would be more.
+  struct Strip {
+    int first = 0, last = 0;
+    bool falling = true;  ///< in the lowest patch
+  };
+  [[nodiscard]] const std::vector<Strip>& flank_strips() const { return strips_; }
+  /// Whether its diagonals fall in the patch that has this layer.
+  [[nodiscard]] bool falls(const Strip& strip, std::size_t layer) const;
+  [[nodiscard]] double column_turn_rad() const { return column_turn_rad_; }  ///< of strips
+  [[nodiscard]] double row_turn_rad(std::size_t layer) const;
+  /// Whether every column has a vertex in a row.
+  [[nodiscard]] bool is_whole(std::size_t row) const;
+  /// False where teeth differ by deviation or displacement.
+  [[nodiscard]] bool teeth_alike() const { return teeth_alike_; }
+  /// Bound on the distance of facets to the surface and of the surface to the facets.
+  [[nodiscard]] double chord_error_mm() const {
+    return section_error_mm_ > facet_error_mm_ ? section_error_mm_ : facet_error_mm_;
+  }
+
+ private:
+  using Point = std::array<double, 3>;
+  /// An edge of the half tooth along one piece of its profile.
+  struct HalfEdge {
+    std::size_t piece = 0;
+    double from = 0.0, to = 0.0;
+  };
+  /// A place on a tooth, whichever tooth.
+  struct Place {
+    int side = 1;
+    std::size_t piece = 0;
+    double parameter = 0.0;
+  };
+  /// Points of one tooth at a height, the next tooth's first one last, and the middles of its edges.
+  struct ToothRow {
+    std::vector<Point> points, middles, chord_middles;
+  };
+
+  [[nodiscard]] Point at(const Place& place, int tooth, double z_mm) const;
+  [[nodiscard]] std::vector<int> some_teeth() const;
+  [[nodiscard]] bool is_even(std::size_t middle) const {
+    return chord_middles_[middle].parameter == middles_[middle].parameter;
+  }
+  void start_columns(double tolerance_mm);
+  void add_roll_breaks(double tolerance_mm);
+  void place_columns();
+  void start_layers(double tolerance_mm);
+  bool split_columns(const std::vector<double>& error_mm, double tolerance_mm);
+  void refine_columns(double tolerance_mm);
+  void refine_layers(double tolerance_mm);
+  [[nodiscard]] double layer_error_mm(double lower_mm, double upper_mm, int samples) const;
+  [[nodiscard]] ToothRow tooth_row(int tooth, double z_mm) const;
+  /// Cuts all quadrilaterals along the better diagonal and returns the largest error left; what is
+  /// beyond the tolerance is charged to columns or layers.
+  double cut(double tolerance_mm);
+  void try_strips(double tolerance_mm);
+  [[nodiscard]] double strip_error_mm(const Strip& strip) const;
+  void add_where_charged(double tolerance_mm);
+
+  const ToothedOutline& outline_;
+  Toothing toothing_;
+  int teeth_ = 0;
+  bool teeth_alike_ = true, layers_alike_ = true, plain_ = true;
+  std::vector<double> levels_mm_, breaks_mm_, heights_mm_;
+  std::vector<Strip> strips_;
+  double column_turn_rad_ = 0.0;
+  std::vector<HalfEdge> edges_;
+  Place first_, last_;  ///< of the half tooth
+  bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
+  std::vector<Place> points_, middles_;   ///< of a whole tooth; middle i follows point i
+  std::vector<Place> chord_middles_;      ///< at the chord's middle where the parameter runs unevenly
+  std::vector<std::size_t> edge_of_;      ///< half edge of middle i
+  std::vector<std::vector<bool>> rises_;  ///< by layer; one tooth where they are alike
+  std::vector<double> column_error_mm_, layer_error_mm_;  ///< charged by cut()
+  double section_error_mm_ = 0.0, facet_error_mm_ = 0.0;
+};
+
+/// The toothing's section at a height in the gear's frame, its deviation included, not turned by the
+/// twist.
+[[nodiscard]] OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm,
+                                          double tolerance_mm);
+
+}  // namespace trueflank

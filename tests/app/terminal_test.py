@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a person at a terminal sees: help, mistyped words, the order of the table, progress."""
+import json
+import os
+import pathlib
+import pty
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+DESIGN = SOURCE / "examples/bilateral_drive/design.toml"
+FAILING = """format = 1
+name = "p"
+[gearbox]
+kind = "pair"
+module_mm = 1.0
+centre_distance_mm = 28.3
+[pinion]
+teeth = 17
+shift = 0.0
+face_width_mm = 8.0
+[wheel]
+teeth = 40
+shift = 0.0
+face_width_mm = 8.0
+"""
+ORDER = ["fail", "warn", "pass"]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+def errors_on_a_terminal(*arguments, paused=False):
+    """What the program writes to standard error where that is a terminal.
+
+    `paused` stops the process for 1.5 s soon after its start, so that the work takes longer than the
+    second after which progress is shown, on the fastest machine too.
+    """
+    own, its = pty.openpty()
+    process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=its)
+    os.close(its)
+    if paused:
+        time.sleep(0.1)
+        process.send_signal(signal.SIGSTOP)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGCONT)
+    text = b""
+    while True:
+        try:
+            block = os.read(own, 4096)
+        except OSError:  # the other end is closed
+            break
+        if not block:
+            break
+        text += block
+    os.close(own)
+    return process.wait(timeout=60), text.decode()
+
+
+class Terminal(unittest.TestCase):
+    def setUp(self):
+        self.folder = OUTPUT / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def failing(self):
+        path = self.folder / "failing.toml"
+        path.write_text(FAILING)
+        return path
+
+    def test_a_mistyped_command_is_answered_with_the_one_that_was_meant(self):
+        for typed, meant in [("chek", "check"), ("cehck", "check"), ("mak", "make"), ("serach", "search"),
+                             ("compair", "compare"), ("loops", "loop")]:
+            result = run(typed, DESIGN)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertEqual(result.stderr, f"trueflank: {typed}: no such command; did you mean {meant}?\n")
+        self.assertIn("wanted: check, make", run("frobnicate").stderr)
+        self.assertIn("did you mean trueflank check my.toml?", run("my.toml").stderr)
+
+    def test_a_mistyped_option_is_answered_with_the_one_that_was_meant(self):
+        result = run("make", DESIGN, "-o", self.folder, "--fromats", "stl")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("did you mean --formats?", result.stderr)
+        self.assertIn("did you mean --json?", run("check", DESIGN, "--jsno=-").stderr)
+        self.assertIn("see trueflank check --help", run("check", DESIGN, "--frobnicate").stderr)
+
+    def test_help_is_a_command_too(self):
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        self.assertEqual(run("help", "make").stdout, run("make", "--help").stdout)
+        self.assertEqual(run("help", "help").stdout, run("--help").stdout)
+        self.assertIn("did you mean make?", run("help", "maek").stderr)
+
+    def test_what_failed_stands_first_and_what_passed_is_one_line(self):
+        report = self.folder / "report.json"
+        shown = run("check", self.failing(), "--json", report).stdout
+        checks = json.loads(report.read_text())["checks"]
+        passed = sum(c["status"] == "pass" for c in checks)
+        self.assertIn(f"\n{passed} passed (-v shows them)\n", shown)
+        words = re.findall(r"^(pass|warn|fail) ", shown, re.M)
+        self.assertEqual(words, sorted(words, key=ORDER.index))
+        self.assertEqual(len(words), sum(c["status"] in ("warn", "fail") for c in checks))
+        every = run("check", self.failing(), "-v").stdout
+        words = re.findall(r"^(pass|warn|fail) ", every, re.M)
+        self.assertEqual(words.count("pass"), passed)
+        self.assertEqual(words, sorted(words, key=ORDER.index))
+        self.assertNotIn("-v shows", every)
+
+    def test_the_last_line_says_which_page_to_open(self):
+        out = self.folder / "out"
+        last = run("make", DESIGN, "-o", out, "--formats", "svg").stdout.splitlines()[-1]
+        self.assertEqual(last, f"open {out}/report.html in a browser")
+        page = self.folder / "page.html"
+        last = run("check", DESIGN, "--html", page).stdout.splitlines()[-1]
+        self.assertEqual(last, f"open {page} in a browser")
+        self.assertTrue(page.is_file())
+
+    def test_a_failing_make_takes_away_the_parts_of_the_earlier_design(self):
+        out = self.folder / "out"
+        self.assertEqual(run("make", DESIGN, "-o", out, "--formats", "svg", "-q").returncode, 0)
+        self.assertTrue((out / "sun.svg").is_file())
+        failed = run("make", self.failing(), "-o", out, "--formats", "svg")
+        self.assertEqual(failed.returncode, 1)
+        self.assertIn("files of an earlier run", failed.stdout)
+        self.assertEqual(failed.stdout.splitlines()[-1], f"open {out}/report.html in a browser")
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["report.html", "report.json"])
+
+    def test_long_work_shows_progress_on_a_terminal_and_none_in_a_pipe(self):
+        long = ["make", DESIGN, "-o", self.folder / "out", "--tolerance-um", "0.01", "--formats", "obj,stl"]
+        code, shown = errors_on_a_terminal(*long, paused=True)
+        self.assertEqual(code, 0)
+        self.assertRegex(shown, r"making bilateral-drive.*, \d+ s")
+        self.assertTrue(shown.endswith("\r\033[K"), shown[-40:])  # gone when the work is done
+        self.assertEqual(run(*long).stderr, "")
+        self.assertEqual(errors_on_a_terminal(*long, "-q"), (0, ""))
+        self.assertEqual(errors_on_a_terminal("check", "--help"), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)

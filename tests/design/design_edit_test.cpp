@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/design/design_edit.h"
+
+#include <gtest/gtest.h>
+
+#include "trueflank/design/design_file.h"
+#include "trueflank/design/design_file_writer.h"
+
+namespace trueflank {
+namespace {
+
+const char* const kText = R"(# my pair
+format = 1
+name = "edited"
+
+[gearbox]          # of everything
+kind = "pair"
+module_mm = 1.0
+centre_distance_mm = 30.0   # as the housing has it
+backlash_mm=0.05
+
+[pinion]
+teeth = 20
+face_width_mm = 10
+shift = 0.1   # more than nothing
+# a comment of its own
+
+[wheel]
+teeth = 40
+face_width_mm = 10
+tip_diameter_mm = 42.0 # "turned" # twice
+)";
+
+GearboxDesign read(const std::string& text) {
+  auto design = read_design_text(text, "edited.toml");
+  EXPECT_TRUE(design.has_value()) << text << design.error().front().message;
+  return design ? *design : GearboxDesign{};
+}
+
+TEST(DesignEdit, ChangesValuesAndKeepsEveryComment) {
+  GearboxDesign design = read(kText);
+  design.centre_distance_mm = 30.25;
+  design.gears[0].shift = 0.35;
+  design.gears[1].tip_diameter_mm = 41.875;
+  design.backlash_mm = 0.1;
+  design.tips = TipCircles::kStandard;
+  const auto text = edited_design_text(kText, "edited.toml", design);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(read(*text), design);
+  for (const char* line : {"# my pair\n", "[gearbox]          # of everything\n",
+                           "centre_distance_mm = 30.25  # as the housing has it\n", "backlash_mm=0.1\n",
+                           "shift = 0.35  # more than nothing\n", "# a comment of its own\n",
+                           "tip_diameter_mm = 41.875 # \"turned\" # twice\n"})
+    EXPECT_NE(text->find(line), std::string::npos) << line << *text;
+}
+
+TEST(DesignEdit, WritesNewKeysIntoTheirTableAndNewTablesAtTheEnd) {
+  GearboxDesign design = read(kText);
+  design.gears[0].tip_diameter_mm = 21.75;
+  design.rack.root_radius = 0.28;
+  const auto text = edited_design_text(kText, "edited.toml", design);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(read(*text), design);
+  EXPECT_NE(text->find("shift = 0.1   # more than nothing\ntip_diameter_mm = 21.75\n"), std::string::npos) << *text;
+  EXPECT_TRUE(text->ends_with("\n[rack]\nroot_radius = 0.28\n")) << *text;
+}
+
+TEST(DesignEdit, AKeyThatIsNoLongerWrittenBecomesAComment) {
+  GearboxDesign design = read(kText);
+  design.gears[0].shift.reset();
+  const auto text = edited_design_text(kText, "edited.toml", design);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(read(*text), design);
+  EXPECT_NE(text->find("# shift = 0.1   # more than nothing\n"), std::string::npos) << *text;
+}
+
+TEST(DesignEdit, AnInlineTableIsWrittenAnewRatherThanWrong) {
+  const std::string text = "format = 1\ngearbox = {kind = \"gear\", module_mm = 1.0}\ngear = {teeth = 20, shift = 0.0, face_width_mm = 8}\n";
+  GearboxDesign design = read(text);
+  design.gears[0].shift = 0.25;
+  const auto edited = edited_design_text(text, "edited.toml", design);
+  ASSERT_TRUE(edited.has_value());
+  EXPECT_EQ(read(*edited), design);
+}
+
+TEST(DesignEdit, NothingChangedIsTheSameText) {
+  EXPECT_EQ(*edited_design_text(kText, "edited.toml", read(kText)), kText);
+}
+
+TEST(DesignEdit, ChangesAreToldByTheirKeys) {
+  const GearboxDesign before = read(kText);
+  GearboxDesign after = before;
+  after.gears[0].shift = 0.2;
+  after.gears[1].tip_diameter_mm.reset();
+  const auto changes = design_changes(before, after);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].dotted(), "pinion.shift");
+  EXPECT_EQ(changes[0].before, "0.1");
+  EXPECT_EQ(changes[0].after, "0.2");
+  EXPECT_EQ(changes[1].dotted(), "wheel.tip_diameter_mm");
+  EXPECT_EQ(changes[1].after, "");
+}
+
+TEST(InchKeys, StandForMillimetres) {
+  const GearboxDesign design = read(
+      "format = 1\n[gearbox]\nkind = \"pair\"\ndiametral_pitch = 24\ncentre_distance_in = 1.25\n"
+      "[pinion]\nteeth = 20\nface_width_in = 0.5\nbore_in = 0.25\n[wheel]\nteeth = 40\nface_width_mm = 12\n");
+  EXPECT_DOUBLE_EQ(design.module_mm, 25.4 / 24);
+  EXPECT_DOUBLE_EQ(*design.centre_distance_mm, 31.75);
+  EXPECT_DOUBLE_EQ(design.gears[0].face_width_mm, 12.7);
+  EXPECT_DOUBLE_EQ(design.gears[0].bore.diameter_mm, 6.35);
+  EXPECT_EQ(design.gears[1].face_width_mm, 12.0);
+}
+
+TEST(InchKeys, ErrorsNameTheKeyAsItIsWritten) {
+  const auto wrong = read_design_text(
+      "format = 1\n[gearbox]\nkind = \"pair\"\ndiametral_pitch = 0.1\nmodule_mm = 1\n"
+      "[pinion]\nteeth = 20\nface_width_in = -2\n[wheel]\nface_width_mm = 8\nteeth = 40\nfoo_in = 3\n", "x.toml");
+  ASSERT_FALSE(wrong.has_value());
+  ASSERT_EQ(wrong.error().size(), 3U);
+  EXPECT_EQ(wrong.error()[0].key, "gearbox.diametral_pitch");
+  EXPECT_EQ(wrong.error()[0].code, ErrorCode::kInconsistent);
+  EXPECT_EQ(wrong.error()[0].line, 4);
+  EXPECT_EQ(wrong.error()[1].key, "pinion.face_width_in");
+  EXPECT_EQ(wrong.error()[1].value, "-2");
+  EXPECT_EQ(wrong.error()[1].line, 8);
+  EXPECT_EQ(wrong.error()[2].key, "wheel.foo_in");
+  EXPECT_EQ(wrong.error()[2].code, ErrorCode::kUnknownKey);
+}
+
+TEST(InchKeys, AreKeptByAnEditThatDoesNotTouchThem) {
+  const std::string text =
+      "format = 1\nname = \"inch\"\n[gearbox]\nkind = \"pair\"\ndiametral_pitch = 24 # ours\ncentre_distance_in = 1.25 # wide\n"
+      "[pinion]\nteeth = 20\nface_width_mm = 8\n[wheel]\nteeth = 40\nface_width_mm = 8\n";
+  GearboxDesign design = read(text);
+  design.centre_distance_mm = 31.5;
+  const auto edited = edited_design_text(text, "inch.toml", design);
+  ASSERT_TRUE(edited.has_value());
+  EXPECT_EQ(read(*edited), design);
+  EXPECT_NE(edited->find("diametral_pitch = 24 # ours\n"), std::string::npos) << *edited;
+  EXPECT_NE(edited->find("centre_distance_mm = 31.5 # wide\n"), std::string::npos) << *edited;
+}
+
+TEST(StrengthTable, IsReadAndWritten) {
+  const std::string head = "format = 1\nname = \"s\"\n[gearbox]\nkind = \"pair\"\nmodule_mm = 1\n[pinion]\nteeth = 20\nface_width_mm = 8\n[wheel]\nteeth = 40\nface_width_mm = 8\n";
+  const GearboxDesign design = read(head + "[strength]\nreversing = true\nbending_safety = 1.5\noverload_factor = 1.25\n");
+  EXPECT_EQ(design.strength.reversing, true);
+  EXPECT_EQ(design.strength.bending_safety, 1.5);
+  EXPECT_EQ(design.strength.overload_factor, 1.25);
+  EXPECT_EQ(design.strength.contact_safety, 1.15);
+  EXPECT_EQ(read(design_file_text(design)), design);
+}
+
+}  // namespace
+}  // namespace trueflank

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/search/search_optimise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trueflank/search/search_corner.h"
+#include "trueflank/train/efficiency.h"
+#include "trueflank/train/gear_train.h"
+#include "trueflank/design/kinds/train_kind.h"
+
+namespace trueflank {
+namespace {
+
+SearchRequirements requirements(double shift_limit = 2.0) {
+  SearchRequirements r;
+  r.ratio_min = 20;
+  r.ratio_max = 400;
+  r.shift_max = shift_limit;
+  r.shift_min = -shift_limit;
+  return r;
+}
+
+ToothSet set_of(const SearchRequirements& base, int s, int p1, int r1, int p2, int r2) {
+  SearchRequirements r = base;
+  r.sun = {s, s};
+  r.planet1 = {p1, p1};
+  r.ring1 = {r1, r1};
+  r.planet2 = {p2, p2};
+  r.ring2 = {r2, r2};
+  r.identical_planets = false;
+  const SetEnumeration found = enumerate_sets(r);
+  EXPECT_EQ(found.sets.size(), 1u);
+  return found.sets.at(0);
+}
+
+TEST(SearchModel, IsTheLaidOutTrainSeenFromTheOptimiser) {
+  const SearchRequirements r = requirements();
+  const SearchModel model(r, set_of(r, 12, 39, 90, 32, 81));
+  const FreeShifts free{25.75, 0.55, 1.6};
+  const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
+  const Layer2Evaluation layer2 = model.layer2(free.centre_distance, free.ring2_shift);
+  const auto train = lay_out(model.design(free));
+  ASSERT_TRUE(train.has_value());
+  const EfficiencyResult whole = efficiency(*train, {.model = LossModel::kContactRatios});  // the search's default
+  EXPECT_NEAR(model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
+                               DriveDirection::kForward), whole.forward, 1e-9);
+  EXPECT_NEAR(model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
+                               DriveDirection::kBackward), whole.backward, 1e-9);
+  double least = 1e9, thinnest = 1e9;
+  for (const TrainMesh& mesh : train->meshes) {
+    const GearPair pair = train->pair(mesh);
+    least = std::min({least, tip_clearance_of_gear1_mm(pair), tip_clearance_of_gear2_mm(pair)});
+  }
+  for (const TrainGear& gear : train->gears)
+    thinnest = std::min(thinnest, gear.profile.tip_thickness_mm());
+  double model_least = 1e9, model_thinnest = 1e9;
+  for (std::size_t i = 0; i < kLimits; ++i) {
+    const double margin =
+        i < kLayer1Limits ? layer1.margins[i] : layer2.margins[i - kLayer1Limits];
+    if (limit_entries()[i].limit == Limit::kTipClearance)
+      model_least = std::min(model_least, margin + r.tip_clearance);
+    if (limit_entries()[i].limit == Limit::kTipThickness)
+      model_thinnest = std::min(model_thinnest, margin + r.tip_thickness);
+  }
+  EXPECT_NEAR(model_least, least, 1e-9);
+  EXPECT_NEAR(model_thinnest, thinnest, 1e-9);
+}
+
+TEST(SearchModel, FastEfficiencyEqualsTheBalanceForBothTypesAndDirections) {
+  SearchRequirements r = requirements();
+  for (const OutputMember output : {OutputMember::kRing2, OutputMember::kRing1})
+    for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81}, {12, 36, 87, 41, 91}}) {
+      ToothSet set{.sun = z[0], .planet1 = z[1], .ring1 = z[2], .planet2 = z[3], .ring2 = z[4],
+                   .output = output, .centre_distance_min = 20, .centre_distance_max = 30};
+      const SearchModel model(r, set);
+      BalanceTrain train = balance_train(train_topology("3k", to_text(output)), {z[0], z[1], -z[2], z[3], -z[4]});
+      for (const double loss : {0.001, 0.01, 0.03}) {
+        const MeshLoss a{1 - loss, 1 - 1.1 * loss}, b{1 - 0.3 * loss, 1 - 0.4 * loss},
+            c{1 - 0.5 * loss, 1 - 0.6 * loss};
+        const MeshLoss all[] = {a, b, c};
+        for (std::size_t k = 0; k < 3; ++k) {
+          train.losses[k] = {all[k].driving1, all[k].driving2};
+        }
+        for (const auto direction : {DriveDirection::kForward, DriveDirection::kBackward})
+          EXPECT_NEAR(model.efficiency(a, b, c, direction),
+                      solve_balance(train, direction).efficiency, 1e-12);
+      }
+    }
+}
+
+/// Deepest cut of gear 2's tip corner into gear 1 (external pair or ring tip in planet), by turning
+/// both gears through the mesh and looking where the corner is: by position, not by radius.
+double swept_corner_clearance(const GearPair& pair) {
+  const Gear &g1 = pair.gear1(), &g2 = pair.gear2();
+  const double tip = pair.profile2->tip_form_radius_mm(), a = pair.centre_distance_mm;
+  const double half = tooth_half_angle_rad(g2, tip);
+  double least = 1e9;
+  // fine polygon of the root fillet, by angle from the gap's middle
+  std::vector<Point2> fillet;
+  for (const ProfilePiece& piece : pair.profile1->pieces())
+    if (piece.kind == PieceKind::kFillet)
+      for (int i = 0; i <= 500; ++i)
+        fillet.push_back(point_at(
+            piece.curve, piece.curve.begin + (piece.curve.end - piece.curve.begin) * i / 500));
+  for (int i = -8000; i <= 8000; ++i) {
+    const double turn2 = 1.5 * kTwoPi / g2.teeth * i / 8000;
+    Point2 corner;
+    double turn1;
+    if (pair.internal()) {
+      corner = {-a + tip * std::cos(turn2 + half), tip * std::sin(turn2 + half)};
+      turn1 = turn2 * g2.teeth / g1.teeth;
+    } else {
+      corner = {a + tip * std::cos(kPi + turn2 + half), tip * std::sin(kPi + turn2 + half)};
+      turn1 = -turn2 * g2.teeth / g1.teeth;
+    }
+    const double radius = corner.norm();
+    const double angle = std::abs(std::remainder(std::atan2(corner.y(), corner.x()) - turn1, kTwoPi));
+    if (angle > 1.5 * kPi / g1.teeth) continue;
+    for (std::size_t k = 0; k + 1 < fillet.size(); ++k) {
+      const double r1 = fillet[k].norm(), r2 = fillet[k + 1].norm();
+      if ((r1 - radius) * (r2 - radius) > 0.0) continue;
+      const Point2 at = fillet[k] + (fillet[k + 1] - fillet[k]) * (radius - r1) / (r2 - r1);
+      const double gap = kPi / g1.teeth - std::atan2(at.y(), at.x());
+      least = std::min(least, radius * (gap - angle));
+    }
+  }
+  return least;
+}
+
+TEST(SearchCorner, IsTheClearanceFoundByTurningTheGears) {
+  const SearchRequirements r = requirements();
+  const SearchModel model(r, set_of(r, 12, 39, 90, 32, 81));
+  for (const FreeShifts& free : {FreeShifts{25.70, 0.48, 2.0}, FreeShifts{25.6, 0.2, 1.0}}) {
+    const auto train = lay_out(model.design(free));
+    ASSERT_TRUE(train.has_value());
+    for (const TrainMesh& mesh : train->meshes) {
+      const GearPair pair = train->pair(mesh);
+      const double swept = swept_corner_clearance(pair);
+      if (swept > 1e8) continue;
+      EXPECT_NEAR(corner_clearance_in_gear1_mm(pair), swept, 2e-4) << mesh.name;
+    }
+  }
+}
+
+/// Best of a grid, by exhaustion at each centre distance.
+double dense_grid(const SearchRequirements& r, const ToothSet& set, int n) {
+  const SearchModel model(r, set);
+  double best = -1.0;
+  for (int i = 0; i <= n; ++i) {
+    const double a =
+        set.centre_distance_min + (set.centre_distance_max - set.centre_distance_min) * i / n;
+    const auto range1 = model.ring1_shift_range(a), range2 = model.ring2_shift_range(a);
+    std::optional<MeshLoss> layer2;
+    for (int k = 0; k <= n; ++k) {
+      const auto e = model.layer2(a, range2[0] + (range2[1] - range2[0]) * k / n, 0.0);
+      if (e.least_margin >= 5.1e-6 && (!layer2 || e.planet_ring.driving1 > layer2->driving1))
+        layer2 = e.planet_ring;
+    }
+    for (int k = 0; layer2 && k <= n; ++k) {
+      const auto e = model.layer1(a, range1[0] + (range1[1] - range1[0]) * k / n, 0.0);
+      if (e.least_margin >= 5.1e-6)
+        best = std::max(best, model.efficiency(e.sun_planet, e.planet_ring, *layer2,
+                                               DriveDirection::kForward));
+    }
+  }
+  return best;
+}
+
+TEST(SearchOptimise, ReachesTheBestOfADenseGrid) {
+  const SearchRequirements r = requirements();
+  int feasible = 0;
+  for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81}, {11, 46, 103, 38, 95},
+                                    {12, 36, 87, 41, 91}, {18, 39, 96, 43, 99},
+                                    {15, 42, 105, 37, 101}}) {
+    const ToothSet set = set_of(r, z[0], z[1], z[2], z[3], z[4]);
+    const SetResult result = optimise_set(r, set);
+    const double dense = dense_grid(r, set, 60);
+    if (dense > 0.0) {
+      ++feasible;
+      ASSERT_EQ(result.candidates.size(), 1u) << z[0] << ' ' << z[1];
+    }
+    if (result.candidates.empty()) continue;
+    EXPECT_GE(result.candidates[0].forward, dense - 2e-4) << z[0] << ' ' << z[1];
+    EXPECT_GE(result.candidates[0].least_margin, 0.0);
+  }
+  EXPECT_GE(feasible, 3);
+}
+
+TEST(SearchOptimise, PrototypeTeethReachTheKnownOptimumWithoutInterference) {
+  // Matsuki et al.: the same teeth uncorrected 68.5 %; known without interference: 90.8 %
+  const SearchRequirements r = requirements();
+  const SetResult result = optimise_set(r, set_of(r, 12, 39, 90, 32, 81));
+  ASSERT_EQ(result.candidates.size(), 1u);
+  EXPECT_GT(result.candidates[0].forward, 0.908);
+  EXPECT_LT(result.candidates[0].forward, 0.9095);  // the bound without interference limits
+}
+
+TEST(SearchOptimise, NarrowShiftBoundsCostEfficiency) {
+  const SearchRequirements wide = requirements(2.0), narrow = requirements(0.9);
+  const auto at = [](const SearchRequirements& r) {
+    return optimise_set(r, set_of(r, 12, 39, 90, 32, 81)).candidates.at(0).forward;
+  };
+  EXPECT_GT(at(wide), at(narrow) + 0.01);
+}
+
+TEST(SearchOptimise, ATorqueThatIsAskedForIsKeptOrNamed) {
+  SearchRequirements r = requirements();
+  const ToothSet set = set_of(r, 12, 39, 90, 32, 81);
+  const double free = optimise_set(r, set).candidates.at(0).torque_nm;
+  r.output_torque_nm = free * 1.02;
+  const SetResult bound = optimise_set(r, set);
+  ASSERT_EQ(bound.candidates.size(), 1u);
+  EXPECT_GE(bound.candidates[0].torque_nm, *r.output_torque_nm * (1 - 1e-9));
+  r.output_torque_nm = free * 10;
+  const SetResult none = optimise_set(r, set);
+  EXPECT_TRUE(none.candidates.empty());
+  EXPECT_EQ(none.failed_limit, static_cast<int>(kLimits));
+}
+
+TEST(SearchOptimise, SeveralObjectivesGiveTheirOptimaAndCompromises) {
+  SearchRequirements r = requirements();
+  r.objectives = {SearchObjective::kForward, SearchObjective::kTorque};
+  const auto candidates = optimise_set(r, set_of(r, 12, 39, 90, 32, 81)).candidates;
+  ASSERT_GE(candidates.size(), 3u);
+  EXPECT_GT(candidates[1].torque_nm, candidates[0].torque_nm);
+  for (const SearchCandidate& c : candidates) {
+    EXPECT_LE(c.forward, candidates[0].forward + 1e-6);
+    EXPECT_GE(c.least_margin, 0.0);
+  }
+}
+
+TEST(SearchOptimise, AnOuterDiameterFixesTheModule) {
+  SearchRequirements r = requirements();
+  r.outer_diameter_mm = 60.0;
+  const ToothSet set = set_of(r, 12, 39, 90, 32, 81);
+  const SetResult result = optimise_set(r, set);
+  ASSERT_EQ(result.candidates.size(), 1u);
+  EXPECT_NEAR(result.candidates[0].size_mm, 60.0, 1e-9);
+  const GearboxDesign design = SearchModel(r, set).design(result.candidates[0].free);
+  EXPECT_NEAR(std::max(*design.gears[2].outer_diameter_mm, *design.gears[4].outer_diameter_mm),
+              60.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace trueflank
