@@ -8,6 +8,7 @@
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/train_turning.h"
+#include "trueflank/train/planet_phase.h"
 
 namespace trueflank {
 namespace {
@@ -88,6 +89,38 @@ Finding without_planets(const GearTrain& train) {
   return finding;
 }
 
+std::string indexed_text(const GearTrain& train, const IndexedPlanets& indexed) {
+  const Topology& topology = train.topology();
+  const std::vector<int> gears = topology.gears_of(topology.first_planet());
+  return " at " + list_text(indexed.angles_rad) + ", with " + train.gear(gears[1]).name + " ahead of " +
+         train.gear(gears[0]).name + ", against body 1, by " + list_text(indexed.offsets_rad);
+}
+
+/// Equal spacing is impossible: which angles are left, and for which bodies.
+void at_other_angles(const GearTrain& train, const std::string& count, Finding& finding) {
+  const AssemblyCondition& condition = train.assembly;
+  finding.status = CheckStatus::kFail;
+  finding.message = count + " planets do not mesh at equal spacing with sun and rings.";
+  finding.value = kNaN;
+  finding.cure = "tooth numbers of sun and ring whose sum is a multiple of " + count;
+  if (condition.nearest_angles_rad.empty()) {
+    finding.message += " At the angles nearest to it where they do, neighbours would collide.";
+    return;
+  }
+  finding.value = deg_from_rad(departure_rad(condition.nearest_angles_rad));
+  finding.cure += ", or the angles given";
+  const IndexedPlanets indexed = indexed_planets(train);
+  if (!planet_bodies_alike(condition)) {
+    finding.message += " Identical ones would collide at the nearest angles; bodies that differ mesh" +
+                       indexed_text(train, indexed) + ": these are taken.";
+    finding.cure += ", each body marked and mounted in its place";
+    return;
+  }
+  finding.message += " Identical ones do at " + list_text(condition.nearest_angles_rad) + ": these are taken.";
+  if (!indexed.angles_rad.empty() && indexed.angles_rad != condition.nearest_angles_rad)
+    finding.message += " Bodies that differ would" + indexed_text(train, indexed) + ".";
+}
+
 /// The closed form's word, without the order.
 Finding by_closed_form(const GearTrain& train) {
   const AssemblyCondition& condition = train.assembly;
@@ -107,15 +140,7 @@ Finding by_closed_form(const GearTrain& train) {
     if (!condition.nearest_angles_rad.empty())
       finding.cure += ", or mount identical ones at " + list_text(condition.nearest_angles_rad);
   } else {
-    finding.status = CheckStatus::kFail;
-    finding.message = count + " planets do not mesh at equal spacing with sun and rings.";
-    finding.value = kNaN;
-    finding.cure = "tooth numbers of sun and ring whose sum is a multiple of " + count;
-    if (!condition.nearest_angles_rad.empty()) {
-      finding.value = deg_from_rad(departure_rad(condition.nearest_angles_rad));
-      finding.message += " Identical ones do at " + list_text(condition.nearest_angles_rad) + ".";
-      finding.cure += ", or the angles given";
-    }
+    at_other_angles(train, count, finding);
   }
   finding.margin = -finding.value;
   finding.message += places_text(train);

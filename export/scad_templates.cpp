@@ -9,6 +9,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/scad_template_texts.h"
 #include "trueflank/train/carrier.h"
+#include "trueflank/train/planet_phase.h"
 
 namespace trueflank::io {
 namespace {
@@ -60,7 +61,7 @@ std::string one_line(std::string text) {
 std::string part_of(const GearTrain& train, const std::string& gear) {
   const Topology& topology = train.topology();
   const int member = topology.gears[static_cast<std::size_t>(topology.find_gear(gear))].member;
-  const bool alike = !topology.is_planet(member) || train.assembly.identical_planets ||
+  const bool alike = !topology.is_planet(member) || planet_bodies_alike(train.assembly) ||
                      train.phases.planet_position_rad.size() == 1 || topology.gears_of(member).size() == 1;
   return topology.name_of(member) + (alike ? "" : "_1");
 }

@@ -7,6 +7,7 @@
 #include "trueflank/report/report.h"
 #include "trueflank/report/report_drive.h"
 #include "trueflank/train/mesh_face.h"
+#include "trueflank/train/planet_phase.h"
 
 namespace trueflank::io {
 namespace {
@@ -17,6 +18,12 @@ Json degrees(const std::vector<double>& angles_rad) {
   Json list = Json::array();
   for (double angle : angles_rad) list.push_back(deg_from_rad(angle));
   return list;
+}
+
+/// Which bodies the nearest angles are for; at equal spacing they are those of identical ones.
+Json nearest_bodies(const AssemblyCondition& condition) {
+  if (condition.nearest_angles_rad.empty()) return nullptr;
+  return condition.equal_spacing || planet_bodies_alike(condition) ? "identical" : "indexed";
 }
 
 Json train_json(const GearTrain& train) {
@@ -36,10 +43,15 @@ Json train_json(const GearTrain& train) {
     json["identical_planets"] = train.assembly.identical_planets;
     json["planet_offsets_deg"] = degrees(train.assembly.planet_offsets_rad);
     json["nearest_angles_deg"] = degrees(train.assembly.nearest_angles_rad);
+    json["nearest_bodies"] = nearest_bodies(train.assembly);
+    const IndexedPlanets indexed = indexed_planets(train);
+    json["indexed_angles_deg"] = degrees(indexed.angles_rad);
+    json["indexed_offsets_deg"] = degrees(indexed.offsets_rad);
     json["angle_step_deg"] = deg_from_rad(train.assembly.angle_step_rad);
   } else {
     for (const char* key : {"assembles", "identical_planets", "planet_offsets_deg",
-                            "nearest_angles_deg", "angle_step_deg"})
+                            "nearest_angles_deg", "nearest_bodies", "indexed_angles_deg",
+                            "indexed_offsets_deg", "angle_step_deg"})
       json[key] = nullptr;
   }
   return json;

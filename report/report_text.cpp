@@ -57,11 +57,20 @@ std::string backward_text(double backward, bool self_locking) {
   return self_locking ? "none (self-locking)" : formatted("%.2f", 100.0 * backward) + " %";
 }
 
+/// Names of the meshes of a kind, without those that idle.
+template <class Kind>
+std::string carrying_meshes(const GearTrain& train, const EfficiencyResult& e, const Kind& kind) {
+  const std::vector<bool> idle = idle_meshes(train.topology());
+  std::string names;
+  for (std::size_t k = 0; k < e.meshes.size(); ++k)
+    if (!idle[k] && kind(e.meshes[k])) names += (names.empty() ? "" : ", ") + e.meshes[k].name;
+  return names;
+}
+
 /// The paper's formula beside the figures by the sliding itself, and what a difference means.
-std::string formula_text(const EfficiencyResult& e) {
-  std::string outside;
-  for (const MeshEfficiency& mesh : e.meshes)
-    if (!mesh.formula_applies) outside += (outside.empty() ? "" : ", ") + mesh.name;
+std::string formula_text(const GearTrain& train, const EfficiencyResult& e) {
+  const std::string outside =
+      carrying_meshes(train, e, [](const MeshEfficiency& mesh) { return !mesh.formula_applies; });
   return wrapped("by the contact ratio formula: forward " + formatted("%.2f", 100.0 * e.by_formula.forward) +
                      " %, backward " + backward_text(e.by_formula.backward, e.by_formula.self_locking) +
                      (outside.empty() ? ", the same to first order in friction"
@@ -70,10 +79,9 @@ std::string formula_text(const EfficiencyResult& e) {
 }
 
 /// Which meshes have moments without contact, and so no efficiency.
-std::string interrupted_text(const EfficiencyResult& e) {
-  std::string meshes;
-  for (const MeshEfficiency& mesh : e.meshes)
-    if (std::isnan(mesh.by_path_integral)) meshes += (meshes.empty() ? "" : ", ") + mesh.name;
+std::string interrupted_text(const GearTrain& train, const EfficiencyResult& e) {
+  const std::string meshes = carrying_meshes(
+      train, e, [](const MeshEfficiency& mesh) { return std::isnan(mesh.by_path_integral); });
   return meshes.empty() ? "" : wrapped("efficiency: none, contact is interrupted in " + meshes, 0);
 }
 
@@ -110,9 +118,9 @@ std::string heading_text(const Report& report) {
               " N m of output torque and " + formatted("%g", train.design.losses->input_speed_rpm) +
               " rpm; the meshes alone: forward " + formatted("%.2f", 100.0 * e.mesh_forward) +
               " %, backward " + formatted("%.2f", 100.0 * e.mesh_backward) + " %\n";
-    text += formula_text(e);
+    text += formula_text(train, e);
   }
-  text += interrupted_text(e);
+  text += interrupted_text(train, e);
   if (report.strength && !std::isnan(report.strength->output_torque_nm)) {
     const StrengthResult& s = *report.strength;
     text += "allowable output torque " + formatted("%.4g", s.output_torque_nm) + " N m, limited by " +

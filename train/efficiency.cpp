@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/train/efficiency.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/contract.h"
@@ -98,11 +97,13 @@ BothDirections both_directions(BalanceTrain balance, const std::vector<MeshEffic
 FormulaEfficiency formula_efficiency(const BalanceTrain& balance,
                                      const std::vector<MeshEfficiency>& meshes) {
   const BothDirections states = both_directions(balance, meshes, LossModel::kContactRatios);
+  const std::vector<bool> idle = idle_meshes(balance.topology);
+  bool applies = true;
+  for (std::size_t k = 0; k < meshes.size(); ++k) applies = applies && (idle[k] || meshes[k].formula_applies);
   return {.forward = states.forward.efficiency,
           .backward = states.backward.efficiency,
           .self_locking = states.backward.self_locking,
-          .applies = std::all_of(meshes.begin(), meshes.end(),
-                                 [](const MeshEfficiency& m) { return m.formula_applies; })};
+          .applies = applies};
 }
 
 /// A backward efficiency that the drag takes is 0 without self_locking: more load moves the drive.

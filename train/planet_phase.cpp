@@ -88,6 +88,13 @@ double offset_rad(const PlanetGear& first, const PlanetGear& later, double posit
              : offset;
 }
 
+std::vector<double> offsets_rad(const std::vector<PlanetGear>& gears, const std::vector<double>& positions) {
+  std::vector<double> all;
+  for (const double position : positions)
+    all.push_back(gears.size() < 2 ? 0.0 : offset_rad(gears[0], gears[1], position));
+  return all;
+}
+
 double largest_planet_tip_mm(const GearTrain& train) {
   double tip = 0.0;
   for (std::size_t i = 0; i < train.gears.size(); ++i)
@@ -95,10 +102,11 @@ double largest_planet_tip_mm(const GearTrain& train) {
   return tip;
 }
 
-/// Places of identical bodies nearest to equal spacing; empty where neighbours would collide.
-std::vector<double> nearest_positions(const GearTrain& train, const Spacing& spacing) {
+/// Multiples of a step nearest to equal spacing; empty where neighbours would collide. Gaps between neighbours
+/// differ by one step at most, so that no other choice leaves the nearest two farther apart.
+std::vector<double> nearest_positions(const GearTrain& train, std::int64_t places, std::int64_t multiple) {
   const int n = train.design.planets;
-  const auto sum = static_cast<double>(spacing.places), step = static_cast<double>(spacing.step);
+  const auto sum = static_cast<double>(places), step = static_cast<double>(multiple);
   std::vector<double> angles;
   for (int i = 0; i < n; ++i) {
     // nearest multiple of step to i sum / n, halves away from zero
@@ -192,6 +200,22 @@ void place_planets(const GearTrain& train, int planet, AssemblyPhases& phases) {
 
 }  // namespace
 
+bool planet_bodies_alike(const AssemblyCondition& condition) {
+  return std::all_of(condition.planet_offsets_rad.begin(), condition.planet_offsets_rad.end(),
+                     [](double offset) { return std::abs(offset) <= tolerance::kAngle_rad; });
+}
+
+IndexedPlanets indexed_planets(const GearTrain& train) {
+  const int planet = train.topology().first_planet();
+  if (planet == kNoMember) return {};
+  const std::vector<PlanetGear> gears = planet_gears(train, planet);
+  const Spacing spacing = spacing_of(gears);
+  if (spacing.any_mesh || spacing.step == 1) return {};
+  IndexedPlanets indexed{.angles_rad = nearest_positions(train, spacing.places, 1)};
+  indexed.offsets_rad = offsets_rad(gears, indexed.angles_rad);
+  return indexed;
+}
+
 AssemblyCondition assembly_condition(const GearTrain& train) {
   AssemblyCondition condition;
   const int planet = train.topology().first_planet();
@@ -205,15 +229,18 @@ AssemblyCondition assembly_condition(const GearTrain& train) {
   if (spacing.places > 0)
     condition.angle_step_rad =
         kTwoPi * static_cast<double>(spacing.step) / static_cast<double>(spacing.places);
-  for (int i = 0; i < n; ++i)
-    condition.planet_offsets_rad.push_back(
-        !condition.equal_spacing ? kNaN
-        : gears.size() < 2       ? 0.0
-                                 : offset_rad(gears[0], gears[1], kTwoPi * i / n));
-  if (condition.identical_planets)
-    for (int i = 0; i < n; ++i) condition.nearest_angles_rad.push_back(kTwoPi * i / n);
-  else
-    condition.nearest_angles_rad = nearest_positions(train, spacing);
+  std::vector<double> equal;
+  for (int i = 0; i < n; ++i) equal.push_back(kTwoPi * i / n);
+  condition.nearest_angles_rad =
+      condition.identical_planets ? equal : nearest_positions(train, spacing.places, spacing.step);
+  if (condition.equal_spacing) {
+    condition.planet_offsets_rad = offsets_rad(gears, equal);
+    return condition;
+  }
+  if (condition.nearest_angles_rad.empty()) condition.nearest_angles_rad = indexed_planets(train).angles_rad;
+  condition.planet_offsets_rad = condition.nearest_angles_rad.empty()
+                                     ? std::vector<double>(static_cast<std::size_t>(n), kNaN)
+                                     : offsets_rad(gears, condition.nearest_angles_rad);
   return condition;
 }
 

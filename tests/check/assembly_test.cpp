@@ -36,6 +36,18 @@ TEST(Assembly, SaysWhichPlanetsAreAlike) {
   EXPECT_EQ(assembly_of(paper_design()).status, CheckStatus::kPass);
 }
 
+TEST(Assembly, SaysWhetherTheNearestAnglesAreOfIdenticalOrOfIndexedBodies) {
+  const Finding indexed = assembly_of(compound(12, 39, 91, 31, 80, 2));
+  EXPECT_EQ(indexed.status, CheckStatus::kFail);
+  EXPECT_NEAR(indexed.value, 360.0 * 52 / 103 - 180.0, 1e-9);
+  EXPECT_NE(indexed.message.find("bodies that differ mesh at 0, 181.7476 deg"), std::string::npos) << indexed.message;
+  const Finding identical = assembly_of(simple_design(13, 30, 73, 3));
+  EXPECT_NE(identical.message.find("Identical ones do at"), std::string::npos) << identical.message;
+  const Finding none = assembly_of(simple_design(13, 60, 133, 7));
+  EXPECT_NE(none.message.find("neighbours would collide"), std::string::npos) << none.message;
+  EXPECT_TRUE(std::isnan(none.value));
+}
+
 TEST(Assembly, DifferentCompoundBodiesWarnWithTheirOffsets) {
   const Finding f = assembly_of(compound(11, 40, 91, 33, 83, 3));
   EXPECT_EQ(f.status, CheckStatus::kWarn);
@@ -62,8 +74,8 @@ TEST(Assembly, ABodyInTheWrongPlaceIsFoundByTurning) {
   EXPECT_EQ(check_assembly(train, states)[0].status, CheckStatus::kFail);
 }
 
-/// By brute force: does a body, P2 fixed to P1 by body 1's offset, mesh with sun and rings at an angle?
-bool body_fits(const GearTrain& train, double position_rad, double sun_rad, double ring2_rad) {
+/// By brute force: does a body, P2 fixed to P1 by an offset, mesh with sun and rings at an angle?
+bool body_fits(const GearTrain& train, double position_rad, double offset_rad, double sun_rad, double ring2_rad) {
   const GearPair sun = train.pair(train.meshes[0]), ring = train.pair(train.meshes[1]);
   const bool two = train.meshes.size() > 2;
   const int teeth = ring.gear1().teeth;
@@ -81,7 +93,7 @@ bool body_fits(const GearTrain& train, double position_rad, double sun_rad, doub
   const GearPair outer = train.pair(train.meshes[2]);
   for (int k = 0; k < teeth; ++k) {
     const double rotation = first + kTwoPi * k / teeth;
-    if (simulate_position_mm(outer, turn_back(rotation + test::offsets_of(train, "planet2")[0]),
+    if (simulate_position_mm(outer, turn_back(rotation + offset_rad),
                              turn_back(ring2_rad), {-train.centre_distance_mm, 0.0}) >= 0.0)
       return true;
   }
@@ -96,16 +108,18 @@ TEST(Assembly, TheClosedFormIsWhatBruteForceFinds) {
     GearboxDesign d = wanted;
     d.backlash_mm = 0.03;  // less than the phase errors that tooth counts make
     const GearTrain train = laid_out(d);
+    const double sun_rad = test::rotation_of(train, train.phases, "sun");
+    const double ring2_rad = test::rotation_of(train, train.phases, "ring2");
+    const std::vector<double> offsets = test::offsets_of(train, "planet2");
     bool all = true;
-    for (int i = 0; i < 3; ++i)
-      all = all && body_fits(train, kTwoPi * i / 3.0, test::rotation_of(train, train.phases, "sun"),
-                             test::rotation_of(train, train.phases, "ring2"));
+    for (int i = 0; i < 3; ++i) all = all && body_fits(train, kTwoPi * i / 3.0, offsets[0], sun_rad, ring2_rad);
     EXPECT_EQ(all, train.assembly.equal_spacing && train.assembly.identical_planets)
         << d.gears[0].teeth << ' ' << d.gears[3].teeth;
-    for (double angle : train.assembly.nearest_angles_rad)
-      EXPECT_TRUE(body_fits(train, angle, test::rotation_of(train, train.phases, "sun"),
-                            test::rotation_of(train, train.phases, "ring2")))
-          << d.gears[0].teeth << " at " << deg_from_rad(angle);
+    const std::vector<double>& angles = train.assembly.nearest_angles_rad;
+    // bodies as they are made for these angles: all like the first, or indexed
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      EXPECT_TRUE(body_fits(train, angles[i], train.assembly.equal_spacing ? offsets[0] : offsets[i], sun_rad, ring2_rad))
+          << d.gears[0].teeth << " at " << deg_from_rad(angles[i]);
   }
 }
 

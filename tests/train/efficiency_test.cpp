@@ -115,6 +115,24 @@ TEST(Efficiency, SpeedsAgreeWithTheKinematicsOfTheTrain) {
   }
 }
 
+TEST(Efficiency, AnIdleMeshWithInterruptedContactTakesNothingAway) {
+  GearboxDesign design = test::prototype(0.46, 1.2, 25.66);
+  const auto interrupted = [](GearboxDesign d) {
+    d.gears[0].tip_diameter_mm = 12.2;  // the sun hardly reaches its planets
+    return efficiency_of(d);
+  };
+  const EfficiencyResult driven = interrupted(design);
+  EXPECT_TRUE(std::isnan(driven.meshes[0].by_path_integral));
+  EXPECT_TRUE(std::isnan(driven.forward));
+  design.topology = train_topology("3k", "ring2", "carrier");  // the sun idles
+  const EfficiencyResult whole = efficiency_of(design), idle = interrupted(design);
+  EXPECT_TRUE(std::isnan(idle.meshes[0].by_path_integral));
+  EXPECT_GT(idle.forward, 0.0);
+  EXPECT_EQ(idle.forward, whole.forward);
+  EXPECT_EQ(idle.backward, whole.backward);
+  EXPECT_EQ(idle.by_formula.applies, whole.by_formula.applies);
+}
+
 TEST(Efficiency, ASingleGearHasNone) {
   const EfficiencyResult result =
       efficiency_of(test::unshifted("gear", "", {20}));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/planet_phase.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gear_train.h"
 
@@ -230,6 +231,55 @@ TEST(Assembly, NearestAnglesAssembleIdenticalBodies) {
   ASSERT_EQ(train->assembly.nearest_angles_rad.size(), 3u);
   expect_in_mesh(*train, train->phases, 1e-9);
   for (double offset : test::offsets_of(*train, "planet2")) EXPECT_EQ(offset, 0.0);
+}
+
+TEST(Assembly, IndexedBodiesStandNearEqualSpacingWhereIdenticalOnesWouldCollide) {
+  const auto train = lay_out(design_3k({12, 39, 91, 31, 80}, 2));  // 103 places, one of them for identical bodies
+  ASSERT_TRUE(train);
+  EXPECT_FALSE(train->assembly.equal_spacing);
+  EXPECT_FALSE(planet_bodies_alike(train->assembly));
+  ASSERT_EQ(train->assembly.nearest_angles_rad.size(), 2u);
+  EXPECT_NEAR(deg_from_rad(train->assembly.nearest_angles_rad[1]), 360.0 * 52 / 103, 1e-9);
+  EXPECT_NE(train->assembly.planet_offsets_rad[1], 0.0);
+  expect_in_mesh(*train, train->phases, 1e-9);
+  const IndexedPlanets indexed = indexed_planets(*train);
+  EXPECT_EQ(indexed.angles_rad, train->assembly.nearest_angles_rad);
+  EXPECT_EQ(indexed.offsets_rad, train->assembly.planet_offsets_rad);
+}
+
+TEST(Assembly, NoAnglesAreLeftOnlyWhereNeighboursWouldCollide) {
+  std::mt19937 random(5);
+  const auto between = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
+  int left = 0, none = 0, indexed = 0, seen = 0;
+  while (seen < 300) {
+    const int z_s = between(9, 30), z_p1 = between(12, 40), z_r1 = z_s + 2 * z_p1 + between(-1, 1);
+    const int z_p2 = between(12, 40), z_r2 = z_r1 - z_p1 + z_p2 + between(-2, 2), planets = between(2, 6);
+    if (z_r2 <= z_p2 + 5 || (z_s + z_r1) % planets == 0) continue;
+    const auto train = lay_out(design_3k({z_s, z_p1, z_r1, z_p2, z_r2}, planets));
+    if (!train) continue;
+    ++seen;
+    SCOPED_TRACE(std::to_string(z_s) + "/" + std::to_string(z_p1) + "/" + std::to_string(z_r1) + "/" +
+                 std::to_string(z_p2) + "/" + std::to_string(z_r2) + " N " + std::to_string(planets));
+    // of N gaps of whole places the smallest is at most the mean, rounded down
+    const int places = z_s + z_r1, narrowest = places / planets;
+    const double tip = std::max(train->gears[1].profile.tip_radius_mm(), train->gears[3].profile.tip_radius_mm());
+    const bool collide =
+        train->centre_distance_mm * std::sin(std::min(kPi * narrowest / places, 0.5 * kPi)) <= tip;
+    EXPECT_EQ(train->assembly.nearest_angles_rad.empty(), collide);
+    if (collide) {
+      ++none;
+      continue;
+    }
+    ++left;
+    indexed += !planet_bodies_alike(train->assembly);
+    expect_in_mesh(*train, train->phases, 1e-9);
+    for (std::size_t i = 0; i < train->assembly.planet_offsets_rad.size(); ++i)
+      EXPECT_NEAR(std::abs(test::offsets_of(*train, "planet2")[i]), std::abs(train->assembly.planet_offsets_rad[i]),
+                  1e-9);
+  }
+  EXPECT_GT(left, 50);
+  EXPECT_GT(none, 10);
+  EXPECT_GT(indexed, 20);
 }
 
 TEST(Kinematics, TurnedTrainStaysInMesh) {
