@@ -61,6 +61,17 @@ int count(const Findings& findings, CheckStatus status) {
                                         [&](const Finding& f) { return f.status == status; }));
 }
 
+/// A check that passed fails now.
+bool any_newly_fails(const Findings& before, const Findings& after) {
+  const auto passed = [&](const Finding& asked) {
+    return std::any_of(before.begin(), before.end(), [&](const Finding& f) {
+      return f.id == asked.id && f.where == asked.where && f.status == CheckStatus::kPass;
+    });
+  };
+  return std::any_of(after.begin(), after.end(),
+                     [&](const Finding& f) { return f.status == CheckStatus::kFail && passed(f); });
+}
+
 bool complained(const Judgement& judgement, const char* id) {
   return std::any_of(judgement.complaints.begin(), judgement.complaints.end(),
                      [&](const Complaint& c) { return c.id == id; });
@@ -78,12 +89,13 @@ class Search {
       if (c.id == "axial") layer_gap_mm_ = c.lacking * train.design.module_mm + 0.2 * train.design.module_mm;
   }
 
-  JointCure run() {
-    JointCure result{.design = train_.design, .findings = check_gearbox(train_), .changed = false, .conflict = {}};
+  JointCure run(const Findings& before) {
+    JointCure result{.design = train_.design, .findings = before, .changed = false, .conflict = {}};
     for (const DesignChange& common : common_moves()) {
       if (spent() || common.cost() >= cost_of_cleanest_) break;
       try_common(common);
     }
+    result.search_ended = !spent();
     if (trials_.empty() || !trials_.front().passes()) try_teeth();
     choose(result);
     if (!result.cured()) result.conflict = conflict_text();
@@ -289,6 +301,7 @@ class Search {
 
   /// The best that every check agrees with.
   void choose(JointCure& result) {
+    const Findings before = result.findings;
     const int fails_before = count(result.findings, CheckStatus::kFail);
     const int warns_before = count(result.findings, CheckStatus::kWarn);
     int fails = fails_before, warns = warns_before;
@@ -299,7 +312,7 @@ class Search {
       if (!laid || (design == train_.design)) continue;
       Findings findings = check_gearbox(*laid);
       const int f = count(findings, CheckStatus::kFail), w = count(findings, CheckStatus::kWarn);
-      if (f > fails || (f == fails && w >= warns)) continue;
+      if (f > fails || (f == fails && w >= warns) || any_newly_fails(before, findings)) continue;
       fails = f;
       warns = w;
       result.design = design;
@@ -362,7 +375,11 @@ class Search {
 }  // namespace
 
 JointCure joint_cure(const GearTrain& train, const JointCureOptions& options) {
-  return Search(train, options).run();
+  return joint_cure(train, check_gearbox(train), options);
+}
+
+JointCure joint_cure(const GearTrain& train, const Findings& findings, const JointCureOptions& options) {
+  return Search(train, options).run(findings);
 }
 
 }  // namespace trueflank

@@ -14,11 +14,16 @@ struct JointCureOptions {
   int most_turned = 400;    ///< meshes turned at most
 };
 
+/// What a check of a failing design may take: about a second. The change it finds is the smallest where the search
+/// ended, and verified in any case.
+inline constexpr JointCureOptions kCheckSearch{.most_designs = 1500, .most_turned = 120};
+
 /// One change after which every check passes.
 struct JointCure {
   GearboxDesign design;      ///< the cured one; where there is none, the nearest that was found
   Findings findings;         ///< of every check of that design
   bool changed = false;
+  bool search_ended = true;  ///< false: the options' limits stopped it; a longer search may find a smaller change
   /// In words, where a check still fails: what contradicts what.
   std::string conflict;
 
@@ -31,8 +36,10 @@ struct JointCure {
 /// else warns that did not before. The result has been judged by check_gearbox().
 /// What is changed together, by size: tips 1 a module, shifts 1, centre distance 1.2 a module, backlash 2 a
 /// module, root rounding and addendum 1.5, a tooth 2.3 and more, a planet 2.
-/// Guarantees: never a design with more failing checks than the one given. Not guaranteed: that no smaller
+/// Guarantees: never a design with more failing checks than the one given, and no check fails that passed before. Not guaranteed: that no smaller
 /// change exists, nor that one is found where it does.
 [[nodiscard]] JointCure joint_cure(const GearTrain& train, const JointCureOptions& options = {});
+/// The same where every check of the train has been asked already.
+[[nodiscard]] JointCure joint_cure(const GearTrain& train, const Findings& findings, const JointCureOptions& options);
 
 }  // namespace trueflank

@@ -57,6 +57,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   loop/result/loop_result.h
   report/report.h
   report/report_html.h
+  report/reported_cure.h
   session/close_loop.h
   session/compare_report.h
   session/evaluate.h

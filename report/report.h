@@ -8,6 +8,7 @@
 
 #include "trueflank/check/finding.h"
 #include "trueflank/export/reported_file.h"
+#include "trueflank/report/reported_cure.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/inertia.h"
@@ -32,6 +33,7 @@ struct ReportedInertia {
 struct Report {
   std::shared_ptr<const GearTrain> train;
   Findings findings;
+  std::optional<ReportedCure> cure;  ///< of a design that fails
   EfficiencyResult efficiency;
   std::optional<StrengthResult> strength;  ///< none for a single gear
   std::optional<ReportedInertia> inertia;

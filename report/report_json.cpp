@@ -229,6 +229,7 @@ std::string report_json(const Report& report) {
   }
   json["checks"] = Json::array();
   for (const Finding& finding : report.findings) json["checks"].push_back(finding_json(finding));
+  json["joint_cure"] = report.cure ? Json::parse(cure_json_text(*report.cure)) : Json(nullptr);
   json["verdict"] = to_text(verdict(report.findings));
   // names come from users: what is no UTF-8 is shown as the replacement character
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -313,6 +313,25 @@ std::string check_table(const Report& report, const ReportTextOptions& options) 
   return text + "\n";
 }
 
+/// The one change that mends what fails, or which checks stand against each other.
+std::string joint_cure_text(const ReportedCure& cure) {
+  std::string text;
+  if (cure.cured)
+    text = "one change after which every check passes (trueflank fix DESIGN -o FIXED.toml writes it)\n";
+  else if (!cure.changes.empty())
+    text = "no change was found after which every check passes; the nearest\n";
+  else
+    text = "no change near this design mends it\n";
+  text += cure_table(cure);
+  if (cure.cured)
+    return text + (cure.search_ended ? "\n" : "trueflank fix searches longer, for a smaller change\n\n");
+  text += "still fails\n";
+  for (const Finding& f : cure.still_failing) text += wrapped(f.id + " " + f.where + ": " + f.message, 2);
+  if (!cure.contradiction.empty()) text += wrapped(cure.contradiction, 0);
+  text += "trueflank fix DESIGN -o FIXED.toml searches longer\n";
+  return text + "\n";
+}
+
 std::string file_table(const Report& report) {
   if (report.files.empty()) return {};
   std::string text = row({{-26, "file"}, {12, "bytes"}, {11, "triangles"}, {14, "accuracy um"}});
@@ -346,8 +365,8 @@ std::string report_text(const Report& report, const ReportTextOptions& options) 
   std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
                      carrying_text(*report.train) + helix_table(report) +
                      thickness_table(*report.train) +
-                     check_table(report, options) + file_table(report);
-  if (failures > 0) text += "one change for all of it: trueflank fix DESIGN -o FIXED.toml\n";
+                     check_table(report, options) +
+                     (report.cure ? joint_cure_text(*report.cure) : std::string()) + file_table(report);
   text += "verdict: " + coloured(verdict(report.findings), options.colour);
   if (failures + warnings > 0)
     text += " (" + std::to_string(failures) + " failed, " + std::to_string(warnings) + " warned)";

@@ -5,6 +5,7 @@
 
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/requirements_file.h"
+#include "trueflank/session/reported_cure_of.h"
 #include "trueflank/solid/measure/mass_properties.h"
 #include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/train/flank_modifications.h"
@@ -56,6 +57,8 @@ io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_opti
   add_drive(gearbox, strength_options, report);
   const std::vector<MeshState> states = turning.get();
   report.findings = check_gearbox(train, states);
+  if (verdict(report.findings) == CheckStatus::kFail && !train.meshes.empty())
+    report.cure = take_joint_cure(train, report.findings);
   for (std::size_t i = 0; i < states.size(); ++i)
     report.sweeps.push_back(
         {.mesh = train.meshes[i].name,

@@ -1,46 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/session/fix_design.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "trueflank/check/joint_cure.h"
-#include "trueflank/check/quantity_text.h"
 #include "trueflank/design/design_edit.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/train/efficiency.h"
+#include "trueflank/session/reported_cure_of.h"
 
 namespace trueflank {
 namespace {
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
-
-/// Keys with their values before and after, one a line.
-std::string changes_text(const GearboxDesign& before, const GearboxDesign& after) {
-  std::string text = "  " + padded("key", 30) + padded("was", 14) + "is\n";
-  for (const DesignKeyChange& change : design_changes(before, after))
-    text += "  " + padded(change.dotted(), 30) + padded(change.before.empty() ? "-" : change.before, 14) +
-            (change.after.empty() ? "-" : change.after) + "\n";
-  return text;
-}
-
-std::string percent_text(double share) { return std::isnan(share) ? "none" : number_text(100.0 * share, 2) + " %"; }
-
-/// Contact ratio of every mesh and efficiency, before and after.
-std::string costs_text(const GearTrain& before, const GearTrain& after) {
-  std::string text;
-  for (std::size_t k = 0; k < before.meshes.size(); ++k)
-    text += "  contact ratio " + before.meshes[k].name + " " +
-            number_text(contact_ratios(before.pair(before.meshes[k])).effective, 3) + " -> " +
-            number_text(contact_ratios(after.pair(after.meshes[k])).effective, 3) + "\n";
-  const EfficiencyResult was = efficiency(before), is = efficiency(after);
-  text += "  efficiency forward " + percent_text(was.forward) + " -> " + percent_text(is.forward) + ", backward " +
-          percent_text(was.backward) + " -> " + percent_text(is.backward) + "\n";
-  return text;
-}
 
 std::string findings_text(const Findings& findings, CheckStatus status) {
   std::string text;
@@ -56,8 +22,7 @@ std::string result_text(const GearTrain& before, const JointCure& cure) {
                         : before.design.name + ": no change near this design mends it\n";
   } else {
     text = before.design.name + (cure.cured() ? ": every check passes with\n" : ": the nearest that was found, which still fails\n") +
-           changes_text(before.design, cure.design);
-    if (const auto after = lay_out(cure.design)) text += "what it costs\n" + costs_text(before, *after);
+           io::cure_table(reported_cure_of(before, cure));
   }
   if (!cure.cured()) {
     text += "still fails\n" + findings_text(cure.findings, CheckStatus::kFail);

@@ -128,9 +128,41 @@ function drawChecks() {
     return n ? h('button', {type: 'button', 'data-status': status, 'aria-pressed': status === 'all',
       onclick: () => show(status)}, `${status === 'all' ? 'All' : words(statusWord[status])} (${n})`) : null;
   });
+  drawJointCure(body);
   body.append(h('div', {class: 'filters', role: 'group', 'aria-label': 'Show checks'}, filters),
     table('Every check with how far it is on the good side of its limit', ['Status', 'Check', 'Where',
       column('Value'), column('Limit'), column('Margin'), 'Finding'], rows.map((r) => r.row), 'checks-table'));
+}
+
+/** The one change that mends what fails; what it costs; what would still fail. */
+function drawJointCure(body) {
+  const cure = report.joint_cure;
+  if (!cure) return;
+  const box = h('div', {class: 'joint-cure', id: 'joint-cure'});
+  box.append(h('h3', {}, cure.cured ? 'One change after which every check passes'
+    : cure.changes.length ? 'The nearest that was found, which still fails' : 'No change near this design mends it'));
+  if (cure.changes.length) {
+    box.append(table('Keys of the design file that change', ['Key', column('Was'), column('Is')],
+      cure.changes.map((c) => h('tr', {}, h('th', {scope: 'row'}, c.key), h('td', {class: 'n'}, c.before ?? '–'),
+        h('td', {class: 'n'}, c.after ?? '–'))), 'numbers'));
+    const cost = (path, digits, factor = 1) => {
+      const pair = path.reduce((at, key) => at[key], cure);
+      const one = (value) => isNumber(value) ? text(factor * value, digits) : '–';
+      return [h('td', {class: 'n'}, one(pair.before)), h('td', {class: 'n'}, one(pair.after))];
+    };
+    box.append(table('What it costs', ['Figure', column('Was'), column('Is')],
+      [...Object.keys(cure.contact_ratio).map((mesh) =>
+        h('tr', {}, h('th', {scope: 'row'}, `Contact ratio ${mesh}`), cost(['contact_ratio', mesh], 3))),
+      ...['forward', 'backward'].map((way) => h('tr', {}, h('th', {scope: 'row'}, `Efficiency ${way}`,
+        h('span', {class: 'unit'}, ' %')), cost(['efficiency', way], 2, 100)))], 'numbers'));
+  }
+  for (const f of cure.still_failing)
+    box.append(h('p', {class: 'note'}, `Still fails: ${words(f.id)} ${f.where}: ${f.message}`));
+  if (cure.contradiction) box.append(h('p', {class: 'note'}, cure.contradiction));
+  box.append(h('p', {class: 'note'}, cure.cured ? 'trueflank fix DESIGN -o FIXED.toml writes it'
+    + (cure.search_ended ? '.' : ', and searches longer, for a smaller change.')
+    : 'trueflank fix DESIGN -o FIXED.toml searches longer.'));
+  body.append(box);
 }
 
 // ----------------------------------------------------------------------------------- dimensions

@@ -48,12 +48,48 @@ def run(*arguments, code):
     return done.stdout
 
 
+def toml_text(tables):
+    """A design file of plain values."""
+    value = lambda v: json.dumps(v)
+    text = "".join(f"{k} = {value(v)}\n" for k, v in tables.items() if not isinstance(v, dict))
+    for table, keys in tables.items():
+        if isinstance(keys, dict):
+            text += f"[{table}]\n" + "".join(f"{k} = {value(v)}\n" for k, v in keys.items())
+    return text
+
+
+def check_tells_one_change(design):
+    """Of all that fails, `check` prints one change, once; made by hand, it mends the design."""
+    told = run("check", design, "--json", OUTPUT / "near.json", code=1)
+    assert told.count("one change after which every check passes") == 1, told
+    report = json.loads((OUTPUT / "near.json").read_text())
+    cure = report["joint_cure"]
+    assert cure["cured"] and cure["changes"] and cure["contradiction"] is None, cure
+    assert not cure["still_failing"], cure
+    for check in report["checks"]:
+        assert check["status"] != "fail" or not check["cure"], check
+    assert "neither a shorter tip" not in told, told
+    for cost in (*cure["contact_ratio"].values(), *cure["efficiency"].values()):
+        assert cost["before"] > 0 and cost["after"] > 0, cure
+    tables = tomllib.loads(FAILING)
+    for change in cure["changes"]:
+        assert change["key"] in told, (change, told)
+        table, key = change["key"].rsplit(".", 1)
+        tables.setdefault(table, {}).pop(key, None)
+        if change["after"] is not None:
+            tables[table][key] = json.loads(change["after"])
+    by_hand = OUTPUT / "by_hand.toml"
+    by_hand.write_text(toml_text(tables))
+    run("check", by_hand, "--json", OUTPUT / "by_hand.json", "-q", code=0)
+    assert json.loads((OUTPUT / "by_hand.json").read_text())["joint_cure"] is None
+
+
 def main():
     shutil.rmtree(OUTPUT, ignore_errors=True)
     OUTPUT.mkdir(parents=True)
     design, fixed = OUTPUT / "near.toml", OUTPUT / "fixed.toml"
     design.write_text(FAILING)
-    run("check", design, "-q", code=1)
+    check_tells_one_change(design)
     table = run("fix", design, "-o", fixed, code=0)
     text = fixed.read_text()
     for comment in ("# a ring and a pinion of nearly its size\n", "# our name\n", "# from the catalogue\n",
@@ -85,6 +121,8 @@ def main():
                         "[sun]\nteeth = 12\nface_width_mm = 8\n[planet]\nteeth = 60\nface_width_mm = 8\n[ring]\nteeth = 132\nface_width_mm = 8\n")
     said = run("fix", hopeless, "-o", fixed, code=1)
     assert "planet_spacing" in said, said
+    told = run("check", hopeless, code=1)
+    assert "still fails" in told and "trueflank fix DESIGN" in told, told
     run("fix", OUTPUT / "nothing.toml", "-o", fixed, code=3)
     hopeless.write_text("format = 2\n")
     run("fix", hopeless, "-o", fixed, code=2)
