@@ -114,7 +114,7 @@ RequirementsSection gearbox() {
            {{.name = "face_width_mm", .unit = "mm", .lower = 0.1, .upper = 10000,
              .by_default = "10", .meaning = "of every gear"},
             [](R& r, const V& v) { return r.face_width_mm = number(v), std::string(); }},
-           {{.name = "backlash_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0",
+           {{.name = "backlash_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0.04 modules",
              .meaning = "of every mesh, written into the designs"},
             [](R& r, const V& v) { return r.backlash_mm = number(v), std::string(); }}}};
 }
@@ -196,6 +196,9 @@ RequirementsSection limits() {
            {{.name = "contact_ratio_max", .lower = 1, .upper = 10, .by_default = "2",
              .meaning = "of every mesh, of its tip circles"},
             [](R& r, const V& v) { return r.contact_ratio_max = number(v), std::string(); }},
+           {{.name = "clearance_um", .unit = "um", .lower = 0, .upper = 1000, .by_default = "2",
+             .meaning = "least, of tip corners to the mate's root and flank"},
+            [](R& r, const V& v) { return r.clearance_um = number(v), std::string(); }},
            {{.name = "tip_clearance", .unit = "module", .lower = 0, .upper = 1,
              .by_default = "0.1", .meaning = "least, tip to root"},
             [](R& r, const V& v) { return r.tip_clearance = number(v), std::string(); }},
@@ -254,8 +257,9 @@ RequirementsSection search() {
              .meaning = "forward, backward, torque, size: one, or several for their Pareto front"},
             set_objectives},
            {{.name = "loss_model", .type = KeyType::kChoice,
-             .choices = {"contact_ratios", "path_integral"}, .by_default = "contact_ratios",
-             .meaning = "how a mesh's basic efficiency is computed"},
+             .choices = {"contact_ratios", "path_integral"}, .by_default = "path_integral",
+             .meaning = "how a mesh's basic efficiency is computed: by the sliding itself, or by the "
+                        "paper's formula"},
             [](R& r, const V& v) {
               r.loss_model = text(v) == "path_integral" ? LossModel::kPathIntegral
                                                         : LossModel::kContactRatios;

@@ -94,6 +94,7 @@ class Judging {
           trueflank::efficiency(*train, {.model = LossModel::kPathIntegral});
       found.exact_forward = exact.forward;
       found.exact_backward = exact.backward;
+      found.by_formula = exact.by_formula;
       found.tightened = *std::max_element(state.reserve.begin(), state.reserve.end());
       return found;
     }

@@ -67,6 +67,7 @@ struct FoundDesign {
   GearboxDesign design;
   DesignVerdict verdict;
   double exact_forward = kNaN, exact_backward = kNaN;  ///< by the path integral
+  FormulaEfficiency by_formula;
   double tightened = 0.0;  ///< reserve the checks asked for beyond the limits, in modules
 };
 

@@ -8,7 +8,6 @@
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/involute.h"
 #include "trueflank/search/search_corner.h"
-#include "trueflank/train/efficiency_sliding.h"
 
 namespace trueflank {
 namespace {
@@ -43,9 +42,10 @@ Gear gear_of(const SearchRequirements& r, GearKind kind, int teeth, double shift
 
 double root_radius(const Gear& gear) { return nominal_root_radius_mm(gear); }
 
-/// What a mesh has before its profiles are known: contact ratios from the tip circles.
+/// What a mesh has before its profiles are known: contact ratios and path from the tip circles.
 struct MeshView {
   double approach = 0.0, recess = 0.0;
+  ContactPath path;
 };
 
 MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
@@ -57,8 +57,24 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
   const double tip2 = roll_length_mm(gear2.tip_radius_mm, r_b2);
   const double start = internal ? tip2 - span : span - tip2;
   const double base_pitch = kTwoPi * r_b1 / gear1.teeth;
+  const double end = roll_length_mm(gear1.tip_radius_mm, r_b1);
   return {.approach = (pitch_point - start) / base_pitch,
-          .recess = (roll_length_mm(gear1.tip_radius_mm, r_b1) - pitch_point) / base_pitch};
+          .recess = (end - pitch_point) / base_pitch,
+          .path = {.base_radius1_mm = r_b1,
+                   .base_radius2_mm = r_b2,
+                   .internal = internal,
+                   .pitch_point_mm = pitch_point,
+                   .start_mm = start,
+                   .end_mm = end,
+                   .base_pitch_mm = base_pitch}};
+}
+
+/// The straight part of the rack's flank cuts no involute away.
+bool surely_not_undercut(const SearchRequirements& r, const Gear& gear) {
+  const double sine = std::sin(r.rack.pressure_angle_rad), cosine = std::cos(r.rack.pressure_angle_rad);
+  const double full_round = (0.25 * kPi - r.rack.dedendum * sine / cosine) * cosine / (1.0 - sine);
+  const double rounding = std::clamp(r.rack.root_radius, 0.0, std::max(0.0, full_round));
+  return gear.shift >= r.rack.dedendum - rounding * (1.0 - sine) - 0.5 * gear.teeth * sine * sine;
 }
 
 /// Distance the tips of planet and ring keep outside the line of action, on the ring's tip circle;
@@ -80,8 +96,17 @@ double trochoid_margin(const Gear& planet, const Gear& ring, double a) {
   return r2 * (theta1 * planet.teeth / ring.teeth + inv_w - inv2 - theta2);
 }
 
-double tip_thickness(const Gear& gear) {
-  return 2.0 * gear.tip_radius_mm * tooth_half_angle_rad(gear, gear.tip_radius_mm);
+/// The meshes' backlash in modules of the layer.
+double backlash_of(const SearchRequirements& r, double module_mm) {
+  return r.backlash_mm ? *r.backlash_mm / module_mm : kUsualBacklash;
+}
+
+/// Least arc at the tip circle: each gear of a mesh is thinned by half of the backlash, a ring by what its planet
+/// leaves of it, which is hardly more.
+double tip_thickness(const Gear& gear, double backlash) {
+  const double thinning = 0.55 * backlash;
+  return 2.0 * gear.tip_radius_mm * tooth_half_angle_rad(gear, gear.tip_radius_mm) -
+         thinning * gear.tip_radius_mm / reference_radius_mm(gear);
 }
 
 /// Tip corners in the mate's roots, both ways, and the contact that undercut and root form leave.
@@ -205,10 +230,10 @@ MeshLoss SearchModel::formula_loss(const MeshTeeth& mesh, double approach, doubl
   return {value, value};
 }
 
-MeshLoss SearchModel::path_loss(const GearPair& pair) const {
-  const SlidingEfficiency s =
-      sliding_efficiency(contact_path(pair, requirements_->face_width_mm), requirements_->friction,
-                         LoadSharing::kEqual);
+MeshLoss SearchModel::path_loss(ContactPath path) const {
+  // an optimiser passes through shifts that interrupt contact: the loss goes on smoothly there
+  path.end_mm = std::max(path.end_mm, path.start_mm + path.base_pitch_mm * (1.0 + 1e-12));
+  const SlidingEfficiency s = sliding_efficiency(path, requirements_->friction, kLoadSharing);
   return {s.gear1_driving, s.gear2_driving};
 }
 
@@ -237,8 +262,9 @@ Layer1Evaluation SearchModel::layer1(
   planet.tip_radius_mm = std::min(planet.tip_radius_mm,
                                   0.5 * set_.planet1 + r.rack.addendum + y - x.sun);
   margins.add(spacing_margin(r, a, planet.tip_radius_mm, least_module_mm_));
+  const double backlash = backlash_of(r, least_module_mm_);
   for (const Gear* gear : {static_cast<const Gear*>(&sun), static_cast<const Gear*>(&planet), &ring})
-    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear) - r.tip_thickness
+    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear, backlash) - r.tip_thickness
                                                             : -1.0);
   margins.add(ring.tip_radius_mm - base_radius_mm(ring));
   if (margins.stop()) return done();
@@ -252,11 +278,12 @@ Layer1Evaluation SearchModel::layer1(
   margins.add(trochoid_margin(planet, ring, a));
   if (margins.stop()) return done();
   const bool formula = r.loss_model == LossModel::kContactRatios;
-  if (formula) {
-    result.sun_planet = formula_loss(mesh_a_, view_a.approach, view_a.recess);
-    result.planet_ring = formula_loss(mesh_b_, view_b.approach, view_b.recess);
-    if (worth && !worth(result)) return done();
-  }
+  const bool known = formula || (surely_not_undercut(r, sun) && surely_not_undercut(r, planet));
+  result.sun_planet =
+      formula ? formula_loss(mesh_a_, view_a.approach, view_a.recess) : path_loss(view_a.path);
+  result.planet_ring =
+      formula ? formula_loss(mesh_b_, view_b.approach, view_b.recess) : path_loss(view_b.path);
+  if (known && worth && !worth(result)) return done();
 
   const auto sun_profile = ToothProfile::make(sun), planet_profile = ToothProfile::make(planet),
              ring_profile = ToothProfile::make(ring);
@@ -265,9 +292,9 @@ Layer1Evaluation SearchModel::layer1(
   const GearPair pair_b{&*planet_profile, &*ring_profile, a};
   add_root_margins(r, pair_a, margins);
   add_root_margins(r, pair_b, margins);
-  if (!formula) {
-    result.sun_planet = path_loss(pair_a);
-    result.planet_ring = path_loss(pair_b);
+  if (!known) {
+    result.sun_planet = path_loss(contact_path(pair_a, r.face_width_mm));
+    result.planet_ring = path_loss(contact_path(pair_b, r.face_width_mm));
   }
   return done();
 }
@@ -291,8 +318,9 @@ Layer2Evaluation SearchModel::layer2(
   const Gear planet = gear_of(r, GearKind::kExternal, set_.planet2, x.planet2);
   const Gear ring = gear_of(r, GearKind::kInternal, set_.ring2, x.ring2);
   margins.add(spacing_margin(r, a, planet.tip_radius_mm, least_module_mm_ * m2));
+  const double backlash = backlash_of(r, least_module_mm_ * m2);
   for (const Gear* gear : {&planet, &ring})
-    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear) - r.tip_thickness
+    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear, backlash) - r.tip_thickness
                                                             : -1.0);
   margins.add(ring.tip_radius_mm - base_radius_mm(ring));
   if (margins.stop()) return done();
@@ -303,16 +331,15 @@ Layer2Evaluation SearchModel::layer2(
   margins.add(trochoid_margin(planet, ring, a));
   if (margins.stop()) return done();
   const bool formula = r.loss_model == LossModel::kContactRatios;
-  if (formula) {
-    result.planet_ring = formula_loss(mesh_c_, view.approach, view.recess);
-    if (worth && !worth(result)) return done();
-  }
+  const bool known = formula || surely_not_undercut(r, planet);
+  result.planet_ring = formula ? formula_loss(mesh_c_, view.approach, view.recess) : path_loss(view.path);
+  if (known && worth && !worth(result)) return done();
 
   const auto planet_profile = ToothProfile::make(planet), ring_profile = ToothProfile::make(ring);
   if (!planet_profile || !ring_profile) return done();
   const GearPair pair{&*planet_profile, &*ring_profile, a};
   add_root_margins(r, pair, margins);
-  if (!formula) result.planet_ring = path_loss(pair);
+  if (!known) result.planet_ring = path_loss(contact_path(pair, r.face_width_mm));
   return done();
 }
 
@@ -370,7 +397,7 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
   design.centre_distance_mm = free.centre_distance * m1;
   design.friction = r.friction;
   design.losses = r.losses;
-  design.backlash_mm = r.backlash_mm;
+  design.backlash_mm = r.backlash_mm.value_or(kUsualBacklash * m1);
   design.tips = TipCircles::kStandard;  // the circles of this model
   design.rack = r.rack;
   const auto add = [&](const char* name, GearKind kind, int teeth, double shift, double module) {

@@ -10,6 +10,7 @@
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/train/efficiency_balance.h"
+#include "trueflank/train/efficiency_sliding.h"
 #include "trueflank/train/gearbox_design.h"
 
 // What an optimiser sees of one tooth set: efficiency and the margins of all limits as functions of
@@ -68,8 +69,8 @@ class SearchModel {
   SearchModel(const SearchRequirements& requirements, const ToothSet& set);
 
   /// Cheap margins come first. Evaluation ends as soon as a margin is below `stop_below`, or where
-  /// `worth`, asked with the losses before profiles are made (not with LossModel::kPathIntegral), says
-  /// no; what was not computed is -1e9.
+  /// `worth`, asked with the losses before profiles are made (by the path between the tips, where no undercut
+  /// can shorten it), says no; what was not computed is -1e9.
   [[nodiscard]] Layer1Evaluation layer1(
       double centre_distance, double ring1_shift, double stop_below = -1e300,
       const std::function<bool(const Layer1Evaluation&)>& worth = {}) const;
@@ -91,6 +92,9 @@ class SearchModel {
   /// Module of layer 1 [mm].
   [[nodiscard]] double module_mm(const FreeShifts& free) const;
 
+  /// The smallest module of layer 1 that any shifts give [mm].
+  [[nodiscard]] double least_module_mm() const { return least_module_mm_; }
+
   /// The design file's design: all shifts and the centre distance stated, rings with their outer
   /// diameters.
   [[nodiscard]] GearboxDesign design(const FreeShifts& free) const;
@@ -103,7 +107,7 @@ class SearchModel {
   };
   [[nodiscard]] Shifts shifts(const FreeShifts& free) const;
   [[nodiscard]] MeshLoss formula_loss(const MeshTeeth& mesh, double approach, double recess) const;
-  [[nodiscard]] MeshLoss path_loss(const GearPair& pair) const;
+  [[nodiscard]] MeshLoss path_loss(ContactPath path) const;
 
   const SearchRequirements* requirements_;
   ToothSet set_;

@@ -116,7 +116,7 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("planets", r.planets);
   text.add("friction", r.friction);
   text.add("face_width_mm", r.face_width_mm);
-  text.add("backlash_mm", r.backlash_mm);
+  text.add("backlash_mm", r.backlash_mm.value_or(kNaN));
   text.add("pressure_angle_rad", r.rack.pressure_angle_rad);
   text.add("addendum", r.rack.addendum);
   text.add("dedendum", r.rack.dedendum);
@@ -138,6 +138,7 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("shift_max", r.shift_max);
   text.add("contact_ratio_min", r.contact_ratio_min);
   text.add("contact_ratio_max", r.contact_ratio_max);
+  text.add("clearance_um", r.clearance_um);
   text.add("tip_clearance", r.tip_clearance);
   text.add("tip_thickness", r.tip_thickness);
   text.add("planet_clearance_mm", r.planet_clearance_mm);

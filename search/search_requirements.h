@@ -35,13 +35,17 @@ enum class SearchObjective {
 
 enum class OutputDirection { kAny, kSame, kOpposite };
 
+/// Circumferential backlash of designs for which none is asked, in modules: what textbooks give gears of ordinary
+/// accuracy (0.03 to 0.05).
+inline constexpr double kUsualBacklash = 0.04;
+
 struct SearchRequirements {
   std::string name = "search";
   std::vector<OutputMember> outputs{OutputMember::kRing2};  ///< kRing2: type I, kRing1: type II
   int planets = 3;
   double friction = 0.1;
   double face_width_mm = 10.0;
-  double backlash_mm = 0.0;
+  std::optional<double> backlash_mm;  ///< of every mesh of the designs; omitted: kUsualBacklash
   BasicRack rack;
 
   /// Module of layer 1; with an outer diameter the module follows from it instead.
@@ -57,13 +61,14 @@ struct SearchRequirements {
 
   double shift_min = -2.0, shift_max = 2.0;
   double contact_ratio_min = 1.0, contact_ratio_max = 2.0;
+  double clearance_um = 2.0;         ///< least, of tip corners to the mate's profile
   double tip_clearance = 0.1;        ///< least, coefficient of the module
   double tip_thickness = 0.2;        ///< least, coefficient of the module
   double planet_clearance_mm = 0.5;  ///< least, between tip circles of neighbouring planets
   std::optional<double> output_torque_nm;  ///< to be carried
   std::optional<LossesDesign> losses;      ///< measured on a like drive; written into the designs
   StrengthOptions strength;
-  LossModel loss_model = LossModel::kContactRatios;
+  LossModel loss_model = LossModel::kPathIntegral;
 
   /// One: designs are ranked by it. Several: the Pareto front of them, ranked by the first.
   std::vector<SearchObjective> objectives{SearchObjective::kForward};

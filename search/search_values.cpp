@@ -12,8 +12,8 @@ namespace {
 
 /// A margin beyond this is as good or bad as can be: far values would spoil an optimiser's models.
 constexpr double kFarMargin = 2.0;
-/// Corners in roots are approached to this, more than sampling hides. Not more: near its fillet a tip
-/// keeps a nearly constant distance over a wide range of shifts, and 1e-3 would cost half a percent.
+/// Corners in roots are approached to this where no clearance is asked for: more than sampling hides. Near its
+/// fillet a tip keeps a nearly constant distance over a wide range of shifts, and 1e-3 costs half a percent.
 constexpr double kCornerReserve = 5e-6;
 
 }  // namespace
@@ -21,11 +21,12 @@ constexpr double kCornerReserve = 5e-6;
 SetValues::SetValues(const SearchRequirements& requirements, const ToothSet& set,
                      const LimitReserve& reserve)
     : r_(requirements), model_(requirements, set), reserve_(reserve) {
+  const double clearance = mm_from_um(requirements.clearance_um) / model_.least_module_mm();
   for (std::size_t i = 0; i < kLimits; ++i) {
-    const Limit limit = limit_entries()[i].limit;
+    const auto [limit, layer, where] = limit_entries()[i];
     const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
-    offset_[i] = reserve_[static_cast<std::size_t>(limit)] + (corner ? kCornerReserve : 0.0) +
-                 kLimitReserve;
+    const double kept = std::max(kCornerReserve, layer == 2 ? clearance / set.layer2_module_ratio : clearance);
+    offset_[i] = reserve_[static_cast<std::size_t>(limit)] + (corner ? kept : 0.0) + kLimitReserve;
     grid_margin_ = std::max(grid_margin_, offset_[i]);
   }
   if (requirements.objectives.front() == SearchObjective::kBackward)

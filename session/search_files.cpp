@@ -51,6 +51,9 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
           ", \"backward\": " + json_number(found.candidate.backward) +
           ", \"forward_path_integral\": " + json_number(found.exact_forward) +
           ", \"backward_path_integral\": " + json_number(found.exact_backward) +
+          ", \"forward_by_formula\": " + json_number(found.by_formula.forward) +
+          ", \"backward_by_formula\": " + json_number(found.by_formula.backward) +
+          ", \"formula_applies\": " + (found.by_formula.applies ? "true" : "false") +
           ", \"output_torque_nm\": " + json_number(found.candidate.torque_nm) +
           ", \"outer_diameter_mm\": " + json_number(found.candidate.size_mm) +
           ", \"tightened\": " + json_number(found.tightened) + ", \"warnings\": [";

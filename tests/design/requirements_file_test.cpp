@@ -38,12 +38,13 @@ TEST(RequirementsFile, EveryKeyReachesItsRequirement) {
           "identical_planets = false\n"
           "[shift]\nmin = -0.5\nmax = 0.9\n"
           "[limits]\ncontact_ratio_min = 1.1\ncontact_ratio_max = 1.9\ntip_clearance = 0.2\n"
+          "clearance_um = 7\n"
           "tip_thickness = 0.3\nplanet_clearance_mm = 1\n"
           "[strength]\noutput_torque_nm = 12\nmaterial = \"mine\"\nreversing = false\n"
           "bending_safety = 1.5\n"
           "[material.mine]\nbending_limit_mpa = 100\ncontact_limit_mpa = 500\n"
           "elastic_modulus_mpa = 2e5\npoisson_ratio = 0.3\ndensity_kg_m3 = 7800\n"
-          "[search]\nobjectives = \"backward, size\"\nloss_model = \"path_integral\"\nresults = 5\n",
+          "[search]\nobjectives = \"backward, size\"\nloss_model = \"contact_ratios\"\nresults = 5\n",
       "needs.toml");
   ASSERT_TRUE(read.has_value()) << read.error().front().message << read.error().front().key;
   EXPECT_EQ(read->direction, OutputDirection::kOpposite);
@@ -58,7 +59,7 @@ TEST(RequirementsFile, EveryKeyReachesItsRequirement) {
   EXPECT_FALSE(read->strength.reversing);
   EXPECT_EQ(read->objectives.size(), 2u);
   EXPECT_EQ(read->objectives[1], SearchObjective::kSize);
-  EXPECT_EQ(read->loss_model, LossModel::kPathIntegral);
+  EXPECT_EQ(read->loss_model, LossModel::kContactRatios);
   EXPECT_EQ(read->results, 5);
 }
 
