@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
+#include <iostream>
 
 #include "trueflank/app/commands.h"
 #include "trueflank/app/error_text.h"
@@ -19,6 +20,7 @@ int run_loop(const LoopOptions& options) {
         {.gear = options.gear, .aligned = options.aligned, .effects_file = options.effects});
   }();
   if (!closed) return report_errors(closed.error());
+  for (const std::string& row : closed->left_out_rows()) std::cerr << row << "\n";
   if (auto ok = write_loop(*closed, options.folder); !ok) return report_errors({ok.error()});
   const std::string page = (std::filesystem::path(options.folder) / "loop.html").string();
   if (!options.quiet)

@@ -5,12 +5,15 @@
 
 #include "trueflank/loop/gear/residual_grid.h"
 
-// The classical inspection charts as SVG, styled by the page's classes: one flank each, deviation
+// The classical inspection charts as SVG with their values for the pointer (loop_page.h), styled by the page's classes: one flank each, deviation
 // positive where there is too much material. Same input, same bytes.
 namespace trueflank::loop {
 
 /// What a chart shows.
-enum class ChartKind { kProfile, kHelix, kIndex, kTopography, kOrders };
+enum class ChartKind {
+  kProfile, kHelix, kIndex, kTopography, kOrders,
+  kProfileMap, kHelixMap,  ///< every tooth's trace as a column of colours
+};
 
 /// Full scale that charts before and after share [um], rounded up to a short number;
 /// NaN where nothing of the kind was measured.

@@ -5,7 +5,6 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/export/xml_text.h"
-#include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/report/loop_charts.h"
 #include "trueflank/report/loop_page.h"
 
@@ -48,26 +47,53 @@ std::string charts(const GearLoop& closed) {
   return html;
 }
 
-std::string iso_table(const GearLoop& closed) {
-  const Iso1328 iso = iso_1328(closed);
-  std::string rows;
-  for (const Iso1328Row& row : iso.rows) {
-    if (std::isnan(row.value_um)) continue;
-    const std::string name = row.accuracy_class == 0    ? "–"
-                             : row.accuracy_class == 12 ? "over 11"
-                                                        : std::to_string(row.accuracy_class);
-    rows += "<tr><td>" + row.symbol + "</td><td>" + printed_number(row.value_um, "%.1f") + "</td><td>" + name + "</td></tr>";
+/// What the fit leaves, tooth by tooth.
+std::string remainder(const GearLoop& closed) {
+  const ResidualGrid after = residual_grid(closed, true);
+  const GearKind gear = closed.geometry.gear().kind;
+  std::string html;
+  for (const ChartKind kind : {ChartKind::kProfileMap, ChartKind::kHelixMap}) {
+    const double scale = chart_scale_um(kind, after);
+    if (std::isnan(scale)) continue;
+    for (const Flank flank : {Flank::kLeft, Flank::kRight})
+      html += std::string("<figure><figcaption><b>") + (kind == ChartKind::kProfileMap ? "profiles" : "helices") + "</b>, " +
+              (flank == Flank::kLeft ? "left" : "right") + " flanks, a column a tooth [µm]</figcaption>" +
+              chart_svg(kind, after, flank_side(flank, gear) > 0 ? 1 : 0, scale) + "</figure>";
   }
-  if (rows.empty()) return {};
-  return "<h2>ISO 1328-1, as measured</h2><p class='note'>" + io::xml_escaped(iso.note) +
-         "</p><table><tr><th></th><th>µm</th><th>class</th></tr>" + rows + "</table>";
+  if (html.empty()) return {};
+  return "<h2>The remainder after the fit</h2><p class='note'>Red: too much material, blue: too little. Noise looks like "
+         "sand; stripes, steps and spots are structure that the effects above do not explain.</p><div class='two'>" + html +
+         "</div>";
+}
+
+std::string class_text(int accuracy_class) {
+  return accuracy_class == 0 ? "–" : accuracy_class == 12 ? "over 11" : std::to_string(accuracy_class);
+}
+
+/// A row a quantity: left, right, class of the worse.
+std::string iso_table(const LoopResult& r) {
+  if (r.iso_1328.empty()) return {};
+  std::string rows;
+  const auto value = [&](const std::string& symbol, const char* flank) {
+    for (const InspectionFigure& f : r.iso_1328)
+      if (f.symbol == symbol && f.flank == flank) return printed_number(f.value_um, "%.1f");
+    return std::string("–");
+  };
+  for (const InspectionFigure& f : r.iso_1328) {
+    if (f.flank != "both") continue;
+    rows += "<tr><td>" + f.symbol + " <span class='id'>" + f.what + "</span></td><td>" + value(f.symbol, "left") +
+            "</td><td>" + value(f.symbol, "right") + "</td><td>" + class_text(f.accuracy_class) + "</td></tr>";
+  }
+  return "<h2>ISO 1328-1, as measured</h2><p class='note'>" + io::xml_escaped(r.iso_1328_note) +
+         "</p><div class='scroll'><table><tr><th></th><th>left, µm</th><th>right, µm</th><th>class</th></tr>" + rows +
+         "</table></div>";
 }
 
 }  // namespace
 
 std::string loop_html(const GearLoop& closed) {
   const LoopResult& r = closed.result;
-  return loop_page_opening(r, "What the measured " + r.gear + " tells") + charts(closed) + iso_table(closed) +
+  return loop_page_opening(r, "What the measured " + r.gear + " tells") + remainder(closed) + charts(closed) + iso_table(r) +
          loop_page_end(r);
 }
 

@@ -18,13 +18,17 @@ constexpr const char* kStyle = R"(
 --accent-soft:#1a2c40;--pass:#68c993;--pass-soft:#16301f;--warn:#e8b45a;--warn-soft:#33270f;--none:#97a3b0;--none-soft:#242d36;--shadow:none}}
 *{box-sizing:border-box}
 body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
-main{max-width:75rem;margin:0 auto;padding:0 1.25rem 3rem}
+main{max-width:92rem;margin:0 auto;padding:0 1.25rem 3rem}
 .brand{margin:0;padding:.55rem 0;font-weight:700;color:var(--accent)}
 h1{margin:1.2rem 0 .6rem;font-size:clamp(1.6rem,4.5vw,2.4rem);line-height:1.15;letter-spacing:-.015em;overflow-wrap:anywhere}
 h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;font-size:1.15rem}
 .verdict{display:inline-block;margin:0;padding:.45rem .9rem;border-radius:10px;font-weight:600}
 .explained{color:var(--pass);background:var(--pass-soft)}.partly_explained{color:var(--warn);background:var(--warn-soft)}
 .no_effect{color:var(--none);background:var(--none-soft)}
+.alarm{margin:1rem 0 0;padding:.9rem 1.2rem;border:3px solid #b3261e;border-radius:12px;background:#b3261e;color:#fff;font-size:1.05rem}
+.alarm b{font-size:1.2rem}.alarm ul{margin:.4rem 0 0;padding-left:1.2rem}
+.say{font-size:1.12rem;font-weight:600}.sure{color:var(--soft)}
+.tip{position:fixed;z-index:9;pointer-events:none;padding:.25rem .55rem;border-radius:6px;background:var(--ink);color:var(--paper);font-size:.9rem;font-variant-numeric:tabular-nums}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.8rem;margin:1.25rem 0 0}
 .cards>div,.card,figure{background:var(--card);border:1px solid var(--line);border-radius:12px;box-shadow:var(--shadow)}
 .cards>div{padding:.8rem 1rem}.cards dt{color:var(--soft);font-size:.85rem}
@@ -48,6 +52,49 @@ summary{cursor:pointer;color:var(--accent)}
 @media print{body{background:#fff}figure,.card{break-inside:avoid;box-shadow:none}details{display:none}}
 )";
 
+/// The value under the pointer, of every chart that carries its values (data-chart).
+constexpr const char* kPointerScript = R"(<script>
+(() => {
+  const tip = document.createElement('div');
+  tip.className = 'tip';
+  tip.hidden = true;
+  document.body.append(tip);
+  const part = (t, n) => Math.min(n - 1, Math.max(0, Math.floor(t * n)));
+  const signed = v => (v > 0 ? '+' : '') + v;
+  const text = (c, x, y) => {
+    if (c.kind === 'points') {
+      let best = 14, said = '';
+      for (const [px, py, words] of c.rows) {
+        const d = Math.hypot(px - x, py - y);
+        if (d < best) { best = d; said = words; }
+      }
+      return said;
+    }
+    const u = (x - c.x) / c.w, v = 1 - (y - c.y) / c.h;
+    if (u < 0 || u > 1 || v < 0 || v > 1) return '';
+    const grid = c.kind === 'grid';
+    const k = part(grid ? v : u, c.rows.length), row = c.rows[k], i = part(grid ? u : v, row.length);
+    if (row[i] === null) return '';
+    const along = Math.round(100 * (i + 0.5) / row.length);
+    if (grid) return `${Math.round(100 * (k + 0.5) / c.rows.length)} % root to tip, ${along} % bottom to top: ${signed(row[i])} ${c.unit}`;
+    return `${c.row} ${c.numbers[k] ?? k + 1}${c.along ? `, ${along} % ${c.along}` : ''}: ${signed(row[i])} ${c.unit}`;
+  };
+  for (const svg of document.querySelectorAll('svg[data-chart]')) {
+    let chart;
+    svg.addEventListener('pointermove', e => {
+      chart ??= JSON.parse(svg.dataset.chart);
+      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+      const said = text(chart, p.x, p.y);
+      tip.hidden = !said;
+      tip.textContent = said;
+      tip.style.left = Math.min(e.clientX + 14, innerWidth - tip.offsetWidth - 8) + 'px';
+      tip.style.top = e.clientY + 14 + 'px';
+    });
+    svg.addEventListener('pointerleave', () => { tip.hidden = true; });
+  }
+})();
+</script>)";
+
 std::string escaped(const std::string& text) { return io::xml_escaped(text); }
 
 std::string number(double value, const char* format = "%.2f") {
@@ -60,6 +107,26 @@ std::string words(std::string id) {
   for (char& c : id)
     if (c == '_') c = ' ';
   return id;
+}
+
+/// What does not add up: a reader must not miss it.
+std::string alarm(const LoopResult& r) {
+  std::vector<std::string> wrong;
+  const std::string unit = std::string(" ") + r.unit.sign;
+  const auto size = [&](double value) { return number(value, "%.3g") + unit; };
+  if (r.after.held_out_rms > 1.02 * r.before.held_out_rms)
+    wrong.push_back("On data held out from the fit the error grew from " + size(r.before.held_out_rms) + " to " +
+                    size(r.after.held_out_rms) + ": do not act on these effects.");
+  if (r.verdict == Verdict::kPartlyExplained) wrong.push_back("Structure is left: " + r.structure_left + ".");
+  else if (r.after.held_out_rms > 1.25 * r.noise || r.after.rms > 1.25 * r.noise)
+    wrong.push_back("What is left (" + size(r.after.rms) + ", held out " + size(r.after.held_out_rms) +
+                    ") is larger than the noise of the measurement (" + size(r.noise) + ").");
+  if (20 * r.outliers > r.observations && r.outliers > 2)
+    wrong.push_back(std::to_string(r.outliers) + " values were left out as outliers.");
+  if (wrong.empty()) return {};
+  std::string html = "<div class='alarm' role='alert'><b>This does not add up</b><ul>";
+  for (const std::string& sentence : wrong) html += "<li>" + escaped(sentence) + "</li>";
+  return html + "</ul></div>";
 }
 
 std::string verdict_text(Verdict verdict) {
@@ -87,19 +154,24 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   std::string html = "<div class='card'><h3>" + escaped(e.named ? words(e.id) : "unnamed structure");
   if (of_flanks)
     html += "<span class='id'>" + (e.flank == "both" ? "both" : escaped(e.flank)) + " flanks</span>";
-  html += "</h3><p>" + escaped(e.description) + "</p>";
+  html += "</h3><p class='say'>" + escaped(e.sentence) + "</p><p class='sure'>" + escaped(e.sure) + "</p>";
   if (!e.parameters.empty()) {
-    html += "<div class='scroll'><table><tr><th>parameter</th><th>value</th><th>95 % interval</th></tr>";
-    for (const Parameter& p : e.parameters)
-      html += "<tr><td>" + escaped(p.name) + "</td><td>" + number(p.value, "%.4g") + "</td><td>" +
-              number(p.low, "%.4g") + " … " + number(p.high, "%.4g") + "</td></tr>";
+    html += "<div class='scroll'><table><tr><th></th><th>value</th><th>95 % interval</th><th></th></tr>";
+    for (const Parameter& p : e.parameters) {
+      const auto [name, unit] = name_and_unit(p.name);
+      html += "<tr><td>" + escaped(name) + "</td><td>" + number(p.value, "%.4g") + "</td><td>" +
+              (p.high > p.low ? number(p.low, "%.4g") + " … " + number(p.high, "%.4g") : "") + "</td><td>" + unit +
+              "</td></tr>";
+    }
     html += "</table></div>";
   }
   const double percent = 100.0 * e.explained_fraction;
-  html += "<p>Without it " + number(percent, "%.1f") + " % of the variance would stay unexplained.</p><div class='share'><i style='width:" +
+  html += "<p>It explains " + number(percent, "%.1f") + " % of the variance.</p><div class='share'><i style='width:" +
           number(std::isnan(percent) ? 0.0 : std::fmin(100.0, std::fmax(0.0, percent)), "%.1f") + "%'></i></div>";
+  html += "<details><summary>form and cause</summary><p>" + escaped(e.description) + "</p>";
   if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
   if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
+  html += "</details>";
   if (!e.confounded_with.empty())
     html += "<p class='note'>These data cannot tell it from " + escaped(joined(e.confounded_with)) + ".</p>";
   return html + "</div>";
@@ -140,7 +212,7 @@ std::string loop_page_opening(const LoopResult& r, const std::string& heading) {
       "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
       escaped(r.gear) + " – Trueflank loop</title><style>" + kStyle +
       "</style></head><body><main><p class='brand'>Trueflank</p><h1>" + escaped(heading) +
-      "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + figure_cards(r);
+      "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + alarm(r) + figure_cards(r);
   page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
   for (const FoundEffect& effect : r.effects) page += effect_card(effect, !r.unit.efficiency_points);
   return page + left_over(r);
@@ -149,7 +221,7 @@ std::string loop_page_opening(const LoopResult& r, const std::string& heading) {
 std::string loop_page_end(const LoopResult& r) {
   return "<h2>The same as text</h2><details><summary>what the program printed</summary><pre>" + escaped(loop_text(r)) +
          "</pre></details><script type='application/json' id='loop-data'>" + script_text(loop_json(r)) +
-         "</script></main></body></html>\n";
+         "</script>" + kPointerScript + "</main></body></html>\n";
 }
 
 }  // namespace trueflank::loop

@@ -9,6 +9,7 @@
 #include "trueflank/loop/drive/close_drive_loop.h"
 #include "trueflank/loop/drive/drive_calibration.h"
 #include "trueflank/loop/gear/close_loop.h"
+#include "trueflank/loop/measured/text_table.h"
 #include "trueflank/report/drive_html.h"
 #include "trueflank/report/loop_html.h"
 #include "trueflank/session/effects_file.h"
@@ -78,6 +79,13 @@ std::vector<double> ClosedLoop::residuals_after() const {
   if (const auto* gear = std::get_if<loop::GearLoop>(&data_->closed))
     return {gear->after_um.begin(), gear->after_um.end()};
   return std::get<loop::DriveLoop>(data_->closed).after_nm;
+}
+
+std::vector<std::string> ClosedLoop::left_out_rows() const {
+  std::vector<std::string> rows;
+  for (const std::string& note : result().notes)
+    if (loop::is_of_left_out_rows(note)) rows.push_back(note);
+  return rows;
 }
 
 std::string ClosedLoop::json() const { return loop::loop_json(result()); }

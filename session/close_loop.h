@@ -27,6 +27,8 @@ class ClosedLoop {
   /// after the effects found: [um] of a gear, [N m] of a drive.
   [[nodiscard]] std::vector<double> residuals_before() const;
   [[nodiscard]] std::vector<double> residuals_after() const;
+  /// Rows of the data that were left out, each with file, line and why: of the result's notes.
+  [[nodiscard]] std::vector<std::string> left_out_rows() const;
   [[nodiscard]] std::string json() const;  ///< loop.json
   [[nodiscard]] std::string html() const;  ///< loop.html
   [[nodiscard]] std::string text() const;  ///< what a person reads first

@@ -40,6 +40,13 @@ ProcessTable::ProcessTable()
            .source = "typical: sheet of 1 to 3 mm"},
           {.name = "cnc-hobbing", .least_wall_mm = 1.0, .least_tip_mm = 0.1, .backlash_mm = 0.03,
            .source = "typical"},
+          // Names for how a part is made, without limits of their own.
+          {.name = "hobbing", .source = "no limits"},
+          {.name = "shaping", .source = "no limits"},
+          {.name = "grinding", .source = "no limits"},
+          {.name = "milling", .source = "no limits"},
+          {.name = "moulding", .source = "no limits"},
+          {.name = "sintering", .source = "no limits"},
       } {}
 
 void ProcessTable::set(Process process) {

@@ -161,6 +161,13 @@ class TableMaker {
       }
       table_.points.push_back(p);
     }
+    std::map<int, std::pair<double, double>> seen;  // file: rows so far, rows
+    for (const BenchPoint& p : table_.points) seen[p.file].second += 1.0;
+    for (BenchPoint& p : table_.points) {
+      auto& [before, rows] = seen[p.file];
+      p.taken = before / std::max(1.0, rows - 1.0);
+      before += 1.0;
+    }
     turns = most > least ? (most - least) / 360.0 : 0.0;
     const auto known = [&](double BenchPoint::*value) {
       return std::none_of(table_.points.begin(), table_.points.end(),

@@ -19,6 +19,7 @@ struct BenchPoint {
   double load_nm = 0.0;     ///< the driving torque as the lossless drive passes it to the input
   double temperature_c = kNaN;
   double angle_rad = kNaN;  ///< of the input, unwrapped
+  double taken = 0.0;       ///< when among the rows of its file: 0 first ... 1 last
   double sigma_nm = kNaN;   ///< of driven_nm: as given, else estimated for its direction
   int unit = 0;             ///< rows of one set point, or of a stretch of a log
   int fold = 0;             ///< 0 locked hold-out, 1 ... 8 cross-validation

@@ -7,6 +7,7 @@
 
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
+#include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
 namespace {
@@ -343,6 +344,8 @@ class Loop {
     swapped.cause = "columns or directions of the bench's file were mixed up";
     swapped.correction = "correct the file";
     swapped.correctable = false;
+    swapped.sentence = table_.impossible_text + first_action(swapped.correction);
+    swapped.sure = "as good as certain: no drive can have such torques";
     swapped.explained_fraction = kNaN;
     r.effects.insert(r.effects.begin(), swapped);
     if (r.verdict == Verdict::kNoEffect) r.verdict = Verdict::kExplained;

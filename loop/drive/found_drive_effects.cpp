@@ -2,8 +2,10 @@
 #include "trueflank/loop/drive/found_drive_effects.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/result/describe.h"
@@ -56,6 +58,7 @@ class Describer {
     }
     for (const auto& [order, place] : unnamed_at) finish_unnamed(found_[place], order);
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    share_what_is_explained();
     return std::move(found_);
   }
 
@@ -158,22 +161,49 @@ class Describer {
   void add_figures(FoundEffect& found, const std::vector<int>& members) const {
     std::vector<bool> left_out(s_.all.effects().size(), false);
     for (const int e : members) left_out[e] = true;
-    const auto square = [&](const Eigen::VectorXd& left) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
-        const double x = left[static_cast<Eigen::Index>(i)] / s_.context.table.points[i].sigma_nm;
-        sum += x * x;
-      }
-      return sum;
-    };
-    const Eigen::VectorXd with = s_.value - s_.all.explained_nm();
-    const Eigen::VectorXd lost = s_.value - s_.all.columns() * s_.all.without(left_out);
-    found.explained_fraction =
-        std::clamp((square(lost) - square(with)) / std::max(square(s_.value), 1e-300), 0.0, 1.0);
     const Eigen::VectorXd held = s_.value - s_.training.explained_nm();
     const Eigen::VectorXd held_lost = s_.value - s_.training.columns() * s_.training.without(left_out);
     found.held_out_gain = rms_of(s_.context, held_lost, true, false) -
                           rms_of(s_.context, held, true, false);
+    found.sure = sure_words(found.p_value, found.confounded_with);
+    found.sentence = sentence(found, members);
+  }
+
+  /// What it is, how much, what it moves the efficiency by, what to do.
+  std::string sentence(const FoundEffect& found, const std::vector<int>& members) const {
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(s_.value.size());
+    for (const int e : members) moved += s_.all.explained_nm(e);
+    std::string text = found.description;
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    for (const Parameter& p : found.parameters) {
+      if (p.name == "order") continue;
+      const auto [name, unit] = name_and_unit(p.name);
+      text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);
+      break;
+    }
+    const double points = rms_of(s_.context, moved, false, true);
+    if (std::isfinite(points)) text += printed(", worth %.2g points of efficiency under load", points);
+    return text + (found.named ? first_action(found.correction)
+                               : std::string("; its cause is not known: find it before anything is designed on it"));
+  }
+
+  /// Every effect's share of what all explain together.
+  void share_what_is_explained() {
+    const auto square = [&](const std::vector<bool>& left_out) {
+      return rms_of(s_.context, s_.value - s_.all.columns() * s_.all.without(left_out), false, false);
+    };
+    const std::size_t count = s_.all.effects().size();
+    const double before = rms_of(s_.context, s_.value, false, false);
+    if (!(before > 0.0)) return;
+    const auto explained = [&](const std::vector<bool>& players) {
+      std::vector<bool> left_out(count, true);
+      for (std::size_t i = 0; i < players.size(); ++i)
+        for (const int e : members_[i]) left_out[e] = !players[i];
+      const double left = square(left_out) / before;
+      return 1.0 - left * left;
+    };
+    share_out(found_, shapley_shares(static_cast<int>(found_.size()), explained),
+              explained(std::vector<bool>(found_.size(), true)));
   }
 
   const DriveSources& s_;
@@ -201,11 +231,13 @@ std::vector<std::string> runs_that_separate(const BenchTable& table,
     say("before any loss is read from these data: a run without the gearbox (or with the roles of the two "
         "sides swapped), and each torque against a lever and weights, to separate torque_scale and "
         "torque_offset from friction");
+  ToldApart told;
   for (const FoundEffect& found : effects)
     for (const std::string& other : found.confounded_with)
-      say(found.id + " and " + other + " cannot be told apart here; run " +
-          measurement_between(found.id, find_drive_family(found.id), other, find_drive_family(other),
-                              "more loads, speeds, both directions and temperatures"));
+      told.add(found.id, other,
+               measurement_between(found.id, find_drive_family(found.id), other, find_drive_family(other),
+                                   "more loads, speeds, both directions and temperatures"));
+  told.say(runs, "run");
   if (!table.has(true) || !table.has(false))
     say("only one direction was run: the other separates torque scale and offset from friction and drag");
   if (!(table.most_speed_rpm > 1.5 * table.least_speed_rpm))

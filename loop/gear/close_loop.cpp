@@ -7,6 +7,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/part_frame.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/several_parts.h"
@@ -15,7 +16,50 @@
 namespace trueflank::loop {
 namespace {
 
-LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit) {
+/// Share of the variance before that is gone after.
+double explained_by(const ErrorFigures& before, const ErrorFigures& after) {
+  const double left = after.rms / before.rms;
+  return before.rms > 0.0 ? std::max(0.0, 1.0 - left * left) : 0.0;
+}
+
+/// What data and design say of how the part was made: the data, where both do.
+struct KnownProcess {
+  std::string name;
+  Makings makings = kAnyMaking;
+  std::vector<std::string> notes;
+};
+
+KnownProcess process_of(const MeasuredData& data, const LoopOptions& options) {
+  KnownProcess known;
+  const auto unknown = [&](const std::string& name) {
+    known.notes.push_back("the process \"" + name +
+                          "\" does not say how the part was made: causes of every process are named; write "
+                          "grinding, hobbing, shaping, milling, wire-edm, laser, fdm, sla, sls, moulding or "
+                          "sintering");
+  };
+  if (data.processes.empty()) {
+    if (!options.process) return known;
+    known.name = options.process->name;
+    if (const auto makings = making_of(*options.process)) known.makings = *makings;
+    else unknown(known.name);
+    return known;
+  }
+  Makings open = 0;
+  for (const std::string& name : data.processes) {
+    known.name += (known.name.empty() ? "" : ", ") + name;
+    const auto makings = making_named(name);
+    if (!makings) unknown(name);
+    open |= makings.value_or(kAnyMaking);
+  }
+  known.makings = open;
+  if (options.process && (making_of(*options.process).value_or(kAnyMaking) & open) == 0)
+    known.notes.push_back("the data say " + known.name + ", the design says " + options.process->name +
+                          ": the data are believed");
+  return known;
+}
+
+LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit,
+                     Makings makings) {
   LoopResult result;
   result.observations = fit.observations();
   result.held_out = fit.held_out();
@@ -33,7 +77,8 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   const ShapeUncertainty uncertainty =
       shape_uncertainty(geometry, loop.table(), loop.patches(), fit);
   result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
-                                     result.not_observable});
+                                     result.not_observable, makings, loop.unseen(),
+                                     explained_by(result.before, result.after)});
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
   if (loop.structure_is_left()) result.verdict = Verdict::kPartlyExplained;
   else result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
@@ -42,16 +87,19 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
 
 GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, Observations table,
                    const LoopOptions& options) {
-  PartLoop loop(geometry, std::move(table), {.declared = options.declared});
+  PartLoop loop(geometry, std::move(table), {.declared = options.declared, .makings = options.makings});
   loop.run();
   const PointFit fit(geometry, loop.table(), loop.patches(), loop.effects());
-  GearLoop done{result_of(geometry, loop, fit), geometry, {}, {}, {}};
+  GearLoop done{result_of(geometry, loop, fit, options.makings), geometry, {}, {}, {}};
   done.result.gear = gear_name;
   std::vector<float> unused;
   PointFit(geometry, loop.measured(), loop.patches(), {}).residuals(done.before_um, unused);
   fit.residuals(unused, done.after_um);
   done.table = loop.table();
   find_largest_errors(done);
+  const Iso1328 iso = iso_1328(done);
+  done.result.iso_1328 = inspection_figures(iso);
+  if (!done.result.iso_1328.empty()) done.result.iso_1328_note = iso.note;
   return done;
 }
 
@@ -112,8 +160,10 @@ void find_largest_errors(GearLoop& done) {
   }
 }
 
-ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string& gear_name,
-                               const MeasuredData& data, const LoopOptions& options) {
+namespace {
+
+ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std::string& gear_name,
+                                       const MeasuredData& data, const LoopOptions& options) {
   const std::vector<std::string> names = parts_of(data);
   if (names.empty()) {
     auto table = make_observations(geometry, data, {.aligned = options.aligned});
@@ -125,7 +175,7 @@ ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string&
   Errors errors;
   for (const std::string& name : names) {
     MeasuredData of_one{of_part(data.scans, name), of_part(data.inspections, name),
-                        of_part(data.sizes, name), {}};
+                        of_part(data.sizes, name), {}, {}};
     auto table = make_observations(geometry, of_one, {.aligned = options.aligned});
     Errors found = table ? too_few(*table, name) : table.error();
     errors.insert(errors.end(), found.begin(), found.end());
@@ -136,6 +186,21 @@ ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string&
   done.result.gear = gear_name;
   done.result.notes.insert(done.result.notes.begin(), data.notes.begin(), data.notes.end());
   return done;
+}
+
+}  // namespace
+
+ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string& gear_name,
+                               const MeasuredData& data, const LoopOptions& options) {
+  const KnownProcess known = process_of(data, options);
+  LoopOptions open = options;
+  open.makings = known.makings;
+  auto closed = close_with_process(geometry, gear_name, data, open);
+  if (!closed) return closed;
+  LoopResult& result = closed->result;
+  result.process = known.name;
+  result.notes.insert(result.notes.end(), known.notes.begin(), known.notes.end());
+  return closed;
 }
 
 ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_name,
@@ -157,7 +222,9 @@ ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_n
     if (design->bore.kind == BoreKind::kRound) bore_radius = 0.5 * design->bore.diameter_mm;
   const FlankGeometry geometry(*gear, bore_radius);
   if (options.aligned) move_into_gear_frame(train, *gear, geometry, *data);
-  auto closed = close_loop(geometry, gear_name, *data, options);
+  LoopOptions of_design = options;
+  if (!of_design.process) of_design.process = train.design.made.process;
+  auto closed = close_loop(geometry, gear_name, *data, of_design);
   if (closed) doubt_unit_and_gear(geometry, *data, closed->result);
   return closed;
 }

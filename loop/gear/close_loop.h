@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "trueflank/base/result.h"
 #include "trueflank/loop/result/loop_result.h"
 #include "trueflank/loop/gear/patches.h"
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/process.h"
 
 namespace trueflank::loop {
 
 struct LoopOptions {
   bool aligned = false;  ///< scans stand in the gear's own frame
   DeclaredFamilies declared = nullptr;  ///< effects the user adds to the library
+  /// How the part is made, where the data do not say it.
+  std::optional<Process> process = {};
+  Makings makings = kAnyMaking;  ///< ways of making that are open: filled in from process and data
 };
 
 /// Everything the charts need beside the result.

@@ -60,6 +60,12 @@ bool read_parameters(const Json& json, const EffectFamily& family, std::vector<d
          std::none_of(coefficients.begin(), coefficients.end(), bad);
 }
 
+/// The free form, or the form a term is of; nullptr: of none that is known.
+const EffectFamily* family_of_term(const Json& term, const EffectFamily& free_form) {
+  if (!term.is_object() || !term.contains("form")) return &free_form;
+  return term["form"].is_string() ? find_form(term["form"].get<std::string>()) : nullptr;
+}
+
 /// A term of an effect without a name.
 bool read_term(const Json& term, const EffectFamily& family, std::vector<double>& shape,
                std::vector<double>& coefficients) {
@@ -73,11 +79,13 @@ bool read_term(const Json& term, const EffectFamily& family, std::vector<double>
                                                      : number(key.name));
   constexpr double kMostDegree = 1000.0;  // degrees and orders: far beyond what any data can show
   const auto bad = [](double value) { return !std::isfinite(value); };
-  const auto no_degree = [](double value) {
-    return !(value >= 0.0 && value <= kMostDegree) || value != std::floor(value);
-  };
-  if (std::any_of(shape.begin(), shape.end(), no_degree) || shape.size() != family.shape_names.size())
-    return false;
+  if (shape.size() != family.shape_names.size()) return false;
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    const bool whole = family.term_keys[k].kind != TermKey::Kind::kNumber;
+    if (whole ? !(shape[k] >= 0.0 && shape[k] <= kMostDegree) || shape[k] != std::floor(shape[k])
+              : !(shape[k] > 0.0))
+      return false;
+  }
   for (int k = 0; k < family.columns(shape); ++k) coefficients.push_back(number(family.parameters[k]));
   return std::none_of(coefficients.begin(), coefficients.end(), bad);
 }
@@ -138,15 +146,22 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                    .value = id});
     if (!family->named) {
       const auto terms = item.find("terms");
-      if (terms == item.end() || !terms->is_array()) {
-        result.left_.push_back(id + ": stands on one tooth; inspect or reject the part");
+      const bool of_one_tooth = !item.value("correctable", true);
+      if (of_one_tooth || terms == item.end() || !terms->is_array()) {
+        result.left_.push_back(id + ": " + item.value("description", std::string("no terms")) +
+                               "; inspect or reject the part");
         continue;
       }
       for (const Json& term : *terms) {
         Part part;
-        part.effect.family = family;
-        if (!read_term(term, *family, part.effect.shape, part.coefficients))
+        part.effect.family = family_of_term(term, *family);
+        if (part.effect.family == nullptr ||
+            !read_term(term, *part.effect.family, part.effect.shape, part.coefficients))
           return fail(broken("a term without its numbers", "effects.terms"));
+        if (part.effect.family->correctable != Correctable::kGeometry) {
+          result.left_.push_back(id + ": " + part.effect.family->description);
+          continue;
+        }
         result.parts_.push_back(std::move(part));
       }
       result.corrected_.push_back(id);

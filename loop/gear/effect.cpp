@@ -24,8 +24,54 @@ const EffectFamily* find_family(const std::string& id) {
   return nullptr;
 }
 
+namespace {
+
+/// What is left of a named effect without its cause: a form, described in terms.
+EffectFamily without_cause(const EffectFamily& named) {
+  EffectFamily form = named;
+  form.id = "unnamed_form";
+  form.named = false;
+  form.correction.clear();
+  form.causes.clear();
+  form.cause.clear();
+  form.told_from.clear();
+  form.causes_told_by.clear();
+  form.shown_by.clear();
+  form.preference = 3;
+  form.form = ParameterForm::kPlain;
+  form.parameters = {"cos_um", "sin_um"};
+  form.parameters.resize(named.parameters.size());
+  for (const std::string& name : named.shape_names)
+    form.term_keys.push_back({name, TermKey::Kind::kNumber});
+  return form;
+}
+
+const std::vector<EffectFamily>& forms_without_cause() {
+  static const std::vector<EffectFamily> forms = [] {
+    std::vector<EffectFamily> all;
+    for (const EffectFamily& family : effect_library())
+      if (!family.form_word.empty()) all.push_back(without_cause(family));
+    return all;
+  }();
+  return forms;
+}
+
+}  // namespace
+
+const EffectFamily* find_form(const std::string& form_word) {
+  for (const EffectFamily& form : forms_without_cause())
+    if (form.form_word == form_word) return &form;
+  return nullptr;
+}
+
+bool can_have(Makings makings, const EffectFamily& family) {
+  return family.causes.empty() ||
+         std::any_of(family.causes.begin(), family.causes.end(),
+                     [&](const CauseOfMaking& cause) { return (cause.makings & makings) != 0; });
+}
+
 std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
-                                      const DeclaredFamilies& declared) {
+                                      const DeclaredFamilies& declared, Makings makings) {
   std::vector<Effect> effects;
   const auto add = [&](const EffectFamily& family) {
     std::vector<std::vector<double>> shapes{{}};
@@ -39,7 +85,10 @@ std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
   };
   if (declared)
     for (const EffectFamily& family : *declared) add(family);
-  for (const EffectFamily& family : effect_library()) add(family);
+  for (const EffectFamily& family : effect_library()) {
+    if (can_have(makings, family)) add(family);
+    else if (const EffectFamily* form = find_form(family.form_word)) add(*form);
+  }
   return effects;
 }
 

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "trueflank/loop/gear/flank_geometry.h"
+#include "trueflank/loop/gear/making.h"
 #include "trueflank/loop/result/effect_facts.h"
+#include "trueflank/loop/result/loop_result.h"
 
 namespace trueflank::loop {
 
@@ -25,6 +27,7 @@ using EffectShape = std::vector<double>;
 /// Along what a gear must have been measured before an effect can be seen.
 struct NeedsToBeSeen {
   bool along_profile = false, along_face = false;
+  bool several_heights = false;  ///< anything at more than one height
   bool crossed = false;  ///< profile at several heights, or helix at several diameters
 };
 
@@ -37,6 +40,8 @@ struct EffectFamily : EffectFacts {
   bool flank_only = false;          ///< must act on one flank only
   bool local = false;               ///< lives on one tooth
   Correctable correctable = Correctable::kGeometry;
+  /// Ways of making that can have it, each with its cause; empty: any.
+  std::vector<CauseOfMaking> causes = {};
   /// Declared by a user: name and formula of every parameter, as declared.
   std::vector<std::pair<std::string, std::string>> formulas = {};
 
@@ -69,6 +74,8 @@ struct EffectFamily : EffectFacts {
   /// @{
   /// In words; empty: its id and shape values.
   std::function<std::string(const EffectShape&, FlankChoice)> words = {};
+  /// What is wrong and what follows, for the shop, from the effect as found; empty: its description.
+  std::function<std::string(const FlankGeometry&, const FoundEffect&)> sentence = {};
   /// @}
 
   /// @name How it is corrected
@@ -108,11 +115,17 @@ struct Effect {
 [[nodiscard]] const std::vector<EffectFamily>& effect_library();
 /// The family of an id; nullptr where there is none.
 [[nodiscard]] const EffectFamily* find_family(const std::string& id);
+/// Forms of the library without their name and cause (EffectFacts::form_word), for gears made in a way that
+/// cannot have the cause; nullptr where there is none of that word.
+[[nodiscard]] const EffectFamily* find_form(const std::string& form_word);
+/// True where a way of making can have the effect.
+[[nodiscard]] bool can_have(Makings makings, const EffectFamily& family);
 /// Families a user declared. Shared: effects point into them.
 using DeclaredFamilies = std::shared_ptr<const std::vector<EffectFamily>>;
-/// Every candidate for a gear: of the library and of what the user declared.
+/// Every candidate for a gear made in one of these ways: of the library and of what the user declared.
 [[nodiscard]] std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
-                                                    const DeclaredFamilies& declared = nullptr);
+                                                    const DeclaredFamilies& declared = nullptr,
+                                                    Makings makings = kAnyMaking);
 
 /// Share of the flank's normal that lies in the transverse plane: what a displacement there is worth.
 [[nodiscard]] double normal_part(const FlankGeometry& geometry, const Place& place, double ux,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/result/describe.h"
@@ -29,12 +30,14 @@ class Describer {
 
   std::vector<FoundEffect> run() {
     const auto& effects = sources_.fit.effects();
-    std::map<int, std::size_t> unnamed_at;  // order -> place in found_
+    // form and order -> place in found_
+    std::map<std::pair<std::string, int>, std::size_t> unnamed_at;
     for (int e = 0; e < static_cast<int>(effects.size()); ++e) {
       if (!sources_.only.empty() && !sources_.only[e]) continue;
       if (effects[e].is_term()) {
         const int order = static_cast<int>(effects[e].order());
-        const auto [place, is_new] = unnamed_at.emplace(order, found_.size());
+        const auto [place, is_new] = unnamed_at.emplace(
+            std::pair(effects[e].family->form_word, order), found_.size());
         if (is_new) {
           found_.push_back(common(e));
           members_.push_back({});
@@ -47,8 +50,9 @@ class Describer {
         members_.push_back({e});
       }
     }
-    for (const auto& [order, place] : unnamed_at) finish_unnamed(found_[place], order);
+    for (const auto& [form, place] : unnamed_at) finish_unnamed(found_[place], form.second);
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    share_what_is_explained();
     return std::move(found_);
   }
 
@@ -61,15 +65,22 @@ class Describer {
     found.id = family.named ? family.id : "unnamed";
     found.named = family.named;
     found.description = family.description;
-    found.cause = family.cause;
+    found.cause = family.causes.empty() ? family.cause : causes_text(family.causes, sources_.makings);
+    if (sources_.makings == kAnyMaking)
+      for (const CauseOfMaking& cause : family.causes)
+        found.by_process.emplace_back(making_text(cause.makings), cause.cause);
     found.correction = family.correction;
     found.flank = flank_text(effect.flank);
     found.p_value = chosen.p_value;
     found.bic_gain = chosen.bic_gain;
     found.correctable = family.correctable == Correctable::kGeometry;
     found.form = family.formulas;
-    if (!family.named && family.local) found.description = words_for(effect);
+    if (!family.named && family.local) {
+      found.description = words_for(effect);
+      found.terms = {term(e)};
+    }
     for (const int group : chosen.confounded) {
+      if (!sources_.unseen.empty() && sources_.unseen[group]) continue;
       const EffectFamily& other = *sources_.candidates[group].family;
       const bool listed = std::find(found.confounded_with.begin(), found.confounded_with.end(),
                                     other.id) != found.confounded_with.end();
@@ -133,13 +144,46 @@ class Describer {
     const std::size_t count = sources_.fit.effects().size();
     std::vector<bool> with(count, true);
     const auto full = sources_.fit.errors(with);
-    for (const int e : members) {
-      with[e] = false;
-      found.explained_fraction += sources_.fit.explained_fraction(e);
-    }
-    found.explained_fraction = std::min(1.0, found.explained_fraction);
+    for (const int e : members) with[e] = false;
     found.held_out_gain =
         sources_.fit.errors(with).held_out_rms_um - full.held_out_rms_um;
+    found.sentence = sentence(found, members.front());
+    found.sure = sure_words(found.p_value, found.confounded_with);
+  }
+
+  std::string sentence(const FoundEffect& found, int effect) const {
+    const EffectFamily& family = *sources_.fit.effects()[effect].family;
+    if (found.named && family.sentence)
+      return family.sentence(sources_.geometry, found) + first_action(family.correction);
+    if (found.named) return found.description + first_action(found.correction);
+    const double size = found.terms.front().amplitude();
+    return printed("A deviation of %.3g um without a known cause: ", size) + found.terms.front().text +
+           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1) : "") +
+           (family.local ? "; inspect that tooth" : "; find its source before anything is corrected");
+  }
+
+  /// Every effect's share of what all explain together.
+  void share_what_is_explained() {
+    const std::size_t count = sources_.fit.effects().size();
+    const auto square = [&](const std::vector<bool>& with) {
+      const double rms = sources_.fit.errors(with).rms_um;
+      return rms * rms;
+    };
+    // Effects that are not described here (of several parts) stay in the model.
+    std::vector<bool> with(count, true);
+    for (const auto& members : members_)
+      for (const int e : members) with[e] = false;
+    const double before = square(std::vector<bool>(count, false)), without = square(with);
+    if (!(before > 0.0)) return;
+    const auto explained = [&](const std::vector<bool>& players) {
+      std::vector<bool> these = with;
+      for (std::size_t i = 0; i < players.size(); ++i)
+        for (const int e : members_[i]) these[e] = players[i];
+      return (without - square(these)) / before;
+    };
+    const auto shares = shapley_shares(static_cast<int>(found_.size()), explained);
+    const double own = explained(std::vector<bool>(found_.size(), true));
+    share_out(found_, shares, std::isnan(sources_.explained) ? own : sources_.explained);
   }
 
   const EffectSources& sources_;
@@ -169,16 +213,21 @@ std::vector<std::pair<std::string, double>> parameter_values(const Effect& effec
   return values;
 }
 
+namespace {
+
+/// Id or description with the shape values.
+std::string with_shape(std::string text, const Effect& effect) {
+  for (std::size_t k = 0; k < effect.shape.size(); ++k)
+    text += " (" + effect.family->shape_names[k] + " " + printed("%.4g", effect.shape[k]) + ")";
+  return text;
+}
+
+}  // namespace
+
 std::string words_for(const Effect& effect) {
   if (effect.family->words) return effect.family->words(effect.shape, effect.flank);
-  std::string text = effect.family->id;
-  for (std::size_t k = 0; k < effect.shape.size(); ++k) {
-    std::string value = std::to_string(effect.shape[k]);
-    while (value.back() == '0') value.pop_back();
-    if (value.back() == '.') value.pop_back();
-    text += " (" + effect.family->shape_names[k] + " " + value + ")";
-  }
-  return text;
+  const bool form = effect.is_term() && !effect.family->form_word.empty();
+  return with_shape(form ? effect.family->description : effect.family->id, effect);
 }
 
 namespace {
@@ -203,16 +252,22 @@ void say_what_is_hidden(const std::vector<std::string>& not_observable, std::vec
 std::vector<std::string> measurements_that_separate(const std::vector<FoundEffect>& effects,
                                                     const std::vector<std::string>& not_observable) {
   std::vector<std::string> sentences;
+  ToldApart told;
   for (const FoundEffect& found : effects)
     for (const std::string& other : found.confounded_with)
-      say_once(sentences,
-               found.id + " and " + other + " cannot be told apart here; measure " +
-                   measurement_between(found.id, find_family(found.id), other, find_family(other),
-                                       "the same gear in more records: both flanks, profile, helix, "
-                                       "index and sizes"));
+      told.add(found.id, other,
+               measurement_between(found.id, find_family(found.id), other, find_family(other),
+                                   "the same gear in more records: both flanks, profile, helix, index "
+                                   "and sizes"));
+  told.say(sentences, "measure");
   for (const FoundEffect& found : effects)
     if (const EffectFamily* family = find_family(found.id); family && !family->causes_told_by.empty())
       say_once(sentences, found.id + ": " + family->causes_told_by);
+  if (std::any_of(effects.begin(), effects.end(),
+                  [](const FoundEffect& found) { return found.by_process.size() > 1; }))
+    say_once(sentences,
+             "how the part was made decides between the causes: say it ([made] process in the design, or a "
+             "line \"# process = grinding\" in the data)");
   const bool one_part = std::any_of(effects.begin(), effects.end(), [](const FoundEffect& found) {
     return found.correctable && !found.repeatable;
   });

@@ -16,6 +16,10 @@ struct EffectSources {
   const std::vector<Effect>& candidates;
   const ShapeUncertainty& uncertainty;
   const std::vector<std::string>& not_observable;
+  Makings makings = kAnyMaking;  ///< ways of making that are open
+  /// Candidates whose form the data do not have: no alternatives to what they show; empty: none.
+  std::vector<bool> unseen = {};
+  double explained = kNaN;       ///< share of the variance that shares add up to; NaN: of this fit
   /// Which of the fit's effects to describe; empty: all.
   std::vector<bool> only = {};
 };

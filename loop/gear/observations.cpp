@@ -28,6 +28,31 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Counts the rows of a file that cannot be of this gear. Where they are many the file is another gear's, and
+/// what is left of it would tell nothing about this one.
+class ForeignRows {
+ public:
+  void judge(int line, const std::string& why) {
+    if (why.empty()) return;
+    if (count_++ == 0) first_ = {line, why};
+  }
+  [[nodiscard]] bool refuses(std::size_t rows, const std::string& file, Errors& errors) const {
+    constexpr std::size_t kFewest = 10;  // one in so many may be a slip
+    if (count_ * kFewest <= rows) return false;
+    errors.push_back({.code = ErrorCode::kOutOfRange,
+                      .message = std::to_string(count_) + " of " + std::to_string(rows) +
+                                 " rows cannot belong to this gear: " + first_.second,
+                      .remedy = "the file of this gear, or its design; check --gear",
+                      .file = file,
+                      .line = first_.first});
+    return true;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::pair<int, std::string> first_;
+};
+
 class TableBuilder {
  public:
   TableBuilder(const FlankGeometry& geometry, const ObservationOptions& options)
@@ -64,12 +89,15 @@ class TableBuilder {
 
   void add_inspection(const InspectionData& data, int source) {
     BadLines bad(data.file);
+    ForeignRows foreign;
     const std::size_t before = table.rows.size();
     std::map<std::array<int, 4>, int> traces;
     for (const InspectionRow& row : data.rows) {
       const std::string wrong = add_inspection_row(data, row, source, traces);
       if (!wrong.empty()) bad.add(row.line, wrong);
+      foreign.judge(row.line, foreign_row(row));
     }
+    if (foreign.refuses(data.rows.size(), data.file, errors)) return;
     if (table.rows.size() == before) {
       errors.push_back(bad.error("no row of the file fits this gear"));
       return;
@@ -80,11 +108,14 @@ class TableBuilder {
 
   void add_sizes(const SizeData& data, int source) {
     BadLines bad(data.file);
+    ForeignRows foreign;
     const std::size_t before = table.rows.size();
     for (const SizeRow& row : data.rows) {
       const std::string wrong = add_size(row, source);
       if (!wrong.empty()) bad.add(row.line, wrong);
+      foreign.judge(row.line, wrong);
     }
+    if (foreign.refuses(data.rows.size(), data.file, errors)) return;
     if (table.rows.size() == before && !data.rows.empty()) {
       errors.push_back(bad.error("no size of the file fits this gear"));
       return;
@@ -176,13 +207,27 @@ class TableBuilder {
     }
   }
 
-  std::string add_inspection_row(const InspectionData& data, const InspectionRow& row, int source,
-                                 std::map<std::array<int, 4>, int>& traces) {
+  /// Why a row cannot be of this gear; empty where it can. What lies on the gear but off its flanks can.
+  [[nodiscard]] std::string foreign_row(const InspectionRow& row) const {
     if (row.tooth > geometry_.teeth())
       return "tooth " + std::to_string(row.tooth) + " of a gear with " +
              std::to_string(geometry_.teeth()) + " teeth";
-    if (std::abs(row.deviation_um) > 500.0 * geometry_.gear().normal_module_mm)
+    const double module = geometry_.gear().normal_module_mm;
+    if (std::abs(row.deviation_um) > 500.0 * module)
       return "a deviation of " + number_text(row.deviation_um) + " um is no deviation of this gear";
+    const auto [least, most] = std::minmax({geometry_.tip_radius_mm(), geometry_.root_radius_mm()});
+    // A ball in the gap stands further out than the teeth.
+    const double reach = row.record == RecordKind::kRadial ? 3.0 * module : 0.3 * module;
+    if (0.5 * row.diameter_mm < least - reach || 0.5 * row.diameter_mm > most + reach)
+      return "diameter " + number_text(row.diameter_mm) + " mm lies outside this gear's teeth";
+    if (std::abs(geometry_.face_coordinate(row.z_mm)) > 1.3)
+      return "z " + number_text(row.z_mm) + " mm lies outside this gear's face";
+    return {};
+  }
+
+  std::string add_inspection_row(const InspectionData& data, const InspectionRow& row, int source,
+                                 std::map<std::array<int, 4>, int>& traces) {
+    if (std::string wrong = foreign_row(row); !wrong.empty()) return wrong;
     const double middle_roll = geometry_.roll_at_radius_mm(geometry_.reference_radius_mm());
     double roll = std::isnan(row.diameter_mm) ? middle_roll
                                               : geometry_.roll_at_radius_mm(0.5 * row.diameter_mm);

@@ -7,6 +7,7 @@
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
@@ -22,7 +23,7 @@ PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options op
       options_(std::move(options)),
       measured_(std::move(table)),
       table_(measured_),
-      candidates_(candidate_effects(geometry, options_.declared)) {
+      candidates_(candidate_effects(geometry, options_.declared, options_.makings)) {
   banned_.assign(candidates_.size(), false);
 }
 
@@ -42,6 +43,7 @@ void PartLoop::run() {
   }
   if (!is_rounding()) look_at_single_teeth();
   look_at_sizes();
+  drop_impossible();
   if (!is_rounding() && !options_.joined) look_at_neighbours();
 }
 
@@ -59,6 +61,7 @@ void PartLoop::ban_what_cannot_be_seen() {
   bool along_profile = false, along_face = false;
   // A product of both shows where flanks were scanned, or traced at several heights or diameters.
   constexpr double kSeveral = 0.2;
+  double lowest = 1.0, highest = -1.0;
   double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
   bool scanned = false;
   for (const Observation& row : table_.rows) {
@@ -66,6 +69,8 @@ void PartLoop::ban_what_cannot_be_seen() {
     scanned = scanned || scan;
     const double u = geometry_.profile_coordinate(table_.place(row).roll_mm);
     const double v = geometry_.face_coordinate(table_.place(row).z_mm);
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
     if (row.kind == ObservationKind::kHelix) {
       least_u = std::min(least_u, u);
       most_u = std::max(most_u, u);
@@ -81,7 +86,7 @@ void PartLoop::ban_what_cannot_be_seen() {
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const NeedsToBeSeen needs = candidates_[g].needs();
     if ((needs.along_profile && !along_profile) || (needs.along_face && !along_face) ||
-        (needs.crossed && !crossed))
+        (needs.several_heights && !(highest > lowest + kSeveral)) || (needs.crossed && !crossed))
       banned_[g] = true;
   }
 }
@@ -173,14 +178,15 @@ std::vector<std::string> PartLoop::not_observable() const {
   };
   if (options_.declared)
     for (const EffectFamily& family : *options_.declared) look(family);
-  for (const EffectFamily& family : effect_library()) look(family);
+  for (const EffectFamily& family : effect_library())
+    if (can_have(options_.makings, family)) look(family);
   return hidden;
 }
 
 /// Bans named effects that cannot be meant: an amount of the wrong sign; a wave whose kin of the same
 /// order remain unexplained, which is not that wave and is better described. True where any was.
 bool PartLoop::ban_misnamed() {
-  bool any = ban_wrong_signs();
+  bool any = ban_impossible();
   const auto ban = [&](std::size_t group) {
     any = any || !banned_[group];
     banned_[group] = true;
@@ -204,19 +210,33 @@ bool PartLoop::ban_misnamed() {
   return any;
 }
 
-bool PartLoop::ban_wrong_signs() {
+/// Effects that no gear can have (possible_effects.h) are not chosen again, at no shape.
+bool PartLoop::ban_impossible() {
   if (effects_.empty()) return false;
   const PointFit fit(geometry_, table_, patches_, effects_);
   bool any = false;
   for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    if (!effect.family->only_positive) continue;
-    if (fit.coefficients()[fit.first_column(static_cast<int>(e))] > 0.0) continue;
+    if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
     for (std::size_t g = 0; g < candidates_.size(); ++g)
       if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank)
         banned_[g] = any = true;
   }
   return any;
+}
+
+/// What is still impossible in the end is not told.
+void PartLoop::drop_impossible() {
+  for (bool again = true; again;) {
+    again = false;
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    for (std::size_t e = options_.given.size(); e < effects_.size() && !again; ++e) {
+      if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
+      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+      again = true;
+    }
+  }
 }
 
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.

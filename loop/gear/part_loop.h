@@ -15,6 +15,7 @@ class PartLoop {
  public:
   struct Options {
     DeclaredFamilies declared = nullptr;
+    Makings makings = kAnyMaking;  ///< ways of making that are open: of others no cause is named
     /// Effects that are in the model from the start (with free coefficients): found on other data.
     std::vector<Effect> given = {};
     bool joined = false;  ///< parts in one table: what is one part's own is looked at there
@@ -27,6 +28,8 @@ class PartLoop {
   [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
   [[nodiscard]] const DiscoveryResult& discovery() const { return discovery_; }
   [[nodiscard]] const std::vector<Effect>& candidates() const { return candidates_; }
+  /// Candidates whose form these data do not have.
+  [[nodiscard]] const std::vector<bool>& unseen() const { return unseen_; }
   /// About the effects found: exact for finite displacements.
   [[nodiscard]] const Observations& table() const { return table_; }
   [[nodiscard]] const Observations& measured() const { return measured_; }
@@ -44,7 +47,8 @@ class PartLoop {
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool ban_misnamed();
-  [[nodiscard]] bool ban_wrong_signs();
+  [[nodiscard]] bool ban_impossible();
+  void drop_impossible();
   void look_at_single_teeth();
   void look_at_sizes();
   void look_at_neighbours();

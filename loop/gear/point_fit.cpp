@@ -11,7 +11,7 @@ namespace trueflank::loop {
 bool counts_as_error(ObservationKind kind) {
   return kind == ObservationKind::kScanFlank || kind == ObservationKind::kProfile ||
          kind == ObservationKind::kHelix || kind == ObservationKind::kIndex ||
-         kind == ObservationKind::kRadial;
+         kind == ObservationKind::kRadial || kind == ObservationKind::kSize;
 }
 
 PointFit::PointFit(const FlankGeometry& geometry, const Observations& table,
@@ -177,14 +177,11 @@ double PointFit::column_size(int column) const {
   return observations_ > 0 ? std::sqrt(plain_all_(column, column) / observations_) : 0.0;
 }
 
-double PointFit::explained_fraction(int effect) const {
-  std::vector<bool> with(effects_.size(), true);
-  const double full = square_error(plain_all_, solution(all_, columns_with(with)));
-  with[effect] = false;
-  const double without = square_error(plain_all_, solution(all_, columns_with(with)));
-  with.assign(effects_.size(), false);
-  const double none = square_error(plain_all_, solution(all_, columns_with(with)));
-  return none > 0.0 ? std::clamp((without - full) / none, 0.0, 1.0) : 0.0;
+double PointFit::effect_size_um(int effect) const {
+  const int first = first_column_[effect], columns = effects_[effect].columns();
+  const Eigen::VectorXd b = coefficients_.segment(first, columns);
+  const double square = b.dot(plain_all_.block(first, first, columns, columns) * b);
+  return observations_ > 0 ? std::sqrt(std::max(0.0, square) / observations_) : 0.0;
 }
 
 void PointFit::solve() {

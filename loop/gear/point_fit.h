@@ -8,8 +8,8 @@
 
 namespace trueflank::loop {
 
-/// True for values that error figures are made of: flank points, traces, index, radial; not tips,
-/// bores and sizes, which only help to tell effects apart.
+/// True for values that error figures are made of: flank points, traces, index, radial, sizes; not tips and
+/// bores of scans, which only help to tell effects apart.
 [[nodiscard]] bool counts_as_error(ObservationKind kind);
 
 /// Joint least squares of effects and nuisance on the single values, with the patches' weights.
@@ -36,8 +36,8 @@ class PointFit {
   [[nodiscard]] double retained(int column) const { return retained_[column]; }
   /// Root mean square of a column over the values [um a unit of its coefficient].
   [[nodiscard]] double column_size(int column) const;
-  /// Weighted share of the variance before that vanishes without an effect.
-  [[nodiscard]] double explained_fraction(int effect) const;
+  /// Root mean square of what an effect adds to the values [um].
+  [[nodiscard]] double effect_size_um(int effect) const;
 
   /// Coefficients of the fit to all data, effects' columns in order after the nuisance.
   [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }

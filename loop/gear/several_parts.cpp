@@ -72,14 +72,20 @@ class PartsLoop {
     const int tests = count() + 1;
     together_ = std::make_unique<PartLoop>(
         geometry_, joined_table(tables),
-        PartLoop::Options{.declared = options_.declared, .joined = true, .tables = tests});
+        PartLoop::Options{.declared = options_.declared,
+                          .makings = options_.makings,
+                          .joined = true,
+                          .tables = tests});
     together_->run();
     add_members(*together_, 0, -1);
     const std::vector<Effect> given = together_->effects();
     for (int p = 0; p < count(); ++p) {
       each_.push_back(std::make_unique<PartLoop>(
           geometry_, parts_[p].table,
-          PartLoop::Options{.declared = options_.declared, .given = given, .tables = tests}));
+          PartLoop::Options{.declared = options_.declared,
+                            .makings = options_.makings,
+                            .given = given,
+                            .tables = tests}));
       each_.back()->run();
       add_members(*each_.back(), given.size(), p);
     }
@@ -175,7 +181,8 @@ class PartsLoop {
     const PointFit fit(geometry_, together_->table(), together_->patches(), repeatable);
     const auto spread = shape_uncertainty(geometry_, together_->table(), together_->patches(), fit);
     auto found = describe_effects(
-        {geometry_, fit, records, together_->candidates(), spread, result.not_observable});
+        {geometry_, fit, records, together_->candidates(), spread, result.not_observable,
+         options_.makings, together_->unseen()});
     for (FoundEffect& effect : found) add_parts(effect, numbers);
     result.effects = std::move(found);
     for (int p = 0; p < count(); ++p) describe_one_offs(p, result);
@@ -224,7 +231,7 @@ class PartsLoop {
     const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
     const auto spread = shape_uncertainty(geometry_, loop.table(), loop.patches(), fit);
     for (FoundEffect& found : describe_effects({geometry_, fit, records, loop.candidates(), spread,
-                                                result.not_observable, only})) {
+                                                result.not_observable, options_.makings, loop.unseen(), kNaN, only})) {
       found.repeatable = false;
       found.correctable = false;
       found.part = parts_[part].name;

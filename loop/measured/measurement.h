@@ -72,11 +72,14 @@ struct MeasuredData {
   std::vector<InspectionData> inspections;
   std::vector<SizeData> sizes;
   std::vector<std::string> notes;
+  /// Processes named in the files (`# process = grinding`), each once.
+  std::vector<std::string> processes = {};
   [[nodiscard]] bool empty() const { return scans.empty() && inspections.empty() && sizes.empty(); }
 };
 
 /// Reads measured files of any kind the loop knows (docs/loop.md), told from their name and header.
-/// `PART=FILE` says which part a file is of; a comment line `# part = NAME` in the file says it, too.
+/// `PART=FILE` says which part a file is of; a comment line `# part = NAME` in the file says it, too, and
+/// `# process = NAME` how the part was made.
 /// A file of which a part is unusable is used for the rest, and notes say so.
 /// Errors: all files' together; kSyntax with file and line where nothing usable is left.
 [[nodiscard]] ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& paths);

@@ -43,8 +43,8 @@ FileKind kind_of(const std::string& path, std::string_view text) {
   return FileKind::kUnknown;
 }
 
-/// NAME of a comment line `# part = NAME` (PLY: `comment part = NAME`) before the data; empty: none.
-std::string part_named_in(std::string_view text) {
+/// NAME of a comment line `# key = NAME` (PLY: `comment key = NAME`) before the data; empty: none.
+std::string comment_in(std::string_view text, std::string_view key) {
   constexpr int kHeaderLines = 60;
   for (int i = 0; i < kHeaderLines && !text.empty(); ++i) {
     std::string_view line = trimmed(next_line(text));
@@ -52,7 +52,7 @@ std::string part_named_in(std::string_view text) {
     else if (line.starts_with("#")) line.remove_prefix(1);
     else continue;
     const std::size_t equals = line.find('=');
-    if (equals != std::string_view::npos && lowered(trimmed(line.substr(0, equals))) == "part")
+    if (equals != std::string_view::npos && lowered(trimmed(line.substr(0, equals))) == key)
       return std::string(trimmed(line.substr(equals + 1)));
   }
   return {};
@@ -85,7 +85,10 @@ void read_one(const std::string& argument, MeasuredData& data, Errors& errors) {
     errors.push_back(text.error());
     return;
   }
-  const std::string part = named.empty() ? part_named_in(*text) : named;
+  const std::string part = named.empty() ? comment_in(*text, "part") : named;
+  if (std::string process = comment_in(*text, "process"); !process.empty())
+    if (std::find(data.processes.begin(), data.processes.end(), process) == data.processes.end())
+      data.processes.push_back(std::move(process));
   switch (kind_of(path, *text)) {
     case FileKind::kScanCsv:
       keep(read_scan_csv(path, *text, data.notes), part, data.scans, errors);

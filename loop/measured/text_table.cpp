@@ -12,6 +12,13 @@
 namespace trueflank::loop {
 namespace {
 
+/// Rows of one file that are named; of more only the count.
+constexpr std::size_t kMostNamed = 20;
+constexpr const char* kLeftOut = ": left out: ";
+
+}  // namespace
+namespace {
+
 /// Of one line; what stands behind them is not looked at.
 constexpr std::size_t kMostFields = 10'000;
 
@@ -94,16 +101,20 @@ double number_in(std::string_view field) {
 }
 
 void BadLines::add(int line, const std::string& what) {
-  if (first_.size() < 3) first_.emplace_back(line, what);
+  if (first_.size() < kMostNamed) first_.emplace_back(line, what);
   ++count_;
 }
 
 void BadLines::tell(std::vector<std::string>& notes) const {
   for (const auto& [line, what] : first_)
-    notes.push_back(file_ + ":" + std::to_string(line) + ": left out: " + what);
+    notes.push_back(file_ + ":" + std::to_string(line) + kLeftOut + what);
   if (count_ > static_cast<int>(first_.size()))
     notes.push_back(file_ + ": " + std::to_string(count_ - static_cast<int>(first_.size())) +
                     " more lines left out");
+}
+
+bool is_of_left_out_rows(std::string_view note) {
+  return note.find(kLeftOut) != std::string_view::npos || note.ends_with(" more lines left out");
 }
 
 Error BadLines::error(const std::string& what) const {

@@ -32,6 +32,9 @@ void split_blanks(std::string_view line, std::vector<std::string_view>& fields);
 /// The finite number a field is; NaN where it is none.
 [[nodiscard]] double number_in(std::string_view field);
 
+/// True for a note that names a row left out (BadLines::tell).
+[[nodiscard]] bool is_of_left_out_rows(std::string_view note);
+
 /// Notes about bad lines of one file: the first few in words, the rest counted.
 class BadLines {
  public:

@@ -2,7 +2,10 @@
 #include "trueflank/loop/result/describe.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "trueflank/base/number_text.h"
 
 namespace trueflank::loop {
 
@@ -25,6 +28,7 @@ std::pair<Parameter, Parameter> wave_parameters(const EffectFacts& facts, double
 Term term_of(const EffectFacts& facts, const std::vector<double>& shape) {
   Term term;
   term.shape = shape;
+  if (!facts.form_word.empty()) term.keys.emplace_back("form", facts.form_word);
   for (std::size_t k = 0; k < facts.term_keys.size() && k < shape.size(); ++k) {
     const TermKey& key = facts.term_keys[k];
     switch (key.kind) {
@@ -63,6 +67,99 @@ std::string measurement_between(const std::string& one, const EffectFacts* facts
       if (told.id == to) return told.measurement;
   }
   return otherwise;
+}
+
+std::string sure_words(double p_value, const std::vector<std::string>& confounded_with) {
+  std::string text;
+  if (std::isnan(p_value)) {
+    text = "how sure it is was not asked";
+  } else {
+    // The largest round number of data sets of which chance alone would make less than one look so.
+    double sets = 1.0;
+    for (const double next : {5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 1e4, 1e6})
+      if (p_value * next < 1.0 - 1e-9) sets = next;
+    const char* word = sets >= 500.0   ? "as good as certain"
+                       : sets >= 50.0  ? "sure"
+                       : sets >= 10.0  ? "likely"
+                                       : "a guess";
+    text = std::string(word) + ": chance alone does this less than once in " + printed("%.0f", sets) +
+           " data sets";
+    if (sets < 5.0) text = "a guess: chance alone does this as easily";
+  }
+  if (confounded_with.empty()) return text;
+  std::string others;
+  for (const std::string& id : confounded_with) others += (others.empty() ? "" : " or ") + id;
+  std::replace(others.begin(), others.end(), '_', ' ');
+  return text + "; the name is open: " + others + " would look the same here";
+}
+
+std::vector<double> shapley_shares(int players,
+                                   const std::function<double(const std::vector<bool>&)>& explained) {
+  constexpr int kMostInAllOrders = 10;  // 1024 sets
+  const auto n = static_cast<std::size_t>(players);
+  std::vector<double> shares(n, 0.0);
+  if (players > kMostInAllOrders) {
+    // First to last and last to first: the mean of two orders.
+    for (const bool forwards : {true, false}) {
+      std::vector<bool> with(n, false);
+      double before = explained(with);
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t player = forwards ? i : n - 1 - i;
+        with[player] = true;
+        const double now = explained(with);
+        shares[player] += 0.5 * (now - before);
+        before = now;
+      }
+    }
+    return shares;
+  }
+  std::vector<double> of_set(std::size_t{1} << n);
+  std::vector<bool> with(n);
+  for (std::size_t set = 0; set < of_set.size(); ++set) {
+    for (std::size_t i = 0; i < n; ++i) with[i] = (set >> i) & 1U;
+    of_set[set] = explained(with);
+  }
+  std::vector<double> factorial(n + 1, 1.0);
+  for (std::size_t i = 1; i <= n; ++i) factorial[i] = factorial[i - 1] * static_cast<double>(i);
+  for (std::size_t set = 0; set < of_set.size(); ++set) {
+    const auto size = static_cast<std::size_t>(std::popcount(set));
+    for (std::size_t i = 0; i < n; ++i)
+      if (!((set >> i) & 1U))
+        shares[i] += factorial[size] * factorial[n - size - 1] / factorial[n] *
+                     (of_set[set | (std::size_t{1} << i)] - of_set[set]);
+  }
+  return shares;
+}
+
+void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& shares, double whole) {
+  double sum = 0.0;
+  for (const double share : shares) sum += std::max(0.0, share);
+  for (std::size_t i = 0; i < effects.size() && i < shares.size(); ++i)
+    effects[i].explained_fraction =
+        sum > 0.0 ? std::clamp(whole, 0.0, 1.0) * std::max(0.0, shares[i]) / sum : 0.0;
+}
+
+std::string first_action(const std::string& correction) {
+  return correction.empty() ? "" : "; " + correction.substr(0, correction.find(';'));
+}
+
+void ToldApart::add(const std::string& one, const std::string& other, const std::string& measurement) {
+  auto place = std::find_if(by_measurement_.begin(), by_measurement_.end(),
+                            [&](const auto& entry) { return entry.first == measurement; });
+  if (place == by_measurement_.end())
+    place = by_measurement_.insert(by_measurement_.end(), {measurement, {}});
+  const auto same = [&](const auto& pair) {
+    return pair == std::pair(one, other) || pair == std::pair(other, one);
+  };
+  if (std::none_of(place->second.begin(), place->second.end(), same)) place->second.emplace_back(one, other);
+}
+
+void ToldApart::say(std::vector<std::string>& sentences, const std::string& verb) const {
+  for (const auto& [measurement, pairs] : by_measurement_) {
+    std::string told;
+    for (const auto& [one, other] : pairs) told += (told.empty() ? "" : ", ") + one + " from " + other;
+    say_once(sentences, verb + " " + measurement + ": it tells " + told + ", which these data cannot");
+  }
 }
 
 void say_once(std::vector<std::string>& sentences, const std::string& sentence) {

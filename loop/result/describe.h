@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,28 @@ void sort_by_size(std::vector<Term>& terms);
 [[nodiscard]] std::string measurement_between(const std::string& one, const EffectFacts* facts,
                                               const std::string& other, const EffectFacts* other_facts,
                                               const std::string& otherwise);
+/// How sure a finding is, in words that hold a bound of its probability: "sure: chance alone does this less
+/// than once in 100 data sets". `confounded_with`: what the name may be instead.
+[[nodiscard]] std::string sure_words(double p_value, const std::vector<std::string>& confounded_with);
+/// Shares of what several players explain together, by Shapley: the mean over all orders of what each adds.
+/// They add up to what all explain. `explained`: by the players that take part.
+[[nodiscard]] std::vector<double> shapley_shares(int players,
+                                                 const std::function<double(const std::vector<bool>&)>& explained);
+/// Gives effects their shares of `whole`: in proportion to `shares`, negative ones counted as none.
+void share_out(std::vector<FoundEffect>& effects, const std::vector<double>& shares, double whole);
+/// "; " and the first thing to do of a correction; empty where there is none.
+[[nodiscard]] std::string first_action(const std::string& correction);
+/// Pairs of effects that no data told apart, each measurement that would tell once: "measure the index of both
+/// flanks: it tells lobing from pitch_wave".
+class ToldApart {
+ public:
+  void add(const std::string& one, const std::string& other, const std::string& measurement);
+  /// `verb`: "measure" or "run".
+  void say(std::vector<std::string>& sentences, const std::string& verb) const;
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> by_measurement_;
+};
 /// Appends a sentence that is not there yet.
 void say_once(std::vector<std::string>& sentences, const std::string& sentence);
 

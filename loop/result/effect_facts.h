@@ -49,6 +49,8 @@ struct EffectFacts {
   std::string causes_told_by = {};
   /// Sentence for data that cannot show it: what would. Effects of one sentence are shown by the same.
   std::string shown_by = {};
+  /// What its form is called where its cause cannot be: "bulge_at_lower_face"; empty: not at all.
+  std::string form_word = {};
   /// Effects without a name: how a term of theirs is written, a key a value of its shape.
   std::vector<TermKey> term_keys = {};
 };

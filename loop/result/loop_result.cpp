@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/result/loop_result.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "trueflank/base/number_text.h"
 
@@ -74,6 +77,8 @@ Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
     parameters[p.name] = {{"value", number(p.value)}, {"ci95", {number(p.low), number(p.high)}}};
   Json json = {{"id", e.id},
                {"named", e.named},
+               {"sentence", e.sentence},
+               {"sure", e.sure},
                {"description", e.description},
                {"cause", e.cause},
                {"correction", e.correction},
@@ -85,6 +90,11 @@ Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
                {"p_value", number(e.p_value)},
                {"bic_gain", number(e.bic_gain)},
                {"correctable", e.correctable}};
+  if (!e.by_process.empty()) {
+    Json by_process = Json::object();
+    for (const auto& [process, cause] : e.by_process) by_process[process] = cause;
+    json["by_process"] = by_process;
+  }
   if (!e.side.empty()) json["side"] = e.side;
   if (e.repeatable) {
     json["repeatable"] = *e.repeatable;
@@ -104,12 +114,69 @@ Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
   return json;
 }
 
+Json iso_json(const LoopResult& r) {
+  Json figures = Json::array();
+  for (const InspectionFigure& f : r.iso_1328) {
+    Json figure = {{"symbol", f.symbol}, {"flank", f.flank}, {"what", f.what}, {"value_um", number(f.value_um)}};
+    if (f.accuracy_class > 0)
+      figure["class"] = f.accuracy_class > 11 ? Json("over 11") : Json(f.accuracy_class);
+    figures.push_back(std::move(figure));
+  }
+  return {{"note", r.iso_1328_note}, {"figures", std::move(figures)}};
+}
+
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "-";
   return std::abs(value) >= 100.0 ? printed("%.1f", value) : printed("%.3g", value);
 }
 
+/// The sentence first, then the numbers.
+std::string effect_text(const FoundEffect& e, const std::string& unit) {
+  std::string text = "  " + e.sentence + "\n    " + e.id + (e.flank == "both" ? "" : ", " + e.flank + " flanks") +
+                     ": " + e.description + "\n    " + e.sure + "\n";
+  if (e.repeatable)
+    text += *e.repeatable ? "    repeats from part to part (p = " + short_number(e.repeat_p_value) + ")\n"
+                          : "    one-off, on part " + e.part + "\n";
+  for (const Parameter& p : e.parameters) {
+    const auto [name, in_words] = name_and_unit(p.name);
+    text += "    " + name + " " + short_number(p.value);
+    if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
+    text += (in_words.empty() ? "" : " " + in_words) + "\n";
+  }
+  if (std::isfinite(e.explained_fraction))
+    text += "    explains " + short_number(100.0 * e.explained_fraction) +
+            " % of the variance; without it the held-out error is " + short_number(e.held_out_gain) + " " +
+            unit + " larger\n";
+  if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
+  if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
+  if (!e.confounded_with.empty()) text += "    cannot be told from: " + joined(e.confounded_with) + "\n";
+  return text;
+}
+
 }  // namespace
+
+std::pair<std::string, std::string> name_and_unit(const std::string& parameter) {
+  struct Unit {
+    std::string_view ending, words;
+  };
+  static constexpr std::array kUnits{Unit{"_um_per_mm", "um per mm"}, Unit{"_nm_per_rpm", "N m per rpm"},
+                                     Unit{"_um", "um"},               Unit{"_mm", "mm"},
+                                     Unit{"_deg", "degrees"},         Unit{"_nm", "N m"},
+                                     Unit{"_rpm", "rpm"},             Unit{"_per_c", "per degree Celsius"},
+                                     Unit{"_c", "degrees Celsius"}};
+  std::string name = "_" + parameter;
+  std::string words;
+  for (const Unit& unit : kUnits) {
+    if (!name.ends_with(unit.ending)) continue;
+    name.resize(name.size() - unit.ending.size());
+    words = unit.words;
+    break;
+  }
+  if (name == "_percent") return {"amount", "percent"};
+  name = name.empty() ? "amount" : name.substr(1);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, words};
+}
 
 double Term::amplitude() const { return std::hypot(cos, sin); }
 
@@ -127,6 +194,7 @@ std::string loop_json(const LoopResult& r) {
   Json json = {{"format", "trueflank-loop"},
                {"version", 1},
                {"gear", r.gear},
+               {"process", r.process.empty() ? Json(nullptr) : Json(r.process)},
                {"data",
                 {{"observations", r.observations},
                  {"held_out", r.held_out},
@@ -143,6 +211,7 @@ std::string loop_json(const LoopResult& r) {
                {"measure_next", r.measure_next},
                {"notes", r.notes}};
   if (!r.possible.empty()) json["possible"] = possible_json(r.possible);
+  if (!r.iso_1328.empty()) json["iso_1328"] = iso_json(r);
   if (!r.parts.empty()) {
     Json parts = Json::array();
     for (const auto& part : r.parts)
@@ -171,28 +240,7 @@ std::string loop_text(const LoopResult& r) {
             short_number(r.before.held_out_rms_points) + "), after " +
             short_number(r.after.rms_points) + " (held out " +
             short_number(r.after.held_out_rms_points) + ")\n";
-  for (const FoundEffect& e : r.effects) {
-    text += "  " + e.id + (e.flank == "both" ? "" : " (" + e.flank + " flank)") + ": " +
-            e.description + "\n";
-    if (e.repeatable)
-      text += *e.repeatable ? "    repeats from part to part (p = " + short_number(e.repeat_p_value) + ")\n"
-                            : "    one-off, on part " + e.part + "\n";
-    for (const Parameter& p : e.parameters) {
-      text += "    " + p.name + " = " + short_number(p.value);
-      if (p.high > p.low) text += "  [" + short_number(p.low) + ", " + short_number(p.high) + "]";
-      text += "\n";
-    }
-    if (std::isfinite(e.explained_fraction)) text += "    explains " + short_number(100.0 * e.explained_fraction) +
-            " % of the variance; without it the held-out error is " +
-            short_number(e.held_out_gain) + " " + unit + " larger\n";
-    if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
-    if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
-    if (!e.confounded_with.empty()) {
-      text += "    cannot be told from:";
-      for (const std::string& other : e.confounded_with) text += " " + other;
-      text += "\n";
-    }
-  }
+  for (const FoundEffect& e : r.effects) text += effect_text(e, unit);
   if (!r.parts.empty())
     text += "  a part not fitted to: " + short_number(r.new_part_before) + " " + unit +
             " rms as designed, " + short_number(r.new_part_after) +

@@ -44,7 +44,12 @@ struct Term {
 struct FoundEffect {
   std::string id;
   bool named = true;
+  /// One line for the shop: what is wrong, what follows from it, what to do.
+  std::string sentence;
+  std::string sure;  ///< how sure it is, in words (describe.h)
   std::string description, cause, correction;
+  /// Where the process is not known: ways of making, and what causes such a form in each.
+  std::vector<std::pair<std::string, std::string>> by_process;
   std::string flank = "both";
   std::vector<Parameter> parameters;
   std::vector<Term> terms;  ///< unnamed effects
@@ -89,8 +94,18 @@ struct PossibleExplanation {
   std::string text;
 };
 
+/// A figure of ISO 1328-1:2013 as inspectors print it.
+struct InspectionFigure {
+  std::string symbol;        ///< "f_Halpha"
+  std::string flank;         ///< left, right or both
+  std::string what;          ///< in words
+  double value_um = kNaN;
+  int accuracy_class = 0;    ///< 1 ... 11 that it just meets, 12: none of them, 0: the quantity has none
+};
+
 struct LoopResult {
   std::string gear;             ///< gear's name, or "drive"
+  std::string process;          ///< that made the part, as said with design or data; empty: not said
   ResultUnit unit = kMicrometres;
   int observations = 0, held_out = 0, outliers = 0;
   double noise = 0.0;
@@ -113,8 +128,12 @@ struct LoopResult {
   std::vector<std::string> measure_next;    ///< what would separate what is confounded
   std::vector<std::string> notes;
   std::vector<PossibleExplanation> possible;  ///< of single numbers of a drive
+  std::vector<InspectionFigure> iso_1328;     ///< of a gear's records; empty: none
+  std::string iso_1328_note;                  ///< how they were evaluated
 };
 
+/// A parameter's name and unit in words: "centre diameter", "mm"; no unit: empty.
+[[nodiscard]] std::pair<std::string, std::string> name_and_unit(const std::string& parameter);
 /// loop.json: docs/loop.md. Same result, same bytes.
 [[nodiscard]] std::string loop_json(const LoopResult& result);
 /// What a person reads first.

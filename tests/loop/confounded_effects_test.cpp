@@ -24,7 +24,7 @@ void expect_open(const loop::LoopResult& result, const std::string& truth, const
   const std::string& second = found.id == truth ? other : truth;
   EXPECT_NE(std::find(found.confounded_with.begin(), found.confounded_with.end(), second),
             found.confounded_with.end());
-  EXPECT_TRUE(mentions(result.measure_next, found.id + " and " + second + " cannot be told apart"));
+  EXPECT_TRUE(mentions(result.measure_next, found.id + " from " + second));
 }
 
 /// The true effect is there and does not name the other any more.

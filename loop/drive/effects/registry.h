@@ -29,6 +29,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily input_torque_offset();
 [[nodiscard]] DriveFamily output_torque_offset();
 [[nodiscard]] DriveFamily direction_dependent_drag();
+[[nodiscard]] DriveFamily input_torque_drift();
+[[nodiscard]] DriveFamily output_torque_drift();
+[[nodiscard]] DriveFamily drag_drift();
 /// @}
 
 /// @name Described, not explained

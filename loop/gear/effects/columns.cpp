@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "trueflank/base/number_text.h"
+
 namespace trueflank::loop::gear_effects {
 
 void two_directions(const FlankGeometry& g, const Place& place, double factor, double* c) {
@@ -22,13 +24,16 @@ std::vector<EffectShape> heights(const FlankGeometry& g, double from_mm, double 
   std::vector<EffectShape> shapes;
   for (int i = 0; i < count; ++i) {
     const double f = static_cast<double>(i) / (count - 1);
-    const double h = in_ratios ? from_mm * std::pow(to_mm / from_mm, f) : from_mm + f * (to_mm - from_mm);
+    const double h =
+        in_ratios ? from_mm * std::pow(to_mm / from_mm, f) : from_mm + f * (to_mm - from_mm);
     if (h < g.face_width_mm()) shapes.push_back({h});
   }
   return shapes;
 }
 
-std::pair<double, double> height_limits(const FlankGeometry& g) { return {0.02, g.face_width_mm()}; }
+std::pair<double, double> height_limits(const FlankGeometry& g) {
+  return {0.02, g.face_width_mm()};
+}
 
 std::pair<double, double> diameter_limits(const FlankGeometry& g) {
   const double root = 2.0 * std::hypot(g.base_radius_mm(), g.root_form_roll_mm());
@@ -38,8 +43,31 @@ std::pair<double, double> diameter_limits(const FlankGeometry& g) {
 }
 
 double diameter_at_roll_share(const FlankGeometry& g, double share) {
-  const double roll = g.root_form_roll_mm() + share * (g.tip_form_roll_mm() - g.root_form_roll_mm());
+  const double roll =
+      g.root_form_roll_mm() + share * (g.tip_form_roll_mm() - g.root_form_roll_mm());
   return 2.0 * std::hypot(g.base_radius_mm(), roll);
+}
+
+double figure(const FoundEffect& found, const std::string& parameter) {
+  for (const Parameter& p : found.parameters)
+    if (p.name == parameter) return p.value;
+  return kNaN;
+}
+
+std::string um(double value) { return printed("%.3g um", std::abs(value)); }
+std::string mm(double value) { return printed("%.3g mm", std::abs(value)); }
+
+std::string towards(double deg) {
+  const double turned = deg - 360.0 * std::floor(deg / 360.0);
+  return printed("towards %.0f deg", std::round(turned) == 360.0 ? 0.0 : turned);
+}
+
+std::string on_which_flanks(const FoundEffect& found) {
+  return found.flank == "both" ? "" : " on the " + found.flank + " flanks";
+}
+
+std::string times_per_turn(double order) {
+  return order == 1.0 ? "once per turn" : order == 2.0 ? "twice per turn" : printed("%.0f times per turn", order);
 }
 
 }  // namespace trueflank::loop::gear_effects

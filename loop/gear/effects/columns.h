@@ -46,6 +46,21 @@ template <class Function>
 /// Diameter at a share of the roll length from root form (0) to tip form (1).
 [[nodiscard]] double diameter_at_roll_share(const FlankGeometry& geometry, double share);
 
+/// @name Words of sentences
+/// @{
+/// Value of a parameter of an effect as found; NaN where it has none of that name.
+[[nodiscard]] double figure(const FoundEffect& found, const std::string& parameter);
+/// "18 um", "0.35 mm", of the size alone.
+[[nodiscard]] std::string um(double value);
+[[nodiscard]] std::string mm(double value);
+/// "towards 108 deg", 0 ... 360.
+[[nodiscard]] std::string towards(double deg);
+/// " on the left flanks"; empty for both.
+[[nodiscard]] std::string on_which_flanks(const FoundEffect& found);
+/// "3 times per turn"
+[[nodiscard]] std::string times_per_turn(double order);
+/// @}
+
 /// The first shape value is the order.
 [[nodiscard]] inline double first_value(const EffectShape& shape) { return shape[0]; }
 

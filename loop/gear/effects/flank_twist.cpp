@@ -8,13 +8,19 @@ EffectFamily flank_twist() {
   auto f = on_flanks([](const FlankGeometry&, double u, double v, int) { return u * v; });
   f.id = "flank_twist";
   f.description = "the profile slope changes over the face (bias)";
-  f.cause = "crowning of a helical gear by radial motion, diagonal grinding";
-  f.correction = "twist-free dressing or shift strategy";
+  f.causes = {{kGearMachines, "crowning of a helical gear by radial motion, diagonal grinding"},
+              {kInMould, "twist of the cavity"},
+              {kPrinting | kContourCutting, "warping"}};
+  f.correction = "dress twist-free or change the shift strategy";
   f.parameters = {"amount_um"};
   f.one_flank_too = true;
   f.preference = 1;
   f.needs = [](const EffectShape&) {
     return NeedsToBeSeen{.along_profile = true, .along_face = true, .crossed = true};
+  };
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    return "The flanks are twisted by " + um(figure(found, "amount_um")) + on_which_flanks(found) +
+           ": the profile leans one way below and the other way above";
   };
   return f;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -8,8 +9,8 @@ EffectFamily flank_wear() {
   EffectFamily f;
   f.id = "flank_wear";
   f.description = "a hollow across the flank, around a diameter";
-  f.cause = "sliding under load on the loaded flank";
-  f.correction = "lubrication, material, load; nothing the geometry of a new part should cancel";
+  f.causes = {{kAnyMaking, "sliding under load on the loaded flank"}};
+  f.correction = "look at lubrication, material and load; nothing the geometry of a new part should cancel";
   f.parameters = {"depth_um"};
   f.shape_names = {"centre_diameter_mm", "width_mm"};
   f.shape_is_continuous = true;
@@ -22,8 +23,7 @@ EffectFamily flank_wear() {
     const double length = g.tip_form_roll_mm() - g.root_form_roll_mm();
     for (const double part : {0.15, 0.3, 0.45, 0.6, 0.75, 0.9})
       for (const double width : {0.1, 0.2})
-        shapes.push_back({diameter_at_roll_share(g, part),
-                          width * std::abs(length)});
+        shapes.push_back({diameter_at_roll_share(g, part), width * std::abs(length)});
     return shapes;
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
@@ -39,6 +39,10 @@ EffectFamily flank_wear() {
     return std::pair(0.02 * length, length);
   };
   f.told_from = {{"profile_crowning", "profile traces over the whole flank, and the unworn flank"}};
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    return "A hollow of " + um(figure(found, "depth_um")) + " runs along the flanks" + on_which_flanks(found) +
+           " at diameter " + printed("%.5g mm", figure(found, "centre_diameter_mm")) + ": they are worn there";
+  };
   return f;
 }
 

@@ -10,22 +10,24 @@ EffectFamily ghost_order() {
   EffectFamily f;
   f.id = "ghost_order";
   f.description = "a wave in straight lines over the flanks, of an order that is the machine's";
-  f.cause = "worm wheel of the machine, grinding worm, dresser drive";
-  f.correction = "drive of the machine; geometry follows only where the phase repeats";
+  f.form_word = "wave_over_rotation";
+  f.causes = {{kGearMachines, "worm wheel of the machine, grinding worm, dresser drive"},
+              {kInMould, "the machine that cut the cavity"}};
+  f.correction = "look at the drive of the machine; geometry follows only where the phase repeats";
   f.parameters = {"amplitude_um", "phase_deg"};
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;
   f.preference = 1;
   f.shapes = [](const FlankGeometry& g) {
-    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer than
-    // the patches.
+    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer
+    // than the patches.
     return whole_numbers(3, std::min(3 * g.teeth(), 160));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double rotation = p.centre_rad + g.twist_rad(p.z_mm) -
-                            g.sense() * p.side * p.roll_mm / g.base_radius_mm();
+    const double rotation =
+        p.centre_rad + g.twist_rad(p.z_mm) - g.sense() * p.side * p.roll_mm / g.base_radius_mm();
     c[0] = std::cos(shape[0] * rotation);
     c[1] = std::sin(shape[0] * rotation);
   };
@@ -34,6 +36,10 @@ EffectFamily ghost_order() {
   f.doubted_by_any_order = true;
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    return "A wave of " + um(figure(found, "amplitude_um")) + " lies over the flanks, " +
+           times_per_turn(figure(found, "order")) + ": the gear whines at that order";
+  };
   return f;
 }
 

@@ -5,18 +5,24 @@
 namespace trueflank::loop::gear_effects {
 
 EffectFamily helix_error() {
-  auto f = on_flanks([](const FlankGeometry&, double, double v, int side) {
-    return 0.5 * v * side;
-  });
+  auto f =
+      on_flanks([](const FlankGeometry&, double, double v, int side) { return 0.5 * v * side; });
   f.id = "helix_error";
   f.description = "the section turns with height: counter-clockwise where positive";
-  f.cause = "lead of the machine, differential, twist of the print";
-  f.correction = "lead correction; twist the model the other way";
+  f.causes = {
+      {kGearMachines, "lead of the machine, differential"},
+      {kPrinting, "twist of the print"},
+      {kContourCutting, "wire, beam or cutter out of square to the part, turned about the axis"},
+      {kInMould, "lead of the cavity, turning at ejection"}};
+  f.correction = "correct the lead; twist the model the other way";
   f.parameters = {"slope_um"};
   f.one_flank_too = true;
   f.told_from = {{"taper", "helix traces of both flanks"}};
-  f.causes_told_by = "lead of the machine and twist of a print look alike; the process tells, "
-                     "or a test of the spindle";
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double slope = figure(found, "slope_um");
+    return "The teeth turn by " + um(slope) + " over the face" + on_which_flanks(found) +
+           (slope > 0.0 ? ", counter-clockwise" : ", clockwise") + ": they carry at one end";
+  };
   return f;
 }
 

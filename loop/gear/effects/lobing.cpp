@@ -10,12 +10,18 @@ EffectFamily lobing() {
   EffectFamily f;
   f.id = "lobing";
   f.description = "the gear is out of round";
-  f.cause = "jaws of the chuck, gates of the mould, press fit of a ring, ovality";
-  f.correction = "softer clamping, gate layout; a radial wave in the model where it repeats";
+  f.causes = {{kMachining, "jaws of the chuck"},
+              {kInMould, "gates of the mould"},
+              {kPrinting, "corners of infill or supports, backlash of the axes"},
+              {kWireCutting | kBeamCutting, "stresses of the blank set free"},
+              {kAnyMaking, "press fit of a ring, ovality"}};
+  f.correction = "clamp softer or move the gates; a radial wave in the model where it repeats";
   f.parameters = {"amplitude_um", "phase_deg"};
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;
-  f.shapes = [](const FlankGeometry& g) { return whole_numbers(2, std::min(16, (g.teeth() - 1) / 2)); };
+  f.shapes = [](const FlankGeometry& g) {
+    return whole_numbers(2, std::min(16, (g.teeth() - 1) / 2));
+  };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
@@ -26,14 +32,21 @@ EffectFamily lobing() {
   f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape& shape,
                          const double* b) -> Point3 {
     const double polar = std::atan2(p[1], p[0]);
-    const double radial = 1e-3 * (b[0] * std::cos(shape[0] * polar) + b[1] * std::sin(shape[0] * polar));
+    const double radial =
+        1e-3 * (b[0] * std::cos(shape[0] * polar) + b[1] * std::sin(shape[0] * polar));
     return {radial * std::cos(polar), radial * std::sin(polar), 0.0};
   };
   f.order = first_value;
   f.doubt_share = 0.05;
   f.told_from = {{"pitch_wave", "both flanks, or the radial runout"}};
-  f.causes_told_by = "chuck jaws, gates and press fits look alike; measure before and after unclamping, "
-                     "compare the phase with jaws and gates";
+  f.causes_told_by =
+      "chuck jaws, gates and press fits look alike; measure before and after unclamping, "
+      "compare the phase with jaws and gates";
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double a = figure(found, "amplitude_um");
+    return "The gear is out of round by " + um(2.0 * a) + ", " + times_per_turn(figure(found, "order")) +
+           ": backlash changes as often";
+  };
   return f;
 }
 

@@ -10,25 +10,37 @@ EffectFamily pitch_wave() {
   EffectFamily f;
   f.id = "pitch_wave";
   f.description = "the teeth stand ahead and behind in a wave around the gear";
-  f.cause = "rotary table, worm of the machine, steps or belt of a drive";
+  f.causes = {{kGearMachines, "rotary table, worm of the machine"},
+              {kPrinting | kContourCutting, "steps or belt of a drive"},
+              {kInMould, "indexing of the cavity"}};
   f.correction = "calibrate the table; turn the teeth of the model the other way";
   f.parameters = {"amplitude_um", "phase_deg"};
   f.shape_names = {"order"};
   f.form = ParameterForm::kWave;
-  f.shapes = [](const FlankGeometry& g) { return whole_numbers(1, std::min(60, (g.teeth() - 1) / 2)); };
+  f.shapes = [](const FlankGeometry& g) {
+    return whole_numbers(1, std::min(60, (g.teeth() - 1) / 2));
+  };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
     // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
-    const double lever = p.side * g.base_radius_mm() / g.reference_radius_mm() *
-                         std::cos(g.base_helix_rad());
+    const double lever =
+        p.side * g.base_radius_mm() / g.reference_radius_mm() * std::cos(g.base_helix_rad());
     c[0] = lever * std::cos(shape[0] * p.centre_rad);
     c[1] = lever * std::sin(shape[0] * p.centre_rad);
   };
   f.order = first_value;
   f.doubt_share = 0.05;
-  f.causes_told_by = "an error of the measuring table looks like one of the gear; measure at two "
-                     "orientations on the table";
+  // Once per turn a gear that stands off its axis is what shops meet.
+  f.complexity = [](const EffectShape& shape) { return shape[0] == 1.0 ? 1.0 : 0.0; };
+  f.causes_told_by =
+      "an error of the measuring table looks like one of the gear; measure at two "
+      "orientations on the table";
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double a = figure(found, "amplitude_um");
+    return "The teeth stand up to " + um(a) + " ahead and behind, " + times_per_turn(figure(found, "order")) +
+           ": cumulative pitch error " + um(2.0 * a);
+  };
   return f;
 }
 

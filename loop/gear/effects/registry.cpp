@@ -33,6 +33,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_flank(),
     };
     for (EffectFamily& family : all) {
+      family.cause = causes_text(family.causes, kAnyMaking);
       if (family.columns) continue;
       const int columns = static_cast<int>(family.parameters.size());
       family.columns = [columns](const EffectShape&) { return columns; };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -8,7 +9,7 @@ EffectFamily single_tooth() {
   EffectFamily f;
   f.id = "single_tooth";
   f.description = "one tooth stands out on both flanks";
-  f.cause = "damage, a burr, a chip, a fault of one pass";
+  f.causes = {{kAnyMaking, "damage, a burr, a chip, a fault of one pass"}};
   f.correction = "inspect or reject the part; nothing to correct in the geometry";
   f.parameters = {"amount_um"};
   f.shape_names = {"tooth"};
@@ -19,6 +20,11 @@ EffectFamily single_tooth() {
     c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
   };
   f.told_from = {{"pitch_wave", "index of all teeth"}};
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double amount = figure(found, "amount_um");
+    return printed("Tooth %.0f ", figure(found, "tooth")) + (amount > 0.0 ? "stands out by " : "lies back by ") + um(amount) +
+           " on both flanks: one knock per turn";
+  };
   return f;
 }
 

@@ -8,10 +8,20 @@ EffectFamily taper() {
   auto f = on_flanks([](const FlankGeometry&, double, double v, int) { return 0.5 * v; });
   f.id = "taper";
   f.description = "the teeth grow thicker with height where positive";
-  f.cause = "draft, cooling of layers, deflection of the machine, infeed over the stroke";
-  f.correction = "tailstock or axis slope, draft of the mould; taper the model the other way";
+  f.causes = {
+      {kGearMachines, "tailstock or axis slope, deflection of the machine, infeed over the stroke"},
+      {kPrinting, "cooling of the layers"},
+      {kContourCutting, "draft of the beam, lag of the wire, deflection of the cutter"},
+      {kInMould, "draft"}};
+  f.correction = "set tailstock or axis slope, or the draft of the mould; taper the model the other way";
   f.parameters = {"slope_um"};
-  f.told_from = {{"elephant_foot", "helix traces or sections at several heights near the lower face"}};
+  f.told_from = {
+      {"elephant_foot", "helix traces or sections at several heights near the lower face"}};
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double slope = figure(found, "slope_um");
+    return "Each flank stands " + um(slope) + " further out at the " + (slope > 0.0 ? "top" : "bottom") +
+           ": the teeth carry at that end";
+  };
   return f;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -8,8 +9,11 @@ EffectFamily tip_relief() {
   EffectFamily f;
   f.id = "tip_relief";
   f.description = "material is missing at the tip, from a diameter on";
-  f.cause = "relief by tool or dresser, wear of the tip, rounding of the print";
-  f.correction = "tool relief; design it, or take it out of the model";
+  f.causes = {{kGearMachines, "relief by tool or dresser"},
+              {kPrinting | kContourCutting, "rounding of the tips"},
+              {kInMould, "tips that did not fill"},
+              {kAnyMaking, "wear of the tip"}};
+  f.correction = "correct the relief of the tool; design it, or take it out of the model";
   f.only_positive = true;
   f.parameters = {"amount_um"};
   f.shape_names = {"start_diameter_mm"};
@@ -34,6 +38,11 @@ EffectFamily tip_relief() {
                  {"profile_crowning", "profile traces with more points near the tip"},
                  {"pressure_angle_error", "profile traces over the whole flank"}};
   f.causes_told_by = "wear looks like relief; measure the unworn (coast) flank, or a new part";
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    return um(figure(found, "amount_um")) + " of material are missing at the tip" + on_which_flanks(found) +
+           ", from diameter " + printed("%.5g mm", figure(found, "start_diameter_mm")) +
+           " on: contact ends before the tip";
+  };
   return f;
 }
 

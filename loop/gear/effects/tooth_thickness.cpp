@@ -10,8 +10,10 @@ EffectFamily tooth_thickness() {
   });
   f.id = "tooth_thickness";
   f.description = "the teeth are too thick or too thin, the tips as designed";
-  f.cause = "infeed of the tool (profile shift error), tool thickness";
-  f.correction = "infeed; profile shift or thinning of the model";
+  f.causes = {{kMachining, "infeed of the tool (profile shift error), tool thickness"},
+              {kPrinting | kContourCutting | kInMould,
+               "profile shift or thinning of the model, width of line or kerf"}};
+  f.correction = "correct the infeed; profile shift or thinning of the model";
   f.parameters = {"amount_um"};
   f.shows_in_sizes = true;
   // both flanks of the tooth, from the reference circle to the flank's normal
@@ -19,6 +21,11 @@ EffectFamily tooth_thickness() {
     return 0.5 * b[0] * g.base_radius_mm() / g.reference_radius_mm();
   };
   f.shown_by = "these data cannot show the tooth thickness; measure span or over pins";
+  f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
+    const double amount = figure(found, "amount_um");
+    return "The teeth are " + um(amount) + (amount > 0.0 ? " too thick: backlash is missing by as much"
+                                                         : " too thin: backlash grows by as much");
+  };
   return f;
 }
 

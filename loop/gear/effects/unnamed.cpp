@@ -4,8 +4,8 @@
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
-// The free form: Legendre over profile and face, times an order around the gear, alike or opposite on the
-// two flanks. It describes and is given no cause.
+// The free form: Legendre over profile and face, times an order around the gear, alike or opposite
+// on the two flanks. It describes and is given no cause.
 namespace trueflank::loop::gear_effects {
 namespace {
 
@@ -41,11 +41,16 @@ std::vector<EffectShape> free_shapes(const FlankGeometry& g) {
 
 std::string course(int degree, const std::string& over) {
   switch (degree) {
-    case 0: return "constant over the " + over;
-    case 1: return "sloping over the " + over;
-    case 2: return "crowned over the " + over;
-    case 3: return "S-shaped over the " + over;
-    default: return "in a wave of degree " + std::to_string(degree) + " over the " + over;
+    case 0:
+      return "constant over the " + over;
+    case 1:
+      return "sloping over the " + over;
+    case 2:
+      return "crowned over the " + over;
+    case 3:
+      return "S-shaped over the " + over;
+    default:
+      return "in a wave of degree " + std::to_string(degree) + " over the " + over;
   }
 }
 
@@ -69,7 +74,9 @@ EffectFamily unnamed() {
   f.description = "structure that no named effect explains";
   f.parameters = {"cos_um", "sin_um"};
   f.shape_names = {"profile_degree", "face_degree", "order", "opposite_flanks"};
-  f.term_keys = {{"profile_degree"}, {"face_degree"}, {"order"},
+  f.term_keys = {{"profile_degree"},
+                 {"face_degree"},
+                 {"order"},
                  {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
   f.named = false;
   f.preference = 3;

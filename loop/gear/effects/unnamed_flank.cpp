@@ -11,6 +11,7 @@ EffectFamily unnamed_flank() {
   f.parameters = {"amount_um"};
   f.shape_names = {"tooth"};
   f.named = false;
+  f.term_keys = {{"tooth"}};
   f.flank_only = true;
   f.local = true;
   f.preference = 4;
@@ -20,8 +21,8 @@ EffectFamily unnamed_flank() {
     c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
   };
   f.words = [](const EffectShape& shape, FlankChoice flank) {
-    return "the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") + " flank of tooth " +
-           std::to_string(static_cast<int>(shape[0])) + " stands out";
+    return "the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") +
+           " flank of tooth " + std::to_string(static_cast<int>(shape[0])) + " stands out";
   };
   return f;
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/possible_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank::loop {
+namespace {
+
+/// Deviations larger than this share of the module are no deviations of a gear: rows of that size are not read.
+constexpr double kMostInModules = 0.5;
+/// How many times what was measured one effect may add up to while others take it back.
+constexpr double kMostTakenBack = 8.0;
+
+/// The most an effect moves a flank anywhere on the gear [um].
+double most_on_the_gear_um(const FlankGeometry& geometry, const Effect& effect, const Eigen::VectorXd& b) {
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  double most = 0.0, columns[8];
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth)
+    for (const int side : {1, -1})
+      for (const double u : {0.0, 0.5, 1.0})
+        for (const double v : {0.0, 0.5, 1.0}) {
+          const Place place = geometry.on_flank(tooth, side, low + u * (high - low),
+                                                v * geometry.face_width_mm());
+          effect.evaluate(geometry, place, columns);
+          double sum = 0.0;
+          for (int k = 0; k < effect.columns(); ++k) sum += b[k] * columns[k];
+          most = std::max(most, std::abs(sum));
+        }
+  return most;
+}
+
+}  // namespace
+
+bool is_possible(const FlankGeometry& geometry, const PointFit& fit, int effect) {
+  const Effect& one = fit.effects()[effect];
+  const Eigen::VectorXd b = fit.coefficients().segment(fit.first_column(effect), one.columns());
+  if (one.family->only_positive && !(b.array() > 0.0).all()) return false;
+  const double module_um = 1e3 * geometry.gear().normal_module_mm;
+  if (most_on_the_gear_um(geometry, one, b) > kMostInModules * module_um) return false;
+  const double before = fit.errors(std::vector<bool>(fit.effects().size(), false)).rms_um;
+  return !(before > 0.0) || fit.effect_size_um(effect) <= kMostTakenBack * before;
+}
+
+}  // namespace trueflank::loop

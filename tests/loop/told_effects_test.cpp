@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/geometry/tooth_span.h"
+#include "trueflank/loop/result/describe.h"
+
+// What people read of an effect: one sentence, shares that add up, how sure it is.
+namespace trueflank::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+double sum_of_shares(const loop::LoopResult& result) {
+  double sum = 0.0;
+  for (const auto& effect : result.effects) sum += effect.explained_fraction;
+  return sum;
+}
+
+double explained(const loop::LoopResult& result) {
+  return 1.0 - std::pow(result.after.rms / result.before.rms, 2);
+}
+
+TEST(ToldEffects, ASentenceSaysWhatIsWrongWhatFollowsAndWhatToDo) {
+  const auto off = close(spur(24), scan_of(spur(24), {off_centre(18, 108)}, {}), true);
+  ASSERT_EQ(off.effects.size(), 1U) << list(off);
+  EXPECT_THAT(off.effects[0].sentence,
+              MatchesRegex("The teeth stand 1[78][.0-9]* um off the bore towards 10[789] deg: runout 3[567][.0-9]* um; "
+                           "true the part on its pitch circle or re-bore"));
+  const auto thick = close(spur(24), scan_of(spur(24), {scaled(0.3)}, {}), true);
+  ASSERT_EQ(thick.effects.size(), 1U);
+  EXPECT_THAT(thick.effects[0].sentence, MatchesRegex("The whole part is 0.[23][.0-9]* % too big: its tip diameter is off by 7[78].*"));
+  // Text and page begin with it.
+  EXPECT_THAT(loop_text(off), HasSubstr("\n  The teeth stand"));
+  EXPECT_THAT(loop_text(off), HasSubstr("amplitude 1"));
+  EXPECT_THAT(loop_json(off), HasSubstr("\"sentence\": \"The teeth stand"));
+}
+
+TEST(ToldEffects, EveryNamedEffectHasASentenceOfItsOwn) {
+  const auto geometry = geometry_of(spur(24));
+  for (const auto& family : loop::effect_library()) {
+    if (!family.named) continue;
+    ASSERT_TRUE(family.sentence) << family.id;
+    loop::FoundEffect found{.id = family.id};
+    for (const auto& name : family.shape_names) found.parameters.push_back({name, 3.0, 3.0, 3.0});
+    for (const auto& name : family.parameters) found.parameters.push_back({name, 12.5, 12.0, 13.0});
+    const std::string sentence = family.sentence(geometry, found);
+    EXPECT_TRUE(std::isupper(static_cast<unsigned char>(sentence.front())) ||
+                std::isdigit(static_cast<unsigned char>(sentence.front()))) << sentence;
+    EXPECT_THAT(sentence, HasSubstr(":")) << family.id << ": no consequence";
+    EXPECT_EQ(sentence.find("nan"), std::string::npos) << family.id << ": " << sentence;
+    EXPECT_FALSE(loop::first_action(family.correction).empty()) << family.id;
+  }
+}
+
+TEST(ToldEffects, SharesAddUpToWhatTheWholeFitExplains) {
+  const auto relief = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.u > 0.3 ? -20.0 * std::pow((s.u - 0.3) / 0.7, 2) : 0.0;
+  });
+  const std::vector<std::vector<Process>> sets{
+      {off_centre(20, 30), relief},
+      {scaled(0.2), out_of_round(3, 15, 50), twisted(9)},
+      {indexed(3, 10, 40), off_centre(12, -80), relief, twisted(-8)}};
+  for (const auto& set : sets) {
+    const auto result = close(spur(24), scan_of(spur(24), set, {}), true);
+    ASSERT_GE(result.effects.size(), 2U) << list(result);
+    EXPECT_NEAR(sum_of_shares(result), explained(result), 1e-9) << list(result);
+    for (const auto& effect : result.effects) EXPECT_GT(effect.explained_fraction, 0.005) << effect.id;
+  }
+}
+
+TEST(ToldEffects, SizesCountAndExplainWhatTheyExplain) {
+  loop::MeasuredData data;
+  loop::SizeData sizes;
+  const auto geometry = geometry_of(spur(24));
+  for (const int teeth : {3, 4})
+    sizes.rows.push_back({loop::SizeQuantity::kSpan,
+                          trueflank::base_tangent_length_mm(geometry.gear(), teeth) + 0.044 * std::cos(geometry.pressure_angle_rad()),
+                          double(teeth), 2.0});
+  sizes.rows.push_back({loop::SizeQuantity::kTipDiameter, 2.0 * geometry.tip_radius_mm(), kNaN, 2.0});
+  data.sizes.push_back(sizes);
+  const auto result = loop::close_loop(geometry, "gear", data, {})->result;
+  EXPECT_EQ(result.observations, 3);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_EQ(result.effects[0].id, "tooth_thickness");
+  EXPECT_NEAR(parameter(result.effects[0], "amount_um").value, 44.0, 2.0);
+  EXPECT_GT(result.effects[0].explained_fraction, 0.95);
+  EXPECT_GT(result.before.rms, 30.0);
+}
+
+TEST(ToldEffects, UnnamedEffectsCarryTerms) {
+  const auto one_flank = grown([](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 7 && s.side > 0 ? 15.0 : 0.0;
+  });
+  const auto saddle = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+    return 12.0 * std::cos(5.0 * 2.0 * M_PI * (s.tooth - 1) / g.teeth) * s.u * s.v;
+  });
+  for (const auto& hidden : {one_flank, saddle}) {
+    const auto result = close(spur(24), scan_of(spur(24), {hidden}, {}), true);
+    ASSERT_FALSE(result.effects.empty());
+    for (const auto& effect : result.effects) {
+      if (effect.named) continue;
+      ASSERT_FALSE(effect.terms.empty()) << list(result);
+      EXPECT_FALSE(effect.terms[0].keys.empty());
+      EXPECT_THAT(effect.sentence, HasSubstr("without a known cause"));
+    }
+  }
+}
+
+TEST(ToldEffects, AMeasurementThatTellsIsSaidOnce) {
+  std::vector<loop::FoundEffect> effects(3);
+  effects[0] = {.id = "pitch_wave", .confounded_with = {"lobing", "eccentricity"}};
+  effects[1] = {.id = "lobing", .confounded_with = {"pitch_wave"}};
+  effects[2] = {.id = "eccentricity", .confounded_with = {"pitch_wave"}};
+  loop::ToldApart told;
+  for (const auto& e : effects)
+    for (const auto& other : e.confounded_with) told.add(e.id, other, "both flanks");
+  std::vector<std::string> sentences;
+  told.say(sentences, "measure");
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_EQ(sentences[0], "measure both flanks: it tells pitch_wave from lobing, pitch_wave from eccentricity, which "
+                          "these data cannot");
+}
+
+TEST(Shares, OfAKnownGameAreShapleys) {
+  // Worth 1 alone, 2 alone, 6 together: each gets what it adds in the mean of both orders.
+  const auto worth = [](const std::vector<bool>& with) {
+    return with[0] && with[1] ? 6.0 : with[0] ? 1.0 : with[1] ? 2.0 : 0.0;
+  };
+  const auto shares = loop::shapley_shares(2, worth);
+  EXPECT_DOUBLE_EQ(shares[0], 2.5);
+  EXPECT_DOUBLE_EQ(shares[1], 3.5);
+  // Many players: still what all are worth.
+  const auto many = loop::shapley_shares(14, [](const std::vector<bool>& with) {
+    return std::sqrt(static_cast<double>(std::count(with.begin(), with.end(), true)));
+  });
+  double sum = 0.0;
+  for (const double share : many) sum += share;
+  EXPECT_NEAR(sum, std::sqrt(14.0), 1e-12);
+}
+
+TEST(Sureness, TheWordsHoldABoundOfTheProbability) {
+  for (double p = 1e-7; p < 1.0; p *= 1.3) {
+    const std::string words = loop::sure_words(p, {});
+    const auto at = words.find("once in ");
+    if (at == std::string::npos) {
+      EXPECT_GE(p, 0.2 - 1e-9) << words;
+      EXPECT_THAT(words, HasSubstr("a guess"));
+      continue;
+    }
+    const double sets = std::stod(words.substr(at + 8));
+    EXPECT_LT(p * sets, 1.0) << words;             // never more than was found
+    EXPECT_GT(p * sets, sets >= 1e6 ? 0.0 : 0.009) << words;  // nor much less
+    EXPECT_EQ(words.starts_with("as good as certain"), sets >= 500.0) << words;
+    EXPECT_EQ(words.starts_with("sure"), sets >= 50.0 && sets < 500.0) << words;
+  }
+  EXPECT_THAT(loop::sure_words(0.001, {"pitch_wave"}), HasSubstr("the name is open: pitch wave"));
+}
+
+TEST(Units, AreWords) {
+  EXPECT_EQ(loop::name_and_unit("centre_diameter_mm"), std::pair(std::string("centre diameter"), std::string("mm")));
+  EXPECT_EQ(loop::name_and_unit("slope_um_per_mm").second, "um per mm");
+  EXPECT_EQ(loop::name_and_unit("nm_per_rpm").second, "N m per rpm");
+  EXPECT_EQ(loop::name_and_unit("percent"), std::pair(std::string("amount"), std::string("percent")));
+  EXPECT_EQ(loop::name_and_unit("order"), std::pair(std::string("order"), std::string()));
+}
+
+TEST(Rows, ASingleBadRowIsLeftOutAndNamed) {
+  const MadeGear made = spur(24);
+  auto inspection = inspection_of(made, {}, {});
+  inspection.file = "rows.csv";
+  inspection.rows[20].tooth = 99;
+  inspection.rows[20].line = 22;
+  const auto result = close(made, inspection);
+  EXPECT_THAT(result.notes, Contains("rows.csv:22: left out: tooth 99 of a gear with 24 teeth"));
+}
+
+TEST(Rows, AFileOfAnotherGearIsRefused) {
+  const MadeGear made = spur(24);
+  loop::MeasuredData data;
+  data.inspections.push_back(inspection_of(made, {}, {}));
+  data.inspections[0].file = "other.csv";
+  int line = 2;
+  for (auto& row : data.inspections[0].rows) {
+    row.line = line++;
+    if (row.tooth > 20) row.tooth += 40;
+  }
+  const auto refused = loop::close_loop(geometry_of(made), "gear", data, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error()[0].file, "other.csv");
+  EXPECT_GT(refused.error()[0].line, 0);
+  EXPECT_THAT(refused.error()[0].message, HasSubstr("rows cannot belong to this gear: tooth 61 of a gear with 24 teeth"));
+  EXPECT_FALSE(refused.error()[0].remedy.empty());
+  // A bigger gear's diameters.
+  data.inspections[0] = inspection_of(spur(40), {}, {});
+  const auto bigger = loop::close_loop(geometry_of(made), "gear", data, {});
+  ASSERT_FALSE(bigger);
+  EXPECT_THAT(bigger.error()[0].message, HasSubstr("cannot belong to this gear"));
+}
+
+}  // namespace
+}  // namespace trueflank::test
