@@ -34,9 +34,10 @@ double departure_rad(const std::vector<double>& positions_rad) {
 std::string places_text(const GearTrain& train) {
   const AssemblyCondition& condition = train.assembly;
   if (std::isnan(condition.angle_step_rad)) return " Identical planets mesh at any angle.";
+  const std::string places = number_text(std::round(kTwoPi / condition.angle_step_rad), 0);
   return " Identical planets mesh at multiples of " +
          number_text(deg_from_rad(condition.angle_step_rad), 4) + " deg (" +
-         number_text(std::round(kTwoPi / condition.angle_step_rad), 0) + " places round the " +
+         places + (places == "1" ? " place" : " places") + " round the " +
          (train.sun() ? "sun" : "axis") + ").";
 }
 

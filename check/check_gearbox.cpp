@@ -9,6 +9,7 @@
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
 #include "trueflank/check/corner_contact.h"
+#include "trueflank/check/design_tolerances.h"
 #include "trueflank/check/fillet_interference.h"
 #include "trueflank/check/involute_interference.h"
 #include "trueflank/check/manufacturability.h"
@@ -42,7 +43,7 @@ Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& sta
                            check_trochoid_interference, check_trimming_interference,
                            check_assembly})
     append(all, check(train, states));
-  for (const auto check : {check_planet_spacing, check_axial, check_manufacturability})
+  for (const auto check : {check_planet_spacing, check_axial, check_manufacturability, check_design_tolerance})
     append(all, check(train));
   return all;
 }

@@ -113,7 +113,8 @@ const ContactJudge::Clearances& ContactJudge::clearances(const GearTrain& train,
     c.driving_mm = driving.clearance_mm;
     place = driving.place;
     // what clears with the play taken up clears with it shared out
-    c.centred_mm = driving.clearance_mm >= 0.0 ? 0.0 : sweep_clearance_mm(pair);
+    const bool asked = train.design.made.clearance_mm.value_or(0.0) > 0.0;
+    c.centred_mm = driving.clearance_mm >= 0.0 && !asked ? 0.0 : sweep_clearance_mm(pair);
     if (std::isnan(driving.clearance_mm)) place = mesh_clearance(pair).place;
   }
   if (std::isnan(c.driving_mm)) c.driving_mm = c.centred_mm;
@@ -129,7 +130,8 @@ Judgement ContactJudge::by_turning(const GearTrain& train, int layer) {
     if (layer != 0 && l != layer) continue;
     const double m = train.pair(mesh).gear1().normal_module_mm;
     const Clearances& c = clearances(train, mesh);
-    if (c.centred_mm < -tolerance::kTouch_mm) add(all, "overlap", l, -c.centred_mm / m, true);
+    const double asked = train.design.made.clearance_mm.value_or(0.0);
+    if (c.centred_mm < asked - tolerance::kTouch_mm) add(all, "overlap", l, (asked - c.centred_mm) / m, true);
     const double limit = train.design.corner_contact_limit_mm.value_or(corner_contact_limit_mm(m));
     if (c.driving_mm < -tolerance::kTouch_mm)
       add(all, "corner_contact", l, -c.driving_mm / m, -c.driving_mm > limit);

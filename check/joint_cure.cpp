@@ -15,6 +15,7 @@
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/contact_judgement.h"
 #include "trueflank/check/design_change.h"
+#include "trueflank/check/design_tolerances.h"
 #include "trueflank/check/interference_cure.h"
 #include "trueflank/check/joint_cure_moves.h"
 #include "trueflank/check/profile.h"
@@ -87,11 +88,13 @@ class Search {
     });
     for (const Complaint& c : ContactJudge::without_turning(train).complaints)
       if (c.id == "axial") layer_gap_mm_ = c.lacking * train.design.module_mm + 0.2 * train.design.module_mm;
+    lacking_backlash_ = wanted_backlash_mm() / train.design.module_mm;
   }
 
   JointCure run(const Findings& before) {
     JointCure result{.design = train_.design, .findings = before, .changed = false, .conflict = {}};
-    for (const DesignChange& common : common_moves()) {
+    for (DesignChange common : common_moves()) {
+      common.backlash += lacking_backlash_;
       if (spent() || common.cost() >= cost_of_cleanest_) break;
       try_common(common);
     }
@@ -103,6 +106,19 @@ class Search {
   }
 
  private:
+  /// What tolerances and the clearance that is asked for need beyond the backlash there is.
+  [[nodiscard]] double wanted_backlash_mm() const {
+    double wanted = lacking_backlash_mm(train_);
+    const double asked = train_.design.made.clearance_mm.value_or(0.0);
+    if (asked > 0.0)
+      for (const TrainMesh& mesh : train_.meshes) {
+        const GearPair pair = train_.pair(mesh);
+        const double normal = std::cos(working_pressure_angle_rad(pair)) * std::cos(base_helix_angle_rad(pair.gear1()));
+        wanted = std::max(wanted, 2.0 * asked / normal - mesh.backlash_mm);
+      }
+    return wanted > 0.0 ? wanted + 2e-4 : 0.0;  // centre distances and backlash are written to 0.1 um
+  }
+
   [[nodiscard]] bool spent() const {
     return designs_ >= options_.most_designs || judge_.turned() + bisected_ / 2 >= options_.most_turned;
   }
@@ -149,6 +165,7 @@ class Search {
       if (move.cost() >= cost_of_cleanest_) return;
       DesignChange change = move;
       change.layer_gap_mm = layer_gap_mm_;
+      change.backlash = lacking_backlash_;
       const auto laid = lay_out(changed_design(train_, change, fits_));
       ++designs_;
       if (!laid || !laid->assembly.equal_spacing) continue;
@@ -365,6 +382,7 @@ class Search {
   std::set<std::string> warned_;
   bool fits_ = true;
   double layer_gap_mm_ = 0.0;
+  double lacking_backlash_ = 0.0;  ///< modules
   ContactJudge judge_;
   int designs_ = 0, bisected_ = 0;
   double cost_of_cleanest_ = kFar;

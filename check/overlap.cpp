@@ -39,6 +39,14 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
   });
 }
 
+/// Flanks part by half of the backlash, seen along their normal; a root that is nearer needs another tip or shift.
+std::string cure_of_clearance(const GearTrain& train, const TrainMesh& mesh, double clearance, double asked) {
+  const GearPair pair = train.pair(mesh);
+  const double per_backlash = 0.5 * std::cos(working_pressure_angle_rad(pair)) *
+                              std::cos(base_helix_angle_rad(pair.gear1()));
+  return "backlash_mm larger by at least " + number_text((asked - clearance) / per_backlash, 4);
+}
+
 Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
   const double clearance = centred.clearance_mm;
   Finding finding{.id = "overlap",
@@ -54,6 +62,18 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshClearance
   // within their chord error the polygons prove nothing and the curves decide
   const bool proven = std::abs(clearance) > centred.chord_error_mm;
   const bool penetrates = proven ? cross : clearance < -tolerance::kTouch_mm;
+  const double asked = train.design.made.clearance_mm.value_or(0.0);
+  if (!penetrates && asked > 0.0) {
+    finding.limit = um_from_mm(asked);
+    finding.margin = um_from_mm(clearance - asked);
+    if (clearance < asked - tolerance::kTouch_mm) {
+      finding.status = CheckStatus::kFail;
+      finding.message = "smallest clearance " + um_text(clearance) + " over a mesh cycle, " + um_text(asked) +
+                        " are asked for (made.clearance_um): " + place;
+      finding.cure = cure_of_clearance(train, mesh, clearance, asked);
+      return finding;
+    }
+  }
   if (!penetrates) {
     finding.message = (clearance > tolerance::kTouch_mm ? "smallest clearance " + um_text(clearance)
                                                         : std::string("the flanks touch")) +

@@ -266,8 +266,9 @@ Findings check_tolerance(const GearTrain& train, const ToleranceResult& result) 
                       .limit = 100.0 * kTolerableShare,
                       .margin = 100.0 * kTolerableShare - share,
                       .unit = "%",
-                      .message = number_text(share, 2) + " % of " + std::to_string(result.sets) +
-                                 " sets of parts drawn within the tolerances jam",
+                      .message = number_text(100.0 - share, 2) + " % of " + std::to_string(result.sets) +
+                                 " sets of parts drawn within the tolerances assemble and run, " +
+                                 number_text(share, 2) + " % jam",
                       .cure = worst >= -tolerance::kTouch_mm
                                   ? ""
                                   : "more backlash or closer tolerances where the meshes say so"});

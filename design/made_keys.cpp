@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
 
 namespace trueflank {
+namespace {
+
+template <std::optional<double> MadeDesign::*Member>
+DesignKey<MadeDesign> micrometres(const char* name, const char* by_default, const char* meaning) {
+  return {{.name = name, .unit = "um", .lower = 0, .upper = 10000, .by_default = by_default, .meaning = meaning},
+          KeyPlace::kAnywhere,
+          [](MadeDesign& m, const KeyValue& v) { m.*Member = mm_from_um(std::get<double>(v)); },
+          [](const MadeDesign& m) {
+            return m.*Member ? std::optional<KeyValue>(um_from_mm(*(m.*Member))) : std::optional<KeyValue>();
+          }};
+}
+
+}  // namespace
 
 const std::vector<DesignKey<MadeDesign>>& made_keys() {
   using M = MadeDesign;
@@ -20,6 +34,21 @@ const std::vector<DesignKey<MadeDesign>>& made_keys() {
        KeyPlace::kAnywhere,
        [](M& m, const KeyValue& v) { m.kerf_mm = std::get<double>(v); },
        [](const M& m) { return m.kerf_mm ? Value(*m.kerf_mm) : Value(); }},
+      {{.name = "tolerance_class", .type = KeyType::kWhole, .lower = 1, .upper = 11, .by_default = "the process's",
+        .meaning = "class of ISO 1328-1 that every gear keeps, for its runout and pitch: sets that jam within "
+                   "the tolerances fail the check `tolerance`"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.tolerance_class = static_cast<int>(std::get<std::int64_t>(v)); },
+       [](const M& m) {
+         return m.tolerance_class ? Value(static_cast<std::int64_t>(*m.tolerance_class)) : Value();
+       }},
+      micrometres<&M::axis_tolerance_mm>("axis_tolerance_um", "the process's",
+                                         "plus or minus, of the distance of two axes"),
+      micrometres<&M::thickness_tolerance_mm>("thickness_tolerance_um", "the process's",
+                                              "plus or minus, of the teeth on the reference circle"),
+      micrometres<&M::clearance_mm>("clearance_um", "none",
+                                    "least distance of mating teeth with the play centred; less fails the check "
+                                    "`overlap`"),
   };
   return keys;
 }

@@ -76,6 +76,13 @@ std::vector<ToolKey<Process>> process_keys() {
       process_key<&Process::elephant_foot_height_mm>("elephant_foot_height_mm",
                                                      "height over which they spread"),
       process_key<&Process::kerf_mm>("kerf_mm", "width of a wire's or beam's cut"),
+      {{.name = "tolerance_class", .type = KeyType::kWhole, .lower = 0, .upper = 11,
+        .meaning = "class of ISO 1328-1 that its gears keep; 0: none"},
+       [](Process& p, const KeyValue& v) { p.tolerance_class = static_cast<int>(std::get<std::int64_t>(v)); }},
+      process_key<&Process::axis_tolerance_mm>("axis_tolerance_mm", "plus or minus, of the distance of two axes"),
+      process_key<&Process::thickness_tolerance_mm>("thickness_tolerance_mm",
+                                                    "plus or minus, of teeth on the reference circle"),
+      process_key<&Process::runout_mm>("runout_mm", "of every gear, where no class says it"),
       {{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<Process>}};
 }
 

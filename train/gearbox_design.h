@@ -121,6 +121,11 @@ struct ShaftsDesign {
 struct MadeDesign {
   std::optional<Process> process = {};  ///< what it can make is checked against
   std::optional<double> kerf_mm = {};   ///< width of the cut of a wire or beam, for drawings
+  // what the parts may be off by and what must be left then; omitted: the process's
+  std::optional<int> tolerance_class = {};  ///< ISO 1328-1:2013, of runout and pitch
+  std::optional<double> axis_tolerance_mm = {};       ///< +-, of the centre distance
+  std::optional<double> thickness_tolerance_mm = {};  ///< +-, of the teeth on the reference circle
+  std::optional<double> clearance_mm = {};  ///< least distance of mating teeth, the play centred
 
   bool operator==(const MadeDesign&) const = default;
 };
@@ -143,6 +148,14 @@ struct LossesDesign {
   bool operator==(const LossesDesign&) const = default;
 };
 
+/// A part of the life at a part of the rated torque.
+struct LoadStep {
+  double torque = 1.0;  ///< of the rated torque
+  double share = 1.0;   ///< of all revolutions
+
+  bool operator==(const LoadStep&) const = default;
+};
+
 /// What the strength calculation assumes (docs/strength.md); StrengthOptions' meanings.
 struct StrengthDesign {
   std::optional<bool> reversing = {};  ///< omitted: a pair runs one way, sets with planets both
@@ -150,6 +163,11 @@ struct StrengthDesign {
   double planet_load_factor = 1.0;
   double bending_life_factor = 1.0, contact_life_factor = 1.0, lubrication_factor = 1.0;
   double bending_safety = 1.2, contact_safety = 1.15;
+  std::optional<double> input_speed_rpm = {};  ///< omitted: no temperature, no cycles
+  std::optional<double> life_h = {};           ///< at that speed
+  double ambient_c = 20.0;
+  std::string lubrication = "grease";  ///< of plastics: dry, grease, oil
+  std::vector<LoadStep> spectrum = {}; ///< empty: the rated torque all the time
 
   bool operator==(const StrengthDesign&) const = default;
 };

@@ -22,6 +22,10 @@ struct Process {
   double elephant_foot_mm = 0.0;         ///< how far the first layers spread, at the bed
   double elephant_foot_height_mm = 0.0;  ///< over this height
   double kerf_mm = 0.0;                  ///< width of a wire's or beam's cut
+  int tolerance_class = 0;            ///< ISO 1328-1 class that its gears keep; 0: none
+  double axis_tolerance_mm = 0.0;       ///< +-, of the distance of two axes
+  double thickness_tolerance_mm = 0.0;  ///< +-, of a tooth on the reference circle
+  double runout_mm = 0.0;               ///< of every gear, where no class says it
   std::string source = {};  ///< where the values come from, or that they are typical
 
   bool operator==(const Process&) const = default;

@@ -93,6 +93,8 @@ function drawHeader() {
     cards.push(card('Centre distance', number('train/centre_distance_mm', 4), h('small', {}, 'mm')));
   const strength = model.strength?.output_torque_nm;
   if (isNumber(strength)) cards.push(card('Allowable output torque', text(strength, 2), h('small', {}, 'N m')));
+  const runs = report.checks.find((c) => c.id === 'tolerance' && c.where === 'train' && isNumber(c.value));
+  if (runs) cards.push(card('Sets that assemble and run', text(100 - runs.value, 2), h('small', {}, '% within tolerances')));
   const files = report.files ?? [];
   const worst = Math.max(...files.map((f) => f.accuracy_um ?? -1));
   if (files.length) cards.push(card(`${files.length} files written`,
