@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/close_drive_loop.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -59,6 +60,7 @@ class Loop {
     Outcome outcome = settle();
     for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
     if (!outcome.effects.empty()) outcome = simplest(std::move(outcome));
+    drop_what_is_nothing(outcome);
     return report(outcome);
   }
 
@@ -224,6 +226,10 @@ class Loop {
       remember(better ? other : outcome, better ? outcome : other);
       if (better) outcome = std::move(other);
     }
+    // What was left out on the way may have brought a description in where a name does as well.
+    if (std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                    [](const DriveEffect& e) { return !e.family->named; }))
+      outcome = plainest(std::move(outcome));
     settle_state(outcome);
     return outcome;
   }
@@ -244,6 +250,32 @@ class Loop {
   /// The state of an outcome that was settled about another one.
   void settle_state(const Outcome& outcome) {
     for (int round = 0; round < 6 && move_state(outcome); ++round) {
+    }
+  }
+
+  /// Of several effects those that are nothing once all shapes are free: they only mended another's shape.
+  void drop_what_is_nothing(Outcome& outcome) {
+    constexpr double kStandsOut = 3.0;  // standard errors
+    while (outcome.effects.size() > 1) {
+      const DriveContext here = context();
+      const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+      const Eigen::MatrixXd covariance = fit.covariance();
+      std::size_t least = outcome.effects.size();
+      double least_square = kStandsOut * kStandsOut;
+      for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+        const int first = fit.first_column(static_cast<int>(e)), columns = outcome.effects[e].columns();
+        const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
+        const double square =
+            b.dot(covariance.block(first, first, columns, columns).ldlt().solve(b)) / columns;
+        if (square >= least_square) continue;
+        least_square = square;
+        least = e;
+      }
+      if (least == outcome.effects.size()) return;
+      outcome.effects.erase(outcome.effects.begin() + static_cast<std::ptrdiff_t>(least));
+      outcome.discovery.chosen.erase(outcome.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(least));
+      refine_drive_shapes(here, value_, FitRows::kTraining, outcome.effects);
+      settle_state(outcome);
     }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/part_loop.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -44,6 +45,7 @@ void PartLoop::run() {
   if (!is_rounding()) look_at_single_teeth();
   look_at_sizes();
   drop_impossible();
+  drop_what_mends_a_shape();
   if (!is_rounding() && !options_.joined) look_at_neighbours();
 }
 
@@ -236,6 +238,36 @@ void PartLoop::drop_impossible() {
       discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
       again = true;
     }
+  }
+}
+
+/// Beside an effect with a shape (where a relief starts, how wide a hollow is) a small one may have been chosen
+/// for what the shape's first value left. With the shape free it is nothing, and is not told.
+void PartLoop::drop_what_mends_a_shape() {
+  constexpr double kStandsOut = 3.5;  // standard errors: less is never found alone among so many candidates
+  const auto shaped = [](const Effect& e) { return e.family->shape_is_continuous && !e.family->shape_is_step; };
+  while (effects_.size() > 1 && std::any_of(effects_.begin(), effects_.end(), shaped)) {
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    const Eigen::MatrixXd covariance = shape_uncertainty(geometry_, table_, patches_, fit).covariance;
+    std::size_t least = effects_.size();
+    double least_square = kStandsOut * kStandsOut;
+    for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
+      if (effects_[e].family->local) continue;
+      const int first = fit.first_column(static_cast<int>(e)), columns = effects_[e].columns();
+      const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
+      const Eigen::MatrixXd spread = covariance.block(first, first, columns, columns);
+      const double square = b.dot(spread.ldlt().solve(b)) / columns;
+      if (square >= least_square) continue;
+      least_square = square;
+      least = e;
+    }
+    if (least == effects_.size()) return;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(least));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least));
+    const std::vector<Effect> given(effects_.begin(),
+                                    effects_.begin() + static_cast<std::ptrdiff_t>(options_.given.size()));
+    refine_shapes(geometry_, table_, patches_, effects_);
+    std::copy(given.begin(), given.end(), effects_.begin());
   }
 }
 

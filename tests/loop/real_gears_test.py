@@ -177,7 +177,7 @@ def predicted_helix(gear, result, tooth, side, z):
             total += value["slope_um_per_mm"] * lever * math.cos(gear.beta_b) * numpy.cos(direction)
         elif effect["id"] == "unnamed" and "terms" in effect:
             for term in effect["terms"]:
-                if term["profile_degree"] > 0:
+                if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so
                 wave = (term["cos_um"] * math.cos(term["order"] * theta) +
                         term["sin_um"] * math.sin(term["order"] * theta))

@@ -16,6 +16,8 @@ DriveFamily bearing_load_friction() {
   f.evaluate = loss([](const DriveContext& context, const BenchPoint& p, auto&) {
     return p.forward ? context.efficiency(p) * p.load_nm : p.load_nm;
   });
+  // Rolling bearings lose far less of what they carry; plain ones about so much.
+  f.plausible = [](const DriveModel&, double share) { return share < 0.05; };
   f.calibrate = [](CalibratedLosses& c, const DriveShape&, double b) {
     c.losses.bearing_load_share += b;
     return true;

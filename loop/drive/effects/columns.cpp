@@ -53,7 +53,7 @@ std::vector<DriveReference> mean_temperature(const DriveContext& context) {
 }
 
 bool can_be_friction(const DriveModel& model, double change) {
-  return model.friction + change > 0.0 && model.friction + change < 1.0;
+  return model.friction + change > 0.0 && model.friction + change < kMostFriction;
 }
 
 std::string short_text(double value) { return printed("%.4g", value); }

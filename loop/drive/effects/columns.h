@@ -28,6 +28,9 @@ auto loss(Loss torque) {
 [[nodiscard]] double thinning(const DriveContext& context, const BenchPoint& p, double rate);
 [[nodiscard]] std::vector<DriveReference> mean_temperature(const DriveContext& context);
 
+/// Flanks that rub dry, plastic on plastic, come to about this; what a bench shows beyond is no friction of
+/// flanks but a scale of its torques, or a loss elsewhere.
+inline constexpr double kMostFriction = 0.4;
 /// True where the design's friction with this change can be one of flanks that rub.
 [[nodiscard]] bool can_be_friction(const DriveModel& model, double change);
 

@@ -24,6 +24,7 @@ DriveFamily load_dependent_friction() {
   };
   f.shape_values = {
       {.continuous = true, .limits = [](const DriveContext&) { return std::pair(0.2, 3.0); }}};
+  f.plausible = can_be_friction;
   f.into_state = [](DriveState& state, const DriveShape& shape, double b) {
     state.load_value = b;
     state.load_exponent = shape[0];

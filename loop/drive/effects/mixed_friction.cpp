@@ -20,6 +20,7 @@ DriveFamily mixed_friction() {
     c[0] = context.friction_slope(p) * std::exp(-x * x);
   };
   f.shape_values = {{.continuous = true, .limits = speed_limits}};
+  f.plausible = can_be_friction;
   f.into_state = [](DriveState& state, const DriveShape& shape, double b) {
     state.mixed_value = b;
     state.mixed_speed_rpm = shape[0];

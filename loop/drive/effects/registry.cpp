@@ -16,6 +16,7 @@ const std::vector<DriveFamily>& drive_library() {
         stribeck_friction(),
         mixed_friction(),
         load_dependent_friction(),
+        load_loss(),
         temperature_viscosity(),
         temperature_drag(),
         direction_dependent_friction(),

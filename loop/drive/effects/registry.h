@@ -16,6 +16,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily stribeck_friction();
 [[nodiscard]] DriveFamily mixed_friction();
 [[nodiscard]] DriveFamily load_dependent_friction();
+[[nodiscard]] DriveFamily load_loss();
 [[nodiscard]] DriveFamily temperature_viscosity();
 [[nodiscard]] DriveFamily temperature_drag();
 [[nodiscard]] DriveFamily direction_dependent_friction();

@@ -367,6 +367,8 @@ class Case:
                 p = e["parameters"].get(name)
                 if p is None or e["id"] not in self.right_names:
                     continue
+                if e.get("side") and not self.kind.__name__.endswith(e["side"]) and self.kind is not scale:
+                    continue  # two sensors show only their ratio: the other side's reading says the same
                 asked += 1
                 held += p["ci95"][0] <= value <= p["ci95"][1]
         return held, asked
