@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 DEPENDENCIES ?= scripts/install-dependencies
 DEMO := build/demo/bilateral_drive
 
-.PHONY: all demo test bench asan clean
+.PHONY: all demo test bench asan fuzz clean
 
 # Dependencies and the program, build/trueflank.
 all:
@@ -36,6 +36,14 @@ asan:
 	@cmake --preset asan
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan
+
+# Needs clang-14 and libclang-rt-14-dev.
+MINUTES ?= 10
+fuzz:
+	@$(DEPENDENCIES) build
+	@cmake --preset fuzz
+	@cmake --build --preset fuzz -j $(JOBS)
+	@scripts/fuzz build/fuzzing $(MINUTES)
 
 clean:
 	rm -rf build

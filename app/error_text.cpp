@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "trueflank/app/terminal.h"
+
 namespace trueflank::app {
 
 std::string error_text(const Error& error) {
@@ -20,7 +22,7 @@ std::string error_text(const Error& error) {
   }
   text += error.message;
   if (!error.remedy.empty()) text += "; wanted: " + error.remedy;
-  return text;
+  return without_control(text);
 }
 
 int report_errors(const Errors& errors) {

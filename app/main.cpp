@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exception>
 #include <iostream>
+#include <new>
+#include <string_view>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -31,7 +33,9 @@ int main(int argc, char** argv) {
   try {
     return trueflank::app::run_command_line(argc, argv);
   } catch (const std::bad_alloc&) {
-    std::cerr << "trueflank: out of memory; a larger --tolerance-um needs less\n";
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    std::cerr << "trueflank: out of memory in " << (command.empty() ? "no command" : command)
+              << (command == "make" ? "; a larger --tolerance-um needs less" : "") << "\n";
     return 3;
   } catch (const std::exception& error) {
     std::cerr << "trueflank: internal error, please report it: " << error.what() << "\n";

@@ -6,6 +6,9 @@
 #include <chrono>
 #include <utility>
 
+#include "trueflank/app/terminal.h"
+#include "trueflank/base/threads.h"
+
 namespace trueflank::app {
 namespace {
 
@@ -19,8 +22,10 @@ void write_to_terminal(const std::string& text) {
 
 }  // namespace
 
-Progress::Progress(std::string work, bool quiet) : work_(std::move(work)) {
-  if (!quiet && isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
+Progress::Progress(std::string work, bool quiet) : work_(without_control(work)) {
+  if (quiet || isatty(STDERR_FILENO) == 0) return;
+  auto threads = helping_threads(1, [this] { show(); });
+  if (!threads.empty()) thread_ = std::move(threads.front());
 }
 
 Progress::~Progress() {
@@ -35,7 +40,7 @@ Progress::~Progress() {
 
 void Progress::note(std::string text) {
   const std::lock_guard lock(mutex_);
-  note_ = std::move(text);
+  note_ = without_control(text);
 }
 
 void Progress::show() {

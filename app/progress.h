@@ -27,7 +27,7 @@ class Progress {
   bool ended_ = false;
   std::mutex mutex_;
   std::condition_variable woken_;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace trueflank::app

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/mesh_clearance.h"
 
-#include <future>
 #include <vector>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/tooth_crossing.h"
@@ -142,14 +142,14 @@ std::vector<MeshState> mesh_states(const GearTrain& train) {
   for (const TrainMesh& mesh : train.meshes) {
     const GearPair pair = train.pair(mesh);
     const bool modified = is_modified(train, mesh);
-    turned.push_back(std::async(std::launch::async, [pair, modified, &train, &mesh] {
+    turned.push_back(begun_beside([pair, modified, &train, &mesh] {
       if (modified) return modified_state(train, mesh);
       const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
       return MeshState{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
     }));
     removals.emplace_back();
     if (pair.internal())
-      removals.back() = std::async(std::launch::async, [pair, modified, &train, &mesh] {
+      removals.back() = begun_beside([pair, modified, &train, &mesh] {
         return modified ? modified_removal(train, mesh)
                         : radial_removal({pair}, twist_over_face_rad(train, mesh));
       });

@@ -2,6 +2,8 @@
 #include "trueflank/export/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,6 +15,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace trueflank::io {
 namespace {
@@ -132,12 +135,58 @@ int write_all(int descriptor, const char* data, std::size_t size) {
   return 0;
 }
 
+constexpr std::string_view kTemporaryBegin = ".trueflank-", kTemporaryEnd = ".tmp";
+
 /// A name next to the target that a person recognises as left over, should the machine die.
 std::string temporary_name(const std::string& target) {
   const fs::path path(target);
-  const std::string name = ".trueflank-" + std::to_string(::getpid()) + "-" +
-                           std::to_string(g_serial.fetch_add(1)) + ".tmp";
+  const std::string name = std::string(kTemporaryBegin) + std::to_string(::getpid()) + "-" +
+                           std::to_string(g_serial.fetch_add(1)) + std::string(kTemporaryEnd);
   return (path.parent_path() / name).string();
+}
+
+/// The process that a temporary file is named for.
+std::optional<pid_t> process_of(std::string_view name) {
+  if (!name.starts_with(kTemporaryBegin) || !name.ends_with(kTemporaryEnd)) return std::nullopt;
+  name.remove_prefix(kTemporaryBegin.size());
+  name.remove_suffix(kTemporaryEnd.size());
+  const std::size_t dash = name.find('-');
+  if (dash == std::string_view::npos) return std::nullopt;
+  pid_t process = 0;
+  unsigned serial = 0;
+  const auto whole = [](std::string_view digits, auto& number) {
+    const auto end = digits.data() + digits.size();
+    return std::from_chars(digits.data(), end, number) == std::from_chars_result{end, std::errc()};
+  };
+  if (!whole(name.substr(0, dash), process) || !whole(name.substr(dash + 1), serial) ||
+      process <= 0)
+    return std::nullopt;
+  return process;
+}
+
+/// Whether nobody writes a temporary file any more: its process does not run here, and none of
+/// another container or machine holds its lock.
+bool is_left_over(const fs::path& file, pid_t process) {
+  if (::kill(process, 0) == 0 || errno != ESRCH) return false;
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  struct stat status {};
+  const bool free = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+                    ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);
+  return free;
+}
+
+/// Whoever may write to a folder tidies it up; where that fails, the files stay.
+void remove_left_over_files(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> left_over;
+  for (auto entry = fs::directory_iterator(folder, ignored); entry != fs::directory_iterator();
+       entry.increment(ignored)) {
+    const auto process = process_of(entry->path().filename().string());
+    if (process && is_left_over(entry->path(), *process)) left_over.push_back(entry->path());
+  }
+  for (const fs::path& file : left_over) fs::remove(file, ignored);
 }
 
 }  // namespace
@@ -193,6 +242,9 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     release_slot(std::exchange(file.slot_, -1));
     return fail(file_error("write", path, error_number));
   }
+  // tells other runs that the file is being written; where a file system knows no locks, they ask
+  // for the process
+  (void)::flock(file.descriptor_, LOCK_EX | LOCK_NB);
   if (exists && ::fchmod(file.descriptor_, status.st_mode & 07777) != 0)
     return fail(file_error("write", path, errno));
   return file;
@@ -265,6 +317,7 @@ Status create_folder(const fs::path& path) {
   fs::create_directories(path, error);
   if (!error && !fs::is_directory(path, error)) error = std::make_error_code(std::errc::file_exists);
   if (error) return fail(file_error("create folder", path, error.value()));
+  remove_left_over_files(path);
   return {};
 }
 

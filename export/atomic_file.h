@@ -56,7 +56,8 @@ class AtomicFile {
 /// The whole content at once. Errors: as AtomicFile's.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Creates a folder and those above it. Errors: kPermission, kDisk (a file stands there).
+/// Creates a folder and those above it, and removes from it the temporary files of processes that
+/// were killed. Errors: kPermission, kDisk (a file stands there).
 [[nodiscard]] Status create_folder(const std::filesystem::path& path);
 
 /// Removes the temporary files this process is writing and lets no more be begun or committed.

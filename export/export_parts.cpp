@@ -24,7 +24,9 @@
 #include "trueflank/export/stl_writer.h"
 #include "trueflank/export/svg_writer.h"
 #include "trueflank/export/threemf_writer.h"
+#include "trueflank/solid/measure/measured_mesh.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
+#include "trueflank/solid/measure/solid_fault.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
@@ -45,7 +47,6 @@ MeshWriter mesh_writer(FileFormat format) {
 }
 
 constexpr int kAssembly = -1;
-constexpr std::size_t kMeasuringCost = 4;  // of writing and reading a triangle
 double largest_chord_error_mm(const std::vector<Section>& sections) {
   double largest_mm = 0.0;
   for (const Section& section : sections)
@@ -65,7 +66,12 @@ struct Job {
 class Exporter {
  public:
   Exporter(const ExportModel& model, const ExportOptions& options)
-      : train_(*model.train), shapes_(*model.shapes), meshes_(model.meshes), options_(options) {}
+      : train_(*model.train),
+        shapes_(*model.shapes),
+        given_meshes_(model.meshes),
+        changes_(model.changes),
+        proved_(model.proved),
+        options_(options) {}
 
   ResultAll<std::vector<ReportedFile>> run() {
     if (auto status = plan(); !status) return fail_all({std::move(status.error())});
@@ -76,7 +82,7 @@ class Exporter {
     };
     if (has(FileFormat::kStep)) make_solids();
     files_.resize(jobs_.size());
-    readings_.resize(jobs_.size());
+    rounding_mm_.resize(jobs_.size());
     if (errors_.empty()) make_files(has(FileFormat::k3mf));
     if (!errors_.empty()) return fail_all(std::move(errors_));
     add_accuracies();
@@ -117,20 +123,18 @@ class Exporter {
       return queue.size() - 1;
     };
     std::vector<std::vector<std::size_t>> prepared(shapes_.parts.size());  // the last job of each part
-    if (!meshes_ && std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) {
-      own_meshes_.resize(shapes_.parts.size());
-      meshes_ = &own_meshes_;
+    if (std::any_of(jobs_.begin(), jobs_.end(), is_mesh)) {
+      meshes_.resize(shapes_.parts.size());
       for (const std::size_t i : parts_largest_first())
         prepared[i] = {add({}, [this, i, tolerance_mm = mesh_tolerance_mm()] {
-          own_meshes_[i] = part_mesh(shapes_.parts[i], {.tolerance_mm = tolerance_mm});
-          return true;
+          return keep_error(make_mesh(i, tolerance_mm));
         })};
     }
     if (packed) {
       packed_meshes_.resize(shapes_.parts.size());
       for (const std::size_t i : parts_largest_first())
         prepared[i] = {add(prepared[i], [this, i] {
-          packed_meshes_[i] = packed_3mf_mesh((*meshes_)[i].mesh);
+          packed_meshes_[i] = packed_3mf_mesh(meshes_[i].part.mesh);
           return true;
         })};
     }
@@ -143,6 +147,23 @@ class Exporter {
       add(std::move(needs), [this, i] { return keep_error(run(i)); });
     }
     run_jobs(queue);
+  }
+
+  Status make_mesh(std::size_t i, double tolerance_mm) {
+    const PartShape& shape = shapes_.parts[i];
+    MeasuredMesh& made = meshes_[i];
+    const MeshChange change = changes_ != nullptr ? (*changes_)[i] : MeshChange{};
+    if (given_meshes_ != nullptr)
+      made = {(*given_meshes_)[i], measure_accuracy((*given_meshes_)[i].mesh, shape).largest_mm()};
+    else
+      made = measured_part_mesh(shape, {.tolerance_mm = tolerance_mm / change.magnification});
+    made.accuracy_mm *= change.magnification;
+    if (change.apply) made.part.mesh = change.apply(made.part.mesh);
+    if (std::find(proved_.begin(), proved_.end(), i) == proved_.end()) return {};
+    const SolidFault fault = solid_fault(made.part.mesh);
+    if (fault == SolidFault::kNone) return {};
+    return fail(Error{.code = ErrorCode::kInfeasible,
+                      .message = "the mesh of " + shape.name + " " + to_text(fault)});
   }
 
   /// About what a part costs: its facets are those of its teeth.
@@ -172,7 +193,7 @@ class Exporter {
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       order.push_back(i);
       if (jobs_[i].part != kAssembly)
-        size[i] = cost(static_cast<std::size_t>(jobs_[i].part)) * (is_measured(i) ? kMeasuringCost : 1);
+        size[i] = cost(static_cast<std::size_t>(jobs_[i].part));
       else
         for (const Placement& body : shapes_.assembly) size[i] += cost(static_cast<std::size_t>(body.part));
     }
@@ -197,8 +218,7 @@ class Exporter {
         reach_mm = std::max({reach_mm, slab.z_upper_mm + std::abs(move[2]),
                              extent(slab.outer).outer_radius_mm + std::hypot(move[0], move[1])});
     }
-    // a file is told by the first of its part: the rounding of that one twice, and its own
-    const double rounding_mm = 1.5 * kFloatStep * reach_mm + kTextStep_mm;
+    const double rounding_mm = kFloatStep * reach_mm + kTextStep_mm;
     return options_.tolerance_mm - std::min(rounding_mm, 0.3 * options_.tolerance_mm);
   }
 
@@ -279,14 +299,14 @@ class Exporter {
   }
 
   Scene scene_of(const Job& job) const {
-    TRUEFLANK_EXPECTS(meshes_ != nullptr && meshes_->size() == shapes_.parts.size());
+    TRUEFLANK_EXPECTS(meshes_.size() == shapes_.parts.size());
     if (job.part != kAssembly)
-      return part_scene(train_.design.name, shapes_.parts[job.part].name, (*meshes_)[job.part].mesh,
-                        shapes_.parts[job.part].role);
+      return part_scene(train_.design.name, shapes_.parts[job.part].name,
+                        meshes_[job.part].part.mesh, shapes_.parts[job.part].role);
     Scene scene{train_.design.name, {}, shapes_.assembly};
     for (std::size_t i = 0; i < shapes_.parts.size(); ++i)
       scene.shapes.push_back(
-          {shapes_.parts[i].name, &(*meshes_)[i].mesh, part_colour(shapes_.parts[i].role)});
+          {shapes_.parts[i].name, &meshes_[i].part.mesh, part_colour(shapes_.parts[i].role)});
     return scene;
   }
 
@@ -308,71 +328,45 @@ class Exporter {
     return write_file(path, step_text(solids_, shapes_.assembly, train_.design.name));
   }
 
-  /// Whether this file is the one of its part that is measured against the true surface: one whose
-  /// format knows which facets share a vertex, where there is one.
-  [[nodiscard]] bool is_measured(std::size_t index) const {
-    const int part = jobs_[index].part;
-    if (part == kAssembly) return false;
-    std::optional<std::size_t> chosen;
-    for (std::size_t i = 0; i < jobs_.size(); ++i)
-      if (jobs_[i].part == part && is_mesh(jobs_[i].format))
-        if (!chosen || !info(jobs_[*chosen].format).shares_vertices) chosen = i;
-    return chosen == index;
-  }
-
-  /// Reads the file from the disk, compares it with what was to be written, and measures one file of
-  /// each part.
+  /// Reads the file from the disk and compares it with what was to be written.
   Status read_back(std::size_t index, const std::filesystem::path& path, const Scene& scene) {
     FacetComparison comparison(scene);
-    const auto compare = [&](const Facet& facet) { comparison.take(facet); };
-    if (is_measured(index)) {
-      const auto mesh = read_mesh(path);
-      if (!mesh) return fail(mesh.error());
-      for (const auto& t : mesh->triangles)
-        comparison.take({mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]});
-      readings_[index].measured_mm =
-          measure_accuracy(*mesh, shapes_.parts[jobs_[index].part]).largest_mm();
-    } else if (auto status = visit_facets(path, compare); !status) {
+    if (auto status = visit_facets(path, [&](const Facet& facet) { comparison.take(facet); });
+        !status)
       return status;
-    }
     const auto rounding_mm = comparison.rounding_mm();
     if (!rounding_mm) return fail(file_error("verify", path, EIO));
-    readings_[index].rounding_mm = *rounding_mm;
+    rounding_mm_[index] = *rounding_mm;
     files_[index].triangles = comparison.facets();
     files_[index].volume_mm3 = comparison.volume_mm3();
     return {};
   }
 
-  /// A file that was not measured is no farther from the true surface than the measured one of its
-  /// part, and the rounding of both.
+  /// A file is no farther from the true surface than the mesh that was measured and the way that
+  /// the farthest of its corners was rounded.
   void add_accuracies() {
-    std::vector<double> bounds_mm(shapes_.parts.size(), 0.0);
-    for (std::size_t i = 0; i < jobs_.size(); ++i)
-      if (!std::isnan(readings_[i].measured_mm))
-        bounds_mm[jobs_[i].part] = readings_[i].measured_mm + readings_[i].rounding_mm;
-    const double largest_mm = *std::max_element(bounds_mm.begin(), bounds_mm.end());
+    double largest_mm = 0.0;
+    for (const MeasuredMesh& mesh : meshes_)
+      if (!std::isnan(mesh.accuracy_mm)) largest_mm = std::max(largest_mm, mesh.accuracy_mm);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       if (!is_mesh(jobs_[i].format)) continue;
-      const Reading& reading = readings_[i];
-      const double bound_mm = jobs_[i].part == kAssembly ? largest_mm : bounds_mm[jobs_[i].part];
-      files_[i].accuracy_um = um_from_mm(
-          std::isnan(reading.measured_mm) ? bound_mm + reading.rounding_mm : reading.measured_mm);
+      const double measured_mm =
+          jobs_[i].part == kAssembly ? largest_mm : meshes_[jobs_[i].part].accuracy_mm;
+      files_[i].accuracy_um = um_from_mm(measured_mm + rounding_mm_[i]);
     }
   }
 
   const GearTrain& train_;
   const PartShapes& shapes_;
-  const std::vector<PartMesh>* meshes_;
+  const std::vector<PartMesh>* given_meshes_;
+  const std::vector<MeshChange>* changes_;
+  const std::vector<std::size_t> proved_;
   const ExportOptions& options_;
   std::vector<Job> jobs_;
-  std::vector<PartMesh> own_meshes_;
+  std::vector<MeasuredMesh> meshes_;  ///< one a part of which there are mesh files
   std::vector<PackedText> packed_meshes_;
   std::vector<StepPart> solids_;
-  struct Reading {
-    double rounding_mm = 0.0;   ///< farthest that a corner moved on its way through the file
-    double measured_mm = kNaN;  ///< against the true surface
-  };
-  std::vector<Reading> readings_;
+  std::vector<double> rounding_mm_;  ///< farthest that a corner moved on its way through a file
   std::vector<ReportedFile> files_;
   std::mutex mutex_;
   Errors errors_;

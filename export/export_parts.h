@@ -14,12 +14,23 @@
 
 namespace trueflank::io {
 
+/// What is done to the finished mesh of a part that its outlines cannot hold.
+struct MeshChange {
+  std::function<TriangleMesh(const TriangleMesh&)> apply = {};  ///< empty: nothing
+  double magnification = 1.0;  ///< largest share by which it lengthens a distance
+};
+
 /// What is to be written; nothing is owned.
 struct ExportModel {
   const GearTrain* train = nullptr;
   const PartShapes* shapes = nullptr;
   /// One a part; nullptr: made here, within the tolerance, where a mesh format is asked for.
   const std::vector<PartMesh>* meshes = nullptr;
+  /// One a part; nullptr: none. Meshes are measured before it.
+  const std::vector<MeshChange>* changes = nullptr;
+  /// Parts whose meshes are proved to bound a solid before a file is begun, by number: their teeth
+  /// are displaced by what was measured, and no construction vouches for them.
+  std::vector<std::size_t> proved = {};
 };
 
 struct ExportOptions {
@@ -36,11 +47,13 @@ struct ExportOptions {
 };
 
 /// One file per part and format, and `assembly` + extension where there is more than one body. Mesh
-/// files are read again from the disk and measured against the true surface. Works on all processors;
-/// files and report are the same whatever their number.
-/// The result is in the order parts x formats, the assembly last.
-/// Errors: kUsage (no such part), kFileNotFound, kPermission, kDisk, kInterrupted, kUnsupported (STEP of
-/// outlines that cross), kInfeasible (the kerf does not fit into a hole). Files written before an error stay; none of them is incomplete.
+/// meshes are measured against the true surface, and made again where they miss the tolerance;
+/// their files are read again from the disk and compared with them. Works on all processors; files
+/// and report are the same whatever their number. The result is in the order parts x formats, the
+/// assembly last. Where the tolerance cannot be kept, accuracy_um of a file says so. Errors: kUsage
+/// (no such part), kFileNotFound, kPermission, kDisk, kInterrupted, kUnsupported (STEP of outlines
+/// that cross), kInfeasible (the kerf does not fit into a hole; a mesh that was to be proved
+/// crosses itself). Files written before an error stay; none of them is incomplete.
 [[nodiscard]] ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
                                                                 const ExportOptions& options);
 

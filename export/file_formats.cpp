@@ -23,16 +23,16 @@ const std::vector<FileFormatInfo>& file_format_table() {
   using enum FileFormat;
   using enum FormatContent;
   static const std::vector<FileFormatInfo> table = {
-      {kStl, "stl", kMesh, true, false, "binary STL: triangles alone"},
-      {k3mf, "3mf", kMesh, true, true, "3MF: what slicers read, bodies with names"},
-      {kObj, "obj", kMesh, true, true, "Wavefront OBJ"},
-      {kPly, "ply", kMesh, true, true, "binary PLY in double precision"},
-      {kGlb, "glb", kMesh, true, true, "binary glTF: for pictures and web pages"},
-      {kStep, "step", kSolid, true, false, "STEP AP214: exact surfaces for CAD and CAM"},
-      {kDxf, "dxf", kSection, true, false, "DXF: sections for wire erosion and laser"},
-      {kSvg, "svg", kSection, true, false, "SVG: sections as a picture"},
-      {kScad, "scad", kProgram, false, false, "OpenSCAD: the part as a program to build on"},
-      {kPdf, "pdf", kPaper, true, false, "PDF: workshop drawings, and their DXF"},
+      {kStl, "stl", kMesh, true, "binary STL: triangles alone"},
+      {k3mf, "3mf", kMesh, true, "3MF: what slicers read, bodies with names"},
+      {kObj, "obj", kMesh, true, "Wavefront OBJ"},
+      {kPly, "ply", kMesh, true, "binary PLY in double precision"},
+      {kGlb, "glb", kMesh, true, "binary glTF: for pictures and web pages"},
+      {kStep, "step", kSolid, true, "STEP AP214: exact surfaces for CAD and CAM"},
+      {kDxf, "dxf", kSection, true, "DXF: sections for wire erosion and laser"},
+      {kSvg, "svg", kSection, true, "SVG: sections as a picture"},
+      {kScad, "scad", kProgram, false, "OpenSCAD: the part as a program to build on"},
+      {kPdf, "pdf", kPaper, true, "PDF: workshop drawings, and their DXF"},
   };
   return table;
 }

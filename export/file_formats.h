@@ -26,8 +26,7 @@ struct FileFormatInfo {
   FileFormat format = FileFormat::kStl;
   std::string_view name;  ///< value of --formats, key of report.json, and extension without its dot
   FormatContent content = FormatContent::kMesh;
-  bool corrected = true;        ///< can hold teeth that a correction has displaced
-  bool shares_vertices = true;  ///< of a mesh: the file says which facets meet in a vertex
+  bool corrected = true;  ///< can hold teeth that a correction has displaced
   std::string_view description;
 };
 

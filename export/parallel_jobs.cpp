@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/threads.h"
 
 namespace trueflank::io {
 namespace {
@@ -78,9 +79,8 @@ class Queue {
 void run_jobs(const std::vector<QueuedJob>& jobs) {
   Queue queue(jobs);
   const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::jthread> others;
-  for (std::size_t i = 1; i < std::min(jobs.size(), processors); ++i)
-    others.emplace_back([&queue] { queue.work(); });
+  if (jobs.empty()) return;
+  auto others = helping_threads(std::min(jobs.size(), processors) - 1, [&queue] { queue.work(); });
   queue.work();
   others.clear();  // joins
   queue.throw_what_was_thrown();

@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "trueflank/session/close_loop.h"
 #include "trueflank/session/corrected_parts.h"
+#include "trueflank/solid/measure/measured_mesh.h"
 
 namespace trueflank::python {
 namespace {
@@ -54,19 +55,23 @@ py::array_t<T> array_of(const std::vector<double>& values) {
 py::dict corrected_meshes(const Gearbox& self, const py::object& loop_json, double tolerance_um) {
   const std::string file = path_text(loop_json);
   const double tolerance_mm = checked_tolerance_mm(tolerance_um);
-  std::vector<PartMesh> made;
+  std::vector<TriangleMesh> made;
   {
     py::gil_scoped_release unlocked;
     CorrectedParts corrected =
-        value_or_throw(corrected_parts(self.train(), shapes_of(self), nullptr, file, tolerance_mm));
-    made = std::move(corrected.meshes);
-    if (made.empty())
-      for (const PartShape& part : corrected.shapes.parts)
-        made.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
+        value_or_throw(corrected_parts(self.train(), shapes_of(self), nullptr, file));
+    corrected.changes.resize(corrected.shapes.parts.size());
+    for (std::size_t i = 0; i < corrected.changes.size(); ++i) {
+      const auto& [change, magnification] = corrected.changes[i];
+      TriangleMesh mesh = measured_part_mesh(corrected.shapes.parts[i],
+                                             {.tolerance_mm = tolerance_mm / magnification})
+                              .part.mesh;
+      made.push_back(change ? change(mesh) : std::move(mesh));
+    }
   }
   py::dict meshes;
   for (std::size_t i = 0; i < made.size(); ++i)
-    meshes[py::str(shapes_of(self).parts[i].name)] = Mesh{.mesh = std::move(made[i].mesh)};
+    meshes[py::str(shapes_of(self).parts[i].name)] = Mesh{.mesh = std::move(made[i])};
   return meshes;
 }
 

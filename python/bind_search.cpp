@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <chrono>
-#include <future>
 
 #include "bindings.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/design/design_file_writer.h"
 #include "trueflank/design/requirements_file.h"
 #include "trueflank/session/search_files.h"
@@ -22,7 +22,8 @@ struct SearchResult {
 /// Waits for a search; Ctrl-C in Python stops it.
 template <class T>
 T wait_for(std::future<T>& running, std::atomic<bool>& stop) {
-  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+  // without a thread it is done, unstoppable, when the result is asked for
+  while (running.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout) {
     py::gil_scoped_acquire locked;
     if (PyErr_CheckSignals() == 0) continue;
     stop = true;
@@ -39,7 +40,7 @@ SearchResult search_of(SearchRequirements requirements, int threads) {
                    .value = std::to_string(threads), .remedy = "0: one per processor"});
   const SearchTask task{.requirements = requirements, .enumeration = enumerate_sets(requirements)};
   std::atomic<bool> stop = false;
-  auto running = std::async(std::launch::async, [&] {
+  auto running = begun_beside([&] {
     return run_search(task.requirements, task.enumeration, {.threads = threads, .stop = &stop});
   });
   const std::vector<SearchRecord> records = wait_for(running, stop);

@@ -5,8 +5,8 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <thread>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/train/efficiency.h"
 
 namespace trueflank {
@@ -209,10 +209,9 @@ std::vector<SearchRecord> run_search(const SearchRequirements& requirements,
       next = open.size();
     }
   };
-  std::vector<std::thread> threads;
-  for (int t = 1; t < thread_count(options.threads); ++t) threads.emplace_back(work);
+  auto threads = helping_threads(static_cast<std::size_t>(thread_count(options.threads) - 1), work);
   work();
-  for (std::thread& thread : threads) thread.join();
+  threads.clear();  // joins
   if (failure) std::rethrow_exception(failure);
   std::vector<SearchRecord> result;
   for (auto& [index, record] : records) result.push_back(std::move(record));

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdint>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "trueflank/search/search.h"
@@ -38,8 +39,22 @@ class Words {
   std::istringstream stream_;
 };
 
+/// FNV-1a, 64 bit: finds slips and damage, no more.
+std::string digest(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  char buffer[17];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, hash, 16).ptr;
+  return {buffer, end};
+}
+
+/// A line ends with the digest of what stands before it.
 bool read_record(const std::string& line, std::size_t sets, SearchRecord& record) {
-  Words words(line);
+  const std::size_t last = line.rfind(' ');
+  if (last == std::string::npos ||
+      line.substr(last + 1) != digest(std::string_view(line).substr(0, last)))
+    return false;
+  Words words(line.substr(0, last));
   std::size_t candidates = 0;
   if (!words.take(record.index) || record.index >= sets || !words.take(record.result.failed_limit) ||
       !words.take(record.result.evaluations) || !words.take(candidates) || candidates > 1000)
@@ -55,20 +70,11 @@ bool read_record(const std::string& line, std::size_t sets, SearchRecord& record
   return words.ended();
 }
 
-/// FNV-1a, 64 bit: tells requirements apart, no more.
-std::string digest(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  char buffer[17];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, hash, 16).ptr;
-  return {buffer, end};
-}
-
 }  // namespace
 
 std::string journal_header(const SearchRequirements& requirements,
                            const SetEnumeration& enumeration) {
-  return "trueflank-search-journal 1 " + digest(fingerprint(requirements)) + " " +
+  return "trueflank-search-journal 2 " + digest(fingerprint(requirements)) + " " +
          std::to_string(enumeration.sets.size());
 }
 
@@ -81,7 +87,7 @@ std::string journal_line(const SearchRecord& record) {
     for (const double value : {c.free.centre_distance, c.free.ring1_shift, c.free.ring2_shift,
                                c.forward, c.backward, c.torque_nm, c.size_mm, c.least_margin})
       append(line, value);
-  return line;
+  return line + ' ' + digest(line);
 }
 
 Result<std::vector<SearchRecord>> read_journal(const std::string& text,
@@ -91,7 +97,7 @@ Result<std::vector<SearchRecord>> read_journal(const std::string& text,
   std::size_t from = text.find('\n');
   if (from == std::string::npos || text.substr(0, from) != journal_header(requirements, enumeration))
     return fail({.code = ErrorCode::kInconsistent,
-                 .message = "the journal is not of a search for these requirements",
+                 .message = "the journal is not of a search for these requirements by this version",
                  .remedy = "the requirements it was begun with, or another output folder"});
   int line_number = 1;
   for (++from; from < text.size(); ++line_number) {

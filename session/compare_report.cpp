@@ -43,7 +43,8 @@ std::string mesh_text(const char* name, const std::string& path, const MeshSumma
 std::string distance_text(const char* name, const SurfaceDistance& distance) {
   return std::string(name) + fixed_text(um_from_mm(distance.largest_mm), 4) + " um, rms " +
          fixed_text(um_from_mm(distance.rms_mm), 4) + " um, " +
-         general_text(100.0 * distance.share_beyond, 3) + " % of it beyond\n";
+         general_text(100.0 * distance.share_beyond, 3) + " % of it beyond" +
+         (distance.exact ? "" : "; at most: its facets lie in heaps") + "\n";
 }
 
 /// "on the left flank of tooth 3", "at the face at z = 10 mm"
@@ -83,7 +84,8 @@ nlohmann::ordered_json distance_json(const SurfaceDistance& distance) {
           {"bound_um", um_from_mm(distance.bound_mm)},
           {"rms_um", um_from_mm(distance.rms_mm)},
           {"share_beyond_tolerance", distance.share_beyond},
-          {"worst_place_mm", distance.worst_place_mm}};
+          {"worst_place_mm", distance.worst_place_mm},
+          {"exact", distance.exact}};
 }
 
 nlohmann::ordered_json difference_json(const MeshDifference& d) {

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <optional>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/correction.h"
+#include "trueflank/loop/gear/correction_bounds.h"
 #include "trueflank/loop/measured/text_table.h"
 #include "trueflank/solid/brep/brep.h"
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -58,11 +61,58 @@ Errors compensated_twice(const loop::Correction& correction, const Process& proc
            .file = file}};
 }
 
+/// Whether the displaced teeth of a slab, between these radii, pass a wall that they left alone
+/// before.
+bool passes(const Outline& wall, const ToothProfile& profile, const loop::CorrectionReach& reach) {
+  const OutlineExtent size = extent(wall);
+  const double apart = size.centre.norm();
+  const double outermost = apart + size.outer_radius_mm;
+  const double innermost = std::max(apart - size.outer_radius_mm, size.inner_radius_mm - apart);
+  const double inner = std::min(profile.root_radius_mm(), profile.tip_radius_mm());
+  const double outer = std::max(profile.root_radius_mm(), profile.tip_radius_mm());
+  if (outermost <= inner) return outermost >= reach.least_radius_mm;
+  return innermost >= outer && innermost <= reach.largest_radius_mm;
+}
+
+/// A wall of the part, in the slabs of the teeth and next to them, that corrected teeth would cut
+/// into.
+std::optional<Error> wall_reached(const PartShapes& shapes, const ToothProfile& profile,
+                                  const loop::Correction& correction) {
+  const loop::CorrectionReach reach = reach_of(correction);
+  const auto is_toothing = [&](const Outline& outline) {
+    const auto* toothed = std::get_if<ToothedOutline>(&outline);
+    return toothed != nullptr && toothed->profile == &profile;
+  };
+  for (const PartShape& part : shapes.parts)
+    for (std::size_t s = 0; s < part.slabs.size(); ++s) {
+      const Slab& slab = part.slabs[s];
+      if (!is_toothing(slab.outer) &&
+          std::none_of(slab.holes.begin(), slab.holes.end(), is_toothing))
+        continue;
+      for (std::size_t near = s == 0 ? 0 : s - 1; near < std::min(s + 2, part.slabs.size());
+           ++near) {
+        std::vector<Outline> walls = part.slabs[near].holes;
+        walls.push_back(part.slabs[near].outer);
+        for (const Outline& wall : walls)
+          if (!is_toothing(wall) && passes(wall, profile, reach))
+            return Error{.code = ErrorCode::kInfeasible,
+                         .message = "the corrected teeth of " + part.name +
+                                    " lie between radii of " +
+                                    printed_number(reach.least_radius_mm, "%.4f") + " and " +
+                                    printed_number(reach.largest_radius_mm, "%.4f") +
+                                    " mm and cut into a bore, rim or neck of the part",
+                         .key = "effects." + joined(correction.effects()),
+                         .remedy = "more wall there, or less to correct"};
+      }
+    }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShapes& shapes,
                                           const CompensatedShapes* compensated,
-                                          const std::string& loop_json_file, double tolerance_mm) {
+                                          const std::string& loop_json_file) {
   const auto text = loop::read_whole_file(loop_json_file);
   if (!text) return fail_all({text.error()});
   const auto name = loop::Correction::gear_of(*text);
@@ -80,16 +130,23 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
   const loop::FlankGeometry geometry(profile, gear->face_width_mm, 0.0, train.design.herringbone);
   const auto correction = loop::Correction::make(*text, geometry);
   if (!correction) return fail_all(located(correction.error(), loop_json_file));
+  if (const auto bounded = loop::within_bounds(*correction); !bounded)
+    return fail_all(located(bounded.error(), loop_json_file));
   if (compensated)
     if (Errors errors = compensated_twice(*correction, *train.design.made.process, loop_json_file);
         !errors.empty())
       return fail_all(std::move(errors));
   CorrectedParts result{.shapes = compensated ? compensated->shapes : shapes,
-                        .meshes = {}, .displaced = false, .text = {}};
+                        .changes = {},
+                        .changed = {},
+                        .displaced = false,
+                        .text = {}};
   const auto on_teeth = std::make_shared<const loop::Correction>(correction->without_scale());
   if (!on_teeth->empty()) {
     const auto displacement = std::make_shared<const Displacement>(
         [on_teeth](const std::array<double, 3>& point) { return on_teeth->displacement_mm(point); });
+    if (auto reached = wall_reached(result.shapes, profile, *on_teeth))
+      return fail_all(located(*reached, loop_json_file));
     for_toothings(result.shapes, profile, [&](std::size_t, ToothedOutline& teeth) {
       teeth.displacement = displacement.get();
     });
@@ -98,17 +155,24 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
   }
   if (correction->moves_whole_part()) {
     const loop::Correction scale = correction->scale_alone();
-    for (const PartShape& part : result.shapes.parts)
-      result.meshes.push_back(part_mesh(part, {.tolerance_mm = tolerance_mm}));
-    std::set<std::size_t> done;  // a groove parts the teeth of one gear
+    result.changes.resize(result.shapes.parts.size());
     for_toothings(result.shapes, profile, [&](std::size_t part, const ToothedOutline& teeth) {
-      if (!done.insert(part).second) return;
-      TriangleMesh& mesh = result.meshes[part].mesh;
-      if (teeth.rotation_rad != 0.0) turn(mesh, -teeth.rotation_rad);
-      mesh = scale.apply(mesh, teeth.z_lower_mm);
-      if (teeth.rotation_rad != 0.0) turn(mesh, teeth.rotation_rad);
+      io::MeshChange& change = result.changes[part];
+      if (change.apply) return;  // a groove parts the teeth of one gear
+      change.apply = [scale, z_lower_mm = teeth.z_lower_mm,
+                      rotation_rad = teeth.rotation_rad](TriangleMesh mesh) {
+        if (rotation_rad != 0.0) turn(mesh, -rotation_rad);
+        mesh = scale.apply(mesh, z_lower_mm);
+        if (rotation_rad != 0.0) turn(mesh, rotation_rad);
+        return mesh;
+      };
+      change.magnification = std::max(1.0, scale.magnification());
     });
   }
+  if (!correction->empty())
+    for_toothings(result.shapes, profile, [&](std::size_t part, const ToothedOutline&) {
+      if (result.changed.empty() || result.changed.back() != part) result.changed.push_back(part);
+    });
   for (const std::string& id : correction->corrected())
     result.text += "corrected on " + *name + ": " + id + "\n";
   for (const std::string& left : correction->left())
@@ -123,7 +187,7 @@ namespace {
 std::string reason_for_meshes_only(const CorrectedParts& corrected, bool compensated,
                                    const std::vector<io::FileFormat>& formats) {
   if (compensated) return "only meshes are compensated";
-  if (!corrected.meshes.empty()) return "a scale of the part goes into meshes only";
+  if (!corrected.changes.empty()) return "a scale of the part goes into meshes only";
   const bool asked = std::any_of(formats.begin(), formats.end(), [](io::FileFormat format) {
     return io::info(format).corrected && !io::is_mesh(format);
   });

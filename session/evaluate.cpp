@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/session/evaluate.h"
 
-#include <future>
-
+#include "trueflank/base/threads.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/requirements_file.h"
 #include "trueflank/session/reported_cure_of.h"
@@ -53,7 +52,7 @@ io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_opti
   const GearTrain& train = gearbox.train();
   io::Report report;
   report.train = gearbox.shared_train();
-  auto turning = std::async(std::launch::async, [&train] { return mesh_states(train); });
+  auto turning = begun_beside([&train] { return mesh_states(train); });
   add_drive(gearbox, strength_options, report);
   const std::vector<MeshState> states = turning.get();
   report.findings = check_gearbox(train, states);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
+
 namespace trueflank {
 namespace {
 
@@ -23,6 +25,32 @@ std::string compensation_text(const Process& process, const CompensatedShapes& m
 }
 
 }  // namespace
+
+Findings accuracy_findings(const std::vector<io::ReportedFile>& files, double tolerance_um) {
+  Findings findings;
+  for (const io::ReportedFile& file : files) {
+    if (!(file.accuracy_um > tolerance_um)) continue;
+    const auto same = std::find_if(findings.begin(), findings.end(),
+                                   [&](const Finding& f) { return f.where == file.part; });
+    if (same != findings.end() && same->value >= file.accuracy_um) continue;
+    const Finding finding{
+        .id = "accuracy",
+        .where = file.part,
+        .status = CheckStatus::kFail,
+        .value = file.accuracy_um,
+        .limit = tolerance_um,
+        .margin = tolerance_um - file.accuracy_um,
+        .unit = "um",
+        .message = file.path + " is up to " + printed_number(file.accuracy_um, "%.4g") +
+                   " um off the true surface; finer facets do not bring it within the tolerance",
+        .cure = "--tolerance-um " + printed_number(1.02 * file.accuracy_um, "%.2g") + " is kept"};
+    if (same != findings.end())
+      *same = finding;
+    else
+      findings.push_back(finding);
+  }
+  return findings;
+}
 
 Result<CompensatedShapes> compensated_walls(const PartShapes& shapes, const Process& process,
                                             std::string& told) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/check/finding.h"
 #include "trueflank/export/export_parts.h"
 #include "trueflank/solid/shape/process_compensation.h"
 
@@ -16,6 +17,10 @@ namespace trueflank {
                                                                       io::ExportOptions options,
                                                                       bool compensate,
                                                                       std::string& told);
+
+/// A failed check `accuracy` for every part whose files miss the tolerance; none where all keep it.
+[[nodiscard]] Findings accuracy_findings(const std::vector<io::ReportedFile>& files,
+                                         double tolerance_um);
 
 /// compensated(), and a line for a person.
 [[nodiscard]] Result<CompensatedShapes> compensated_walls(const PartShapes& shapes,

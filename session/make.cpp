@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/export_parts.h"
@@ -18,6 +18,7 @@
 #include "trueflank/session/earlier_files.h"
 #include "trueflank/session/evaluate.h"
 #include "trueflank/session/exported_files.h"
+#include "trueflank/session/job_size.h"
 #include "trueflank/session/report_page.h"
 
 namespace trueflank {
@@ -72,17 +73,25 @@ class Maker {
       formats = formats_of_corrected(formats, options_.compensate, corrected);
       notes_ += corrected.text;
     }
-    auto files = exported_files({.train = &gearbox_.train(),
-                                 .shapes = correct ? &corrected.shapes : &shapes_,
-                                 .meshes = corrected.meshes.empty() ? nullptr : &corrected.meshes},
-                                {.folder = options_.folder,
-                                 .formats = formats,
-                                 .tolerance_mm = mm_from_um(options_.tolerance_um),
-                                 .kerf_mm = gearbox_.design().made.kerf_mm.value_or(0.0),
-                                 .part = options_.part,
-                                 .on_written = options_.on_written},
-                                options_.compensate && !correct, notes_);
+    auto files =
+        exported_files({.train = &gearbox_.train(),
+                        .shapes = correct ? &corrected.shapes : &shapes_,
+                        .changes = corrected.changes.empty() ? nullptr : &corrected.changes,
+                        .proved = corrected.changed},
+                       {.folder = options_.folder,
+                        .formats = formats,
+                        .tolerance_mm = mm_from_um(options_.tolerance_um),
+                        .kerf_mm = gearbox_.design().made.kerf_mm.value_or(0.0),
+                        .part = options_.part,
+                        .on_written = options_.on_written},
+                       options_.compensate && !correct, notes_);
     if (!files) {
+      for (Error& error : files.error())
+        if (correct && error.file.empty() && error.key.empty() && exit_code(error.code) == 2) {
+          error.message += " once it is corrected";
+          error.key = "effects";
+          error.file = options_.correct;
+        }
       const bool of_design = files.error().front().key.starts_with("made.");
       return fail_all(of_design ? gearbox_.located(files.error()) : files.error());
     }
@@ -102,8 +111,7 @@ class Maker {
       if (!moved) return fail_all(gearbox_.located({moved.error()}));
       walls = std::move(*moved);
     }
-    return corrected_parts(gearbox_.train(), shapes_, walls ? &*walls : nullptr, options_.correct,
-                           mm_from_um(options_.tolerance_um));
+    return corrected_parts(gearbox_.train(), shapes_, walls ? &*walls : nullptr, options_.correct);
   }
 
   const Gearbox& gearbox_;
@@ -126,6 +134,45 @@ bool has_scad(const std::vector<io::ReportedFile>& files) {
   return std::any_of(files.begin(), files.end(), [](const io::ReportedFile& file) {
     return file.format == io::to_text(io::FileFormat::kScad);
   });
+}
+
+/// Parts that miss the tolerance are failed checks, and are taken away again as those of any other.
+void judge_accuracy(const MakeOptions& options, MakeResult& result) {
+  const Findings missed = accuracy_findings(result.report.files, options.tolerance_um);
+  if (missed.empty()) return;
+  result.failed = true;
+  result.report.findings.insert(result.report.findings.end(), missed.begin(), missed.end());
+  result.written = options.allow_failing;
+  if (result.written) return;
+  for (const io::ReportedFile& file : result.report.files) {
+    std::error_code error;
+    std::filesystem::remove(options.folder / file.path, error);
+  }
+  result.report.files.clear();
+}
+
+/// The files of a design whose checks allow it, and what its result says of them.
+Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
+                   const StrengthOptions& materials, const MakeOptions& options,
+                   MakeResult& result) {
+  Maker maker(gearbox, shapes, options);
+  const std::vector<io::FileFormat> formats = *io::parse_formats(options.formats);
+  auto files = maker.write(formats);
+  if (!files) return std::move(files.error());
+  result.notes = maker.notes();
+  result.report.tolerance_um = options.tolerance_um;
+  result.report.files = std::move(*files);
+  judge_accuracy(options, result);
+  if (!result.written) return {};
+  if (std::count(formats.begin(), formats.end(), io::FileFormat::kPdf) > 0) {
+    const auto sheets = write_drawings(gearbox, shapes, result.report, materials, options);
+    if (!sheets) return {sheets.error()};
+    result.report.files.insert(result.report.files.end(), sheets->begin(), sheets->end());
+  }
+  if (options.part.empty() && has_scad(result.report.files))
+    if (auto ok = io::write_scad_templates(options.folder, gearbox.train()); !ok)
+      return {ok.error()};
+  return {};
 }
 
 }  // namespace
@@ -152,35 +199,24 @@ ResultAll<MakeResult> make_parts(const Gearbox& gearbox, const MakeOptions& opti
                       .message = "compensation needs a process",
                       .key = "--compensate",
                       .remedy = "--process NAME, or [made] process in the design"}});
+  if (Errors errors = job_size_errors(*shapes, *io::parse_formats(options.formats), options.part,
+                                      mm_from_um(options.tolerance_um));
+      !errors.empty())
+    return fail_all(std::move(errors));
   const auto strength = strength_options(gearbox, {.material = "", .file = options.materials_file});
   if (!strength) return fail_all(strength.error());
 
   MakeResult result{.report = evaluate(gearbox, *strength)};
   // the page's drawing does not wait for the files
-  auto drawing = std::async(std::launch::async,
-                            [report = result.report, &shapes] { return page_drawing(report, &*shapes); });
+  auto drawing =
+      begun_beside([report = result.report, &shapes] { return page_drawing(report, &*shapes); });
   if (auto ok = io::create_folder(options.folder); !ok) return fail_all({ok.error()});
   result.failed = verdict(result.report.findings) == CheckStatus::kFail;
   result.written = !result.failed || options.allow_failing;
-  if (result.written) {
-    Maker maker(gearbox, *shapes, options);
-    const std::vector<io::FileFormat> formats = *io::parse_formats(options.formats);
-    auto files = maker.write(formats);
-    if (!files) return fail_all(std::move(files.error()));
-    result.notes = maker.notes();
-    result.report.tolerance_um = options.tolerance_um;
-    result.report.files = std::move(*files);
-    if (std::count(formats.begin(), formats.end(), io::FileFormat::kPdf) > 0) {
-      const auto sheets = write_drawings(gearbox, *shapes, result.report, *strength, options);
-      if (!sheets) return fail_all({sheets.error()});
-      result.report.files.insert(result.report.files.end(), sheets->begin(), sheets->end());
-    }
-    if (options.part.empty() && has_scad(result.report.files))
-      if (auto ok = io::write_scad_templates(options.folder, gearbox.train()); !ok)
-        return fail_all({ok.error()});
-  } else {
-    result.removed = remove_earlier_files(options.folder);
-  }
+  if (result.written)
+    if (Errors errors = write_parts(gearbox, *shapes, *strength, options, result); !errors.empty())
+      return fail_all(std::move(errors));
+  if (!result.written) result.removed = remove_earlier_files(options.folder);
   if (auto ok = write_report(result.report, drawing.get(), options.folder); !ok)
     return fail_all({ok.error()});
   return result;

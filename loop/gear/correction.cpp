@@ -16,15 +16,29 @@ namespace {
 using Json = nlohmann::json;
 using Point3 = std::array<double, 3>;
 
+/// Of a loop.json, and of terms of one effect: what is corrected is computed for every corner of a
+/// mesh.
+constexpr std::size_t kMostEffects = 500;
+
 Error broken(const std::string& what, const std::string& key = {}) {
   return {.code = ErrorCode::kWrongType, .message = what, .key = key};
+}
+
+/// A text; empty where there is none.
+std::string text_of(const Json& json, const std::string& key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+bool flag_of(const Json& json, const std::string& key, bool otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
 }
 
 Result<Json> parsed(std::string_view text) {
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded())
     return fail({.code = ErrorCode::kSyntax, .message = "this is no JSON document"});
-  if (!json.is_object() || json.value("format", "") != "trueflank-loop")
+  if (!json.is_object() || text_of(json, "format") != "trueflank-loop")
     return fail(broken("this is no loop.json", "format"));
   return json;
 }
@@ -40,7 +54,7 @@ double value_of(const Json& effect, const std::string& name) {
 }
 
 FlankChoice flank_of(const Json& effect) {
-  const std::string text = effect.value("flank", "both");
+  const std::string text = text_of(effect, "flank");
   return text == "left" ? FlankChoice::kLeft : text == "right" ? FlankChoice::kRight : FlankChoice::kBoth;
 }
 
@@ -75,8 +89,9 @@ bool read_term(const Json& term, const EffectFamily& family, std::vector<double>
     return found != term.end() && found->is_number() ? found->get<double>() : kNaN;
   };
   for (const TermKey& key : family.term_keys)
-    shape.push_back(key.kind == TermKey::Kind::kWord ? (term.value(key.name, "") == key.words[1] ? 1.0 : 0.0)
-                                                     : number(key.name));
+    shape.push_back(key.kind == TermKey::Kind::kWord
+                        ? (text_of(term, key.name) == key.words[1] ? 1.0 : 0.0)
+                        : number(key.name));
   constexpr double kMostDegree = 1000.0;  // degrees and orders: far beyond what any data can show
   const auto bad = [](double value) { return !std::isfinite(value); };
   if (shape.size() != family.shape_names.size()) return false;
@@ -92,8 +107,8 @@ bool read_term(const Json& term, const EffectFamily& family, std::vector<double>
 
 /// A user's effect carries its formulas in loop.json, so that the correction needs no other file.
 Result<EffectFamily> declared_family_of(const Json& item) {
-  DeclaredEffect declared{.id = item["id"], .correctable = item.value("correctable", true)};
-  declared.correction = item.value("correction", "");
+  DeclaredEffect declared{.id = item["id"], .correctable = flag_of(item, "correctable", true)};
+  declared.correction = text_of(item, "correction");
   const Json& form = item["form"];
   if (!form.is_object()) return fail(broken("an effect without its formulas", "effects." + declared.id));
   for (const auto& [name, formula] : form.items()) {
@@ -122,13 +137,20 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
   const auto effects = json->find("effects");
   if (effects == json->end() || !effects->is_array())
     return fail(broken("loop.json has no list of effects", "effects"));
+  if (effects->size() > kMostEffects)
+    return fail({.code = ErrorCode::kOutOfRange,
+                 .message = "more effects than any loop finds",
+                 .key = "effects",
+                 .value = std::to_string(effects->size()),
+                 .remedy = std::to_string(kMostEffects) + " at most"});
   Correction result(geometry);
   for (const Json& item : *effects) {
     if (!item.is_object() || !item.contains("id") || !item["id"].is_string())
       return fail(broken("an effect without id", "effects"));
     const std::string id = item["id"];
-    if (!item.value("repeatable", true)) {
-      result.left_.push_back(id + ": one-off, on part " + item.value("part", std::string("?")) +
+    if (!flag_of(item, "repeatable", true)) {
+      const std::string part = text_of(item, "part");
+      result.left_.push_back(id + ": one-off, on part " + (part.empty() ? "?" : part) +
                              " only; what does not repeat is not corrected");
       continue;
     }
@@ -152,6 +174,12 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                                "; inspect or reject the part");
         continue;
       }
+      if (terms->size() > kMostEffects)
+        return fail({.code = ErrorCode::kOutOfRange,
+                     .message = "more terms than any loop finds",
+                     .key = "effects.terms",
+                     .value = std::to_string(terms->size()),
+                     .remedy = std::to_string(kMostEffects) + " at most"});
       for (const Json& term : *terms) {
         Part part;
         part.effect.family = family_of_term(term, *family);
@@ -200,11 +228,7 @@ double Correction::flank_deviation_mm(int tooth, int side, double roll_mm, doubl
 double Correction::turn_rad(const Point3& p) const {
   const double radius = std::hypot(p[0], p[1]);
   const double pitch = kTwoPi / geometry_.teeth();
-  const double from_first = std::atan2(p[1], p[0]) - geometry_.twist_rad(p[2]);
-  const int tooth = static_cast<int>(std::round(from_first / pitch)) + 1;
-  const double offset = from_first - pitch * (tooth - 1);
-  const int z = geometry_.teeth();
-  const int number = ((tooth - 1) % z + z) % z + 1;
+  const auto [number, offset] = place_in_tooth(p);
   const double low = std::min(geometry_.root_form_roll_mm(), geometry_.tip_form_roll_mm());
   const double high = std::max(geometry_.root_form_roll_mm(), geometry_.tip_form_roll_mm());
   const double roll = std::clamp(geometry_.roll_at_radius_mm(radius), low, high);
@@ -213,8 +237,7 @@ double Correction::turn_rad(const Point3& p) const {
         flank_deviation_mm(of_tooth, side, roll, p[2]) / std::cos(geometry_.base_helix_rad());
     return -side * transverse / geometry_.base_radius_mm();
   };
-  const double xi = roll / geometry_.base_radius_mm();
-  const double half = geometry_.base_half_angle() - geometry_.sense() * (xi - std::atan(xi));
+  const double half = half_angle_rad(std::hypot(geometry_.base_radius_mm(), roll));
   const double w = half > 0.0 ? offset / half : (offset >= 0.0 ? 1.0 : -1.0);
   const double ahead = turn_of(number, 1), behind = turn_of(number, -1);
   if (std::abs(w) <= 1.0) return 0.5 * (1.0 + w) * ahead + 0.5 * (1.0 - w) * behind;
@@ -225,10 +248,13 @@ double Correction::turn_rad(const Point3& p) const {
 }
 
 Point3 Correction::displacement_mm(const Point3& p) const {
-  // Where will the process take the point? The field there, turned round; twice for second order.
+  // Where will the process take the point? The field there, turned round.
+  constexpr int kMostSteps = 60;
+  constexpr double kSame_mm = 1e-10;
   Point3 sum{0.0, 0.0, 0.0};
-  for (int step = 0; step < 3; ++step) {
-    const Point3 at{p[0] + sum[0], p[1] + sum[1], p[2] + sum[2]};
+  bool found = false;
+  for (int step = 0; step < kMostSteps && !found; ++step) {
+    const Point3 at{p[0] + sum[0], p[1] + sum[1], p[2] + sum[2]}, before = sum;
     sum = {0.0, 0.0, 0.0};
     for (const Part& part : parts_) {
       if (!part.effect.family->displacement_mm) continue;
@@ -236,35 +262,55 @@ Point3 Correction::displacement_mm(const Point3& p) const {
                                                          part.coefficients.data());
       for (int k = 0; k < 3; ++k) sum[k] -= u[k];
     }
+    found = std::hypot(sum[0] - before[0], sum[1] - before[1], sum[2] - before[2]) <= kSame_mm;
   }
+  if (!found) return {kNaN, kNaN, kNaN};
   const double turn = turn_rad(p);
-  const double c = std::cos(turn) - 1.0, s = std::sin(turn);
-  sum[0] += c * p[0] - s * p[1];
-  sum[1] += s * p[0] + c * p[1];
-  // Offsets of all walls: tip and root circles move too, the flanks already have.
   double offset = 0.0;
   for (const Part& part : parts_)
     if (part.effect.family->moves_circles)
       offset += mm_from_um(part.effect.family->walls_outside_um(geometry_, part.coefficients.data()));
-  if (offset == 0.0) return sum;
-  const double radius = std::hypot(p[0], p[1]);
+  if (offset == 0.0) {
+    const double c = std::cos(turn) - 1.0, s = std::sin(turn);
+    return {sum[0] + c * p[0] - s * p[1], sum[1] + s * p[0] + c * p[1], sum[2]};
+  }
+  const CircleMove move = circle_move(p, offset);
+  const double angle = std::atan2(p[1], p[0]) + turn + move.turn_rad;
+  return {sum[0] + move.radius_mm * std::cos(angle) - p[0],
+          sum[1] + move.radius_mm * std::sin(angle) - p[1], sum[2]};
+}
+
+/// An offset of all walls moves the root circle and the tip circle, too. The flanks, which already
+/// have been moved, end on the new tip circle: their upper halves slide along the involute they are
+/// on, and what lies between them goes along in proportion.
+Correction::CircleMove Correction::circle_move(const Point3& p, double offset_mm) const {
+  const double radius = std::hypot(p[0], p[1]), sense = geometry_.sense();
   const double root = geometry_.root_radius_mm(), tip = geometry_.tip_radius_mm();
   const double root_form = std::hypot(geometry_.base_radius_mm(), geometry_.root_form_roll_mm());
-  const double down = root_form == root ? 0.0 : (radius - root_form) / (root - root_form);
-  const double share = std::clamp(down, 0.0, 1.0);
-  // The tip circle moves whole: what of the flanks stands beyond the new one is brought onto it.
-  const double new_tip = tip - geometry_.sense() * offset;
-  const double beyond = geometry_.sense() * (radius - new_tip);
-  const bool at_tip = geometry_.sense() * (radius - tip) > -2e-3;
-  if (at_tip || beyond > 0.0) {
-    sum[0] += (new_tip - radius) * p[0] / radius;
-    sum[1] += (new_tip - radius) * p[1] / radius;
-    return sum;
+  const double middle = 0.5 * (root_form + tip);
+  const double up = (radius - middle) / (tip - middle);
+  if (!(up > 0.0)) {
+    const double down = root_form == root ? 0.0 : (radius - root_form) / (root - root_form);
+    return {radius - sense * offset_mm * std::clamp(down, 0.0, 1.0), 0.0};
   }
-  const double radial = -geometry_.sense() * offset * share;
-  sum[0] += radial * p[0] / radius;
-  sum[1] += radial * p[1] / radius;
-  return sum;
+  const double to = radius - sense * offset_mm * std::min(up, 1.0);
+  const PlaceInTooth place = place_in_tooth(p);
+  const double half = half_angle_rad(radius);
+  const double share = half > 0.0 ? std::clamp(place.offset_rad / half, -1.0, 1.0) : 0.0;
+  return {to, share * (half_angle_rad(to) - half)};
+}
+
+/// From the middle of a tooth to its flank.
+double Correction::half_angle_rad(double radius_mm) const {
+  const double xi = geometry_.roll_at_radius_mm(radius_mm) / geometry_.base_radius_mm();
+  return geometry_.base_half_angle() - geometry_.sense() * (xi - std::atan(xi));
+}
+
+Correction::PlaceInTooth Correction::place_in_tooth(const Point3& p) const {
+  const double pitch = kTwoPi / geometry_.teeth();
+  const double from_first = std::atan2(p[1], p[0]) - geometry_.twist_rad(p[2]);
+  const int tooth = static_cast<int>(std::round(from_first / pitch)) + 1, z = geometry_.teeth();
+  return {((tooth - 1) % z + z) % z + 1, from_first - pitch * (tooth - 1)};
 }
 
 bool Correction::bends_over_the_face() const {
@@ -274,17 +320,44 @@ bool Correction::bends_over_the_face() const {
   });
 }
 
-Correction Correction::only(bool whole_part) const {
+Correction Correction::scale_alone() const {
   Correction some = *this;
-  std::erase_if(some.parts_,
-                [&](const Part& p) { return p.effect.family->moves_whole_part != whole_part; });
+  std::erase_if(some.parts_, [](const Part& p) { return !p.effect.family->moves_whole_part; });
   return some;
+}
+
+Correction Correction::without_scale() const {
+  Correction some = *this;
+  std::erase_if(some.parts_, [](const Part& p) { return p.effect.family->moves_whole_part; });
+  return some;
+}
+
+Correction Correction::of(const std::string& id) const {
+  Correction some = *this;
+  std::erase_if(some.parts_, [&](const Part& p) { return p.effect.family->id != id; });
+  return some;
+}
+
+Correction Correction::of_body() const {
+  Correction some = *this;
+  std::erase_if(some.parts_, [](const Part& p) { return !p.effect.family->displacement_mm; });
+  return some;
+}
+
+std::vector<std::string> Correction::effects() const {
+  std::vector<std::string> ids;
+  for (const Part& part : parts_)
+    if (std::find(ids.begin(), ids.end(), part.effect.family->id) == ids.end())
+      ids.push_back(part.effect.family->id);
+  return ids;
 }
 
 bool Correction::moves_whole_part() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [](const Part& p) { return p.effect.family->moves_whole_part; });
 }
+
+double Correction::magnification() const { return 1.0 + displacement_mm({1.0, 0.0, 0.0})[0]; }
 
 double Correction::walls_outside_mm() const {
   double outside = 0.0;

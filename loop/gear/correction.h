@@ -17,6 +17,12 @@ namespace trueflank::loop {
 /// loop.json that geometry can cancel, the other way round.
 class Correction {
  public:
+  /// An effect that is cancelled, with its amounts.
+  struct Part {
+    Effect effect;
+    std::vector<double> coefficients;
+  };
+
   /// Errors: kSyntax (no JSON, with the place), kWrongType, kUnknownKey (an effect nobody knows),
   /// kInconsistent (a drive's loop.json).
   [[nodiscard]] static Result<Correction> make(std::string_view loop_json,
@@ -24,10 +30,11 @@ class Correction {
   /// The gear a loop.json is of. Errors: as make().
   [[nodiscard]] static Result<std::string> gear_of(std::string_view loop_json);
 
-  /// Displacement [mm] of a point of the toothing as designed, in the gear's frame. Body effects: the
-  /// field turned round, with its second order (the point is looked up where it will be). Effects on
-  /// flanks: along the circle, so that tip and root keep their radii; offsets of all walls also
-  /// move tip and root. Continuous over tip, flank, fillet and gap.
+  /// Displacement [mm] of a point of the toothing as designed, in the gear's frame. Body effects:
+  /// the field turned round, at the place to which the point goes. Effects on flanks: along the
+  /// circle, so that tip and root keep their radii; offsets of all walls also move tip and root.
+  /// Continuous over tip, flank, fillet and gap. NaN where no place can be told, as for a scale
+  /// that doubles the part; within_bounds() refuses those.
   [[nodiscard]] std::array<double, 3> displacement_mm(const std::array<double, 3>& point_mm) const;
 
   /// The mesh of the gear's part with its toothing corrected; z_lower_mm is the lower face of the gear
@@ -40,8 +47,18 @@ class Correction {
   [[nodiscard]] bool moves_whole_part() const;
   /// The scale alone, or all but the scale. Their succession differs from both at once by the product of
   /// the two, some hundredths of a micrometre.
-  [[nodiscard]] Correction scale_alone() const { return only(true); }
-  [[nodiscard]] Correction without_scale() const { return only(false); }
+  [[nodiscard]] Correction scale_alone() const;
+  [[nodiscard]] Correction without_scale() const;
+  /// What it cancels of one id.
+  [[nodiscard]] Correction of(const std::string& id) const;
+  /// What it does by moving points of the body, not flanks.
+  [[nodiscard]] Correction of_body() const;
+  /// The ids of which something is cancelled, each once.
+  [[nodiscard]] std::vector<std::string> effects() const;
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] const FlankGeometry& geometry() const { return geometry_; }
+  /// Of a scale alone: the size it gives the part, as a share of what it was.
+  [[nodiscard]] double magnification() const;
   /// How far all walls were found to stand outside the model [mm], normal to them: contour offset and
   /// tooth thickness, the two that a process's horizontal expansion shows as.
   [[nodiscard]] double walls_outside_mm() const;
@@ -51,15 +68,21 @@ class Correction {
   [[nodiscard]] const std::vector<std::string>& left() const { return left_; }
 
  private:
-  struct Part {
-    Effect effect;
-    std::vector<double> coefficients;
-  };
   explicit Correction(const FlankGeometry& geometry) : geometry_(geometry) {}
-  [[nodiscard]] Correction only(bool whole_part) const;
   [[nodiscard]] double flank_deviation_mm(int tooth, int side, double roll_mm, double z_mm) const;
   [[nodiscard]] double turn_rad(const std::array<double, 3>& point_mm) const;
   [[nodiscard]] bool bends_over_the_face() const;
+  struct PlaceInTooth {
+    int tooth = 1;            ///< the nearest
+    double offset_rad = 0.0;  ///< from its middle, counter-clockwise
+  };
+  [[nodiscard]] PlaceInTooth place_in_tooth(const std::array<double, 3>& point_mm) const;
+  [[nodiscard]] double half_angle_rad(double radius_mm) const;
+  struct CircleMove {
+    double radius_mm = 0.0, turn_rad = 0.0;  ///< where a point goes, and its turn on the way
+  };
+  [[nodiscard]] CircleMove circle_move(const std::array<double, 3>& point_mm,
+                                       double offset_mm) const;
 
   FlankGeometry geometry_;
   std::vector<std::shared_ptr<const EffectFamily>> declared_;  ///< parts may point into these

@@ -11,6 +11,15 @@ namespace trueflank {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;
+/// Facets and boxes that a question goes through before its effort counts: ordinary meshes need
+/// fewer.
+constexpr std::size_t kSurely = 96;
+
+/// Among boxes that hold a point it says which is likelier to have the facet next to it.
+template <class Node>
+double from_middle2(const Node& node, const Point3& p) {
+  return (0.5 * (node.lower + node.upper) - p).squaredNorm();
+}
 
 Point3 nearest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
   const Point3 along = b - a;
@@ -91,6 +100,28 @@ double TriangleTree::squared_distance(const Node& node, const Point3& p) {
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const Point3& point, std::uint32_t hint) const {
+  return search(point, hint, [](std::size_t, double) { return false; });
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Point3& point, std::uint32_t hint,
+                                            Effort& effort) const {
+  std::size_t looked_at = 0;
+  const double near2 = effort.near_enough_mm * effort.near_enough_mm;
+  return search(point, hint, [&](std::size_t facets, double best2) {
+    looked_at += facets;
+    effort.facets_left -= std::min(effort.facets_left, facets);
+    if (looked_at < kSurely) return false;
+    if (best2 <= near2) return true;
+    if (effort.facets_left > 0) return false;
+    effort.exact = false;
+    return true;
+  });
+}
+
+/// `enough` is told how many facets were looked at since it was asked last.
+template <class Enough>
+TriangleTree::Nearest TriangleTree::search(const Point3& point, std::uint32_t hint,
+                                           const Enough& enough) const {
   TRUEFLANK_EXPECTS(!empty());
   std::uint32_t best = hint < corners_.size() ? hint : 0;
   double best2 = (nearest_on_triangle(point, corners_[best]) - point).squaredNorm();
@@ -104,6 +135,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Point3& point, std::uint32_t h
   while (depth > 0) {
     const Pending next = stack[--depth];
     if (next.distance2 >= best2) continue;
+    if (enough(1 + nodes_[next.node].count, best2)) break;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const std::uint32_t t = order_[i];
@@ -113,7 +145,11 @@ TriangleTree::Nearest TriangleTree::nearest(const Point3& point, std::uint32_t h
     if (node.count > 0) continue;
     Pending near{next.node + 1, squared_distance(nodes_[next.node + 1], point)};
     Pending far{node.right, squared_distance(nodes_[node.right], point)};
-    if (far.distance2 < near.distance2) std::swap(near, far);
+    const bool first_far =
+        far.distance2 == near.distance2
+            ? from_middle2(nodes_[far.node], point) < from_middle2(nodes_[near.node], point)
+            : far.distance2 < near.distance2;
+    if (first_far) std::swap(near, far);
     if (far.distance2 < best2) stack[depth++] = far;
     if (near.distance2 < best2) stack[depth++] = near;
   }

@@ -28,6 +28,17 @@ class TriangleTree {
   /// Requires: a mesh that is not empty. `hint`: a triangle likely to be near makes it faster.
   [[nodiscard]] Nearest nearest(const Point3& point, std::uint32_t hint = 0) const;
 
+  /// What many questions together may cost. In a mesh of facets that all lie in one place, or of
+  /// needles through one point, a box tells nothing and every question would go through all of
+  /// them.
+  struct Effort {
+    std::size_t facets_left = 0;  ///< that may be looked at
+    double near_enough_mm =
+        0.0;            ///< a distance that is not worth to be told from 0, once it takes long
+    bool exact = true;  ///< no question was cut short: else some distances are upper bounds
+  };
+  [[nodiscard]] Nearest nearest(const Point3& point, std::uint32_t hint, Effort& effort) const;
+
   [[nodiscard]] bool empty() const { return corners_.empty(); }
   [[nodiscard]] const std::array<Point3, 3>& corners(std::uint32_t triangle) const {
     return corners_[triangle];
@@ -40,6 +51,8 @@ class TriangleTree {
     std::uint32_t right = 0;             ///< the left child follows its parent
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t last, std::vector<Point3>& centres);
+  template <class Enough>
+  [[nodiscard]] Nearest search(const Point3& point, std::uint32_t hint, const Enough& enough) const;
   [[nodiscard]] static double squared_distance(const Node& node, const Point3& p);
 
   std::vector<std::array<Point3, 3>> corners_;

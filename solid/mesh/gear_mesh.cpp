@@ -37,7 +37,7 @@ class StackMesher {
       for (const Outline& hole : slab.holes) section.holes.push_back(loop_index(hole));
       sections_.push_back(std::move(section));
     }
-    const double tolerance = std::min(options.tolerance_mm, coarsest_mm());
+    const double tolerance = meshing_tolerance_mm(shape, options.tolerance_mm);
     for (int loop = 0; loop < static_cast<int>(outlines_.size()); ++loop) add_loop(loop, tolerance);
     rows_.assign(loops_.size() * (sections_.size() + 1), kNone);
   }
@@ -117,25 +117,6 @@ class StackMesher {
   }
   [[nodiscard]] double height_in_gear(int loop, double z_mm) const {
     return z_mm - std::get<ToothedOutline>(*outlines_[at(loop)]).z_lower_mm;
-  }
-
-  [[nodiscard]] double coarsest_mm() const {
-    double coarsest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < outlines_.size(); ++i) {
-      const OutlineExtent a = extent(*outlines_[i]);
-      if (const auto* toothed = std::get_if<ToothedOutline>(outlines_[i]))
-        coarsest = std::min(
-            coarsest, kCoarsestOfModule * toothed->profile->gear().normal_module_mm);
-      for (std::size_t j = i + 1; j < outlines_.size(); ++j) {
-        const OutlineExtent b = extent(*outlines_[j]);
-        const double apart = (a.centre - b.centre).norm();
-        const double wall = std::max({apart - a.outer_radius_mm - b.outer_radius_mm,
-                                      a.inner_radius_mm - apart - b.outer_radius_mm,
-                                      b.inner_radius_mm - apart - a.outer_radius_mm});
-        if (wall > 0.0) coarsest = std::min(coarsest, kCoarsestOfWall * wall);
-      }
-    }
-    return coarsest;
   }
 
   [[nodiscard]] double z_of(std::size_t level) const {
@@ -413,7 +394,40 @@ class StackMesher {
   PartMesh result_;
 };
 
+/// Outlines of a part, also such as are the same in several slabs.
+std::vector<const Outline*> outlines_of(const PartShape& shape) {
+  std::vector<const Outline*> outlines;
+  for (const Slab& slab : shape.slabs) {
+    outlines.push_back(&slab.outer);
+    for (const Outline& hole : slab.holes) outlines.push_back(&hole);
+  }
+  return outlines;
+}
+
+/// The wall between two outlines; not above 0 where they cross or are the same.
+double wall_mm(const OutlineExtent& a, const OutlineExtent& b) {
+  const double apart = (a.centre - b.centre).norm();
+  return std::max({apart - a.outer_radius_mm - b.outer_radius_mm,
+                   a.inner_radius_mm - apart - b.outer_radius_mm,
+                   b.inner_radius_mm - apart - a.outer_radius_mm});
+}
+
 }  // namespace
+
+double meshing_tolerance_mm(const PartShape& shape, double tolerance_mm) {
+  std::vector<OutlineExtent> extents;
+  for (const Outline* outline : outlines_of(shape)) {
+    if (const auto* toothed = std::get_if<ToothedOutline>(outline))
+      tolerance_mm =
+          std::min(tolerance_mm, kCoarsestOfModule * toothed->profile->gear().normal_module_mm);
+    const OutlineExtent size = extent(*outline);
+    for (const OutlineExtent& other : extents)
+      if (const double wall = wall_mm(size, other); wall > 0.0)
+        tolerance_mm = std::min(tolerance_mm, kCoarsestOfWall * wall);
+    extents.push_back(size);
+  }
+  return tolerance_mm;
+}
 
 PartMesh part_mesh(const PartShape& shape, const MeshOptions& options) {
   return StackMesher(shape, options).build();

@@ -19,6 +19,10 @@ struct PartMesh {
   double chord_error_mm = 0.0;
 };
 
+/// What a part is meshed to where a tolerance is asked for: that, or less where its walls and teeth
+/// are small.
+[[nodiscard]] double meshing_tolerance_mm(const PartShape& shape, double tolerance_mm);
+
 /// One closed shell of a part, built directly: no boolean operation, vertices shared.
 /// Frame: the part's (PartShape).
 /// Requires: slabs as part_shapes() makes them: stacked, touching, outlines that do not touch.

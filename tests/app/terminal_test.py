@@ -142,5 +142,44 @@ class Terminal(unittest.TestCase):
         self.assertEqual(errors_on_a_terminal("check", "--help"), (0, ""))
 
 
+class ControlCharacters(unittest.TestCase):
+    """A file's name, or a design's, must not move the cursor or rename the window."""
+
+    NAME = "a\x1b]0;owned\x07b\nc\x9b.toml"
+
+    def setUp(self):
+        self.folder = OUTPUT / "control"
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def expect_plain(self, result):
+        for text in (result.stdout, result.stderr):
+            self.assertEqual(re.findall(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", text), [], repr(text))
+
+    def test_of_a_missing_file_are_shown_as_numbers(self):
+        result = run("check", self.NAME)
+        self.assertEqual(result.returncode, 3)
+        self.expect_plain(result)
+        self.assertIn("a\\x1b]0;owned\\x07b\\x0ac", result.stderr)
+
+    def test_of_files_that_are_there_too(self):
+        design = self.folder / self.NAME
+        design.write_text(FAILING)
+        for arguments in (["check", design], ["make", design, "-o", self.folder / "out\x1b[2J", "--allow-failing",
+                                              "--formats", "stl", "--tolerance-um", "50"],
+                          ["compare", self.folder / "out\x1b[2J" / "pinion.stl", design]):
+            result = run(*arguments)
+            self.assertIn(result.returncode, (1, 2), result.stderr)
+            self.expect_plain(result)
+
+    def test_of_a_design_are_no_part_of_the_tables(self):
+        design = self.folder / "d.toml"
+        design.write_text(FAILING.replace('"p"', '"p\\u001b[2J\\u0007"'))
+        self.expect_plain(run("check", design))
+
+    def test_umlauts_stay(self):
+        self.assertIn("größe.toml", run("check", "größe.toml").stderr)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=1)

@@ -5,10 +5,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <fstream>
 
 #include "tests/export/sample_scene.h"
 
@@ -44,6 +47,55 @@ TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
     EXPECT_EQ(folder.entries(), 1U);
   }
   EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedByTheNextRun) {
+  const ScratchFolder folder;
+  int begun[2];
+  ASSERT_EQ(pipe(begun), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    auto file = AtomicFile::create(folder / "a");
+    file->write(std::string(2'000'000, 'x'));
+    [[maybe_unused]] const ssize_t told = ::write(begun[1], "x", 1);
+    pause();
+    _exit(0);
+  }
+  char told = 0;
+  ASSERT_EQ(::read(begun[0], &told, 1), 1);
+  ASSERT_TRUE(create_folder(folder.path()));
+  EXPECT_EQ(folder.entries(), 1U) << "its process still runs";
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(folder.entries(), 1U);
+  ASSERT_TRUE(create_folder(folder.path()));
+  EXPECT_EQ(folder.entries(), 0U);
+  ::close(begun[0]), ::close(begun[1]);
+}
+
+TEST(AtomicFile, OtherFilesAndThoseThatSomebodyHoldsAreNotLeftOver) {
+  const ScratchFolder folder;
+  const pid_t ended = fork();
+  if (ended == 0) _exit(0);
+  waitpid(ended, nullptr, 0);
+  const std::string dead = std::to_string(ended);
+  for (const std::string& name : std::vector<std::string>{
+           ".trueflank-" + dead + "-0.txt", ".trueflank-" + dead + ".tmp",
+           ".trueflank-" + dead + "-0x.tmp", "trueflank-" + dead + "-0.tmp", ".trueflank--5-0.tmp",
+           ".trueflank-99999999999-0.tmp", ".trueflank-" + std::to_string(getpid()) + "-77.tmp"})
+    std::ofstream(folder / name) << name;
+  fs::create_directory(folder / (".trueflank-" + dead + "-1.tmp"));
+  fs::create_symlink("/dev/null", folder / (".trueflank-" + dead + "-2.tmp"));
+  // of a process in another container, which is not seen here but holds its lock
+  const fs::path held = folder / (".trueflank-" + dead + "-3.tmp");
+  const int descriptor = ::open(held.c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+  ASSERT_TRUE(create_folder(folder.path()));
+  EXPECT_EQ(folder.entries(), 10U);
+  ::close(descriptor);
+  ASSERT_TRUE(create_folder(folder.path()));
+  EXPECT_EQ(folder.entries(), 9U);
+  EXPECT_FALSE(fs::exists(held));
 }
 
 TEST(AtomicFile, KeepsTheOldContentUntilTheNewIsWhole) {

@@ -41,7 +41,7 @@ EVERY = [name for name in LAYERS if "/" not in name]
 THIRD_PARTY = {
     "tl::expected": (r"tl/expected", ["base"], ["base"]),
     "Eigen": (r"Eigen/", [f for f in EVERY if f != "base"], [f for f in EVERY if f != "base"]),
-    "CGAL": (r"CGAL/", ["check"], []),
+    "CGAL": (r"CGAL/", ["check", "solid"], []),
     "assimp": (r"assimp/", [], []),  # tests only: an independent reader
     "libdeflate": (r"libdeflate\.h", ["export"], []),
     "libharu": (r"hpdf", ["report"], []),

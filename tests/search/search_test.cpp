@@ -93,6 +93,24 @@ TEST(Search, AJournalOfOtherRequirementsOrDamagedIsRefused) {
   EXPECT_FALSE(read_journal("", requirements(), sets()).has_value());
 }
 
+TEST(Search, AJournalWithOneDigitChangedIsRefusedAndTheLineNamed) {
+  const std::string text = text_of(records());
+  const std::size_t first = text.find('\n') + 1, last = text.size() - 2;
+  int changed = 0;
+  for (std::size_t at = first; at < last; at += 7) {
+    if (text[at] < '0' || text[at] > '9') continue;
+    std::string other = text;
+    other[at] = static_cast<char>('0' + (text[at] - '0' + 1) % 10);
+    const auto read = read_journal(other, requirements(), sets());
+    ASSERT_FALSE(read.has_value()) << "character " << at;
+    EXPECT_EQ(read.error().code, ErrorCode::kSyntax);
+    EXPECT_EQ(read.error().line,
+              1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    ++changed;
+  }
+  EXPECT_GT(changed, 20);
+}
+
 TEST(Search, DesignsAreRankedAndEveryClassIsCounted) {
   const SearchReport report = conclude_search(requirements(), sets(), records(), {});
   ASSERT_EQ(report.designs.size(), 3u);

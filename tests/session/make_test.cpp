@@ -88,6 +88,43 @@ TEST_F(MakeParts, ToldWrongOptionsItReportsAllAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_));
 }
 
+// 32 bits hold a radius of 16 mm to a nanometre: no facets however fine keep a tolerance of one.
+TEST_F(MakeParts, ATolerancePastTheFormatIsAFailedCheckAndLeavesNoPart) {
+  const Gearbox gearbox = Gearbox::read_text(pair_design(), "pair.toml").value();
+  MakeOptions options{
+      .folder = folder_, .formats = {"stl"}, .tolerance_um = 0.001, .part = "pinion"};
+  const auto made = make_parts(gearbox, options);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->failed);
+  EXPECT_FALSE(made->written);
+  EXPECT_FALSE(fs::exists(folder_ / "pinion.stl"));
+  EXPECT_TRUE(made->report.files.empty());
+  const Finding& missed = made->report.findings.back();
+  EXPECT_EQ(missed.id, "accuracy");
+  EXPECT_EQ(missed.where, "pinion");
+  EXPECT_EQ(missed.status, CheckStatus::kFail);
+  EXPECT_GT(missed.value, 0.001);
+  EXPECT_EQ(missed.limit, 0.001);
+  std::ifstream report(folder_ / "report.json");
+  const std::string text{std::istreambuf_iterator<char>(report), {}};
+  EXPECT_NE(text.find("\"accuracy\""), std::string::npos);
+  EXPECT_NE(text.find("\"verdict\": \"fail\""), std::string::npos);
+
+  options.allow_failing = true;
+  const auto kept = make_parts(gearbox, options);
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(kept->failed);
+  ASSERT_EQ(kept->report.files.size(), 1U);
+  EXPECT_EQ(kept->report.files.front().accuracy_um, kept->report.findings.back().value);
+  EXPECT_TRUE(fs::exists(folder_ / "pinion.stl"));
+
+  options.formats = {"ply"};  // of doubles
+  const auto fine = make_parts(gearbox, options);
+  ASSERT_TRUE(fine);
+  EXPECT_FALSE(fine->failed);
+  EXPECT_LE(fine->report.files.front().accuracy_um, 0.001);
+}
+
 TEST_F(MakeParts, FilesOfOneDesignCompareAsTheSameAndOfAnotherAsDifferent) {
   ASSERT_TRUE(make(pair_design()).written);
   const std::string sun = (folder_ / "pinion.stl").string(), wheel = (folder_ / "wheel.stl").string();

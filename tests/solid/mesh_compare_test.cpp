@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <ctime>
+#include <random>
+
 #include "tests/solid/random_part.h"
 #include "tests/train/prototype_design.h"
 #include "trueflank/solid/measure/triangle_tree.h"
@@ -192,6 +196,40 @@ TEST(TriangleTree, FindsTheNearestOfAllTriangles) {
     EXPECT_LE(found, nearest + 1e-12);
     EXPECT_GT(found, nearest - 0.05);
   }
+}
+
+/// Processor time of a comparison of a mesh with itself.
+double seconds_of_comparison(const TriangleMesh& mesh, const TriangleMesh& other, bool same) {
+  const std::clock_t begin = std::clock();
+  const MeshComparison comparison = compare_meshes(mesh, other, {.tolerance_mm = 1e-3});
+  EXPECT_EQ(comparison.same, same);
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+// Where facets lie in heaps boxes tell nothing: each question once went through all of them.
+TEST(MeshCompare, TakesNoLongerThanTheFacetsAreMany) {
+  constexpr std::uint32_t kFacets = 40'000;
+  constexpr double kMost_s = 8.0;  // both ways, on a slow machine; of all pairs: minutes
+  TriangleMesh equal{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+  equal.triangles.assign(kFacets, {0, 1, 2});
+  TriangleMesh raised = equal;
+  for (auto& v : raised.vertices) v[2] = 0.5;
+  EXPECT_LT(seconds_of_comparison(equal, equal, true), kMost_s);
+  EXPECT_LT(seconds_of_comparison(equal, raised, false), kMost_s);
+  TriangleMesh heap, needles{{{0, 0, 0}}, {}};
+  std::minstd_rand random(3);
+  std::uniform_real_distribution<double> shift(-1e-6, 1e-6);
+  for (std::uint32_t i = 0; i < kFacets; ++i) {
+    for (const auto& v : equal.vertices)
+      heap.vertices.push_back({v[0] + shift(random), v[1] + shift(random), v[2] + shift(random)});
+    heap.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    const double angle = 2.0 * kPi * i / kFacets;
+    needles.vertices.push_back({std::cos(angle), std::sin(angle), 0.0});
+    needles.triangles.push_back({0, i + 1, i + 2 > kFacets ? 1 : i + 2});
+  }
+  EXPECT_LT(seconds_of_comparison(heap, heap, true), kMost_s);
+  EXPECT_LT(seconds_of_comparison(heap, equal, true), kMost_s);
+  EXPECT_LT(seconds_of_comparison(needles, needles, true), kMost_s);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+// Work beside the caller's, where the system gives threads: small containers and full process
+// tables do not, and then everything is done all the same, one thing after the other.
+namespace trueflank {
+
+/// Begins `work` on a thread of its own; where none can be started it is done when its result is
+/// asked for.
+template <class Work>
+[[nodiscard]] auto begun_beside(const Work& work) {
+  // with both, the library falls back to the second; what it was given to move is gone by then, so
+  // it copies
+  return std::async(std::launch::async | std::launch::deferred, work);
+}
+
+/// As many threads as can be started, `count` at most, each doing `work`. The caller does the same
+/// work and so all of it where there are none. Joined when they are destroyed.
+template <class Work>
+[[nodiscard]] std::vector<std::jthread> helping_threads(std::size_t count, const Work& work) {
+  std::vector<std::jthread> threads;
+  threads.reserve(count);
+  try {
+    while (threads.size() < count) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // the ones that run share what there is to do
+  }
+  return threads;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/job_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/solid/mesh/mesh_estimate.h"
+
+namespace trueflank {
+namespace {
+
+/// The mesh, what measuring keeps of it and what the writers hold, a facet; measured:
+/// docs/reliability.md.
+constexpr double kMemoryOfFacet_bytes = 150.0;
+/// Coarsest tolerance that make takes.
+constexpr double kCoarsest_mm = 1.0;
+
+/// A facet in a file, about.
+double bytes_of_facet(io::FileFormat format) {
+  switch (format) {
+    case io::FileFormat::kStl:
+      return 50.0;
+    case io::FileFormat::k3mf:
+      return 14.0;
+    case io::FileFormat::kObj:
+      return 45.0;
+    case io::FileFormat::kPly:
+      return 26.0;
+    case io::FileFormat::kGlb:
+      return 22.0;
+    default:
+      return 0.0;
+  }
+}
+
+bool is_too_large(const JobSize& size) {
+  return size.facets > kMostFacets || size.file_bytes > kMostFileBytes;
+}
+
+/// "41 million"
+std::string count_text(double count) {
+  if (count < 1e6) return printed_number(count, "%.0f");
+  return count < 1e9 ? printed_number(1e-6 * count, "%.3g") + " million"
+                     : printed_number(1e-9 * count, "%.3g") + " thousand million";
+}
+
+/// The finest tolerance, in two digits, of a job that is not too large; 0: none is.
+double tolerance_that_would_do_um(const PartShapes& shapes,
+                                  const std::vector<io::FileFormat>& formats,
+                                  const std::string& part, double tolerance_mm) {
+  const auto does = [&](double tolerance) {
+    return !is_too_large(job_size(shapes, formats, part, tolerance));
+  };
+  if (!does(kCoarsest_mm)) return 0.0;
+  double fine = std::log(tolerance_mm), coarse = std::log(kCoarsest_mm);
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (fine + coarse);
+    (does(std::exp(middle)) ? coarse : fine) = middle;
+  }
+  const double tolerance_um = um_from_mm(std::exp(coarse));
+  const double digit = std::pow(10.0, std::floor(std::log10(tolerance_um)) - 1.0);
+  return std::ceil(tolerance_um / digit - 1e-9) * digit;
+}
+
+}  // namespace
+
+JobSize job_size(const PartShapes& shapes, const std::vector<io::FileFormat>& formats,
+                 const std::string& part, double tolerance_mm) {
+  double bytes_a_facet = 0.0;
+  for (const io::FileFormat format : formats) bytes_a_facet += bytes_of_facet(format);
+  if (bytes_a_facet == 0.0) return {};
+  JobSize size;
+  std::vector<double> facets(shapes.parts.size(), 0.0);
+  for (std::size_t i = 0; i < shapes.parts.size(); ++i)
+    if (part.empty() || shapes.parts[i].name == part) {
+      facets[i] = estimated_facets(shapes.parts[i], tolerance_mm);
+      size.facets += facets[i];
+    }
+  double written = size.facets;
+  if (part.empty() && shapes.assembly.size() > 1)
+    for (const Placement& body : shapes.assembly)
+      written += facets[static_cast<std::size_t>(body.part)];
+  size.file_bytes = written * bytes_a_facet;
+  size.memory_bytes = size.facets * kMemoryOfFacet_bytes;
+  return size;
+}
+
+Errors job_size_errors(const PartShapes& shapes, const std::vector<io::FileFormat>& formats,
+                       const std::string& part, double tolerance_mm) {
+  const JobSize size = job_size(shapes, formats, part, tolerance_mm);
+  if (!is_too_large(size)) return {};
+  const double would_do_um = tolerance_that_would_do_um(shapes, formats, part, tolerance_mm);
+  const auto gigabytes = [](double bytes) { return printed_number(1e-9 * bytes, "%.2g") + " GB"; };
+  return {
+      {.code = ErrorCode::kInfeasible,
+       .message = "these meshes would have about " + count_text(size.facets) + " facets, " +
+                  gigabytes(size.memory_bytes) + " of memory and " + gigabytes(size.file_bytes) +
+                  " of files; " + count_text(kMostFacets) + " facets and " +
+                  gigabytes(kMostFileBytes) + " of files are the most",
+       .key = "--tolerance-um",
+       .value = printed_number(um_from_mm(tolerance_mm), "%.6g"),
+       .remedy =
+           would_do_um > 0.0
+               ? printed_number(would_do_um, "%.3g") + " or more; or one --part, or fewer formats"
+               : "fewer teeth or less face width: no tolerance makes these meshes small enough"}};
+}
+
+}  // namespace trueflank

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every command with the system failing at its n-th call: memory, write, rename, open, close, threads.
+
+A run ends with the exit code of the environment (3) or did not need the call (0, and files as ever). What stands
+under a final name is byte for byte what an undisturbed run writes; nothing temporary stays; nothing crashes.
+
+Arguments: the library that lets calls fail, and how many places of each kind are tried.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "failing_calls"
+LIBRARY, PLACES = sys.argv[1], int(sys.argv[2])
+GEAR = """format = 1
+name = "g"
+[gearbox]
+kind = "gear"
+[gear]
+teeth = 11
+shift = 0.4
+face_width_mm = 2
+module_mm = 1
+"""
+PAIR = GEAR.replace('kind = "gear"', 'kind = "pair"\nmodule_mm = 1').replace("[gear]", "[pinion]").replace(
+    "module_mm = 1\n", "") + "[wheel]\nteeth = 13\nface_width_mm = 2\n"
+PAIR = PAIR.replace('kind = "pair"\n', 'kind = "pair"\nmodule_mm = 1\n')
+LOOP = ('{"format": "trueflank-loop", "version": 1, "gear": "gear", "effects": [{"id": "eccentricity", '
+        '"parameters": {"amplitude_um": {"value": 30}, "phase_deg": {"value": 0}}}]}')
+NEEDS = """format = 1
+name = "small"
+[gearbox]
+kind = "3k"
+[ratio]
+min = 96.2
+max = 96.3
+[teeth]
+sun_min = 12
+sun_max = 12
+planet1_min = 39
+planet1_max = 39
+[search]
+results = 1
+"""
+CENTRES = "".join(f"profile,{t},{f},{10 + 0.1 * k:.1f},1,{0.3 * ((7 * t + 3 * k) % 5)}\n"
+                  for t in (1, 4, 8) for f in ("left", "right") for k in range(12))
+
+
+def run(arguments, failing=None, count=None):
+    environment = dict(os.environ, LD_PRELOAD=LIBRARY)
+    if failing:
+        environment["FAILING_CALL"] = failing
+    if count:
+        environment["FAILING_CALL_COUNT"] = str(count)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment, timeout=120)
+
+
+def files_of(folder):
+    return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def places(calls):
+    """All of few; of many the first ones and then ever farther apart."""
+    if calls <= PLACES:
+        return list(range(1, calls + 1))
+    chosen = list(range(1, PLACES // 3 + 1))
+    while chosen[-1] < calls and len(chosen) < PLACES:
+        share = (len(chosen) - PLACES // 3 + 1) / (PLACES - PLACES // 3)
+        chosen.append(max(chosen[-1] + 1, round((PLACES // 3) * (calls / (PLACES // 3)) ** share)))
+    return [n for n in chosen if n <= calls]
+
+
+def try_command(name, arguments, kind):
+    """`arguments` is a function of the folder that the command writes to."""
+    whole = OUTPUT / f"{name}_whole"
+    whole.mkdir(parents=True)
+    count = OUTPUT / f"{name}_{kind}.count"
+    calm = run(arguments(whole), f"{kind}:0", count)
+    assert calm.returncode in (0, 1), (name, calm.stderr)
+    expected = files_of(whole)
+    calls = int(count.read_text())
+    tried = 0
+    for place in places(calls):
+        for failing in (f"{kind}:{place}", f"{kind}:{place}+"):
+            folder = OUTPUT / f"{name}_failing"
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            done = run(arguments(folder), failing)
+            told = (name, failing, done.returncode, done.stderr[-300:])
+            found = files_of(folder)
+            assert done.returncode in (3, calm.returncode), told
+            assert not [p for p in found if p.name.endswith(".tmp")], (told, list(found))
+            for path, content in found.items():
+                assert path.name.endswith(".journal") or content == expected.get(path), (told, path)
+            if done.returncode == 3:
+                assert b"trueflank: " in done.stderr or kind in ("malloc", "write"), told
+                assert b"internal error" not in done.stderr, told
+            else:
+                assert set(found) == set(expected), (told, set(expected) - set(found))
+            if kind == "thread":
+                assert done.returncode == calm.returncode, told
+            tried += 1
+    shutil.rmtree(whole)
+    return calls, tried
+
+
+def main():
+    shutil.rmtree(OUTPUT, ignore_errors=True)
+    OUTPUT.mkdir(parents=True)
+    for file, text in (("gear.toml", GEAR), ("pair.toml", PAIR), ("loop.json", LOOP), ("needs.toml", NEEDS),
+                       ("traces.csv", "record,tooth,flank,diameter_mm,z_mm,deviation_um\n" + CENTRES)):
+        (OUTPUT / file).write_text(text)
+    gear, pair = OUTPUT / "gear.toml", OUTPUT / "pair.toml"
+    assert run(["make", gear, "-o", OUTPUT / "golden", "--formats", "stl,obj", "--tolerance-um", 20]).returncode == 0
+    golden = OUTPUT / "golden"
+    commands = {
+        "make": lambda d: ["make", pair, "-o", d, "--formats", "stl,3mf,glb,step,svg,dxf,scad,pdf", "--tolerance-um",
+                           20, "--allow-failing"],
+        "correct": lambda d: ["make", gear, "-o", d, "--formats", "stl,ply", "--correct", OUTPUT / "loop.json",
+                              "--tolerance-um", 20],
+        "check": lambda d: ["check", pair, "--json", d / "c.json", "--html", d / "c.html"],
+        "compare": lambda d: ["compare", golden / "gear.stl", golden / "gear.obj", "--json", d / "c.json"],
+        "new": lambda d: ["new", "mine", "-o", d / "mine.toml"],
+        "loop": lambda d: ["loop", gear, OUTPUT / "traces.csv", "--gear", "gear", "-o", d],
+        "search": lambda d: ["search", OUTPUT / "needs.toml", "-o", d, "--threads", 2],
+    }
+    for name, arguments in commands.items():
+        for kind in ("thread", "rename", "open", "close", "write", "malloc"):
+            calls, tried = try_command(name, arguments, kind)
+            print(f"{name}: {kind} fails at {tried} places of {calls} calls", flush=True)
+
+
+if __name__ == "__main__":
+    main()

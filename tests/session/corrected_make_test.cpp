@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// make --correct with amounts that no gear can have: refused by the geometry, or made within the
+// tolerance.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "pair_design.h"
+#include "trueflank/export/mesh_reader.h"
+#include "trueflank/loop/gear/effect.h"
+#include "trueflank/session/make.h"
+#include "trueflank/solid/measure/solid_fault.h"
+
+namespace trueflank {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An effect of a loop.json, every parameter and every value of its shape the same number.
+std::string effect_json(const loop::EffectFamily& family, double amount, double shape) {
+  const auto number = [](double value) {
+    std::ostringstream text;
+    text << std::setprecision(17) << value;
+    return text.str();
+  };
+  if (!family.named && !family.term_keys.empty()) {
+    std::string term;
+    for (const loop::TermKey& key : family.term_keys)
+      term +=
+          "\"" + key.name + "\": " +
+          (key.kind == loop::TermKey::Kind::kWord ? "\"" + key.words[1] + "\"" : number(shape)) +
+          ", ";
+    for (const std::string& name : family.parameters)
+      term += "\"" + name + "\": " + number(amount) + ", ";
+    return "{\"id\": \"" + family.id + "\", \"terms\": [{" + term + "\"x\": 0}]}";
+  }
+  std::string parameters;
+  for (const std::string& name : family.parameters)
+    parameters +=
+        "\"" + name + "\": {\"value\": " + number(name == "phase_deg" ? 30.0 : amount) + "}, ";
+  for (const std::string& name : family.shape_names)
+    parameters += "\"" + name + "\": {\"value\": " + number(shape) + "}, ";
+  return "{\"id\": \"" + family.id + "\", \"parameters\": {" + parameters +
+         "\"x\": {\"value\": 0}}}";
+}
+
+class CorrectedMake : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("trueflank_corrected_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  ResultAll<MakeResult> make(const std::string& effects, double tolerance_um = 20.0) {
+    const std::string file = (folder_ / "loop.json").string();
+    std::ofstream(file)
+        << R"({"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [)" << effects
+        << "]}";
+    fs::remove_all(folder_ / "out");
+    return make_parts(gearbox_, {.folder = folder_ / "out",
+                                 .formats = {"stl"},
+                                 .tolerance_um = tolerance_um,
+                                 .part = "pinion",
+                                 .correct = file});
+  }
+  [[nodiscard]] bool written() const { return fs::exists(folder_ / "out" / "pinion.stl"); }
+
+  void expect_refused(const loop::EffectFamily& family, double amount, double shape) {
+    const auto made = make(effect_json(family, amount, shape));
+    ASSERT_FALSE(made) << family.id << " " << amount;
+    const Error& error = made.error().front();
+    EXPECT_EQ(exit_code(error.code), 2) << error.message;
+    EXPECT_NE((error.message + error.key).find(family.id), std::string::npos)
+        << error.message << error.key;
+    EXPECT_FALSE(error.file.empty());
+    EXPECT_FALSE(written()) << family.id << " " << amount;
+  }
+
+  Gearbox gearbox_ = Gearbox::read_text(pair_design(), "pair.toml").value();
+  fs::path folder_;
+};
+
+const loop::EffectFamily& family(const std::string& id) { return *loop::find_family(id); }
+
+TEST_F(CorrectedMake, RefusesWhatTheTeethCannotHoldAndNamesIt) {
+  const struct {
+    const char* id;
+    double amount, shape;
+  } cases[] = {{"scale", 100.0, 0.0},
+               {"scale", 200.0, 0.0},
+               {"scale", -99.0, 0.0},
+               {"scale", 1e12, 0.0},
+               {"contour_offset", 1e5, 0.0},
+               {"contour_offset", 1e308, 0.0},
+               {"contour_offset", -800, 0.0},
+               {"lobing", 1e12, 3.0},
+               {"lobing", 1.0, 1e6},
+               {"tooth_thickness", 1600.0, 0.0},
+               {"tooth_thickness", -1600, 0},
+               {"eccentricity", 20000.0, 0.0},
+               {"elephant_foot", 3000.0, .3},
+               {"elephant_foot", 1e12, 0.3},
+               {"elephant_foot", 100, 1e-9},
+               {"tip_relief", 2000.0, 21.0},
+               {"pressure_angle_error", 1e5, 0.0},
+               {"helix_error", 1e6, 0.0},
+               {"axis_tilt", 1e5, 0.0},
+               {"pitch_wave", 1e4, 2.0}};
+  for (const auto& [id, amount, shape] : cases) expect_refused(family(id), amount, shape);
+}
+
+TEST_F(CorrectedMake, WritesWhatProcessesRepeat) {
+  const struct {
+    const char* id;
+    double amount, shape;
+  } cases[] = {
+      {"scale", 2.0, 0.0},          {"scale", -20.0, 0.0},        {"contour_offset", 80.0, 0.0},
+      {"lobing", 50.0, 3.0},        {"tooth_thickness", 200, 0},  {"tooth_thickness", -200, 0},
+      {"eccentricity", 300.0, 0.0}, {"elephant_foot", 150.0, .3}, {"tip_relief", 40.0, 21.0},
+      {"pitch_wave", 60.0, 2.0},    {"axis_tilt", 20.0, 0.0}};
+  for (const auto& [id, amount, shape] : cases) {
+    const auto made = make(effect_json(family(id), amount, shape));
+    ASSERT_TRUE(made) << id << ": " << made.error().front().message;
+    EXPECT_FALSE(made->failed) << id;
+    const auto mesh = io::read_mesh(folder_ / "out" / "pinion.stl");
+    ASSERT_TRUE(mesh) << id;
+    EXPECT_EQ(solid_fault(*mesh), SolidFault::kNone) << id;
+    EXPECT_LE(made->report.files.front().accuracy_um, 20.0) << id;
+  }
+}
+
+TEST_F(CorrectedMake, OfEveryEffectWithEverySizeNothingWrongIsWritten) {
+  int made_it = 0, refused = 0;
+  for (const loop::EffectFamily& family : loop::effect_library())
+    for (const double amount : {-30.0, 700.0, -1e308})
+      for (const double shape : {2.0, -3.0, 1e9}) {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto made = make(effect_json(family, amount, shape));
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        EXPECT_LT(took.count(), 20.0) << family.id << " " << amount << " " << shape;
+        if (!made) {
+          ++refused;
+          EXPECT_EQ(exit_code(made.error().front().code), 2) << made.error().front().message;
+          EXPECT_FALSE(written()) << family.id << " " << amount << " " << shape;
+          continue;
+        }
+        EXPECT_EQ(written(), !made->failed);
+        if (made->failed) continue;
+        ++made_it;
+        const auto mesh = io::read_mesh(folder_ / "out" / "pinion.stl");
+        ASSERT_TRUE(mesh);
+        EXPECT_TRUE(solid_fault(*mesh) == SolidFault::kNone)
+            << family.id << " " << amount << " " << shape;
+        if (family.shape_names.empty()) break;
+      }
+  EXPECT_GT(made_it, 10);
+  EXPECT_GT(refused, 40);
+}
+
+TEST_F(CorrectedMake, SeveralEffectsAreBoundedTogether) {
+  const std::string one = effect_json(family("tooth_thickness"), 300.0, 0.0);
+  const auto alone = make(one);
+  ASSERT_TRUE(alone) << alone.error().front().message;
+  const auto both = make(one + ", " + effect_json(family("contour_offset"), 150.0, 0.0));
+  ASSERT_FALSE(both);
+  EXPECT_NE(both.error().front().message.find("with the other effects"), std::string::npos);
+}
+
+TEST_F(CorrectedMake, TeethThatWouldCutIntoTheBoreAreRefused) {
+  const std::string design = pair_design();
+  const auto at = design.find("[wheel]");
+  gearbox_ =
+      Gearbox::read_text(design.substr(0, at) + "bore_mm = 16.9\n" + design.substr(at), "pair.toml")
+          .value();
+  EXPECT_TRUE(make(effect_json(family("eccentricity"), 100.0, 0.0)));
+  const auto made = make(effect_json(family("eccentricity"), 600.0, 0.0));
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().front().message.find("cut into a bore"), std::string::npos)
+      << made.error().front().message;
+}
+
+TEST_F(CorrectedMake, ALoopFileOfWrongTypesIsAnErrorOfItsData) {
+  for (const char* effects :
+       {R"({"id": 3})", R"({"id": "scale", "parameters": 4})",
+        R"({"id": "scale", "parameters": {"percent": {"value": "x"}}})",
+        R"({"id": "scale", "repeatable": "no", "part": 7, "flank": 9, "parameters": {}})",
+        R"({"id": "unnamed", "terms": [{"order": "x"}]})",
+        R"({"id": "mine", "form": {"a": 3}, "correctable": 8})", R"("scale")", R"(null)"}) {
+    const auto made = make(effects);
+    ASSERT_FALSE(made) << effects;
+    EXPECT_EQ(exit_code(made.error().front().code), 2) << effects;
+  }
+  std::string many;
+  for (int i = 0; i < 5000; ++i)
+    many += (i > 0 ? "," : "") + effect_json(family("scale"), 1e-6, 0.0);
+  const auto made = make(many);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().front().key, "effects");
+}
+
+}  // namespace
+}  // namespace trueflank
