@@ -20,7 +20,7 @@ enum class TomlOrigin { kImplied, kHeader, kDotted, kInline };
 
 /// Entries in the order of the file.
 struct TomlTable {
-  std::vector<TomlEntry> entries = {};
+  std::vector<TomlEntry> entries;
   TomlOrigin origin = TomlOrigin::kImplied;
 
   /// nullptr where there is none.

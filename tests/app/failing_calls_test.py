@@ -123,7 +123,7 @@ def main():
                               "--tolerance-um", 20],
         "check": lambda d: ["check", pair, "--json", d / "c.json", "--html", d / "c.html"],
         "compare": lambda d: ["compare", golden / "gear.stl", golden / "gear.obj", "--json", d / "c.json"],
-        "new": lambda d: ["new", "mine", "-o", d / "mine.toml"],
+        "new": lambda d: ["new", d / "mine"],
         "loop": lambda d: ["loop", gear, OUTPUT / "traces.csv", "--gear", "gear", "-o", d],
         "search": lambda d: ["search", OUTPUT / "needs.toml", "-o", d, "--threads", 2],
     }
