@@ -28,6 +28,9 @@ set(TRUEFLANK_PUBLIC_HEADERS
   train/materials.h
   train/process.h
   train/strength.h
+  train/strength_form_factor.h
+  train/strength_iso6336.h
+  train/strength_plastic.h
   train/topology.h
   design/kinds/train_kind.h
   search/search.h

@@ -72,7 +72,7 @@ class DesignReader {
     if (const TomlTable* table = section("made")) read_made(*table);
     read_losses();
     if (const TomlTable* table = section("strength"))
-      read_keys("strength", *table, strength_keys(), file_.design.strength);
+      read_strength(*table);
     settle_module();
     settle_tools();
     report_contradictions(file_.design, kind_known_, reading_);
@@ -192,6 +192,23 @@ class DesignReader {
         report_unknown_name("rack.profile", *name, "rack", names_of(file_.tools.racks));
     }
     read_keys("rack", table, rack_keys(), file_.design.rack);
+  }
+
+  void read_strength(const TomlTable& table) {
+    StrengthDesign& strength = file_.design.strength;
+    read_keys("strength", table, strength_keys(), strength);
+    double shares = 0.0;
+    bool good = true;
+    for (const LoadStep& step : strength.spectrum) {
+      good = good && step.torque > 0.0 && step.torque <= 100.0 && step.share > 0.0;
+      shares += step.share;
+    }
+    if (strength.spectrum.empty() || (good && std::abs(shares - 1.0) < 1e-6)) return;
+    reading_.report({.code = ErrorCode::kOutOfRange,
+                     .message = good ? "the shares do not add up to 1" : "no load spectrum",
+                     .key = "strength.spectrum",
+                     .remedy = "torque:share pairs, torques above 0 as parts of the rated one, shares that add up to 1: "
+                               "\"1:0.2, 0.5:0.8\""});
   }
 
   void read_made(const TomlTable& table) {

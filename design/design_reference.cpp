@@ -169,8 +169,8 @@ std::string design_reference() {
            "input.",
            losses_keys());
   describe(text, "`[strength]`",
-           "What the allowable torque assumes ([strength](strength.md)); may be left out. The same keys as "
-           "in a\nrequirements file.",
+           "What the allowable torque assumes ([strength](strength.md)); may be left out. The factors and "
+           "`reversing`\nare keys of a requirements file too.",
            strength_keys());
   return text + kRules;
 }

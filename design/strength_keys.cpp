@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <string_view>
+
+#include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 namespace {
@@ -9,6 +14,38 @@ using Value = std::optional<KeyValue>;
 
 double number(const KeyValue& value) { return std::get<double>(value); }
 Value unless(double value, double by_default) { return value == by_default ? Value() : Value(value); }
+Value optional(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+
+/// "1:0.2, 0.5:0.8"; one step of NaN where it is not that.
+std::vector<LoadStep> read_spectrum(std::string_view text) {
+  const std::vector<LoadStep> unreadable{{kNaN, kNaN}};
+  std::vector<LoadStep> steps;
+  const auto number_at = [&](double& value) {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    return true;
+  };
+  while (true) {
+    LoadStep step;
+    if (!number_at(step.torque) || !text.starts_with(':')) return unreadable;
+    text.remove_prefix(1);
+    if (!number_at(step.share)) return unreadable;
+    steps.push_back(step);
+    if (text.empty()) return steps;
+    if (!text.starts_with(',')) return unreadable;
+    text.remove_prefix(1);
+  }
+}
+
+std::string spectrum_text(const std::vector<LoadStep>& steps) {
+  std::string text;
+  for (const LoadStep& step : steps)
+    text += (text.empty() ? "" : ", ") + toml_number(step.torque) + ":" + toml_number(step.share);
+  return text;
+}
 
 }  // namespace
 
@@ -65,6 +102,32 @@ const std::vector<DesignKey<StrengthDesign>>& strength_keys() {
        KeyPlace::kAnywhere,
        [](S& s, const KeyValue& v) { s.contact_safety = number(v); },
        [](const S& s) { return unless(s.contact_safety, S{}.contact_safety); }},
+      {{.name = "input_speed_rpm", .unit = "rpm", .lower = 0.001, .upper = 1e7, .by_default = "none",
+        .meaning = "speed of the input at the rated torque: load cycles, and temperature of plastics"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.input_speed_rpm = number(v); },
+       [](const S& s) { return optional(s.input_speed_rpm); }},
+      {{.name = "life_h", .unit = "h", .lower = 0.001, .upper = 1e7, .by_default = "endurance",
+        .meaning = "hours at that speed: limits for so many cycles"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.life_h = number(v); },
+       [](const S& s) { return optional(s.life_h); }},
+      {{.name = "ambient_c", .unit = "deg C", .lower = -60, .upper = 200, .by_default = "20",
+        .meaning = "temperature round the gears, for plastics"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.ambient_c = number(v); },
+       [](const S& s) { return unless(s.ambient_c, S{}.ambient_c); }},
+      {{.name = "lubrication", .type = KeyType::kChoice, .choices = {"dry", "grease", "oil"}, .by_default = "grease",
+        .meaning = "of plastics: friction, heat and wear follow from it"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.lubrication = std::get<std::string>(v); },
+       [](const S& s) { return s.lubrication == S{}.lubrication ? Value() : Value(s.lubrication); }},
+      {{.name = "spectrum", .type = KeyType::kText, .by_default = "the rated torque all the time",
+        .meaning = "parts of the rated torque with their shares of all revolutions: \"1:0.2, 0.5:0.8\""},
+       KeyPlace::kAnywhere,
+       // the reader refuses what is no spectrum
+       [](S& s, const KeyValue& v) { s.spectrum = read_spectrum(std::get<std::string>(v)); },
+       [](const S& s) { return s.spectrum.empty() ? Value() : Value(spectrum_text(s.spectrum)); }},
   };
   return keys;
 }

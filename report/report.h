@@ -13,6 +13,8 @@
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/inertia.h"
 #include "trueflank/train/strength.h"
+#include "trueflank/train/strength_iso6336.h"
+#include "trueflank/train/strength_plastic.h"
 
 namespace trueflank::io {
 
@@ -36,6 +38,8 @@ struct Report {
   std::optional<ReportedCure> cure;  ///< of a design that fails
   EfficiencyResult efficiency;
   std::optional<StrengthResult> strength;  ///< none for a single gear
+  std::optional<Iso6336Result> iso6336;    ///< none where a gear that carries is of a plastic
+  std::optional<PlasticResult> plastic;    ///< none without a gear of a plastic
   std::optional<ReportedInertia> inertia;
   std::vector<MeshSweep> sweeps;     ///< in the order of the train's meshes; may be empty
   double tolerance_um = kNaN;        ///< NaN for check

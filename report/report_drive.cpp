@@ -38,7 +38,60 @@ Json tooth_json(const MeshStrength::Tooth& tooth) {
           {"bending_torque_nm", tooth.bending_torque_nm}};
 }
 
+Json iso_tooth_json(const Iso6336Mesh::Tooth& tooth) {
+  return {{"gear", tooth.gear},           {"Y_Fa", tooth.form_factor},     {"Y_Sa", tooth.notch_factor},
+          {"Y_B", tooth.rim_factor},      {"Y_NT", tooth.life_factor},     {"Y_X", tooth.size_factor},
+          {"Y_deltarelT", tooth.sensitivity_factor},
+          {"stress_mpa_per_n", tooth.stress_per_n},
+          {"limit_mpa", tooth.limit_mpa}, {"output_nm", tooth.output_nm}, {"cycles", tooth.cycles}};
+}
+
+Json iso6336_json(const Iso6336Result& iso) {
+  Json json = {{"output_torque_nm", iso.output_torque_nm},
+               {"limiting_mesh", iso.limiting_mesh},
+               {"limiting_gear", iso.limiting_gear},
+               {"limiting_mode", iso.limiting_mode},
+               {"meshes", Json::object()}};
+  for (const Iso6336Mesh& mesh : iso.meshes)
+    json["meshes"][mesh.name] = {{"tooth1", iso_tooth_json(mesh.tooth1)},
+                                 {"tooth2", iso_tooth_json(mesh.tooth2)},
+                                 {"Z_H", mesh.zone_factor},
+                                 {"Z_E", mesh.elasticity_factor},
+                                 {"Z_epsilon", mesh.contact_ratio_factor},
+                                 {"Z_beta", mesh.helix_factor},
+                                 {"Z_B", mesh.single_contact_factor1},
+                                 {"Z_D", mesh.single_contact_factor2},
+                                 {"contact_output_nm", mesh.contact_output_nm}};
+  return json;
+}
+
+Json plastic_json(const PlasticResult& plastic) {
+  Json json = {{"output_torque_nm", plastic.output_torque_nm},
+               {"limiting_gear", plastic.limiting_gear},
+               {"limiting_mode", plastic.limiting_mode},
+               {"teeth", Json::array()}};
+  for (const PlasticTooth& t : plastic.teeth)
+    json["teeth"].push_back({{"mesh", t.mesh}, {"gear", t.gear}, {"material", t.material}, {"root_c", t.root_c},
+                             {"flank_c", t.flank_c}, {"root_stress_mpa", t.root_stress_mpa},
+                             {"root_limit_mpa", t.root_limit_mpa}, {"flank_stress_mpa", t.flank_stress_mpa},
+                             {"flank_limit_mpa", t.flank_limit_mpa}, {"cycles", t.cycles}, {"wear_um", t.wear_um},
+                             {"bent_um", t.bent_um}});
+  return json;
+}
+
 }  // namespace
+
+std::string limiting_material(const StrengthResult& strength) {
+  std::string materials;
+  for (const MeshStrength& mesh : strength.meshes) {
+    if (mesh.name != strength.limiting_mesh) continue;
+    for (const auto* tooth : {&mesh.tooth1, &mesh.tooth2})
+      if (strength.limiting_gear.find(tooth->gear) != std::string::npos &&
+          materials.find(tooth->material) == std::string::npos)
+        materials += (materials.empty() ? "" : ", ") + tooth->material;
+  }
+  return materials;
+}
 
 std::string efficiency_json_text(const EfficiencyResult& efficiency) {
   Json json = {{"friction", efficiency.friction},
@@ -73,12 +126,14 @@ std::string efficiency_json_text(const EfficiencyResult& efficiency) {
   return json.dump();
 }
 
-std::string strength_json_text(const StrengthResult& strength) {
+std::string strength_json_text(const Report& report) {
+  const StrengthResult& strength = *report.strength;
   Json json = {{"output_torque_nm", strength.output_torque_nm},
                {"input_torque_nm", strength.input_torque_nm},
                {"limiting_mesh", strength.limiting_mesh},
                {"limiting_gear", strength.limiting_gear},
-               {"limiting_mode", strength.limiting_mode}};
+               {"limiting_mode", strength.limiting_mode},
+               {"limiting_material", limiting_material(strength)}};
   json["meshes"] = Json::object();
   for (const MeshStrength& mesh : strength.meshes) {
     Json entry = {{"bending_output_nm", mesh.bending_output_nm},
@@ -92,6 +147,8 @@ std::string strength_json_text(const StrengthResult& strength) {
                                          {"from", factor.computed ? "computed" : "assumed"}};
     json["meshes"][mesh.name] = std::move(entry);
   }
+  json["iso6336"] = report.iso6336 ? iso6336_json(*report.iso6336) : Json(nullptr);
+  json["plastic"] = report.plastic ? plastic_json(*report.plastic) : Json(nullptr);
   return json.dump();
 }
 

@@ -11,7 +11,10 @@
 namespace trueflank::io {
 
 [[nodiscard]] std::string efficiency_json_text(const EfficiencyResult& efficiency);
-[[nodiscard]] std::string strength_json_text(const StrengthResult& strength);
+/// With ISO 6336 and plastics beside it, where the report has them.
+[[nodiscard]] std::string strength_json_text(const Report& report);
+/// What the tooth is made of that limits the torque; of both gears where their flanks do.
+[[nodiscard]] std::string limiting_material(const StrengthResult& strength);
 [[nodiscard]] std::string inertia_json_text(const ReportedInertia& inertia);
 
 /// The forces of axial_thrust, and the same at a torque on the sun [N m]; null where that is NaN.

@@ -220,7 +220,7 @@ std::string report_json(const Report& report) {
     json["axial_thrust"] = Json::parse(
         axial_thrust_json_text(axial_thrust(train, report.efficiency.forward_drive), torque));
   }
-  if (report.strength) json["strength"] = Json::parse(strength_json_text(*report.strength));
+  if (report.strength) json["strength"] = Json::parse(strength_json_text(report));
   if (report.inertia) json["inertia"] = Json::parse(inertia_json_text(*report.inertia));
   if (!report.files.empty()) {
     json["tolerance_um"] = report.tolerance_um;

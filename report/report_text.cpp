@@ -5,6 +5,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/report/report.h"
+#include "trueflank/report/report_drive.h"
 #include "trueflank/train/axial_thrust.h"
 #include "trueflank/train/mesh_face.h"
 
@@ -85,17 +86,13 @@ std::string interrupted_text(const GearTrain& train, const EfficiencyResult& e) 
   return meshes.empty() ? "" : wrapped("efficiency: none, contact is interrupted in " + meshes, 0);
 }
 
-/// What the tooth is made of that limits the torque; of both where their flanks do.
-std::string limiting_material(const StrengthResult& strength) {
-  std::string materials;
-  for (const MeshStrength& mesh : strength.meshes) {
-    if (mesh.name != strength.limiting_mesh) continue;
-    for (const auto* tooth : {&mesh.tooth1, &mesh.tooth2})
-      if (strength.limiting_gear.find(tooth->gear) != std::string::npos &&
-          materials.find(tooth->material) == std::string::npos)
-        materials += (materials.empty() ? "" : ", ") + tooth->material;
-  }
-  return materials;
+std::string plastic_text(const PlasticResult& plastic) {
+  std::string text = "  in the form of VDI 2736 for the plastics: " + formatted("%.4g", plastic.output_torque_nm) +
+                     " N m, limited by " + plastic.limiting_mode + " of " + plastic.limiting_gear;
+  double hottest = kNaN;
+  for (const PlasticTooth& t : plastic.teeth)
+    if (!(t.flank_c <= hottest)) hottest = t.flank_c;
+  return wrapped(text.substr(2) + ", flanks at " + formatted("%.0f", hottest) + " deg C", 2);
 }
 
 std::string heading_text(const Report& report) {
@@ -126,6 +123,10 @@ std::string heading_text(const Report& report) {
     text += "allowable output torque " + formatted("%.4g", s.output_torque_nm) + " N m, limited by " +
             s.limiting_mode + " of " + s.limiting_gear + " (" + limiting_material(s) + ")\n";
   }
+  if (report.iso6336 && !std::isnan(report.iso6336->output_torque_nm))
+    text += "  in the form of ISO 6336: " + formatted("%.4g", report.iso6336->output_torque_nm) + " N m, limited by " +
+            report.iso6336->limiting_mode + " of " + report.iso6336->limiting_gear + "\n";
+  if (report.plastic) text += plastic_text(*report.plastic);
   return text + "\n";
 }
 

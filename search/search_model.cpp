@@ -400,6 +400,9 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
   design.backlash_mm = r.backlash_mm.value_or(kUsualBacklash * m1);
   design.tips = TipCircles::kStandard;  // the circles of this model
   design.rack = r.rack;
+  // a material of the requirements' own is in no design's table
+  if (r.strength.material != kDefaultMaterial && MaterialTable().find(r.strength.material))
+    design.material = r.strength.material;
   const auto add = [&](const char* name, GearKind kind, int teeth, double shift, double module) {
     GearDesign gear;
     gear.name = name;

@@ -31,6 +31,10 @@ void add_drive(const Gearbox& gearbox, const StrengthOptions& strength_options, 
   report.efficiency = efficiency(train);
   if (train.meshes.empty()) return;
   if (auto result = strength(train, strength_options)) report.strength = std::move(*result);
+  if (auto result = strength_plastic(train, strength_options); result && !result->teeth.empty())
+    report.plastic = std::move(*result);
+  else if (auto iso = strength_iso6336(train, strength_options))
+    report.iso6336 = std::move(*iso);
   const auto& shapes = gearbox.parts();  // what does not fit is told where the parts are made
   if (!shapes) return;
   // a body is of its first gear's material, a carrier of the gearbox's

@@ -99,7 +99,8 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
 
 std::string search_json(const SearchTask& task, const SearchReport& report) {
   std::string text = "{\"format\": \"trueflank-search\", \"version\": 1, \"name\": " +
-                     json_string(task.requirements.name);
+                     json_string(task.requirements.name) +
+                     ", \"material\": " + json_string(task.requirements.strength.material);
   text += ",\n  \"considered\": " + std::to_string(report.considered);
   text += ",\n  \"rejected\": " + classes_json(report.classes);
   text += ",\n  \"optimised\": " + std::to_string(report.optimised) +

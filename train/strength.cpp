@@ -4,47 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueflank/train/efficiency.h"
 #include "trueflank/train/strength_form_factor.h"
-#include "trueflank/train/mesh_face.h"
+#include "trueflank/train/strength_mesh.h"
 
 namespace trueflank {
 namespace {
 
 /// JGMA 401-01: a tooth bent both ways carries two thirds.
 constexpr double kBothWays = 2.0 / 3.0;
-
-Result<const Material*> material_of(const StrengthOptions& options, const std::string& gear) {
-  const auto it = options.material_of.find(gear);
-  const std::string& name = it == options.material_of.end() ? options.material : it->second;
-  const Material* material = options.materials.find(name);
-  if (material) return material;
-  std::string known;
-  for (const Material& m : options.materials.all()) known += (known.empty() ? "" : ", ") + m.name;
-  return fail({.code = ErrorCode::kInconsistent,
-               .message = "no material of this name in the table",
-               .key = gear + ".material",
-               .value = name,
-               .remedy = "one of " + known});
-}
-
-struct MeshGeometry {
-  GearPair pair;
-  double face_width_mm = kNaN;
-  double contact_ratio = kNaN;  ///< never below 1
-  double overlap_ratio = 0.0;
-  int count = 1;  ///< of equal meshes: planets
-};
-
-MeshGeometry geometry_of(const GearTrain& train, const TrainMesh& mesh) {
-  MeshGeometry g{.pair = train.pair(mesh)};
-  g.face_width_mm = common_face(train, mesh).carrying_mm;
-  g.contact_ratio = std::max(1.0, contact_ratios(g.pair).effective);
-  g.overlap_ratio = overlap_ratio(train, mesh);
-  g.count = std::max(train.copies_of(train.topology().gears[static_cast<std::size_t>(mesh.gear1)].member),
-                     train.copies_of(train.topology().gears[static_cast<std::size_t>(mesh.gear2)].member));
-  return g;
-}
 
 double helix_angle_factor(const Gear& gear) {
   const double beta_deg = deg_from_rad(std::abs(gear.helix_angle_rad));
@@ -65,20 +32,6 @@ void set_bending(const MeshGeometry& g, const ToothProfile& profile, const Mater
                           options.bending_safety;
   tooth.bending_torque_nm = tooth.bending_force_n * reference_radius_mm(gear) * 1e-3 * g.count /
                             options.planet_load_factor;
-}
-
-double zone_factor(const MeshGeometry& g) {
-  const double alpha_t = transverse_pressure_angle_rad(g.pair.gear1());
-  const double alpha_wt = working_pressure_angle_rad(g.pair);
-  return std::sqrt(2.0 * std::cos(base_helix_angle_rad(g.pair.gear1())) / std::tan(alpha_wt)) /
-         std::cos(alpha_t);
-}
-
-double elasticity_factor(const Material& m1, const Material& m2) {
-  const auto compliance = [](const Material& m) {
-    return (1.0 - m.poisson_ratio * m.poisson_ratio) / m.elastic_modulus_mpa;
-  };
-  return std::sqrt(1.0 / (kPi * (compliance(m1) + compliance(m2))));
 }
 
 /// JGMA 402-01: 1 for spur gears, the effect of overlap for helical ones.
@@ -120,19 +73,6 @@ std::vector<StrengthFactor> assumed_factors(const StrengthOptions& options) {
           {"S_H", options.contact_safety, false}};
 }
 
-/// A gear that is driven in one mesh and drives in another is bent both ways.
-bool passes_power_on(const GearTrain& train, const DirectionEfficiency& drive, int gear) {
-  bool drives = false, driven = false;
-  for (std::size_t k = 0; k < train.meshes.size(); ++k) {
-    const TrainMesh& mesh = train.meshes[k];
-    if (mesh.gear1 != gear && mesh.gear2 != gear) continue;
-    if (drive.meshes[k].driving_gear.empty()) continue;  // it idles
-    (drive.meshes[k].driving_gear == train.gears[static_cast<std::size_t>(gear)].name ? drives
-                                                                                      : driven) = true;
-  }
-  return drives && driven;
-}
-
 void take_smaller(double output_nm, const MeshStrength& mesh, const std::string& gear,
                   const char* mode, StrengthResult& result) {
   if (!(output_nm < result.output_torque_nm) && !std::isnan(result.output_torque_nm)) return;
@@ -140,10 +80,6 @@ void take_smaller(double output_nm, const MeshStrength& mesh, const std::string&
   result.limiting_mesh = mesh.name;
   result.limiting_gear = gear;
   result.limiting_mode = mode;
-}
-
-double output_per_input(const GearTrain& train, const DirectionEfficiency& drive) {
-  return std::abs(drive.members[static_cast<std::size_t>(train.topology().output)].torque);
 }
 
 }  // namespace
@@ -160,6 +96,11 @@ StrengthOptions with_factors_of(const GearboxDesign& design, StrengthOptions opt
   options.lubrication_factor = s.lubrication_factor;
   options.bending_safety = s.bending_safety;
   options.contact_safety = s.contact_safety;
+  options.input_speed_rpm = s.input_speed_rpm;
+  options.life_h = s.life_h;
+  options.ambient_c = s.ambient_c;
+  options.lubrication = s.lubrication;
+  options.spectrum = s.spectrum;
   return options;
 }
 
@@ -174,7 +115,7 @@ Result<StrengthResult> strength(const GearTrain& train, const StrengthOptions& o
     const auto m1 = material_of(options, gear1.name), m2 = material_of(options, gear2.name);
     if (!m1) return fail(m1.error());
     if (!m2) return fail(m2.error());
-    const MeshGeometry g = geometry_of(train, mesh);
+    const MeshGeometry g = mesh_geometry(train, mesh);
     MeshStrength entry;
     entry.name = mesh.name;
     entry.tooth1.gear = gear1.name;

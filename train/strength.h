@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct StrengthOptions {
   double lubrication_factor = 1.0;      ///< Z_L Z_R Z_V Z_W together, assumed
   double bending_safety = 1.2;          ///< S_F
   double contact_safety = 1.15;         ///< S_H
+  std::optional<double> input_speed_rpm = {};  ///< omitted: no cycles, no temperature
+  std::optional<double> life_h = {};           ///< omitted: the endurance limit
+  double ambient_c = 20.0;
+  std::string lubrication = "grease";   ///< of plastics: dry, grease, oil
+  std::vector<LoadStep> spectrum = {};  ///< empty: the rated torque all the time
 };
 
 /// One factor of the calculation and whether it came from the geometry or from the options.

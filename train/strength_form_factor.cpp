@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/train/strength_form_factor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -60,6 +61,18 @@ CriticalSection section_at(const Gear& gear, const TipLoad& load, const Point2& 
   return section;
 }
 
+/// Radius of curvature by the turn of the tangent over a short piece; 0 at an end that is a corner.
+double curvature_radius_mm(const Curve& curve, double parameter) {
+  const double step = 1e-4 * (curve.end - curve.begin);
+  const auto inside = [&](double t) {
+    return std::clamp(t, std::min(curve.begin, curve.end), std::max(curve.begin, curve.end));
+  };
+  const double from = inside(parameter - step), to = inside(parameter + step);
+  const Point2 a = tangent_at(curve, from), b = tangent_at(curve, to);
+  const double turn = std::abs(std::atan2(cross(a, b), a.dot(b)));
+  return (point_at(curve, to) - point_at(curve, from)).norm() / turn;
+}
+
 }  // namespace
 
 CriticalSection critical_section(const ToothProfile& profile) {
@@ -71,10 +84,14 @@ CriticalSection critical_section(const ToothProfile& profile) {
   worst.tangent_found = false;
   for (const ProfilePiece& piece : profile.pieces()) {
     if (piece.kind != PieceKind::kFillet) continue;
-    if (const auto t = parameter_at_tangent(piece.curve, angle))
-      return section_at(gear, load, point_at(piece.curve, *t));
+    if (const auto t = parameter_at_tangent(piece.curve, angle)) {
+      CriticalSection section = section_at(gear, load, point_at(piece.curve, *t));
+      section.fillet_radius_mm = curvature_radius_mm(piece.curve, *t);
+      return section;
+    }
     for (const double t : {piece.curve.begin, piece.curve.end}) {
       CriticalSection section = section_at(gear, load, point_at(piece.curve, t));
+      section.fillet_radius_mm = curvature_radius_mm(piece.curve, t);
       section.tangent_found = false;
       if (!(section.form_factor <= worst.form_factor)) worst = section;
     }
@@ -90,9 +107,9 @@ CriticalSection critical_section(const ToothProfile& profile) {
   return worst;
 }
 
-double form_factor(const ToothProfile& profile) {
+CriticalSection normal_section(const ToothProfile& profile) {
   const Gear& gear = profile.gear();
-  const double transverse = critical_section(profile).form_factor;
+  const CriticalSection transverse = critical_section(profile);
   if (gear.helix_angle_rad == 0.0 || gear.cutter) return transverse;
   const double cos_b = std::cos(base_helix_angle_rad(gear)), cos_beta = std::cos(gear.helix_angle_rad);
   const double teeth = gear.teeth / (cos_b * cos_b * cos_beta);
@@ -104,14 +121,19 @@ double form_factor(const ToothProfile& profile) {
     spur.tip_radius_mm =
         reference_radius_mm(spur) + profile.tip_radius_mm() - reference_radius_mm(gear);
     const auto made = ToothProfile::make(spur);
-    return made ? critical_section(*made).form_factor : kNaN;
+    return made ? critical_section(*made) : CriticalSection{};
   };
   const double low = std::floor(teeth);
-  const double y_low = of_virtual(static_cast<int>(low)), y_high = of_virtual(static_cast<int>(low) + 1);
+  CriticalSection section = of_virtual(static_cast<int>(low));
+  const CriticalSection high = of_virtual(static_cast<int>(low) + 1);
   // nearly linear in 1 / z
   const double share = (1.0 / low - 1.0 / teeth) / (1.0 / low - 1.0 / (low + 1.0));
-  const double y = y_low + share * (y_high - y_low);
-  return std::isnan(y) ? transverse : y;
+  for (const auto member : {&CriticalSection::form_factor, &CriticalSection::thickness_mm, &CriticalSection::lever_mm,
+                            &CriticalSection::load_angle_rad, &CriticalSection::fillet_radius_mm})
+    section.*member += share * (high.*member - section.*member);
+  return std::isnan(section.form_factor) ? transverse : section;
 }
+
+double form_factor(const ToothProfile& profile) { return normal_section(profile).form_factor; }
 
 }  // namespace trueflank

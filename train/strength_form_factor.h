@@ -12,6 +12,7 @@ struct CriticalSection {
   double thickness_mm = kNaN;    ///< s_F, chord
   double lever_mm = kNaN;        ///< h_F, from the section to where the load crosses the tooth's middle
   double load_angle_rad = kNaN;  ///< between the load and the section's plane
+  double fillet_radius_mm = kNaN;  ///< of curvature, where the section meets the fillet
   bool tangent_found = true;     ///< else the section of the greatest bending stress was taken
 };
 
@@ -22,10 +23,12 @@ struct CriticalSection {
 /// Accuracy: the tangent point is found to 1e-9 of the piece's parameter.
 [[nodiscard]] CriticalSection critical_section(const ToothProfile& profile);
 
-/// Y_F of a gear: of its own section for spur teeth; for helical ones of the virtual spur gear in the
+/// The critical section of a gear: its own for spur teeth; for helical ones of the virtual spur gear in the
 /// normal section, z_n = z / (cos^2 beta_b cos beta) teeth with the same rack, shift and tooth heights
 /// (ISO 6336-3, JGMA 401-01), between the two whole numbers of teeth next to it. A shaped ring, whose
 /// cutter has no virtual one, and a virtual gear that does not exist count by the transverse section.
+[[nodiscard]] CriticalSection normal_section(const ToothProfile& profile);
+/// Y_F of it.
 [[nodiscard]] double form_factor(const ToothProfile& profile);
 
 }  // namespace trueflank

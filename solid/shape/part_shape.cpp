@@ -9,15 +9,15 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/shape/carrier.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/ring_rim.h"
 
 namespace trueflank {
 namespace {
 
 /// Least wall between two outlines, of the module: thinner it is no part of a gear.
 constexpr double kLeastWall = 0.25;
-/// Rim of a ring without an outer diameter: of the module, and at least in mm.
-constexpr double kRim = 2.5;
-constexpr double kLeastRim_mm = 2.0;
+/// Wall outside the bolts of a rim without an outer diameter, at least.
+constexpr double kLeastBoltWall_mm = 2.0;
 /// The neck of a compound planet stays this part of the module inside the smaller root circle.
 constexpr double kNeckInset = 0.25;
 /// The groove between the halves of a herringbone is cut this part of the module deeper than the roots.
@@ -166,11 +166,11 @@ class ShapeBuilder {
                    "at least " + text(2.0 * least) + " mm");
       return 0.5 * *design.outer_diameter_mm;
     }
-    double rim = root + std::max(kRim * m, kLeastRim_mm);
+    double rim = root + usual_rim_mm(m);
     const BoltCircleDesign& bolts = design.bolt_circle;
     if (bolts.count > 0)
       rim = std::max(rim, 0.5 * (bolts.circle_diameter_mm + bolts.hole_diameter_mm) +
-                              std::max(m, kLeastRim_mm));
+                              std::max(m, kLeastBoltWall_mm));
     return rim;
   }
 

@@ -92,7 +92,7 @@ function drawHeader() {
   if (report.train.centre_distance_mm !== null)
     cards.push(card('Centre distance', number('train/centre_distance_mm', 4), h('small', {}, 'mm')));
   const strength = model.strength?.output_torque_nm;
-  if (isNumber(strength)) cards.push(card('Allowable output torque', text(strength, 2), h('small', {}, 'N m')));
+  if (isNumber(strength)) cards.push(card('Allowable output torque', text(strength, 2), h('small', {}, `N m, ${report.strength.limiting_material}`)));
   const runs = report.checks.find((c) => c.id === 'tolerance' && c.where === 'train' && isNumber(c.value));
   if (runs) cards.push(card('Sets that assemble and run', text(100 - runs.value, 2), h('small', {}, '% within tolerances')));
   const files = report.files ?? [];
@@ -288,15 +288,34 @@ function drawStrength(body) {
   if (!strength) return;
   body.append(h('h3', {}, 'Allowable torque'),
     h('p', {class: 'note'}, `Root bending and surface durability after JGMA 401 and 402 allow ${text(strength.output_torque_nm, 2)} N m at the output; `
-      + `${strength.limiting_gear} in ${strength.limiting_mesh} is the limit, by ${strength.limiting_mode}.`),
+      + `${strength.limiting_gear} in ${strength.limiting_mesh} is the limit, by ${strength.limiting_mode} (${report.strength.limiting_material}).`),
     table('Output torque at which each mesh reaches its limit, N m', ['Mesh', 'Materials', column('Root bending'), column('Flank contact')],
       strength.meshes.map((m) => h('tr', {}, h('th', {scope: 'row'}, m.name), h('td', {}, m.material1 === m.material2 ? m.material1 : `${m.material1} / ${m.material2}`),
         h('td', {class: 'n'}, text(m.bending_output_nm, 2)), h('td', {class: 'n'}, text(m.contact_output_nm, 2)))), 'numbers'));
 }
+/** The same limits after ISO 6336, or of plastics after VDI 2736, from report.json. */
+function drawOtherRatings(body) {
+  const {iso6336: iso, plastic} = report.strength ?? {};
+  if (iso && isNumber(iso.output_torque_nm)) body.append(h('p', {class: 'note'},
+    `In the form of ISO 6336 ${text(iso.output_torque_nm, 2)} N m, limited by ${iso.limiting_mode} of ${iso.limiting_gear} `
+    + `(${report.strength.limiting_material}).`));
+  if (!plastic) return;
+  body.append(h('p', {class: 'note'}, `Plastics in the form of VDI 2736: ${text(plastic.output_torque_nm, 3)} N m, limited by `
+    + `${plastic.limiting_mode} of ${plastic.limiting_gear}. At that torque:`),
+  table('Plastic teeth at the allowable torque', ['Gear', 'Mesh', 'Material', column('Root °C'), column('Flank °C'), column('Root MPa'),
+    column('of'), column('Flank MPa'), column('of'), column('Bent µm')],
+  plastic.teeth.map((t) => h('tr', {}, h('th', {scope: 'row'}, t.gear), h('td', {}, t.mesh), h('td', {}, t.material),
+    ['root_c', 'flank_c', 'root_stress_mpa', 'root_limit_mpa', 'flank_stress_mpa', 'flank_limit_mpa', 'bent_um'].map((key) =>
+      h('td', {class: 'n'}, isNumber(t[key]) ? text(t[key], 1) : '–')))), 'numbers'));
+}
 function drawEfficiency() {
   const body = byId('efficiency-body');
   const e = report.efficiency;
-  if (e.forward === null) { body.append(h('p', {class: 'note'}, 'A single gear has no mesh to lose power in.')); return; }
+  if (e.forward === null) {
+    body.append(h('p', {class: 'note'}, Object.keys(report.meshes).length ? 'Contact is interrupted: there is no efficiency.'
+      : 'A single gear has no mesh to lose power in.'));
+    return;
+  }
   const bar = (title, key) => [h('span', {}, title),
     h('div', {class: 'track'}, h('div', {class: 'fill', style: `width:${Math.max(0, 100 * e[key])}%`})),
     h('span', {class: 'value', 'data-path': `efficiency/${key}`, 'data-factor': 100},
@@ -317,6 +336,7 @@ function drawEfficiency() {
     fill();
   }
   drawStrength(body);
+  drawOtherRatings(body);
 }
 
 // ---------------------------------------------------------------------------------------- files

@@ -67,6 +67,24 @@ def main():
     _, over = check("--material", "brass", pinion='material = "pom"')
     assert teeth(over) == ("brass", "brass")
 
+    # every torque with its material; ISO 6336 for metals, VDI 2736 for plastics
+    done = subprocess.run([PROGRAM, "check", OUTPUT / "design.toml"], capture_output=True, text=True)
+    assert "(brass)" in done.stdout and "in the form of ISO 6336" in done.stdout, done.stdout
+    strength = plain["strength"]
+    assert strength["limiting_material"] == "scm440-hb280" and strength["plastic"] is None
+    assert 0.5 < strength["iso6336"]["output_torque_nm"] / strength["output_torque_nm"] < 2, strength["iso6336"]
+    assert mixed["strength"]["limiting_material"] == "pom" and mixed["strength"]["iso6336"] is None
+    cool = mixed["strength"]["plastic"]
+    assert [t["gear"] for t in cool["teeth"]] == ["wheel"] and cool["teeth"][0]["flank_c"] == 20, cool
+    _, fast = check(gearbox='material = "pom"', pinion='material = "brass"',
+                    rest='[strength]\ninput_speed_rpm = 2000\nlife_h = 1000\nlubrication = "dry"\n')
+    hot = fast["strength"]["plastic"]
+    assert hot["output_torque_nm"] < cool["output_torque_nm"], (hot, cool)
+    assert hot["teeth"][0]["flank_c"] > 30 and hot["teeth"][0]["wear_um"] > 0, hot
+    assert hot["teeth"][0]["cycles"] == 2000 * 60 * 1000 / 2, hot
+    _, eased = check(rest='[strength]\nspectrum = "1:0.1, 0.4:0.9"\n')
+    assert eased["strength"]["iso6336"]["output_torque_nm"] > strength["iso6336"]["output_torque_nm"]
+
     done, _ = check(pinion='material = "unobtainium"')
     assert done.returncode == 2
     for word in ("design.toml:10", "pinion.material", "unobtainium", "scm440-hb280"):

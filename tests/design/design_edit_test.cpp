@@ -151,5 +151,39 @@ TEST(StrengthTable, IsReadAndWritten) {
   EXPECT_EQ(read(design_file_text(design)), design);
 }
 
+TEST(StrengthTable, HoldsSpeedLifeAndSpectrumOrSaysWhatIsWrong) {
+  const std::string head = "format = 1\nname = \"s\"\n[gearbox]\nkind = \"pair\"\nmodule_mm = 1\n[pinion]\nteeth = 20\nface_width_mm = 8\n[wheel]\nteeth = 40\nface_width_mm = 8\n[strength]\n";
+  const GearboxDesign design = read(head + "input_speed_rpm = 1500\nlife_h = 200\nambient_c = 40\nlubrication = \"dry\"\nspectrum = \"1:0.2, 0.5 : 0.8\"\n");
+  EXPECT_EQ(design.strength.input_speed_rpm, 1500.0);
+  EXPECT_EQ(design.strength.life_h, 200.0);
+  EXPECT_EQ(design.strength.ambient_c, 40.0);
+  EXPECT_EQ(design.strength.lubrication, "dry");
+  EXPECT_EQ(design.strength.spectrum, (std::vector<LoadStep>{{1.0, 0.2}, {0.5, 0.8}}));
+  EXPECT_EQ(read(design_file_text(design)), design);
+  for (const char* bad : {"", "1", "1:", "1:0.5", "1:0.5, ", "1:0.5,0:0.5", "-1:1", "1:0.5; 2:0.5", "nan:1", "x"}) {
+    const auto refused = read_design_text(head + "spectrum = \"" + bad + "\"\n", "a.toml");
+    ASSERT_FALSE(refused.has_value()) << bad;
+    EXPECT_EQ(refused.error().front().key, "strength.spectrum") << bad;
+    EXPECT_EQ(refused.error().front().line, 13) << bad;
+  }
+}
+
+TEST(MadeTable, HoldsTolerancesAndAClearance) {
+  const std::string head = "format = 1\nname = \"s\"\n[gearbox]\nkind = \"pair\"\nmodule_mm = 1\n[pinion]\nteeth = 20\nface_width_mm = 8\n[wheel]\nteeth = 40\nface_width_mm = 8\n[made]\n";
+  const GearboxDesign design = read(head + "tolerance_class = 7\naxis_tolerance_um = 12.5\nthickness_tolerance_um = 8\nclearance_um = 15\n");
+  EXPECT_EQ(design.made.tolerance_class, 7);
+  EXPECT_NEAR(*design.made.axis_tolerance_mm, 0.0125, 1e-15);
+  EXPECT_NEAR(*design.made.thickness_tolerance_mm, 0.008, 1e-15);
+  EXPECT_NEAR(*design.made.clearance_mm, 0.015, 1e-15);
+  const GearboxDesign again = read(design_file_text(design));
+  EXPECT_NEAR(*again.made.clearance_mm, 0.015, 1e-12);
+  EXPECT_EQ(again.made.tolerance_class, 7);
+  for (const char* bad : {"tolerance_class = 0", "tolerance_class = 7.5", "clearance_um = -1"}) {
+    const auto refused = read_design_text(head + bad + "\n", "a.toml");
+    ASSERT_FALSE(refused.has_value()) << bad;
+    EXPECT_EQ(refused.error().front().line, 13) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace trueflank
