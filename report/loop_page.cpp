@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/report/loop_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
@@ -109,6 +110,11 @@ std::string words(std::string id) {
   return id;
 }
 
+/// A quarter above the noise, and as much more as so many values may scatter.
+double larger_than_noise(double noise, int values) {
+  return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1, values)));
+}
+
 /// What does not add up: a reader must not miss it.
 std::string alarm(const LoopResult& r) {
   std::vector<std::string> wrong;
@@ -118,7 +124,8 @@ std::string alarm(const LoopResult& r) {
     wrong.push_back("On data held out from the fit the error grew from " + size(r.before.held_out_rms) + " to " +
                     size(r.after.held_out_rms) + ": do not act on these effects.");
   if (r.verdict == Verdict::kPartlyExplained) wrong.push_back("Structure is left: " + r.structure_left + ".");
-  else if (r.after.held_out_rms > 1.25 * r.noise || r.after.rms > 1.25 * r.noise)
+  else if (r.after.rms > larger_than_noise(r.noise, r.observations) ||
+           r.after.held_out_rms > larger_than_noise(r.noise, r.held_out))
     wrong.push_back("What is left (" + size(r.after.rms) + ", held out " + size(r.after.held_out_rms) +
                     ") is larger than the noise of the measurement (" + size(r.noise) + ").");
   if (20 * r.outliers > r.observations && r.outliers > 2)

@@ -92,6 +92,8 @@ struct CalibratedLosses;
 struct DriveFamily : EffectFacts {
   std::string side = {};                ///< of sensor effects: input or output
   bool is_loss = true;                  ///< takes power: never fitted to data that gain power
+  /// What a loss follows: effects that follow the same are kin; empty: none of load, speed and warmth.
+  std::string follows = {};
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
 
   /// @name Columns

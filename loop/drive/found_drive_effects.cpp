@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
@@ -44,6 +45,7 @@ class Describer {
       if (effect.family->named) {
         found_.push_back(common(e));
         add_parameters(found_.back(), e);
+        if (is_a_guess(found_.back())) take_the_name(found_.back(), e);
         members_.push_back({e});
         continue;
       }
@@ -95,6 +97,44 @@ class Describer {
     }
     std::sort(found.confounded_with.begin(), found.confounded_with.end());
     return found;
+  }
+
+  /// True where a loss may as well follow the load, the speed or nothing: what it is was not measured.
+  [[nodiscard]] static bool is_a_guess(const FoundEffect& found) {
+    constexpr std::size_t kTooMany = 3;
+    std::set<std::string> follows;
+    const auto add = [&](const std::string& id) {
+      if (const DriveFamily* family = find_drive_family(id); family && !family->follows.empty())
+        follows.insert(family->follows);
+    };
+    add(found.id);
+    if (follows.empty()) return false;
+    for (const std::string& other : found.confounded_with) add(other);
+    return follows.size() >= kTooMany;
+  }
+
+  /// A loss of a size, without a name: the names it could have stay in confounded_with.
+  void take_the_name(FoundEffect& found, int e) const {
+    const Eigen::VectorXd moved = s_.all.explained_nm(e);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
+      const double lost = moved[static_cast<Eigen::Index>(i)] / s_.context.lever(s_.context.table.points[i]);
+      sum += lost * lost;
+    }
+    const Parameter& main = found.parameters.back();
+    const double size = std::sqrt(sum / static_cast<double>(s_.context.table.points.size()));
+    const double share = main.value != 0.0 ? 0.5 * (main.high - main.low) / std::abs(main.value) : 0.0;
+    Term term{.shape = {0.0, 0.0, 0.0, 0.0, 0.0}, .cos = size, .half_width = size * share};
+    term.keys.emplace_back("like", found.id);
+    term.text = "a loss at the input of which these data do not say whether it follows load, speed or neither";
+    found.description = term.text + "; it looks like " + found.id;
+    found.confounded_with.insert(found.confounded_with.begin(), found.id);
+    found.id = "unnamed";
+    found.named = false;
+    found.cause.clear();
+    found.correction.clear();
+    found.terms = {term};
+    found.parameters = parameters_of_terms(found.terms, 0.0, "amplitude_nm", false);
   }
 
   [[nodiscard]] double half(int column) const {
@@ -175,11 +215,12 @@ class Describer {
     for (const int e : members) moved += s_.all.explained_nm(e);
     std::string text = found.description;
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    for (const Parameter& p : found.parameters) {
-      if (p.name == "order") continue;
+    // After the shape's values comes what it amounts to; of one without a name after its order.
+    const std::size_t main = found.named ? s_.all.effects()[members.front()].shape.size() : 1;
+    if (main < found.parameters.size()) {
+      const Parameter& p = found.parameters[main];
       const auto [name, unit] = name_and_unit(p.name);
       text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);
-      break;
     }
     const double points = rms_of(s_.context, moved, false, true);
     if (std::isfinite(points)) text += printed(", worth %.2g points of efficiency under load", points);

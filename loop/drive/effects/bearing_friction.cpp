@@ -10,6 +10,7 @@ DriveFamily bearing_friction() {
   f.description = "a torque at the input that grows with the 2/3 power of speed";
   f.cause = "lubricated rolling bearings (Palmgren's load-independent part)";
   f.correction = "bearing size, seals, viscosity";
+  f.follows = "speed";
   f.parameters = {"nm_at_1000_rpm"};
   f.only_positive = true;
   f.preference = 2;

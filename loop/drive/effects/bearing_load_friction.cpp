@@ -10,6 +10,7 @@ DriveFamily bearing_load_friction() {
   f.description = "a torque at the input in proportion to what the output carries";
   f.cause = "rolling bearings under load (Palmgren's load-dependent part)";
   f.correction = "larger pitch, fewer or smaller bearings";
+  f.follows = "load";
   f.parameters = {"share"};
   f.only_positive = true;
   f.preference = 4;

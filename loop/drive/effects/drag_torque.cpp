@@ -10,6 +10,7 @@ DriveFamily drag_torque() {
   f.description = "a torque at the input that depends on neither load nor speed";
   f.cause = "preload of bearings, seals, teeth without backlash, grease";
   f.correction = "check preload, seals, backlash and filling";
+  f.follows = "nothing";
   f.parameters = {"torque_nm"};
   f.only_positive = true;
   f.evaluate = loss([](auto&, auto&, auto&) { return 1.0; });

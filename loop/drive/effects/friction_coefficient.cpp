@@ -10,6 +10,7 @@ DriveFamily friction_coefficient() {
   f.description = "the tooth flanks' friction coefficient is another than designed with";
   f.cause = "lubricant, finish, material of the flanks";
   f.correction = "design with this coefficient; change lubricant or finish";
+  f.follows = "load";
   f.parameters = {"value"};
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     c[0] = context.friction_slope(p);

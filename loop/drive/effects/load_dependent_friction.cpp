@@ -14,6 +14,7 @@ DriveFamily load_dependent_friction() {
       "bench's largest torque at the input";
   f.cause = "lubricant film under pressure, elastic deformation of teeth and housing";
   f.correction = "stiffness, viscosity; design at the load that counts";
+  f.follows = "load";
   f.parameters = {"value"};
   f.shape_names = {"exponent"};
   f.preference = 2;

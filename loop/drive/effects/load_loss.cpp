@@ -13,6 +13,7 @@ DriveFamily load_loss() {
                   "bench's largest torque at the input";
   f.cause = "housing, carrier or ring that bends under load, seals and bearings that are pressed askew";
   f.correction = "stiffen what bends; design at the load that counts";
+  f.follows = "load";
   f.parameters = {"torque_nm"};
   f.shape_names = {"exponent"};
   f.only_positive = true;

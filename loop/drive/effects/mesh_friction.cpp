@@ -10,6 +10,7 @@ DriveFamily mesh_friction() {
   f.description = "one mesh rubs otherwise than designed: its coefficient less the others'";
   f.cause = "that mesh's lubricant, finish or damage";
   f.correction = "inspect that mesh";
+  f.follows = "load";
   f.parameters = {"difference"};
   f.shape_names = {"mesh"};
   f.preference = 4;

@@ -10,6 +10,7 @@ DriveFamily mixed_friction() {
   f.description = "the flanks' friction coefficient is higher at low speed: + value exp(-(n/n0)^2)";
   f.cause = "mixed lubrication of the flanks at low speed";
   f.correction = "viscosity, finish of the flanks";
+  f.follows = "speed";
   f.parameters = {"value"};
   f.shape_names = {"speed_rpm"};
   f.only_positive = true;

@@ -10,6 +10,7 @@ DriveFamily stribeck_friction() {
   f.description = "a torque at the input that fades as the drive speeds up: T exp(-(n/n0)^2)";
   f.cause = "boundary lubrication at low speed";
   f.correction = "lubricant with better boundary film, smoother flanks and seals";
+  f.follows = "speed";
   f.parameters = {"torque_nm"};
   f.shape_names = {"speed_rpm"};
   f.only_positive = true;

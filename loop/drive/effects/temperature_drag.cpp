@@ -10,6 +10,7 @@ DriveFamily temperature_drag() {
   f.description = "drag that falls as the drive warms: torque_nm exp(-per_c (t - the bench's mean))";
   f.cause = "stiff grease, seals";
   f.correction = "softer grease; warm up";
+  f.follows = "warmth";
   f.parameters = {"torque_nm"};
   f.shape_names = {"per_c"};
   f.only_positive = true;

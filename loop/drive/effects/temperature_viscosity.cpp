@@ -11,6 +11,7 @@ DriveFamily temperature_viscosity() {
       "viscous drag that thins as the drive warms: nm_per_rpm exp(-per_c (t - the bench's mean))";
   f.cause = "viscosity of the lubricant";
   f.correction = "warm up, or a lubricant of higher viscosity index";
+  f.follows = "warmth";
   f.parameters = {"nm_per_rpm"};
   f.shape_names = {"per_c"};
   f.only_positive = true;

@@ -10,6 +10,7 @@ DriveFamily viscous_drag() {
   f.description = "a torque at the input that grows with speed";
   f.cause = "lubricant's viscosity and filling";
   f.correction = "thinner or less lubricant";
+  f.follows = "speed";
   f.parameters = {"nm_per_rpm"};
   f.only_positive = true;
   f.preference = 1;
