@@ -283,6 +283,42 @@ class RealGears(unittest.TestCase):
             turn = math.degrees(numpy.angle(foretold[flank] / measured[flank]))
             self.assertLess(abs(turn), 6.0, flank)
 
+    def test_pitch_by_the_standard_is_what_the_sheets_print(self):
+        """Largest single and cumulative pitch: of these files they are the printed ones to 0.1 um."""
+        for name in "ABC":
+            gear = Gear(name)
+            if len(gear.pitch) != gear.teeth:
+                continue
+            told = {(f["symbol"], f["flank"]): f["value_um"] for f in
+                    close(gear, ["index"], folder="index")["iso_1328"]["figures"]}
+            for column, flank in (("left", NAME["L"]), ("right", NAME["R"])):
+                single = numpy.array([row[f"fp_{column}_um"] for row in gear.pitch])
+                single -= single.mean()
+                total = numpy.cumsum(single)
+                eighth = round(gear.teeth / 8)
+                around = numpy.concatenate([total, total])
+                sector = max(abs(around[k + eighth] - around[k]) for k in range(gear.teeth))
+                print(name, flank, "fp", told["fp", flank], "Fp", told["Fp", flank], "Fpz/8", told["Fpz/8", flank])
+                self.assertAlmostEqual(told["fp", flank], max(abs(single)), delta=0.12)
+                self.assertAlmostEqual(told["Fp", flank], total.max() - total.min(), delta=0.12)
+                self.assertAlmostEqual(told["Fpz/8", flank], sector, delta=0.25)
+
+    def test_slopes_by_the_standard_are_those_of_a_straight_line(self):
+        """Mean slopes over the sheets' own ranges, by a straight line through unfiltered traces."""
+        gear = Gear("A")
+        told = {(f["symbol"], f["flank"]): f["value_um"] for f in
+                close(gear, ["helix", "profile"], folder="slopes")["iso_1328"]["figures"]}
+        for flank in "LR":
+            for kind, symbol, x in (("helix", "fHbm", gear.heights()), ("profile", "fHam", gear.rolls())):
+                used = gear.evaluated(kind)
+                share = 1.0 if kind == "helix" else 0.95  # the program leaves the tip's twentieth out of the slope
+                low, high = x[used][0], x[used][-1]
+                inside = used & (x <= low + share * (high - low) + 1e-9)
+                by_hand = numpy.mean([slope(x[inside], trace[inside])
+                                      for (f, _), trace in getattr(gear, kind).items() if f == flank])
+                print("A", kind, NAME[flank], "told", told[symbol, NAME[flank]], "by hand", by_hand)
+                self.assertAlmostEqual(told[symbol, NAME[flank]], by_hand, delta=0.1)
+
     def test_the_before_and_after_of_all_three(self):
         for name in "ABC":
             for kind in ("helix", "profile", "index"):
