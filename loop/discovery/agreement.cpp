@@ -13,7 +13,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kFewest = 4, kMost = 16;
+constexpr std::size_t kFewest = 4, kMost = 24;
 /// Share of a group's information that must lie in whole traces, and below which a trace holds none of it.
 constexpr double kInWholes = 0.9, kNone = 1e-3;
 
@@ -114,7 +114,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
   std::map<int, std::vector<int>> wholes;
   for (const int i : statistics.used())
     if (!problem.whole.empty() && problem.whole[i] >= 0) wholes[problem.whole[i]].push_back(i);
-  if (wholes.size() < kFewest || wholes.size() > 2 * kMost) return {};
+  if (wholes.size() < kFewest || wholes.size() > 4 * kMost) return {};
   const std::size_t groups = problem.groups.size();
   std::vector<Agreement> sums(groups);
   for (std::size_t g = 0; g < groups; ++g) {

@@ -15,7 +15,7 @@ struct FittedModel {
 };
 
 /// Whether few traces or flanks agree on a group: p of an F test, uncorrected, for each group; 1 where
-/// it does not live in 4 ... 16 whole traces; empty where there are no so few. Every trace says by itself
+/// it does not live in 4 ... 24 whole traces; empty where there are no so few. Every trace says by itself
 /// how much of the group it holds; what they have in common is compared with how they scatter. Of traces
 /// that scatter is helped by what they show about their own courses, as much as four more traces would: a
 /// slope of three traces alone has two degrees of freedom.

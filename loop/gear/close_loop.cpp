@@ -10,6 +10,7 @@
 #include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/part_frame.h"
 #include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -58,13 +59,24 @@ KnownProcess process_of(const MeasuredData& data, const LoopOptions& options) {
   return known;
 }
 
+/// True where the error on held-out data is larger than noise of the size found allows.
+bool is_more_than_noise(const LoopResult& result) {
+  constexpr double kAllowed = 1.15, kSure = 4.0;
+  if (result.held_out == 0) return result.after.rms > kAllowed * result.noise;
+  const double allowed = std::max(kAllowed, 1.0 + kSure / std::sqrt(2.0 * result.held_out));
+  return result.after.held_out_rms > allowed * result.noise;
+}
+
 LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit,
                      Makings makings) {
   LoopResult result;
   result.observations = fit.observations();
   result.held_out = fit.held_out();
   result.outliers = loop.table().outliers;
-  result.noise = fit.noise_um();
+  std::vector<float> unused, left_um;
+  fit.residuals(unused, left_um);
+  result.noise =
+      random_error_um(geometry, loop.table(), loop.patches(), left_um, !loop.structure_is_left());
   result.notes = loop.table().notes;
   const auto none = PointFit(geometry, loop.measured(), loop.patches(), {}).errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
@@ -72,7 +84,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.after = {all.rms_um, all.held_out_rms_um, 0.0};
   result.not_observable = loop.not_observable();
   result.structure_p_value = loop.discovery().first_p_value;
-  result.structure_left_p_value = loop.discovery().p_left;
+  result.structure_left_p_value = loop.structure_left_p_value();
   result.structure_left = loop.structure_left();
   const ShapeUncertainty uncertainty =
       shape_uncertainty(geometry, loop.table(), loop.patches(), fit);
@@ -80,8 +92,17 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
                                      result.not_observable, makings, loop.unseen(),
                                      explained_by(result.before, result.after)});
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
-  if (loop.structure_is_left()) result.verdict = Verdict::kPartlyExplained;
-  else result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
+  if (loop.structure_is_left())
+    result.verdict = Verdict::kPartlyExplained;
+  else
+    result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
+  if (result.verdict == Verdict::kExplained && is_more_than_noise(result)) {
+    result.verdict = Verdict::kPartlyExplained;
+    result.structure_left = printed(
+        "what is left, %.3g um on held-out data, is more than the measurement's own noise of %.3g "
+        "um",
+        result.after.held_out_rms, result.noise);
+  }
   return result;
 }
 
@@ -108,7 +129,8 @@ std::vector<std::string> parts_of(const MeasuredData& data) {
   std::vector<std::string> names;
   const auto add = [&](const auto& files) {
     for (const auto& file : files)
-      if (std::find(names.begin(), names.end(), file.part) == names.end()) names.push_back(file.part);
+      if (std::find(names.begin(), names.end(), file.part) == names.end())
+        names.push_back(file.part);
   };
   add(data.scans);
   add(data.inspections);
@@ -126,16 +148,19 @@ std::vector<T> of_part(const std::vector<T>& files, const std::string& part) {
 }
 
 /// Deviations that no gear of this design can have are another unit's or another gear's.
-void doubt_unit_and_gear(const FlankGeometry& geometry, const MeasuredData& data, LoopResult& result) {
+void doubt_unit_and_gear(const FlankGeometry& geometry, const MeasuredData& data,
+                         LoopResult& result) {
   constexpr double kFinest_um = 0.02, kLargeInModules = 0.08;
   const double rms = result.before.rms, module_um = 1e3 * geometry.gear().normal_module_mm;
   if (data.scans.empty() && rms > 1e-4 && rms < kFinest_um)
-    result.notes.push_back(
-        printed("deviations of %.2g um rms are finer than any machine measures: are they in millimetres?", rms));
+    result.notes.push_back(printed(
+        "deviations of %.2g um rms are finer than any machine measures: are they in millimetres?",
+        rms));
   else if (rms > kLargeInModules * module_um)
     result.notes.push_back(
-        printed("deviations of %.3g um rms are large for a module of %.4g mm: is this the gear of the design?", rms,
-                1e-3 * module_um));
+        printed("deviations of %.3g um rms are large for a module of %.4g mm: is this the gear of "
+                "the design?",
+                rms, 1e-3 * module_um));
 }
 
 Errors too_few(const Observations& table, const std::string& part) {
@@ -179,7 +204,8 @@ ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std:
     auto table = make_observations(geometry, of_one, {.aligned = options.aligned});
     Errors found = table ? too_few(*table, name) : table.error();
     errors.insert(errors.end(), found.begin(), found.end());
-    if (table && found.empty()) parts.push_back({name.empty() ? "(unnamed)" : name, std::move(*table)});
+    if (table && found.empty())
+      parts.push_back({name.empty() ? "(unnamed)" : name, std::move(*table)});
   }
   if (!errors.empty()) return fail_all(std::move(errors));
   GearLoop done = close_loop_of_parts(geometry, std::move(parts), options);

@@ -166,6 +166,10 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                    .message = "an effect nobody knows",
                    .key = "effects.id",
                    .value = id});
+    if (!family->named && !item.value("correctable", true)) {
+      result.left_.push_back(id + ": described only; its cause is not known");
+      continue;
+    }
     if (!family->named) {
       const auto terms = item.find("terms");
       const bool of_one_tooth = !item.value("correctable", true);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
@@ -30,14 +31,14 @@ class Describer {
 
   std::vector<FoundEffect> run() {
     const auto& effects = sources_.fit.effects();
-    // form and order -> place in found_
-    std::map<std::pair<std::string, int>, std::size_t> unnamed_at;
+    using TermsOf = std::tuple<const EffectFamily*, FlankChoice, int>;  // and the order
+    std::map<TermsOf, std::size_t> unnamed_at;                          // place in found_
     for (int e = 0; e < static_cast<int>(effects.size()); ++e) {
       if (!sources_.only.empty() && !sources_.only[e]) continue;
       if (effects[e].is_term()) {
         const int order = static_cast<int>(effects[e].order());
-        const auto [place, is_new] = unnamed_at.emplace(
-            std::pair(effects[e].family->form_word, order), found_.size());
+        const auto [place, is_new] =
+            unnamed_at.emplace(TermsOf{effects[e].family, effects[e].flank, order}, found_.size());
         if (is_new) {
           found_.push_back(common(e));
           members_.push_back({});
@@ -50,7 +51,7 @@ class Describer {
         members_.push_back({e});
       }
     }
-    for (const auto& [form, place] : unnamed_at) finish_unnamed(found_[place], form.second);
+    for (const auto& [terms, place] : unnamed_at) finish_unnamed(found_[place], std::get<int>(terms));
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
     share_what_is_explained();
     return std::move(found_);

@@ -363,6 +363,27 @@ void gather_small_patches(PatchRows& patches) {
   patches.merge(gathered);
 }
 
+/// True where the nearest values of a patch lie off as one of them does: a burr or a spot, no accident.
+template <class Predicate>
+bool neighbours_agree(const Observations& table, const std::vector<std::size_t>& patch, std::size_t i,
+                      Predicate agrees) {
+  const bool trace = table.rows[i].kind != ObservationKind::kScanFlank;
+  const std::size_t asked = trace ? 3 : 4, needed = trace ? 2 : 3;
+  if (patch.size() <= asked) return false;
+  const Place& place = table.place(table.rows[i]);
+  std::vector<std::pair<double, std::size_t>> near;
+  near.reserve(patch.size());
+  for (const std::size_t other : patch) {
+    if (other == i) continue;
+    const Place& at = table.place(table.rows[other]);
+    near.emplace_back(std::hypot(at.roll_mm - place.roll_mm, at.z_mm - place.z_mm), other);
+  }
+  std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(asked), near.end());
+  return static_cast<std::size_t>(
+             std::count_if(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(asked),
+                           [&](const auto& n) { return agrees(n.second); })) >= needed;
+}
+
 /// Leaves out what lies far from its neighbours on the same flank: an effect moves them together.
 void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
   PatchRows patches;
@@ -412,7 +433,11 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     // Many that agree with each other are no accident: a step runs through the patch.
     const bool step = far.size() >= 3 && 4 * far.size() > patch.size() &&
                       centre_and_spread(far).second < 0.5 * limit;
-    for (const std::size_t i : far) out[i] = !step;
+    const auto above = [&, middle = centre](std::size_t i) { return table.rows[i].deviation_um - middle; };
+    for (const std::size_t i : far)
+      out[i] = !step && !neighbours_agree(table, patch, i, [&](std::size_t other) {
+        return std::abs(above(other)) > 0.5 * limit && (above(other) > 0.0) == (above(i) > 0.0);
+      });
   }
   std::size_t kept = 0;
   std::size_t points = 0;

@@ -4,6 +4,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
 
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/finite_displacement.h"
@@ -33,6 +36,24 @@ void PartLoop::run() {
   ban_what_cannot_be_seen();
   unseen_ = banned_;
   ban_given();
+  const bool scan_for_more = !options_.joined && !is_rounding();
+  if (scan_for_more) nominate();
+  explain();
+  constexpr int kRounds = 4, kMostBans = 6;
+  for (int round = 0; scan_for_more && round < kRounds && take_up_remainder(); ++round) explain();
+  if (scan_for_more && drop_idle_forms()) explain();
+  for (int round = 0; scan_for_more && round < kMostBans && ban_what_forms_explain(); ++round)
+    explain();
+  if (!is_rounding()) look_at_single_teeth();
+  look_at_sizes();
+  drop_impossible();
+  drop_what_mends_a_shape();
+  if (!is_rounding() && !options_.joined) look_at_neighbours();
+  veto();
+  if (scan_for_more) remainder_ = remainder_of(effects_, RemainderOf::kAll);
+}
+
+void PartLoop::explain() {
   for (int round = 0; round < 5; ++round) {
     select();
     // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
@@ -42,11 +63,199 @@ void PartLoop::run() {
     again = linearise() || again;
     if (!again) break;
   }
-  if (!is_rounding()) look_at_single_teeth();
-  look_at_sizes();
-  drop_impossible();
-  drop_what_mends_a_shape();
-  if (!is_rounding() && !options_.joined) look_at_neighbours();
+}
+
+/// Asked for the same effects again, the answer is kept.
+const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Effect>& effects,
+                                                            RemainderOf which) {
+  const auto same = [](const Effect& a, const Effect& b) {
+    return a.family == b.family && a.flank == b.flank && a.shape == b.shape;
+  };
+  if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
+                                  kept_.effects.end(), same)) {
+    kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
+    std::vector<float> before_um;
+    PointFit(geometry_, table_, patches_, effects).residuals(before_um, kept_.row_um);
+  }
+  auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
+  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, kept_.row_um, which);
+  return *findings;
+}
+
+/// Forms that the data as they are show, so that a sector or a step stands beside the waves that
+/// would otherwise imitate it: candidates like all others.
+void PartLoop::nominate() {
+  for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
+    if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
+      continue;
+    if (looks_like_a_name(*finding.effect)) continue;
+    candidates_.push_back(*finding.effect);
+    banned_.push_back(false);
+    unseen_.push_back(false);
+  }
+}
+
+/// True where some effect with a name does nearly the same: its shape may still move, so it is
+/// asked first.
+bool PartLoop::looks_like_a_name(const Effect& form) const {
+  constexpr double kNearly = 0.9;
+  std::vector<Effect> effects{form};
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (candidates_[g].family->named && !candidates_[g].family->local && !banned_[g] &&
+        candidates_[g].columns() == 1)
+      effects.push_back(candidates_[g]);
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
+  Eigen::MatrixXd columns = problem.candidates.cast<double>();
+  std::map<int, std::pair<Eigen::VectorXd, double>> zeros;
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    auto& [sum, weight] = zeros[problem.zero[i]];
+    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns.cols());
+    sum += problem.weight[i] * columns.row(i).transpose();
+    weight += problem.weight[i];
+  }
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const auto& [sum, weight] = zeros[problem.zero[i]];
+    columns.row(i) -= (sum / weight).transpose();
+    columns.row(i) *= std::sqrt(problem.weight[i]);
+  }
+  const Eigen::VectorXd norms = columns.colwise().norm();
+  const Eigen::VectorXd with = columns.transpose() * columns.col(0);
+  for (Eigen::Index k = form.columns(); k < columns.cols(); ++k)
+    if (std::abs(with[k]) > kNearly * norms[0] * norms[k]) return true;
+  return false;
+}
+
+/// The finding enters the model, and all else is chosen anew beside it.
+void PartLoop::take_up(const RemainderFinding& finding) {
+  options_.given.push_back(*finding.effect);
+  given_p_values_.push_back(finding.p_value);
+  ban_given();
+}
+
+bool PartLoop::take_up_remainder() {
+  constexpr int kAtOnce = 4;
+  std::vector<Effect> effects = effects_;
+  const auto known = [&](const Effect& found) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) {
+      return e.family == found.family && e.flank == found.flank && e.shape == found.shape;
+    });
+  };
+  const auto take_first = [&](RemainderOf which, bool local) {
+    const std::vector<RemainderFinding> findings = remainder_of(effects, which);
+    for (const RemainderFinding& finding : findings) {
+      if (!finding.effect || finding.local != local || known(*finding.effect)) continue;
+      take_up(finding);
+      effects.push_back(*finding.effect);
+      return true;
+    }
+    return false;
+  };
+  int taken = 0;
+  while (taken < kAtOnce && take_first(RemainderOf::kTraining, false)) ++taken;
+  // What stands on one tooth cannot be learnt from others: from all the data.
+  while (taken < kAtOnce && take_first(RemainderOf::kAll, true)) ++taken;
+  return taken > 0;
+}
+
+/// Forms that a better one, taken up later, made idle. True where there were any.
+bool PartLoop::drop_idle_forms() {
+  constexpr double kIdle = 25.0;  // chi-square: five standard errors
+  bool any = false;
+  while (!given_p_values_.empty()) {
+    const double full = PointFit(geometry_, table_, patches_, effects_).residual_square();
+    const std::size_t first = options_.given.size() - given_p_values_.size();
+    std::size_t idle = 0;
+    double least = 1e300;
+    for (std::size_t e = first; e < options_.given.size(); ++e) {
+      std::vector<Effect> without = effects_;
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+      const double loss = PointFit(geometry_, table_, patches_, without).residual_square() - full;
+      if (loss >= least) continue;
+      least = loss;
+      idle = e;
+    }
+    if (least > kIdle) return any;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(idle));
+    options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(idle));
+    given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(idle - first));
+    any = true;
+  }
+  return any;
+}
+
+/// Bans a family on these flanks; true where that is new.
+bool PartLoop::ban_alike(const Effect& effect) {
+  bool any = false;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank &&
+        !banned_[g])
+      banned_[g] = any = true;
+  return any;
+}
+
+/// A name must hold whether or not forms without a name stand beside it: where its size hangs on
+/// them it is a part of the description, no cause. True where any was banned.
+bool PartLoop::ban_what_forms_explain() {
+  constexpr double kHangs = 0.25;
+  const auto is_form = [&](const Effect& e) {
+    return e.is_term() && e.family->shapes && e.family->shapes(geometry_).empty();
+  };
+  std::vector<Effect> without;
+  std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),
+               [&](const Effect& e) { return !is_form(e); });
+  if (without.size() == effects_.size()) return false;
+  const PointFit full(geometry_, table_, patches_, effects_);
+  const PointFit bare(geometry_, table_, patches_, without);
+  bool any = false;
+  int at = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (is_form(effect)) continue;
+    const int own = at++;
+    if (!effect.family->named || effect.family->local) continue;
+    const auto b =
+        full.coefficients().segment(full.first_column(static_cast<int>(e)), effect.columns());
+    const auto b0 = bare.coefficients().segment(bare.first_column(own), effect.columns());
+    if ((b - b0).norm() <= kHangs * std::max(b.norm(), b0.norm())) continue;
+    any = ban_alike(effect) || any;
+    // What could not be told from it is no better.
+    for (const int group : discovery_.chosen[e].confounded)
+      if (candidates_[group].family->named) any = ban_alike(candidates_[group]) || any;
+  }
+  return any;
+}
+
+/// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
+/// one that harms most first. Of what stands on one tooth it knows nothing.
+void PartLoop::veto() {
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  while (effects_.size() > told) {
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    if (fit.held_out() == 0) return;
+    std::vector<bool> with(effects_.size(), true);
+    const double full = fit.errors(with).held_out_rms_um;
+    // Together they may harm where none does alone.
+    const double none = PointFit(geometry_, measured_, patches_, {}).errors({}).held_out_rms_um;
+    double least = full > none ? 1e300 : full;
+    std::size_t worst = effects_.size();
+    for (std::size_t e = told; e < effects_.size(); ++e) {
+      if (effects_[e].family->local) continue;
+      with[e] = false;
+      const double error = fit.errors(with).held_out_rms_um;
+      with[e] = true;
+      if (error >= least) continue;
+      least = error;
+      worst = e;
+    }
+    if (worst == effects_.size()) return;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(worst));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(worst));
+    if (worst < options_.given.size()) {
+      options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(worst));
+      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(worst - told));
+    }
+    vetoed_ = true;
+  }
 }
 
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
@@ -56,17 +265,20 @@ bool PartLoop::is_rounding() const {
   return plain.observations() > 0 && plain.errors({}).rms_um < kFileRounding_um;
 }
 
-/// What the data cannot show is not looked for under another name: shapes over the profile where nothing
-/// was measured along it, over the face likewise. A wave over the generating rotation shows along the
-/// profile only; in values one a tooth every order looks like a lower one.
+/// What the data cannot show is not looked for under another name: shapes over the profile where
+/// nothing was measured along it, over the face likewise. A wave over the generating rotation shows
+/// along the profile only; in values one a tooth every order looks like a lower one.
 void PartLoop::ban_what_cannot_be_seen() {
   bool along_profile = false, along_face = false;
   // A product of both shows where flanks were scanned, or traced at several heights or diameters.
   constexpr double kSeveral = 0.2;
   double lowest = 1.0, highest = -1.0;
   double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
-  bool scanned = false;
+  bool scanned = false, whole_ring = false;
+  std::set<int> traced_teeth;
   for (const Observation& row : table_.rows) {
+    whole_ring =
+        whole_ring || row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
     const bool scan = row.kind == ObservationKind::kScanFlank;
     scanned = scanned || scan;
     const double u = geometry_.profile_coordinate(table_.place(row).roll_mm);
@@ -84,6 +296,19 @@ void PartLoop::ban_what_cannot_be_seen() {
     along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
     along_face = along_face || scan || row.kind == ObservationKind::kHelix;
   }
+  // Between few teeth a wave of a higher order looks like one of a lower, or like what all share;
+  // those that are held out tell nothing.
+  for (const Patches::Patch& patch : patches_.patches)
+    if (patch.fold != 0 &&
+        (patch.kind == ObservationKind::kHelix || patch.kind == ObservationKind::kProfile))
+      traced_teeth.insert(patch.places.front().place.tooth);
+  const int traced = static_cast<int>(traced_teeth.size());
+  const auto aliases = [&](const Effect& effect) {
+    const NeedsToBeSeen needs = effect.needs();
+    const bool in_traces_only = needs.along_profile || needs.along_face || !whole_ring;
+    return !scanned && effect.is_term() && in_traces_only && traced > 0 &&
+           2.0 * effect.order() >= traced;
+  };
   const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const NeedsToBeSeen needs = candidates_[g].needs();
@@ -119,7 +344,8 @@ void PartLoop::select() {
   // What no flip reaches is as sure as flips can say.
   options.next_level = std::max(kNextLevel / options_.tables, 1.01 / (options.flips + 1.0));
   // With effects given, something was found already.
-  options.first_level = options_.given.empty() ? options.first_level / options_.tables : options.next_level;
+  options.first_level =
+      options_.given.empty() ? options.first_level / options_.tables : options.next_level;
   options.local_level /= options_.tables;
   discovery_ = discover(problem, options);
   if (is_rounding()) {
@@ -131,9 +357,13 @@ void PartLoop::select() {
   ChosenGroup record;
   record.group = -1;
   discovery_.chosen.insert(discovery_.chosen.begin(), options_.given.size(), record);
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  for (std::size_t i = 0; i < given_p_values_.size(); ++i)
+    discovery_.chosen[told + i].p_value = given_p_values_[i];
 }
 
 void PartLoop::leave_out_across_steps() {
+  kept_.valid = false;
   for (const Effect& effect : effects_)
     if (effect.family->shape_is_step) patches_.leave_out_across(effect.shape[0]);
 }
@@ -175,7 +405,8 @@ std::vector<std::string> PartLoop::not_observable() const {
       seen.push_back(candidates_[g].family->id);
   for (const Effect& given : options_.given) seen.push_back(given.family->id);
   const auto look = [&](const EffectFamily& family) {
-    if (family.named && !family.local && std::find(seen.begin(), seen.end(), family.id) == seen.end())
+    if (family.named && !family.local &&
+        std::find(seen.begin(), seen.end(), family.id) == seen.end())
       hidden.push_back(family.id);
   };
   if (options_.declared)
@@ -185,8 +416,9 @@ std::vector<std::string> PartLoop::not_observable() const {
   return hidden;
 }
 
-/// Bans named effects that cannot be meant: an amount of the wrong sign; a wave whose kin of the same
-/// order remain unexplained, which is not that wave and is better described. True where any was.
+/// Bans named effects that cannot be meant: an amount of the wrong sign; a wave whose kin of the
+/// same order remain unexplained, which is not that wave and is better described. True where any
+/// was.
 bool PartLoop::ban_misnamed() {
   bool any = ban_impossible();
   const auto ban = [&](std::size_t group) {
@@ -202,7 +434,8 @@ bool PartLoop::ban_misnamed() {
       if (other.group < 0) continue;
       const Effect& term = candidates_[other.group];
       if (!term.is_term() || other.gain < share * named.gain) continue;
-      if (effect.family->doubted_by_any_order ? term.order() == 0.0 : term.order() != order) continue;
+      if (effect.family->doubted_by_any_order ? term.order() == 0.0 : term.order() != order)
+        continue;
       for (std::size_t g = 0; g < candidates_.size(); ++g)
         if (candidates_[g].family->named && candidates_[g].shape == effect.shape &&
             candidates_[g].family->shape_names == effect.family->shape_names)
@@ -298,13 +531,13 @@ void PartLoop::look_at_single_teeth() {
   }
 }
 
-/// Sizes are few and know their own error: what they say of thickness, which traces with zeros of their own
-/// cannot show, is judged by chi-square.
+/// Sizes are few and know their own error: what they say of thickness, which traces with zeros of
+/// their own cannot show, is judged by chi-square.
 void PartLoop::look_at_sizes() {
   constexpr double kSure = 1e-3, kTie = 4.0;
-  const auto sizes = std::count_if(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
-    return row.kind == ObservationKind::kSize;
-  });
+  const auto sizes =
+      std::count_if(table_.rows.begin(), table_.rows.end(),
+                    [](const Observation& row) { return row.kind == ObservationKind::kSize; });
   for (int round = 0; round < 2 && sizes > 0; ++round) {
     const double before = PointFit(geometry_, table_, patches_, effects_).residual_square();
     int best = -1;
@@ -320,24 +553,27 @@ void PartLoop::look_at_sizes() {
       const PointFit fit(geometry_, table_, patches_, with);
       if (fit.retained(fit.first_column(static_cast<int>(effects_.size()))) < 2e-3) continue;
       tried.emplace_back(g, before - fit.residual_square());
-      if (best < 0 || tried.back().second > tried[best].second) best = static_cast<int>(tried.size()) - 1;
+      if (best < 0 || tried.back().second > tried[best].second)
+        best = static_cast<int>(tried.size()) - 1;
     }
     if (best < 0) return;
     const double tests = static_cast<double>(tried.size()) * options_.tables;
-    const double p = std::min(1.0, tests * std::exp(-minus_log_chi_square_tail(tried[best].second, 1)));
+    const double p =
+        std::min(1.0, tests * std::exp(-minus_log_chi_square_tail(tried[best].second, 1)));
     if (p > kSure) return;
     ChosenGroup record;
     record.group = tried[best].first;
     record.p_value = p;
     for (const auto& [group, gain] : tried)
-      if (group != record.group && tried[best].second - gain < kTie) record.confounded.push_back(group);
+      if (group != record.group && tried[best].second - gain < kTie)
+        record.confounded.push_back(group);
     effects_.push_back(candidates_[record.group]);
     discovery_.chosen.push_back(record);
   }
 }
 
-/// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor is it a
-/// single tooth where the teeth beside it share it.
+/// What stands over a few teeth is no wave: many small terms, none of which is found by itself. Nor
+/// is it a single tooth where the teeth beside it share it.
 void PartLoop::look_at_neighbours() {
   std::vector<Effect> common;
   for (const Effect& effect : effects_)
@@ -366,14 +602,22 @@ void PartLoop::look_at_neighbours() {
 bool PartLoop::neighbours_share() const { return neighbours_.p_value <= 0.002 / options_.tables; }
 
 bool PartLoop::structure_is_left() const {
-  constexpr double kLeft = 0.01, kLeftOfNothing = 0.01;
-  if (neighbours_share()) return true;
-  if (effects_.empty()) return discovery_.first_p_value <= kLeftOfNothing / options_.tables;
+  constexpr double kLeft = 0.01, kLeftOfNothing = 0.01, kSureThoughDenied = 0.0015;
+  if (neighbours_share() || !remainder_.empty()) return true;
+  // What the hold-out denied must be surer than what it was not asked about.
+  const double sure = vetoed_ ? kSureThoughDenied : kLeftOfNothing;
+  if (effects_.empty()) return discovery_.first_p_value <= sure / options_.tables;
   return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
+}
+
+double PartLoop::structure_left_p_value() const {
+  return remainder_.empty() ? discovery_.p_left
+                            : std::min(discovery_.p_left, remainder_.front().p_value);
 }
 
 std::string PartLoop::structure_left() const {
   if (neighbours_share()) return words_for(neighbours_);
+  if (!remainder_.empty()) return remainder_.front().text;
   if (!structure_is_left() || discovery_.likest_left < 0)
     return "nothing beyond the measurement's own noise was found";
   return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);

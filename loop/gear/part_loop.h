@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
 #include "trueflank/loop/gear/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/remainder.h"
 
 namespace trueflank::loop {
 
@@ -19,7 +22,7 @@ class PartLoop {
     /// Effects that are in the model from the start (with free coefficients): found on other data.
     std::vector<Effect> given = {};
     bool joined = false;  ///< parts in one table: what is one part's own is looked at there
-    int tables = 1;  ///< of how many this is one: the false alarm rate is shared among them
+    int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
   };
   PartLoop(const FlankGeometry& geometry, Observations table, Options options);
 
@@ -35,15 +38,27 @@ class PartLoop {
   [[nodiscard]] const Observations& measured() const { return measured_; }
   [[nodiscard]] const Patches& patches() const { return patches_; }
   [[nodiscard]] std::vector<std::string> not_observable() const;
-  /// True where the test of structure that is left answers yes, and what it looks like.
+  /// True where the test of structure that is left answers yes, how sure, and what it looks like.
   [[nodiscard]] bool structure_is_left() const;
+  [[nodiscard]] double structure_left_p_value() const;
   [[nodiscard]] std::string structure_left() const;
 
  private:
   void ban_what_cannot_be_seen();
   void ban_given();
   [[nodiscard]] bool is_rounding() const;
+  void explain();
   void select();
+  void nominate();
+  [[nodiscard]] bool looks_like_a_name(const Effect& form) const;
+  [[nodiscard]] bool take_up_remainder();
+  void take_up(const RemainderFinding& finding);
+  [[nodiscard]] bool ban_what_forms_explain();
+  [[nodiscard]] bool drop_idle_forms();
+  [[nodiscard]] bool ban_alike(const Effect& effect);
+  void veto();
+  const std::vector<RemainderFinding>& remainder_of(const std::vector<Effect>& effects,
+                                                    RemainderOf which);
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool ban_misnamed();
@@ -63,9 +78,21 @@ class PartLoop {
   Patches patches_;
   std::vector<Effect> candidates_;
   std::vector<bool> banned_, unseen_;
-  DiscoveryResult discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
+  DiscoveryResult
+      discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;
   SharedByNeighbours neighbours_;
+  bool vetoed_ = false;  ///< effects were taken back
+  std::vector<double> given_p_values_;
+  /// Residuals and what was found in them, for one set of effects.
+  struct Kept {
+    bool valid = false;
+    std::vector<Effect> effects;
+    std::vector<float> row_um;
+    std::array<std::optional<std::vector<RemainderFinding>>, 2> findings;  ///< of training, of all
+  };
+  Kept kept_;
+  std::vector<RemainderFinding> remainder_;  ///< what no effect found took up
 };
 
 /// Columns of effects that are fitted whatever is selected.

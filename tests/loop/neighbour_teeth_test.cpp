@@ -21,9 +21,13 @@ TEST(NeighbourTeeth, ADentOverThreeTeethIsToldThoughNoWaveExplainsIt) {
     const MadeGear gear = spur(teeth);
     const auto result =
         close(gear, scan_of(gear, {dented(40.0, 1.5)}, {.points = 8000, .noise_um = 4.0}), true);
-    EXPECT_EQ(result.verdict, loop::Verdict::kPartlyExplained) << list(result);
-    EXPECT_NE(result.structure_left.find("about tooth 5"), std::string::npos) << result.structure_left;
-    EXPECT_NE(result.structure_left.find("missing"), std::string::npos) << result.structure_left;
+    ASSERT_FALSE(result.effects.empty()) << list(result);
+    const auto& dent = result.effects.front();
+    EXPECT_FALSE(dent.named) << list(result);
+    EXPECT_NE(dent.description.find("about tooth 5"), std::string::npos) << dent.description;
+    ASSERT_FALSE(dent.terms.empty());
+    EXPECT_NEAR(dent.terms.front().cos, -40.0, 5.0);
+    EXPECT_LT(result.after.held_out_rms, 1.1 * 4.0);
     EXPECT_EQ(find(result, "single_tooth"), nullptr) << list(result);
   }
 }

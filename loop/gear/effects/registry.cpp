@@ -31,6 +31,13 @@ const std::vector<EffectFamily>& effect_library() {
         single_tooth(),
         unnamed(),
         unnamed_flank(),
+        unnamed_step(),
+        unnamed_band(),
+        unnamed_waviness(),
+        unnamed_sector(),
+        unnamed_alternation(),
+        unnamed_dent(),
+        unnamed_spot(),
     };
     for (EffectFamily& family : all) {
       family.cause = causes_text(family.causes, kAnyMaking);

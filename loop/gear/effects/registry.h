@@ -43,6 +43,13 @@ namespace trueflank::loop::gear_effects {
 /// @{
 [[nodiscard]] EffectFamily unnamed();
 [[nodiscard]] EffectFamily unnamed_flank();
+[[nodiscard]] EffectFamily unnamed_step();
+[[nodiscard]] EffectFamily unnamed_band();
+[[nodiscard]] EffectFamily unnamed_waviness();
+[[nodiscard]] EffectFamily unnamed_sector();
+[[nodiscard]] EffectFamily unnamed_alternation();
+[[nodiscard]] EffectFamily unnamed_dent();
+[[nodiscard]] EffectFamily unnamed_spot();
 /// @}
 
 }  // namespace trueflank::loop::gear_effects

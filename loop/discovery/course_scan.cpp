@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/course_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
+
+namespace trueflank::loop {
+namespace {
+
+using Kind = CourseFinding::Kind;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Spectra are smoothed until so many degrees of freedom tell each value.
+constexpr double kDegrees = 24.0, kMostDegrees = 200.0;
+/// Wild points count no more than so many spreads.
+constexpr double kClip = 3.5;
+
+/// Orthonormal cosines over the rows: errors that hang together are nearly independent in them.
+MatrixXd cosines(Index m) {
+  MatrixXd c(m, m);
+  for (Index k = 0; k < m; ++k)
+    for (Index i = 0; i < m; ++i)
+      c(k, i) = std::sqrt((k == 0 ? 1.0 : 2.0) / static_cast<double>(m)) *
+                std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
+                         static_cast<double>(m));
+  return c;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double spread_of(std::vector<double> values) {
+  for (double& value : values) value = std::abs(value);
+  return 1.4826 * median(std::move(values));
+}
+
+class CourseScan {
+ public:
+  explicit CourseScan(const std::vector<MatrixXd>& sets) : sets_(sets), m_(sets.front().rows()) {
+    clip();
+    tell_spectrum();
+  }
+
+  std::vector<CourseFinding> run() {
+    if (degrees_ >= 8.0) {
+      std::vector<int> asked;
+      for (int s = 0; s < static_cast<int>(sets_.size()); ++s)
+        if (sets_[s].cols() >= 2) asked.push_back(s);
+      if (asked.size() > 1) asked.push_back(-1);
+      for (const int set : asked) look_for_common(set);
+      count_ = static_cast<double>(asked.size());
+      // Two kinds of question, localised and wavelike, share the level.
+      for (CourseFinding* f : {&step_, &band_}) keep(*f, 2.0 * count_ * forms_);
+      keep(wave_, 2.0 * count_ * frequencies_);
+    }
+    look_for_own_waves();
+    look_for_spots();
+    return std::move(found_);
+  }
+
+ private:
+  void keep(CourseFinding finding, double tests) {
+    if (!(tests > 0.0)) return;
+    finding.p_value *= tests;
+    if (finding.p_value < 1.0) found_.push_back(finding);
+  }
+
+  void clip() {
+    std::vector<double> all;
+    for (const MatrixXd& set : sets_) all.insert(all.end(), set.data(), set.data() + set.size());
+    const double limit = kClip * spread_of(std::move(all));
+    for (const MatrixXd& set : sets_) {
+      clipped_.push_back(set.cwiseMax(-limit).cwiseMin(limit));
+      mean_.push_back(set.cols() > 0 ? VectorXd(set.rowwise().mean()) : VectorXd::Zero(m_));
+      mean_.back().array() -= mean_.back().mean();
+      courses_ += static_cast<double>(set.cols());
+    }
+  }
+
+  /// Variance of every cosine's coefficient in one course, from how courses of a set scatter.
+  void tell_spectrum() {
+    const MatrixXd basis = cosines(m_);
+    VectorXd squares = VectorXd::Zero(m_);
+    double degrees = 0.0;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      if (sets_[s].cols() < 2) continue;
+      const MatrixXd apart = sets_[s].colwise() - sets_[s].rowwise().mean();
+      squares += (basis * apart).rowwise().squaredNorm();
+      degrees += static_cast<double>(sets_[s].cols() - 1);
+    }
+    spectrum_ = VectorXd::Zero(m_);
+    if (degrees < 1.0) return;
+    Index half = 0;
+    while (degrees * static_cast<double>(2 * half + 1) < kDegrees && half < m_ / 6) ++half;
+    degrees_ = std::min(kMostDegrees, degrees * static_cast<double>(half + 1));
+    for (Index k = 1; k < m_; ++k) {
+      const Index from = std::max<Index>(1, k - half), to = std::min<Index>(m_ - 1, k + half);
+      spectrum_[k] = squares.segment(from, to - from + 1).mean() / degrees;
+    }
+    basis_ = basis;
+  }
+
+  [[nodiscard]] VectorXd common(int set, double& courses) const {
+    if (set >= 0) {
+      courses = static_cast<double>(sets_[set].cols());
+      return mean_[set];
+    }
+    VectorXd sum = VectorXd::Zero(m_);
+    double inverse = 0.0, n = 0.0;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      if (sets_[s].cols() < 2) continue;
+      sum += mean_[s];
+      inverse += 1.0 / static_cast<double>(sets_[s].cols());
+      n += 1.0;
+    }
+    courses = n * n / inverse;
+    return sum / n;
+  }
+
+  void look_for_common(int set) {
+    double courses = 0.0;
+    const VectorXd mean = common(set, courses);
+    const VectorXd variance = spectrum_ / courses;
+    forms_ = 0.0;
+    for (Index i = 2; i <= m_ - 2; ++i) {
+      VectorXd step = VectorXd::Zero(m_);
+      step.tail(m_ - i).setOnes();
+      judge(step_, Kind::kStep, set, 1.0 / courses, mean, variance, step, static_cast<double>(i),
+            0.0);
+    }
+    for (double width = 1.2; width < 0.25 * static_cast<double>(m_); width *= 1.6)
+      for (double at = 0.5; at < static_cast<double>(m_); at += std::max(0.5, 0.4 * width)) {
+        VectorXd band(m_);
+        for (Index i = 0; i < m_; ++i) {
+          const double off = (static_cast<double>(i) + 0.5 - at) / width;
+          band[i] = std::exp(-off * off);
+        }
+        judge(band_, Kind::kBand, set, 1.0 / courses, mean, variance, band, at, width);
+      }
+    look_for_common_wave(set, 1.0 / courses, mean, variance);
+  }
+
+  /// `scale`: variance of the mean over that of one course.
+  void judge(CourseFinding& best, Kind kind, int set, double scale, const VectorXd& mean,
+             const VectorXd& variance, VectorXd form, double at, double width) {
+    forms_ += 1.0;
+    form.array() -= form.mean();
+    const double norm = form.squaredNorm();
+    const double score = form.dot(mean);
+    const double t = score / std::sqrt((basis_ * form).cwiseAbs2().dot(variance));
+    const double p = student_two_sided(std::abs(t), degrees_);
+    const double square = score * score / norm / scale;
+    if (!is_better(p, square, best.p_value, best.square)) return;
+    const double m = static_cast<double>(m_);
+    best = {kind, p, set, -1, at / m, width / m, square, score / norm};
+  }
+
+  void look_for_common_wave(int set, double scale, const VectorXd& mean, const VectorXd& variance) {
+    constexpr double kStep = 0.25, kFinest = 0.01;
+    const double most = 0.42 * static_cast<double>(m_);
+    frequencies_ = std::floor((most - 2.0) / kStep) + 1.0;
+    double best = 0.0;
+    const auto judge_wave = [&](double f) {
+      const double amplitude = amplitude_of(mean, f);
+      const double half = 0.5 * static_cast<double>(m_);
+      const auto k = std::min<Index>(m_ - 1, std::lround(2.0 * f));
+      const double p = f_tail(0.5 * half * amplitude * amplitude / variance[k], 2.0, degrees_);
+      const double square = half * amplitude * amplitude / scale;
+      if (!is_better(p, square, wave_.p_value, wave_.square)) return;
+      wave_ = {Kind::kWave, p, set, -1, 0.0, 1.0 / f, square, amplitude};
+      best = f;
+    };
+    for (double f = 2.0; f <= most; f += kStep) judge_wave(f);
+    for (double step = 0.5 * kStep; best > 0.0 && step > kFinest; step *= 0.5) {
+      const double middle = best;
+      judge_wave(middle - step);
+      judge_wave(middle + step);
+    }
+  }
+
+  [[nodiscard]] double amplitude_of(const VectorXd& mean, double waves) const {
+    double cosine = 0.0, sine = 0.0;
+    for (Index i = 0; i < m_; ++i) {
+      const double angle =
+          kTwoPi * waves * (static_cast<double>(i) + 0.5) / static_cast<double>(m_);
+      cosine += mean[i] * std::cos(angle);
+      sine += mean[i] * std::sin(angle);
+    }
+    return std::hypot(cosine, sine) / (0.5 * static_cast<double>(m_));
+  }
+
+  /// Power of all courses at every frequency, against that beside it; a line stands out of any
+  /// spectrum that is smooth.
+  void look_for_own_waves() {
+    constexpr double kStandsOut = 3.0;
+    CourseFinding best{Kind::kOwnWaves};
+    double tests = 0.0;
+    for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
+      if (sets_[s].cols() < 1) continue;
+      const VectorXd power = tapered_power(sets_[s]);
+      const auto n = static_cast<double>(sets_[s].cols());
+      for (Index k = 5; k + 4 < power.size(); ++k) {
+        tests += 1.0;
+        double beside = 0.0;
+        for (const Index off : {-4, -3, 3, 4})
+          beside += 0.25 * std::log(std::max(power[k + off], 1e-300));
+        const double ratio = power[k] / std::exp(beside);
+        // Four neighbours; the mean of logarithms knows a little less than that of squares.
+        const double p = f_tail(ratio, 2.0 * n, 6.0 * n);
+        if (ratio < kStandsOut || !(p < best.p_value)) continue;
+        best.p_value = p;
+        best.set = s;
+        best.width = 1.0 / static_cast<double>(k);
+        best.amount = std::sqrt(4.0 * power[k] / n);
+      }
+    }
+    keep(best, tests);
+  }
+
+  /// Squared amplitude / 4 of whole numbers of waves, summed over the courses, with a Hann window.
+  [[nodiscard]] VectorXd tapered_power(const MatrixXd& set) const {
+    const auto m = static_cast<double>(m_);
+    VectorXd power = VectorXd::Zero(m_ / 2);
+    for (Index k = 1; k < power.size(); ++k) {
+      VectorXd c(m_), s(m_);
+      for (Index i = 0; i < m_; ++i) {
+        const double x = (static_cast<double>(i) + 0.5) / m;
+        const double taper = (1.0 - std::cos(kTwoPi * x)) / m;
+        c[i] = taper * std::cos(kTwoPi * static_cast<double>(k) * x);
+        s[i] = taper * std::sin(kTwoPi * static_cast<double>(k) * x);
+      }
+      power[k] = ((c.transpose() * set).squaredNorm() + (s.transpose() * set).squaredNorm());
+    }
+    return power;
+  }
+
+  void look_for_spots() {
+    CourseFinding best{Kind::kSpot};
+    double tests = 0.0;
+    for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
+      std::vector<double> all;
+      std::vector<MatrixXd> windows;
+      for (std::size_t s = 0; s < sets_.size(); ++s) {
+        const MatrixXd apart =
+            clipped_[s].colwise() - (clipped_[s].cols() > 2 ? mean_[s] : VectorXd::Zero(m_));
+        MatrixXd sums(m_ - width + 1, apart.cols());
+        for (Index i = 0; i + width <= m_; ++i)
+          sums.row(i) = apart.middleRows(i, width).colwise().mean();
+        all.insert(all.end(), sums.data(), sums.data() + sums.size());
+        windows.push_back(std::move(sums));
+      }
+      // Too few windows apart from each other tell no spread.
+      if (courses_ * static_cast<double>(m_) / static_cast<double>(width) < 40.0) break;
+      tests += static_cast<double>(all.size());
+      const double spread = spread_of(std::move(all));
+      for (int s = 0; s < static_cast<int>(windows.size()) && spread > 0.0; ++s) {
+        Index row = 0, column = 0;
+        if (windows[s].size() == 0) continue;
+        const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);
+        const double p = std::erfc(most / spread / std::sqrt(2.0));
+        if (!(p < best.p_value)) continue;
+        best.p_value = p;
+        best.set = s;
+        best.course = static_cast<int>(column);
+        best.at =
+            (static_cast<double>(row) + 0.5 * static_cast<double>(width)) / static_cast<double>(m_);
+        best.width = static_cast<double>(width) / static_cast<double>(m_);
+        best.amount = sets_[s].col(column).segment(row, width).mean();
+      }
+    }
+    keep(best, tests);
+  }
+
+  const std::vector<MatrixXd>& sets_;
+  Index m_;
+  std::vector<MatrixXd> clipped_;
+  std::vector<VectorXd> mean_;
+  MatrixXd basis_;
+  VectorXd spectrum_;
+  double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
+  CourseFinding step_{Kind::kStep}, band_{Kind::kBand}, wave_{Kind::kWave};
+  std::vector<CourseFinding> found_;
+};
+
+}  // namespace
+
+bool is_better(double p_value, double square, double than_p_value, double than_square) {
+  constexpr double kBeyondDoubt = 1e-8;
+  const bool sure = p_value < kBeyondDoubt, than_sure = than_p_value < kBeyondDoubt;
+  return sure && than_sure ? square > than_square : p_value < than_p_value;
+}
+
+std::vector<CourseFinding> scan_courses(const std::vector<MatrixXd>& sets) {
+  constexpr Index kFewest = 12;
+  if (sets.empty() || sets.front().rows() < kFewest) return {};
+  return CourseScan(sets).run();
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+// Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a short wave, a
+// sector, every other tooth, a spot. They describe and are given no cause. They are no candidates
+// of their own: the search through the remainder says which of them, and where (remainder.h).
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// Roll length or height of a place [mm], as the form runs over the profile (0) or the face (1).
+double along(double face, const Place& place) { return face != 0.0 ? place.z_mm : place.roll_mm; }
+/// Where a form stands [mm] in the same measure; over the profile a form's place is a diameter.
+double stands_at(const FlankGeometry& g, double face, double place_mm) {
+  return face != 0.0 ? place_mm : g.roll_at_radius_mm(0.5 * place_mm);
+}
+std::string at_place(double face, double place_mm) {
+  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
+                     : printed("at a diameter of %.5g mm", place_mm);
+}
+std::string over(double face) { return face != 0.0 ? "over the face" : "over the profile"; }
+
+const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
+TermKey number(const std::string& name) { return {name, TermKey::Kind::kNumber}; }
+
+EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
+  EffectFamily f;
+  f.id = id;
+  f.description = "structure that no named effect explains";
+  f.parameters = {"cos_um", "sin_um"};
+  f.shape_names = std::move(shape_names);
+  f.named = false;
+  f.preference = 3;
+  f.correctable = Correctable::kNoCause;
+  f.columns = [](const EffectShape&) { return 1; };
+  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
+  return f;
+}
+
+/// A form along the flank: 1 where it acts wholly.
+template <class Function>
+EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_names,
+                         Function function) {
+  EffectFamily f = described(id, std::move(shape_names));
+  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                          double* c) {
+    c[0] = p.surface == Surface::kFlank ? function(g, p, shape) : 0.0;
+  };
+  f.needs = [](const EffectShape& shape) {
+    return NeedsToBeSeen{.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
+  };
+  return f;
+}
+
+double bell(double off, double width) { return std::exp(-off * off / (width * width)); }
+
+/// 1 on teeth of the sector.
+double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
+  const int z = g.teeth(), from = static_cast<int>(shape[0]);
+  return ((tooth - from) % z + z) % z < static_cast<int>(shape[1]) ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+EffectFamily unnamed_step() {
+  EffectFamily f =
+      along_flank("unnamed_step", {"along", "place_mm"},
+                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                    return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? 1.0 : 0.0;
+                  });
+  f.term_keys = {kAlong, number("place_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, a step " + over(shape[0]) + " " + at_place(shape[0], shape[1]);
+  };
+  return f;
+}
+
+EffectFamily unnamed_band() {
+  EffectFamily f =
+      along_flank("unnamed_band", {"along", "place_mm", "width_mm"},
+                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                    return bell(along(shape[0], p) - stands_at(g, shape[0], shape[1]), shape[2]);
+                  });
+  f.term_keys = {kAlong, number("place_mm"), number("width_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, a groove or ridge " + over(shape[0]) + " " +
+           at_place(shape[0], shape[1]) + printed(", %.2g mm to either side", shape[2]);
+  };
+  return f;
+}
+
+EffectFamily unnamed_waviness() {
+  EffectFamily f = described("unnamed_waviness", {"along", "wavelength_mm"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    const bool flank = p.surface == Surface::kFlank;
+    const double angle = kTwoPi * along(shape[0], p) / shape[1];
+    c[0] = flank ? std::cos(angle) : 0.0;
+    c[1] = flank ? std::sin(angle) : 0.0;
+  };
+  f.term_keys = {kAlong, number("wavelength_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, waves " + over(shape[0]) +
+           printed(", %.3g mm long", shape[1]) + (shape[0] != 0.0 ? "" : " (of roll length)");
+  };
+  return f;
+}
+
+EffectFamily unnamed_sector() {
+  EffectFamily f = described("unnamed_sector", {"first_tooth", "teeth", "profile_degree",
+                                                "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    c[0] = in_sector(g, p.tooth, shape) * (shape[4] != 0.0 ? p.side : 1) *
+           (shape[2] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[2]) : 1.0) *
+           (shape[3] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[3]) : 1.0);
+  };
+  f.term_keys = {{"first_tooth"},
+                 {"teeth"},
+                 {"profile_degree"},
+                 {"face_degree"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    const std::string form = shape[2] > 0.0   ? "another form of the profile"
+                             : shape[3] > 0.0 ? "another form of the face"
+                                              : "another height";
+    return "a sector of " + printed("%.0f teeth from tooth %.0f on has ", shape[1], shape[0]) +
+           form + " than the rest" + (shape[4] != 0.0 ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
+EffectFamily unnamed_alternation() {
+  EffectFamily f =
+      described("unnamed_alternation", {"profile_degree", "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * (shape[2] != 0.0 ? p.side : 1) *
+           (shape[0] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[0]) : 1.0) *
+           (shape[1] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[1]) : 1.0);
+  };
+  f.term_keys = {
+      {"profile_degree"}, {"face_degree"}, {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return std::string("every other tooth differs") +
+           (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
+EffectFamily unnamed_dent() {
+  EffectFamily f = described("unnamed_dent", {"tooth", "half_teeth", "height_mm", "half_mm"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double z = g.teeth();
+    const double off = std::remainder(p.tooth - shape[0], z);
+    c[0] = bell(off, shape[1]) * (shape[3] > 0.0 ? bell(p.z_mm - shape[2], shape[3]) : 1.0);
+  };
+  f.term_keys = {number("tooth"), number("half_teeth"), number("height_mm"), number("half_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed(
+               "a hollow or swelling over a few teeth about tooth %.0f, %.2g teeth to either side",
+               shape[0], shape[1]) +
+           (shape[3] > 0.0 ? printed(", at a height of %.3g mm", shape[2]) : "");
+  };
+  return f;
+}
+
+EffectFamily unnamed_spot() {
+  EffectFamily f = described(
+      "unnamed_spot", {"tooth", "diameter_mm", "height_mm", "width_profile_mm", "width_face_mm"});
+  f.flank_only = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank || p.tooth != static_cast<int>(shape[0])) return;
+    // A width of 0: over all of it.
+    c[0] = (shape[3] > 0.0 ? bell(p.roll_mm - stands_at(g, 0.0, shape[1]), shape[3]) : 1.0) *
+           (shape[4] > 0.0 ? bell(p.z_mm - shape[2], shape[4]) : 1.0);
+  };
+  f.term_keys = {{"tooth"},
+                 number("diameter_mm"),
+                 number("height_mm"),
+                 number("width_profile_mm"),
+                 number("width_face_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice flank) {
+    return "a spot on the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") +
+           printed(" flank of tooth %.0f", shape[0]) +
+           (shape[3] > 0.0 ? printed(", at a diameter of %.5g mm", shape[1]) : "") +
+           (shape[4] > 0.0 ? printed(", at a height of %.3g mm", shape[2]) : "") +
+           (shape[3] > 0.0 ? printed(", %.2g mm wide over the profile", 2.0 * shape[3]) : "") +
+           (shape[4] > 0.0 ? printed(", %.2g mm over the face", 2.0 * shape[4]) : "");
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/flank_spots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace trueflank::loop {
+namespace {
+
+constexpr double kClip = 3.5;
+constexpr int kMostCells = 20, kFewestCells = 4;
+constexpr std::size_t kFewestPoints = 40, kMostSpots = 3;
+
+double spread_of(std::vector<float> values) {
+  if (values.empty()) return 0.0;
+  for (float& value : values) value = std::abs(value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return 1.4826 * static_cast<double>(*middle);
+}
+
+/// Sums over the cells before a corner, so that every window is four look-ups.
+struct Field {
+  std::vector<double> sum, count, plain;
+};
+
+/// Cells of a window: over profile and face; 0: over all of it.
+struct Window {
+  int profile = 0, face = 0;
+};
+
+class SpotSearch {
+ public:
+  SpotSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+             const std::vector<float>& row_um)
+      : geometry_(geometry) {
+    std::vector<float> all;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      if (table.rows[i].kind != ObservationKind::kScanFlank || patches.patch_of_row[i] < 0)
+        continue;
+      rows.push_back(i);
+      all.push_back(row_um[i]);
+    }
+    const std::size_t per_flank = rows.size() / static_cast<std::size_t>(2 * geometry.teeth());
+    if (per_flank < kFewestPoints) return;
+    cells_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(per_flank) / 2.5)),
+                        kFewestCells, kMostCells);
+    const double limit = kClip * spread_of(std::move(all));
+    for (const std::size_t i : rows) {
+      const Place& place = table.place(table.rows[i]);
+      Field& field = *at_flank(place.tooth, place.side);
+      if (field.sum.empty())
+        field.sum = field.count = field.plain = std::vector<double>(corners(), 0.0);
+      const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
+                                    cell(geometry.face_coordinate(place.z_mm)) + 1);
+      const double um = row_um[i];
+      field.sum[at] += std::clamp(um, -limit, limit);
+      field.plain[at] += um;
+      field.count[at] += 1.0;
+    }
+    for (auto& [key, field] : fields_)
+      for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
+  }
+
+  std::vector<FlankSpot> run() {
+    if (fields_.empty()) return {};
+    std::map<std::pair<int, int>, FlankSpot> best;
+    double tests = 0.0;
+    std::vector<Window> windows;
+    for (int size = std::max(1, cells_ / 10); size <= cells_ / 2;
+         size = std::max(size + 1, size * 3 / 2)) {
+      windows.push_back({size, size});
+      if (size <= cells_ / 4) {
+        windows.push_back({0, size});
+        windows.push_back({size, 0});
+      }
+    }
+    for (const Window& window : windows) tests += judge(window, best);
+    std::vector<FlankSpot> spots;
+    for (auto& [key, spot] : best) {
+      spot.p_value *= tests;
+      if (spot.p_value < 1.0) spots.push_back(spot);
+    }
+    std::sort(spots.begin(), spots.end(),
+              [](const auto& a, const auto& b) { return a.p_value < b.p_value; });
+    if (spots.size() > kMostSpots) spots.resize(kMostSpots);
+    return spots;
+  }
+
+ private:
+  /// The field of a flank; looked up once.
+  Field* at_flank(int tooth, int side) {
+    if (flanks_.empty())
+      flanks_.resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1), nullptr);
+    Field*& field = flanks_[2 * static_cast<std::size_t>(tooth) + (side > 0 ? 1 : 0)];
+    if (field == nullptr) field = &fields_[{tooth, side}];
+    return field;
+  }
+
+  [[nodiscard]] std::size_t corners() const {
+    return static_cast<std::size_t>((cells_ + 1) * (cells_ + 1));
+  }
+  [[nodiscard]] std::size_t corner(int u, int v) const {
+    return static_cast<std::size_t>(u * (cells_ + 1) + v);
+  }
+  [[nodiscard]] int cell(double coordinate) const {
+    return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * cells_), 0, cells_ - 1);
+  }
+  void add_up(std::vector<double>& values) const {
+    for (int u = 1; u <= cells_; ++u)
+      for (int v = 1; v <= cells_; ++v)
+        values[corner(u, v)] +=
+            values[corner(u - 1, v)] + values[corner(u, v - 1)] - values[corner(u - 1, v - 1)];
+  }
+  [[nodiscard]] double within(const std::vector<double>& values, int u, int v, int du,
+                              int dv) const {
+    return values[corner(u + du, v + dv)] - values[corner(u, v + dv)] - values[corner(u + du, v)] +
+           values[corner(u, v)];
+  }
+
+  /// How many windows of this size there are.
+  double judge(const Window& window, std::map<std::pair<int, int>, FlankSpot>& best) const {
+    const int du = window.profile > 0 ? window.profile : cells_,
+              dv = window.face > 0 ? window.face : cells_;
+    constexpr double kFewestInWindow = 4.0;
+    std::vector<float> all;
+    const auto each = [&](auto visit) {
+      for (const auto& [key, field] : fields_)
+        for (int u = 0; u + du <= cells_; ++u)
+          for (int v = 0; v + dv <= cells_; ++v) {
+            const double count = within(field.count, u, v, du, dv);
+            if (count >= kFewestInWindow)
+              visit(key, field, u, v, count, within(field.sum, u, v, du, dv) / std::sqrt(count));
+          }
+    };
+    each([&](auto&, auto&, int, int, double, double score) {
+      all.push_back(static_cast<float>(score));
+    });
+    const auto tests = static_cast<double>(all.size());
+    const double spread = spread_of(std::move(all));
+    if (!(spread > 0.0)) return 0.0;
+    const double mm_u = (geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm()) / cells_;
+    const double mm_v = geometry_.face_width_mm() / cells_;
+    each([&](const auto& key, const Field& field, int u, int v, double count, double score) {
+      const double p = std::erfc(std::abs(score) / spread / std::sqrt(2.0));
+      FlankSpot& spot = best[key];
+      if (!(p < spot.p_value)) return;
+      spot = {p,
+              key.first,
+              key.second,
+              geometry_.root_form_roll_mm() + (u + 0.5 * du) * mm_u,
+              (v + 0.5 * dv) * mm_v,
+              window.profile > 0 ? 0.5 * du * mm_u : 0.0,
+              window.face > 0 ? 0.5 * dv * mm_v : 0.0,
+              within(field.plain, u, v, du, dv) / count};
+    });
+    return tests;
+  }
+
+  const FlankGeometry& geometry_;
+  int cells_ = 0;
+  std::map<std::pair<int, int>, Field> fields_;
+  std::vector<Field*> flanks_;
+};
+
+}  // namespace
+
+std::vector<FlankSpot> spots_of_scans(const FlankGeometry& geometry, const Observations& table,
+                                      const Patches& patches, const std::vector<float>& row_um) {
+  return SpotSearch(geometry, table, patches, row_um).run();
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/gear/patches.h"
+
+namespace trueflank::loop {
+
+/// Standard deviation [um] of the random error of the values that errors are made of, all kinds
+/// together, from the data's own neighbourhood. Traces: their spectrum, at every wavelength the
+/// median over the teeth and the neighbouring wavelengths, what the teeth have in common taken off:
+/// a line, a form that repeats or one odd tooth is no noise, an error that hangs together is.
+/// Scans: the median flank, less what all flanks have in common and a low form of its own. One
+/// value a tooth: second differences around the gear. Where `nothing_left`, scans and single values
+/// are taken as they are: nothing but noise is in them. `row_um`: residuals of the table's rows.
+/// Accuracy: median 1.00 of the true one, 95 % of blind runs within 8 % (docs/loop.md).
+[[nodiscard]] double random_error_um(const FlankGeometry& geometry, const Observations& table,
+                                     const Patches& patches, const std::vector<float>& row_um,
+                                     bool nothing_left);
+
+}  // namespace trueflank::loop

@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/remainder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/ring_scan.h"
+#include "trueflank/loop/gear/dents.h"
+#include "trueflank/loop/gear/flank_spots.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// False alarms of all that is looked for along flanks, of that around the gear.
+constexpr double kLevel = 0.004;
+constexpr int kCells = 960, kMostPlaces = 120, kFewestPlaces = 12, kScanCourses = 8,
+              kFewestTeeth = 8;
+
+bool is_trace(ObservationKind kind) {
+  return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
+}
+
+/// What runs over the same places: traces of one kind and source, or a scan's flanks.
+struct CourseKey {
+  int source = 0;
+  ObservationKind kind = ObservationKind::kProfile;
+  bool face = false;
+  auto operator<=>(const CourseKey&) const = default;
+};
+
+/// A value, or the sum of so many, at a place.
+struct Sample {
+  double at = 0.0, um = 0.0, count = 1.0;
+};
+
+/// The samples of one set of courses, left and right flanks apart.
+struct Courses {
+  std::array<std::map<int, std::vector<Sample>>, 2> of_flank;
+  std::array<std::map<int, int>, 2> tooth_of;
+  double low = 1e300, high = -1e300;
+  std::size_t samples = 0;
+
+  void add(int side, int course, int tooth, double at, double um) {
+    of_flank[side][course].push_back({at, um});
+    tooth_of[side][course] = tooth;
+    low = std::min(low, at);
+    high = std::max(high, at);
+    ++samples;
+  }
+
+  /// Courses of scans are gathered in narrow cells at once: there are many values.
+  void add_to_cell(int side, int course, double share, double um) {
+    std::vector<Sample>& cells = of_flank[side][course];
+    if (cells.empty()) {
+      cells.resize(kCells);
+      for (int i = 0; i < kCells; ++i)
+        cells[static_cast<std::size_t>(i)] = {low + (high - low) * (i + 0.5) / kCells, 0.0, 0.0};
+    }
+    Sample& cell = cells[static_cast<std::size_t>(
+        std::clamp(static_cast<int>(share * kCells), 0, kCells - 1))];
+    cell.um += um;
+    cell.count += 1.0;
+    ++samples;
+  }
+
+  [[nodiscard]] int places(bool scan) const {
+    if (scan) return std::clamp(static_cast<int>(samples / (2 * kScanCourses * 6)), 0, kMostPlaces);
+    std::vector<std::size_t> counts;
+    for (const auto& flank : of_flank)
+      for (const auto& [course, list] : flank) counts.push_back(list.size());
+    if (counts.empty()) return 0;
+    std::nth_element(counts.begin(),
+                     counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
+    return static_cast<int>(std::min<std::size_t>(counts[counts.size() / 2], kMostPlaces));
+  }
+
+  /// One flank's courses as columns over the places; gaps are bridged, courses with many left out.
+  [[nodiscard]] Eigen::MatrixXd matrix(int side, int places, std::vector<int>& courses) const {
+    Eigen::MatrixXd all(places, static_cast<Eigen::Index>(of_flank[side].size()));
+    Eigen::Index kept = 0;
+    courses.clear();
+    for (const auto& [course, list] : of_flank[side]) {
+      std::vector<double> sum(static_cast<std::size_t>(places), 0.0), count(sum);
+      for (const Sample& sample : list) {
+        // The first and the last of a trace stand at the middle of the end places.
+        const double share = (sample.at - low) / (high - low);
+        const int i =
+            std::clamp(static_cast<int>(std::lround(share * (places - 1))), 0, places - 1);
+        sum[static_cast<std::size_t>(i)] += sample.um;
+        count[static_cast<std::size_t>(i)] += sample.count;
+      }
+      if (bridge(sum, count, all.col(kept))) {
+        courses.push_back(course);
+        ++kept;
+      }
+    }
+    return all.leftCols(kept);
+  }
+
+  [[nodiscard]] double place(double share, int places) const {
+    return low + (high - low) * (share * places - 0.5) / (places - 1.0);
+  }
+  [[nodiscard]] double length(double share, int places) const {
+    return (high - low) * share * places / (places - 1.0);
+  }
+
+ private:
+  static bool bridge(const std::vector<double>& sum, const std::vector<double>& count,
+                     Eigen::Ref<Eigen::VectorXd> to) {
+    const auto n = static_cast<int>(sum.size());
+    int before = -1, empty = 0;
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (count[k] == 0.0) {
+        ++empty;
+        continue;
+      }
+      to[i] = sum[k] / count[k];
+      for (int gap = before + 1; gap < i; ++gap)
+        to[gap] =
+            before < 0 ? to[i] : to[before] + (to[i] - to[before]) * (gap - before) / (i - before);
+      before = i;
+    }
+    if (before < 0 || empty > n / 4) return false;
+    for (int gap = before + 1; gap < n; ++gap) to[gap] = to[before];
+    to.array() -= to.mean();
+    return true;
+  }
+};
+
+class RemainderSearch {
+ public:
+  RemainderSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                  const std::vector<float>& row_um, RemainderOf which)
+      : geometry_(geometry), table_(table), patches_(patches), row_um_(row_um), which_(which) {}
+
+  std::vector<RemainderFinding> run() {
+    gather();
+    for (auto& [key, courses] : courses_) look_along(key, courses);
+    if (which_ == RemainderOf::kAll) look_for_spots();
+    const auto looks = static_cast<double>(looks_);
+    for (RemainderFinding& finding : found_)
+      finding.p_value = std::min(1.0, looks * finding.p_value);
+    look_around();
+    std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kLevel; });
+    std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+      return is_better(a.p_value, a.square, b.p_value, b.square);
+    });
+    return std::move(found_);
+  }
+
+ private:
+  /// Values of a tooth that a ring of teeth is asked about: weighted sums of products with low
+  /// forms.
+  struct Moments {
+    std::array<double, 5> sum{}, square{};
+    int count = 0;
+  };
+
+  [[nodiscard]] static std::size_t moment_at(int side, int tooth) {
+    return 2 * static_cast<std::size_t>(tooth) + static_cast<std::size_t>(side);
+  }
+
+  Courses& scan_courses_of(int source, bool face) {
+    Courses& courses = courses_[{source, ObservationKind::kScanFlank, face}];
+    courses.low = face ? 0.0 : geometry_.root_form_roll_mm();
+    courses.high = face ? geometry_.face_width_mm() : geometry_.tip_form_roll_mm();
+    return courses;
+  }
+
+  void gather() {
+    int source = -1;
+    Courses *profile = nullptr, *face = nullptr;
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+      if (!is_used(i)) continue;
+      const Observation& row = table_.rows[i];
+      const Place& place = table_.place(row);
+      const double um = row_um_[i];
+      const int side = place.side > 0 ? 1 : 0;
+      add_moments(row, place, um);
+      if (is_trace(row.kind)) {
+        const bool helix = row.kind == ObservationKind::kHelix;
+        courses_[{row.source, row.kind, helix}].add(side, row.trace >= 0 ? row.trace : place.tooth,
+                                                    place.tooth, helix ? place.z_mm : place.roll_mm,
+                                                    um);
+      } else if (row.kind == ObservationKind::kScanFlank) {
+        // Teeth are gathered to few courses, each dense enough.
+        const int course = place.tooth % std::min(kScanCourses, geometry_.teeth());
+        if (row.source != source) {
+          source = row.source;
+          profile = &scan_courses_of(source, false);
+          face = &scan_courses_of(source, true);
+        }
+        profile->add_to_cell(side, course,
+                             0.5 * (geometry_.profile_coordinate(place.roll_mm) + 1.0), um);
+        face->add_to_cell(side, course, 0.5 * (geometry_.face_coordinate(place.z_mm) + 1.0), um);
+      }
+    }
+  }
+
+  void add_moments(const Observation& row, const Place& place, double um) {
+    if (row.kind == ObservationKind::kRadial) return;
+    const double u = geometry_.profile_coordinate(place.roll_mm),
+                 v = geometry_.face_coordinate(place.z_mm);
+    const std::array<double, 5> form{1.0, u, v, u * u - 1.0 / 3.0, v * v - 1.0 / 3.0};
+    const bool profile = row.kind == ObservationKind::kProfile,
+               helix = row.kind == ObservationKind::kHelix;
+    const bool scan = row.kind == ObservationKind::kScanFlank;
+    const std::pair<int, int> key{scan ? kScans : profile ? 1 : helix ? 2 : 3, row.source};
+    if (last_moments_ == nullptr || key != last_key_) {
+      last_moments_ = &moments_[key];
+      last_key_ = key;
+      last_moments_->resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1));
+    }
+    Moments& of_tooth = (*last_moments_)[moment_at(place.side > 0 ? 1 : 0, place.tooth)];
+    ++of_tooth.count;
+    for (std::size_t k = 0; k < form.size(); ++k) {
+      // A trace shows its own direction; with a zero of its own no height.
+      if (k == 0 && row.trace >= 0 && row.kind != ObservationKind::kIndex) continue;
+      if ((k == 1 || k == 3) && (helix || row.kind == ObservationKind::kIndex)) continue;
+      if ((k == 2 || k == 4) && (profile || row.kind == ObservationKind::kIndex)) continue;
+      of_tooth.sum[k] += form[k] * um;
+      of_tooth.square[k] += form[k] * form[k];
+    }
+  }
+
+  void look_along(const CourseKey& key, const Courses& courses) {
+    const bool scan = key.kind == ObservationKind::kScanFlank;
+    const int places = courses.places(scan);
+    if (places < kFewestPlaces || !(courses.high > courses.low)) return;
+    std::array<std::vector<int>, 2> members;
+    std::vector<Eigen::MatrixXd> sets;
+    std::vector<int> side_of;
+    for (const int side : {1, 0}) {
+      Eigen::MatrixXd set = courses.matrix(side, places, members[static_cast<std::size_t>(side)]);
+      if (set.cols() == 0) continue;
+      sets.push_back(std::move(set));
+      side_of.push_back(side);
+    }
+    if (sets.empty()) return;
+    looks_ += 3;  // in common, waves of their own, spots
+    for (const CourseFinding& found : scan_courses(sets)) {
+      if (found.kind == CourseFinding::Kind::kSpot) {
+        if (scan || which_ != RemainderOf::kAll) continue;
+        const int side = side_of[static_cast<std::size_t>(found.set)];
+        const int course =
+            members[static_cast<std::size_t>(side)][static_cast<std::size_t>(found.course)];
+        add_spot_of_trace(key, courses, places, found, side,
+                          courses.tooth_of[static_cast<std::size_t>(side)].at(course));
+      } else {
+        add_course(key, courses, places, found,
+                   found.set < 0 ? -1 : side_of[static_cast<std::size_t>(found.set)]);
+      }
+    }
+  }
+
+  /// A place along the flank as people say it: a height, or a diameter.
+  [[nodiscard]] double place_mm(bool face, double at) const {
+    return face ? at : 2.0 * geometry_.on_flank(1, 1, at, 0.0).radius_mm;
+  }
+
+  static FlankChoice flank_choice(const FlankGeometry& g, int side) {
+    return side < 0                          ? FlankChoice::kBoth
+           : (side > 0) == (g.sense() > 0.0) ? FlankChoice::kLeft
+                                             : FlankChoice::kRight;
+  }
+
+  void add(const char* family, FlankChoice flank, EffectShape shape, double p_value, double amount,
+           bool local, double square = 0.0) {
+    RemainderFinding finding{
+        p_value, {}, square, amount, Effect{find_family(family), flank, std::move(shape)}, local};
+    finding.text = words_of(*finding.effect, amount);
+    found_.push_back(std::move(finding));
+  }
+
+  /// What is no form that could be a column.
+  void add_text(double p_value, std::string text, double amount) {
+    found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
+  }
+
+  static std::string words_of(const Effect& effect, double amount) {
+    const char* on = effect.family->flank_only || effect.flank == FlankChoice::kBoth ? ""
+                     : effect.flank == FlankChoice::kLeft ? ", left flanks"
+                                                          : ", right flanks";
+    return effect.family->words(effect.shape, effect.flank) + on + printed(", %.3g um", amount);
+  }
+
+  void add_course(const CourseKey& key, const Courses& courses, int places,
+                  const CourseFinding& found, int side) {
+    const double face = key.face ? 1.0 : 0.0;
+    const FlankChoice flank = flank_choice(geometry_, side);
+    const double at =
+        place_mm(key.face, std::clamp(courses.place(found.at, places), courses.low, courses.high));
+    const double width = courses.length(found.width, places);
+    using Kind = CourseFinding::Kind;
+    switch (found.kind) {
+      case Kind::kStep:
+        add("unnamed_step", flank, {face, at}, found.p_value, found.amount, false, found.square);
+        break;
+      case Kind::kBand:
+        add("unnamed_band", flank, {face, at, width}, found.p_value, found.amount, false,
+            found.square);
+        break;
+      case Kind::kWave:
+        add("unnamed_waviness", flank, {face, width}, found.p_value, found.amount, false,
+            found.square);
+        break;
+      default:
+        add_text(
+            found.p_value,
+            printed(
+                "waves over the %s, %.3g mm long, %.3g um, in a phase of its own on every tooth",
+                key.face ? "face" : "profile", width, found.amount) +
+                (side < 0                      ? ""
+                 : flank == FlankChoice::kLeft ? ", left flanks"
+                                               : ", right flanks"),
+            found.amount);
+    }
+  }
+
+  void add_spot_of_trace(const CourseKey& key, const Courses& courses, int places,
+                         const CourseFinding& found, int side, int tooth) {
+    const double at = courses.place(found.at, places),
+                 half = 0.5 * courses.length(found.width, places);
+    const double middle = 0.5 * geometry_.face_width_mm();
+    EffectShape shape =
+        key.face ? EffectShape{double(tooth), 2.0 * geometry_.reference_radius_mm(), at, 0.0, half}
+                 : EffectShape{double(tooth), place_mm(false, at), middle, half, 0.0};
+    add("unnamed_spot", flank_choice(geometry_, side), std::move(shape), found.p_value,
+        found.amount, true);
+  }
+
+  void look_for_spots() {
+    ++looks_;
+    for (const FlankSpot& spot : spots_of_scans(geometry_, table_, patches_, row_um_))
+      add("unnamed_spot", flank_choice(geometry_, spot.side > 0 ? 1 : 0),
+          {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm, spot.half_profile_mm,
+           spot.half_face_mm},
+          spot.p_value, spot.amount_um, true);
+  }
+
+  /// Height, slope and bow of every tooth, in a ring.
+  void look_around() {
+    struct Series {
+      int form;
+      bool opposite;
+    };
+    for (const auto& [key, of_teeth] : moments_) {
+      std::vector<int> teeth;
+      for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth)
+        if (of_teeth[moment_at(0, tooth)].count > 0 && of_teeth[moment_at(1, tooth)].count > 0)
+          teeth.push_back(tooth);
+      if (static_cast<int>(teeth.size()) < kFewestTeeth) continue;
+      const auto n = static_cast<Eigen::Index>(teeth.size());
+      std::vector<Series> what;
+      Eigen::MatrixXd series(n, 0);
+      for (int form = 0; form < 5; ++form)
+        for (const bool opposite : {false, true}) {
+          Eigen::VectorXd values(n);
+          bool known = true;
+          for (Eigen::Index i = 0; i < n; ++i) {
+            const Moments& right = of_teeth[moment_at(0, teeth[static_cast<std::size_t>(i)])];
+            const Moments& left = of_teeth[moment_at(1, teeth[static_cast<std::size_t>(i)])];
+            const auto k = static_cast<std::size_t>(form);
+            known = known && right.square[k] > 0.0 && left.square[k] > 0.0;
+            if (known)
+              values[i] = 0.5 * (left.sum[k] / left.square[k] +
+                                 (opposite ? -1.0 : 1.0) * right.sum[k] / right.square[k]);
+          }
+          if (!known) continue;
+          series.conservativeResize(Eigen::NoChange, series.cols() + 1);
+          series.col(series.cols() - 1) = values;
+          what.push_back({form, opposite});
+        }
+      if (what.empty()) continue;
+      std::vector<int> place = teeth;
+      for (int& at : place) --at;
+      RingFinding found = scan_ring(series, place, geometry_.teeth());
+      if (found.series < 0) continue;
+      found.p_value = std::min(1.0, found.p_value * static_cast<double>(moments_.size()));
+      if (found.p_value > kLevel) continue;
+      const Series& s = what[static_cast<std::size_t>(found.series)];
+      add_ring(found, teeth, s.form, s.opposite, key.first == kScans);
+    }
+  }
+
+  void add_ring(const RingFinding& found, const std::vector<int>& teeth, int form, bool opposite,
+                bool scan) {
+    const double u = form == 1   ? 1.0
+                     : form == 3 ? 2.0
+                                 : 0.0,
+                 v = form == 2   ? 1.0
+                     : form == 4 ? 2.0
+                                 : 0.0;
+    const double turned = opposite ? 1.0 : 0.0;
+    const auto n = static_cast<int>(teeth.size());
+    if (found.count > 0) {
+      const int first = teeth[static_cast<std::size_t>(found.first)];
+      const int last = teeth[static_cast<std::size_t>((found.first + found.count - 1) % n)];
+      const int z = geometry_.teeth();
+      const int count = ((last - first) % z + z) % z + 1;
+      if (scan && add_dent(found, Sector{first, count, v, opposite})) return;
+      add("unnamed_sector", FlankChoice::kBoth, {double(first), double(count), u, v, turned},
+          found.p_value, found.amount, false);
+    } else if (3 * n >= 2 * geometry_.teeth() && 2 * found.order >= geometry_.teeth() - 1) {
+      add("unnamed_alternation", FlankChoice::kBoth, {u, v, turned}, found.p_value, found.amount,
+          false);
+    } else if (u < 2.0 && v < 2.0) {
+      add("unnamed", FlankChoice::kBoth, {u, v, double(found.order), turned}, found.p_value,
+          found.amount, false);
+    } else {
+      add_text(found.p_value,
+               printed("a wave %d times around the %d teeth measured, %.3g um", found.order, n,
+                       found.amount),
+               found.amount);
+    }
+  }
+
+  struct Sector {
+    int first = 0, count = 0;
+    double face_degree = 0.0;
+    bool opposite = false;
+  };
+
+  /// A dent in place of a sector, where it takes out more.
+  bool add_dent(const RingFinding& found, const Sector& sector) {
+    const int z = geometry_.teeth();
+    if (3 * sector.count > z) return false;
+    std::vector<bool> used(table_.rows.size());
+    double product = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      used[i] = is_used(i);
+      const Place& place = table_.place(table_.rows[i]);
+      if (!used[i] || ((place.tooth - sector.first) % z + z) % z >= sector.count) continue;
+      const double form = std::pow(geometry_.face_coordinate(place.z_mm), sector.face_degree) *
+                          (sector.opposite ? place.side : 1);
+      product += form * row_um_[i];
+      square += form * form;
+    }
+    const auto dent = largest_dent(geometry_, table_, row_um_, used);
+    if (!dent || !(square > 0.0) || dent->square <= product * product / square) return false;
+    add("unnamed_dent",
+        dent->side == 0 ? FlankChoice::kBoth : flank_choice(geometry_, dent->side > 0 ? 1 : 0),
+        {dent->tooth, dent->half_teeth, dent->height_mm, dent->half_mm}, found.p_value,
+        dent->amount_um, false);
+    return true;
+  }
+
+  /// True for rows that are looked at.
+  [[nodiscard]] bool is_used(std::size_t i) const {
+    const int patch = patches_.patch_of_row[i];
+    if (patch < 0 || table_.rows[i].places != 1) return false;
+    if (which_ == RemainderOf::kTraining &&
+        patches_.patches[static_cast<std::size_t>(patch)].fold == 0)
+      return false;
+    return table_.place(table_.rows[i]).surface == Surface::kFlank;
+  }
+
+  static constexpr int kScans = 0;
+  const FlankGeometry& geometry_;
+  const Observations& table_;
+  const Patches& patches_;
+  const std::vector<float>& row_um_;
+  RemainderOf which_;
+  std::map<CourseKey, Courses> courses_;
+  std::map<std::pair<int, int>, std::vector<Moments>> moments_;  ///< of kind and source
+  std::vector<Moments>* last_moments_ = nullptr;
+  std::pair<int, int> last_key_;
+  int looks_ = 0;
+  std::vector<RemainderFinding> found_;
+};
+
+}  // namespace
+
+std::vector<RemainderFinding> look_at_remainder(const FlankGeometry& geometry,
+                                                const Observations& table, const Patches& patches,
+                                                const std::vector<float>& row_um,
+                                                RemainderOf which) {
+  return RemainderSearch(geometry, table, patches, row_um, which).run();
+}
+
+}  // namespace trueflank::loop

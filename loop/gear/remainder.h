@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueflank/loop/gear/patches.h"
+
+namespace trueflank::loop {
+
+/// One structure in what a model leaves.
+struct RemainderFinding {
+  double p_value = 1.0;  ///< corrected for all places, lengths and orders looked at
+  std::string text;      ///< size, place, wavelength in words
+  double square = 0.0;   ///< squares that a form in common takes out
+  double amount_um = 0.0;
+  std::optional<Effect>
+      effect;  ///< the form as columns; empty: no form that comes back (phases of their own)
+  bool local = false;  ///< stands on one tooth
+};
+
+/// Which values are looked at: what is to be learnt must not come from the hold-out; what stands on
+/// one tooth cannot be learnt elsewhere.
+enum class RemainderOf { kTraining, kAll };
+
+/// Structure of any scale in residuals: along the traces or flanks (steps, grooves, waves in phase
+/// or each in its own, spots), around the gear (sectors, waves of every order to half the teeth)
+/// and in space (spots of scans). Each is judged against the neighbourhood: other teeth at the same
+/// place, other places of the same width, other orders of the teeth. The most certain finding
+/// first; those beyond the level only. `row_um`: the residual of every row of the table.
+[[nodiscard]] std::vector<RemainderFinding> look_at_remainder(const FlankGeometry& geometry,
+                                                              const Observations& table,
+                                                              const Patches& patches,
+                                                              const std::vector<float>& row_um,
+                                                              RemainderOf which);
+
+}  // namespace trueflank::loop

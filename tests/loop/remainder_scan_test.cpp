@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/ring_scan.h"
+
+// What is looked for in remainders, on made values: found where it is, and seldom where nothing is.
+namespace trueflank::loop {
+namespace {
+
+using Eigen::MatrixXd;
+using Kind = CourseFinding::Kind;
+
+/// Courses of errors that hang together by rho from one place to the next.
+MatrixXd errors(int places, int courses, double rho, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  MatrixXd m(places, courses);
+  for (int c = 0; c < courses; ++c) {
+    double now = normal(random);
+    for (int i = 0; i < places; ++i) {
+      now = rho * now + std::sqrt(1.0 - rho * rho) * normal(random);
+      m(i, c) = now;
+    }
+  }
+  return m;
+}
+
+MatrixXd centred(MatrixXd m) {
+  m.rowwise() -= m.colwise().mean().eval();
+  return m;
+}
+
+template <class Function>
+MatrixXd with(MatrixXd m, Function form) {
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (Eigen::Index i = 0; i < m.rows(); ++i)
+      m(i, c) += form((static_cast<double>(i) + 0.5) / static_cast<double>(m.rows()), c);
+  return centred(std::move(m));
+}
+
+const CourseFinding* find(const std::vector<CourseFinding>& found, Kind kind) {
+  for (const CourseFinding& f : found)
+    if (f.kind == kind && f.p_value < 1e-3) return &f;
+  return nullptr;
+}
+
+TEST(CourseScan, SeldomAlarmsOnErrorsThatHangTogether) {
+  for (const double rho : {0.0, 0.7}) {
+    int alarms = 0;
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+      const auto found = scan_courses(
+          {centred(errors(80, 8, rho, seed)), centred(errors(80, 8, rho, 1000 + seed))});
+      alarms +=
+          std::any_of(found.begin(), found.end(), [](const auto& f) { return f.p_value < 0.01; });
+    }
+    // Three questions at 1 %: nine or more of 100 come once in 300 such tests.
+    EXPECT_LE(alarms, 8) << rho;
+  }
+}
+
+TEST(CourseScan, FindsAGrooveAStepAndWavesWhereTheyAre) {
+  const MatrixXd right = centred(errors(80, 6, 0.5, 2));
+  const auto groove = scan_courses(
+      {with(errors(80, 6, 0.5, 1),
+            [](double x, auto) { return -4.0 * std::exp(-std::pow((x - 0.3) / 0.05, 2)); }),
+       right});
+  const CourseFinding* found = find(groove, Kind::kBand);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->set, 0);
+  EXPECT_NEAR(found->at, 0.3, 0.02);
+  EXPECT_NEAR(found->amount, -4.0, 1.0);
+
+  const auto step = scan_courses(
+      {with(errors(80, 6, 0.5, 1), [](double x, auto) { return x > 0.6 ? 3.0 : 0.0; }), right});
+  ASSERT_NE(find(step, Kind::kStep), nullptr);
+  EXPECT_NEAR(find(step, Kind::kStep)->at, 0.6, 0.02);
+
+  const auto waves = scan_courses(
+      {with(errors(80, 6, 0.5, 1), [](double x, auto) { return 2.0 * std::sin(60.0 * x); }),
+       right});
+  ASSERT_NE(find(waves, Kind::kWave), nullptr);
+  EXPECT_NEAR(find(waves, Kind::kWave)->width, 2.0 * M_PI / 60.0, 0.002);
+  EXPECT_NEAR(find(waves, Kind::kWave)->amount, 2.0, 0.4);
+}
+
+TEST(CourseScan, WavesInAPhaseOfTheirOwnAreFoundThoughTheMeanHasNone) {
+  const auto found = scan_courses({with(errors(80, 8, 0.5, 1), [](double x, auto c) {
+    return 2.0 * std::sin(2.0 * M_PI * 12.0 * x + 2.4 * static_cast<double>(c));
+  })});
+  const CourseFinding* own = find(found, Kind::kOwnWaves);
+  ASSERT_NE(own, nullptr);
+  EXPECT_NEAR(own->width, 1.0 / 12.0, 0.005);
+  EXPECT_NEAR(own->amount, 2.0, 0.4);
+}
+
+TEST(CourseScan, ASpotOnOneCourseIsFoundThereAndAWildPointIsNone) {
+  const auto spot = scan_courses({with(errors(80, 8, 0.0, 1), [](double x, auto c) {
+    return c == 5 && std::abs(x - 0.7) < 0.06 ? 8.0 : 0.0;
+  })});
+  const CourseFinding* found = find(spot, Kind::kSpot);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->course, 5);
+  EXPECT_NEAR(found->at, 0.7, 0.04);
+  const auto wild = scan_courses({with(errors(80, 8, 0.0, 1), [](double x, auto c) {
+    return c == 5 && std::abs(x - 0.7) < 0.006 ? 30.0 : 0.0;
+  })});
+  EXPECT_EQ(find(wild, Kind::kSpot), nullptr);
+}
+
+std::vector<int> all_places(int n) {
+  std::vector<int> place(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) place[static_cast<std::size_t>(i)] = i;
+  return place;
+}
+
+TEST(RingScan, SeldomAlarms) {
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed)
+    alarms += scan_ring(errors(24, 4, 0.0, seed), all_places(24), 24).p_value < 0.01;
+  // At 1 % seven or more of 200 come once in 200 such tests.
+  EXPECT_LE(alarms, 6);
+}
+
+TEST(RingScan, FindsASectorAndEveryOtherTooth) {
+  const auto sector = scan_ring(
+      with(errors(24, 1, 0.0, 1), [](double x, auto) { return x > 0.8 || x < 0.05 ? 6.0 : 0.0; }),
+      all_places(24), 24);
+  EXPECT_LT(sector.p_value, 1e-3);
+  EXPECT_EQ(sector.first, 19);
+  EXPECT_EQ(sector.count, 6);
+  EXPECT_NEAR(sector.amount, 6.0, 1.0);
+  const auto other = scan_ring(
+      with(errors(24, 1, 0.0, 1),
+           [](double x, auto) { return std::lround(24.0 * x - 0.5) % 2 == 0 ? 3.0 : -3.0; }),
+      all_places(24), 24);
+  EXPECT_LT(other.p_value, 1e-3);
+  EXPECT_EQ(other.count, 0);
+  EXPECT_EQ(other.order, 12);
+}
+
+TEST(RingScan, ASectorOfFewTeethIsFoundThoughFewOrdersExist) {
+  const auto found =
+      scan_ring(with(errors(9, 1, 0.0, 3), [](double x, auto) { return x < 0.45 ? 40.0 : 0.0; }),
+                all_places(9), 9);
+  EXPECT_LT(found.p_value, 1e-3);
+  EXPECT_EQ(found.count, 4);
+}
+
+}  // namespace
+}  // namespace trueflank::loop
