@@ -4,6 +4,7 @@ JOBS ?= $(shell nproc)
 # On a machine that has everything by other means: make DEPENDENCIES=true
 DEPENDENCIES ?= scripts/install-dependencies
 DEMO := build/demo/bilateral_drive
+PRINTED := build/demo/printed_actuator
 
 .PHONY: all demo test bench asan fuzz clean
 
@@ -13,11 +14,13 @@ all:
 	@cmake --preset release
 	@cmake --build build -j $(JOBS)
 
-# The paper's gearbox, from its design file to parts.
+# The paper's gearbox, from its design file to parts; and a whole actuator to print.
 demo: all
 	build/trueflank make examples/bilateral_drive/design.toml -o $(DEMO)
+	build/trueflank make examples/printed_actuator/design.toml -o $(PRINTED)
 	@echo
 	@echo "The parts are in $(DEMO); start with $(DEMO)/report.html"
+	@echo "An actuator to print is in $(PRINTED): bom.csv says what to buy, plate_1.3mf is ready to slice"
 
 test:
 	@$(DEPENDENCIES) build test

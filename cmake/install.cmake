@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(folders base geometry train kinds search check solid export design loop report session)
+set(folders base geometry train kinds search check solid machine export design loop report session)
 add_library(trueflank_all INTERFACE)
 add_library(trueflank::trueflank ALIAS trueflank_all)
 set_target_properties(trueflank_all PROPERTIES EXPORT_NAME trueflank)

@@ -25,6 +25,8 @@ set(TRUEFLANK_PUBLIC_HEADERS
   train/gearbox_design.h
   train/inertia.h
   train/losses.h
+  train/machine/elements.h
+  train/machine/machine_design.h
   train/materials.h
   train/process.h
   train/strength.h
@@ -42,6 +44,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   check/finding.h
   check/mesh_clearance.h
   check/ring_criteria.h
+  solid/measure/bill_of_materials.h
   solid/measure/mass_properties.h
   solid/measure/mesh_compare.h
   solid/measure/mesh_difference.h

@@ -45,6 +45,7 @@ class Contradictions {
     }
     check_bodies();
     if (design_.carrier) check_carrier();
+    if (design_.machine) check_machine();
   }
 
  private:
@@ -392,7 +393,7 @@ class Contradictions {
     const GearDesign* planet = planet_of_design();
     if (!planet) return;
     const std::string bore = planet->name + ".bore_mm";
-    if (!reading_.has(bore)) {
+    if (!reading_.has(bore) && !(planet->bore.diameter_mm > 0.0)) {
       if (!reading_.has(planet->name + ".bore_hex_mm"))
         reading_.missing(bore, "the carrier's pins need a bore in " + planet->name,
                          "bore_mm in [" + planet->name + "], or no [carrier]");
@@ -402,6 +403,48 @@ class Contradictions {
                              "the pin is not thinner than the planet's bore",
                              "less than " + mm(planet->bore.diameter_mm));
     }
+  }
+
+  void check_machine() {
+    const Topology& topology = design_.topology;
+    if (kind_known_ && !(topology.has_planets() && carries_planets_freely(topology)))
+      reading_.contradiction("housing", "no housing is made for this kind with this output",
+                             "a kind with planets and a fixed ring, or no [housing]");
+    check_motor(design_.machine->motor);
+    for (const GearDesign& gear : design_.gears)
+      if (gear.kind == GearKind::kInternal)
+        for (const char* name : {"outer_diameter_mm", "bolt_circle_diameter_mm"})
+          if (reading_.has(gear.name + "." + name))
+            reading_.contradiction(gear.name + "." + name, "follows from [housing]",
+                                   "outer_diameter_mm in [housing], or nothing");
+    if (reading_.has("carrier.bearing_diameter_mm"))
+      reading_.contradiction("carrier.bearing_diameter_mm", "the carrier of a gearbox has no such seat",
+                             "[bearings], or no [housing]");
+  }
+
+  /// A ring is held, and the carrier turns.
+  static bool carries_planets_freely(const Topology& topology) {
+    return std::none_of(topology.fixed.begin(), topology.fixed.end(),
+                        [&](int member) { return topology.is_carrier(member); });
+  }
+
+  void check_motor(const Motor& motor) {
+    if (!reading_.has("motor"))
+      return reading_.missing("motor", "the table is missing, and [housing] needs it",
+                              "[motor] with name, or with its numbers");
+    const std::pair<const char*, double> needed[] = {{"shaft_diameter_mm", motor.shaft_diameter_mm},
+                                                     {"shaft_length_mm", motor.shaft_length_mm},
+                                                     {"bolt_circle_diameter_mm", motor.bolt_circle_diameter_mm}};
+    const bool named = reading_.has("motor.name");
+    for (const auto& [name, value] : needed)
+      if (!named && !(value > 0.0))
+        reading_.missing(std::string("motor.") + name, "missing, and the motor has no name",
+                         "a length above 0, or name");
+    if (!(motor.shaft_diameter_mm > 0.0 && motor.flat_mm > 0.0)) return;
+    if (!(motor.flat_mm > 0.5 * motor.shaft_diameter_mm && motor.flat_mm < motor.shaft_diameter_mm))
+      reading_.contradiction("motor.flat_mm", "is no flat of a shaft of " + mm(motor.shaft_diameter_mm),
+                             "more than " + mm(0.5 * motor.shaft_diameter_mm) + ", less than " +
+                                 mm(motor.shaft_diameter_mm));
   }
 
   const GearboxDesign& design_;

@@ -13,6 +13,7 @@
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/design/reading.h"
 #include "trueflank/design/toml_document.h"
+#include "trueflank/train/machine/bed.h"
 
 namespace trueflank {
 namespace {
@@ -43,6 +44,8 @@ std::string place_of(std::string_view name) {
   if (in(rack_keys())) return "[rack]";
   if (in(carrier_keys())) return "[carrier]";
   if (in(shafts_keys())) return "[shafts]";
+  if (in(housing_keys())) return "[housing]";
+  if (in(bearings_keys())) return "[bearings]";
   if (in(made_keys())) return "[made]";
   if (in(losses_keys())) return "[losses]";
   if (in(strength_keys())) return "[strength]";
@@ -67,6 +70,7 @@ class DesignReader {
     if (const TomlTable* table = section("rack")) read_rack(*table);
     read_gears();
     read_carrier();
+    read_machine();
     if (const TomlTable* table = section("shafts"))
       read_keys("shafts", *table, shafts_keys(), file_.design.shafts);
     if (const TomlTable* table = section("made")) read_made(*table);
@@ -75,6 +79,7 @@ class DesignReader {
       read_strength(*table);
     settle_module();
     settle_tools();
+    settle_bores();
     report_contradictions(file_.design, kind_known_, reading_);
     if (!reading_.clean() || !tools_errors_.empty()) {
       Errors errors = reading_.clean() ? Errors{} : reading_.errors(file);
@@ -91,7 +96,8 @@ class DesignReader {
  private:
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses", "strength"});
+    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses", "strength", "motor", "housing",
+                              "output", "bearings", "fasteners"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
       if (std::any_of(known.begin(), known.end(), is)) {
@@ -214,6 +220,11 @@ class DesignReader {
   void read_made(const TomlTable& table) {
     MadeDesign& made = file_.design.made;
     read_keys("made", table, made_keys(), made);
+    if (!made.bed.empty() && !find_bed(made.bed)) {
+      std::vector<std::string> names;
+      for (const Bed& bed : standard_beds()) names.push_back(bed.name);
+      report_unknown_name("made.bed", made.bed, "bed", names);
+    }
     if (!made.process) return;
     if (const Process* process = file_.tools.processes.find(made.process->name))
       made.process = *process;
@@ -287,6 +298,74 @@ class DesignReader {
     if (!table) return;
     read_keys("carrier", *table, carrier_keys(), file_.design.carrier.emplace());
     report_missing("carrier", carrier_keys(), [](KeyPlace) { return true; });
+  }
+
+  /// What [housing] makes of the gears.
+  void read_machine() {
+    const TomlTable* housing = section("housing");
+    for (const char* name : {"motor", "output", "bearings", "fasteners"})
+      if (!housing && root_.find(name))
+        reading_.contradiction(name, "belongs to a gearbox, and the table [housing] is missing",
+                               "a line [housing]; it may stand alone");
+    if (!housing) return;
+    MachineDesign& machine = file_.design.machine.emplace();
+    read_keys("housing", *housing, housing_keys(), machine.housing);
+    if (const TomlTable* table = section("motor")) read_motor(*table, machine.motor);
+    if (const TomlTable* table = section("output"))
+      read_keys("output", *table, output_keys(), machine.output);
+    if (const TomlTable* table = section("bearings"))
+      read_keys("bearings", *table, bearings_keys(), machine.bearings);
+    report_missing("bearings", bearings_keys(), [](KeyPlace) { return true; });
+    FastenersDesign& fasteners = machine.fasteners;
+    fasteners.housing.name = fasteners.carrier.name = fasteners.output.name = "M3";
+    if (const TomlTable* table = section("fasteners"))
+      read_keys("fasteners", *table, fasteners_keys(), fasteners);
+    const MachineElements& elements = file_.tools.elements;
+    fasteners.motor.name = machine.motor.screw;
+    take_element("motor.screw", "screw", elements.screws, fasteners.motor);
+    take_element("fasteners.housing", "screw", elements.screws, fasteners.housing);
+    take_element("fasteners.carrier", "screw", elements.screws, fasteners.carrier);
+    take_element("fasteners.output", "screw", elements.screws, fasteners.output);
+    if (!machine.bearings.output.name.empty())
+      take_element("bearings.output", "bearing", elements.bearings, machine.bearings.output);
+    if (machine.bearings.planet)
+      take_element("bearings.planet", "bearing", elements.bearings, *machine.bearings.planet);
+  }
+
+  void read_motor(const TomlTable& table, Motor& motor) {
+    if (const std::string* name = name_in(table, "name")) {
+      motor.name = *name;
+      take_element("motor.name", "motor", file_.tools.elements.motors, motor);
+    }
+    read_keys("motor", table, motor_keys(), motor);
+  }
+
+  /// Puts the element of its name in its place.
+  template <class Element>
+  void take_element(const std::string& key, const char* what, const std::vector<Element>& known,
+                    Element& element) {
+    if (const Element* found = find_element(known, element.name)) {
+      element = *found;
+      return;
+    }
+    std::vector<std::string> names;
+    for (const Element& other : known) names.push_back(other.name);
+    report_unknown_name(key, element.name, what, names);
+  }
+
+  /// Bores that follow from what is bought: the shaft's in what it drives, the bearing's in the planets.
+  void settle_bores() {
+    GearboxDesign& design = file_.design;
+    if (!design.machine || !kind_known_) return;
+    const MachineDesign& machine = *design.machine;
+    for (std::size_t i = 0; i < design.gears.size(); ++i) {
+      GearDesign& gear = design.gears[i];
+      if (gear.bore.diameter_mm > 0.0 || reading_.has(gear.name + ".bore_mm")) continue;
+      if (gear.name == design.topology.name_of(design.topology.input))
+        gear.bore = shaft_bore(machine);
+      else if (machine.bearings.planet && planet_with_bore(design) == &gear)
+        gear.bore.diameter_mm = bore_between(*machine.bearings.planet);
+    }
   }
 
   void read_losses() {

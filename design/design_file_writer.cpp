@@ -59,6 +59,14 @@ std::vector<WrittenKey> written_keys(const GearboxDesign& design) {
   write_keys(all, "rack", rack_keys(), design.rack);
   for (const GearDesign& gear : design.gears) write_gear(all, gear);
   if (design.carrier) write_keys(all, "carrier", carrier_keys(), *design.carrier);
+  if (design.machine) {
+    const MachineDesign& machine = *design.machine;
+    write_keys(all, "motor", motor_keys(), machine.motor);
+    write_keys(all, "housing", housing_keys(), machine.housing);
+    write_keys(all, "output", output_keys(), machine.output);
+    write_keys(all, "bearings", bearings_keys(), machine.bearings);
+    write_keys(all, "fasteners", fasteners_keys(), machine.fasteners);
+  }
   if (design.shafts != ShaftsDesign{}) write_keys(all, "shafts", shafts_keys(), design.shafts);
   if (design.made != MadeDesign{}) write_keys(all, "made", made_keys(), design.made);
   if (design.losses) write_keys(all, "losses", losses_keys(), *design.losses);

@@ -51,6 +51,13 @@ inline constexpr int kDesignFormat = 1;
 /// `[carrier]`.
 [[nodiscard]] const std::vector<DesignKey<CarrierDesign>>& carrier_keys();
 
+/// `[motor]`, `[housing]`, `[output]`, `[bearings]`, `[fasteners]`.
+[[nodiscard]] const std::vector<DesignKey<Motor>>& motor_keys();
+[[nodiscard]] const std::vector<DesignKey<HousingDesign>>& housing_keys();
+[[nodiscard]] const std::vector<DesignKey<OutputDesign>>& output_keys();
+[[nodiscard]] const std::vector<DesignKey<BearingsDesign>>& bearings_keys();
+[[nodiscard]] const std::vector<DesignKey<FastenersDesign>>& fasteners_keys();
+
 /// `[made]`.
 [[nodiscard]] const std::vector<DesignKey<MadeDesign>>& made_keys();
 /// `[losses]`.

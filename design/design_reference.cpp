@@ -71,6 +71,10 @@ constexpr const char* kRules = R"(
 - `[carrier]` needs planets with a round bore that is larger than its pins;
   `bearing_diameter_mm` and `bearing_width_mm` need each other, and the seat is less deep than the
   plate.
+- `[motor]`, `[output]`, `[bearings]` and `[fasteners]` stand beside `[housing]`; `[motor]` has a name
+  or its shaft and screw circle. With them no ring has an `outer_diameter_mm` or bolts of its own and
+  the carrier no seat: they follow from the housing. A sun without a bore gets one for the motor's
+  shaft, a planet without one gets that of its bearings.
 - Bore, bolt and rim keys are compared with the root circle where `shift` is given; where it is
   solved, `check` and `make` say it.
 
@@ -158,6 +162,15 @@ std::string design_reference() {
            "below the\nplanets and `carrier_top` above them, held by the pins `carrier_pin` on which "
            "the planets turn.",
            carrier_keys());
+  describe(text, "`[housing]`",
+           "Makes a gearbox of the gears ([gearbox](gearbox.md)); the four tables below stand only beside "
+           "it.",
+           housing_keys());
+  describe(text, "`[motor]`", "The motor that is screwed to the housing.", motor_keys());
+  describe(text, "`[output]`", "What the gearbox drives; may be left out.", output_keys());
+  describe(text, "`[bearings]`", "Ball bearings by their names.", bearings_keys());
+  describe(text, "`[fasteners]`", "Socket head screws with heat-set inserts; may be left out.",
+           fasteners_keys());
   describe(text, "`[shafts]`",
            "What hangs on the shafts besides, for the inertia that either shaft feels "
            "([efficiency](efficiency.md)).",

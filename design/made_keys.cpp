@@ -49,6 +49,12 @@ const std::vector<DesignKey<MadeDesign>>& made_keys() {
       micrometres<&M::clearance_mm>("clearance_um", "none",
                                     "least distance of mating teeth with the play centred; less fails the check "
                                     "`overlap`"),
+      {{.name = "bed", .type = KeyType::kText, .by_default = "none: no plates",
+        .meaning = "the printer's bed, by its name or as \"250x210\" in mm: print plates are written for it "
+                   "([gearbox](gearbox.md))"},
+       KeyPlace::kAnywhere,
+       [](M& m, const KeyValue& v) { m.bed = std::get<std::string>(v); },
+       [](const M& m) { return m.bed.empty() ? Value() : Value(m.bed); }},
   };
   return keys;
 }

@@ -2,6 +2,7 @@
 #include "trueflank/design/tools_file.h"
 
 #include <algorithm>
+#include <array>
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_file.h"
@@ -86,6 +87,46 @@ std::vector<ToolKey<Process>> process_keys() {
       {{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<Process>}};
 }
 
+template <auto Member, class Element>
+ToolKey<Element> element_key(const char* name, const char* meaning) {
+  return {{.name = name, .unit = "mm", .lower = 0, .upper = 1e6, .meaning = meaning},
+          [](Element& e, const KeyValue& v) { e.*Member = std::get<double>(v); }};
+}
+
+std::vector<ToolKey<Motor>> motor_tool_keys() {
+  std::vector<ToolKey<Motor>> keys;
+  for (const DesignKey<Motor>& key : motor_keys())
+    if (std::string_view(key.rule.name) != "name") keys.push_back({key.rule, key.set});
+  keys.push_back({{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<Motor>});
+  return keys;
+}
+
+std::vector<ToolKey<Bearing>> bearing_tool_keys() {
+  using B = Bearing;
+  return {element_key<&B::bore_mm, B>("bore_mm", "bore"),
+          element_key<&B::outer_mm, B>("outer_mm", "outer diameter"),
+          element_key<&B::width_mm, B>("width_mm", "width"),
+          element_key<&B::dynamic_n, B>("dynamic_n", "dynamic load rating C [N]"),
+          element_key<&B::static_n, B>("static_n", "static load rating C0 [N]"),
+          {{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<B>}};
+}
+
+std::vector<ToolKey<Screw>> screw_tool_keys() {
+  using S = Screw;
+  return {element_key<&S::diameter_mm, S>("diameter_mm", "diameter of the thread"),
+          element_key<&S::head_diameter_mm, S>("head_diameter_mm", "diameter of the head"),
+          element_key<&S::head_height_mm, S>("head_height_mm", "height of the head"),
+          element_key<&S::hex_mm, S>("hex_mm", "width of the key"),
+          element_key<&S::hole_mm, S>("hole_mm", "clearance hole"),
+          element_key<&S::insert_hole_mm, S>("insert_hole_mm", "hole for the insert"),
+          element_key<&S::insert_length_mm, S>("insert_length_mm", "length of the insert"),
+          element_key<&S::nut_height_mm, S>("nut_height_mm", "height of the nut"),
+          element_key<&S::longest_mm, S>("longest_mm", "the longest that is stocked"),
+          {{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<S>}};
+}
+
+constexpr std::array<const char*, 6> kTables{"rack", "cutter", "process", "motor", "bearing", "screw"};
+
 class ToolsReader {
  public:
   explicit ToolsReader(const TomlDocument& document) : root_(document.root) {
@@ -95,8 +136,11 @@ class ToolsReader {
 
   ResultAll<ToolTables> read(const std::string& file, ToolTables tools) {
     for (const TomlEntry& kind : root_.entries) {
-      if (kind.key != "rack" && kind.key != "cutter" && kind.key != "process") {
-        reading_.unknown(kind.key, "unknown table", "[rack.NAME], [cutter.NAME] or [process.NAME]");
+      const auto is = [&](const char* name) { return kind.key == name; };
+      if (std::none_of(kTables.begin(), kTables.end(), is)) {
+        reading_.unknown(kind.key, "unknown table",
+                         "[rack.NAME], [cutter.NAME], [process.NAME], [motor.NAME], [bearing.NAME] or "
+                         "[screw.NAME]");
         continue;
       }
       const TomlTable* named = table_of(kind, kind.key);
@@ -133,12 +177,28 @@ class ToolsReader {
         reading_.contradiction(key, "a cutter has either teeth or a pitch diameter",
                                "teeth or pitch_diameter_mm");
       replace(tools.cutters, std::move(tool));
+    } else if (kind == "motor") {
+      read_element(key, entry.key, *table, motor_tool_keys(), tools.elements.motors);
+    } else if (kind == "bearing") {
+      read_element(key, entry.key, *table, bearing_tool_keys(), tools.elements.bearings);
+    } else if (kind == "screw") {
+      read_element(key, entry.key, *table, screw_tool_keys(), tools.elements.screws);
     } else {
       Process process{.name = entry.key};
       if (const Process* known = tools.processes.find(entry.key)) process = *known;
       read_keys(key, *table, process_keys(), process);
       tools.processes.set(std::move(process));
     }
+  }
+
+  /// An element of a name that is known keeps what the file does not say.
+  template <class Element>
+  void read_element(const std::string& section, const std::string& name, const TomlTable& table,
+                    const std::vector<ToolKey<Element>>& keys, std::vector<Element>& elements) {
+    const Element* known = find_element(elements, name);
+    Element element = known ? *known : Element{.name = name};
+    read_keys(section, table, keys, element);
+    replace(elements, std::move(element));
   }
 
   void read_rack(const std::string& section, const TomlTable& table, RackTool& tool) {
@@ -186,7 +246,7 @@ class ToolsReader {
     }
     const std::string near = nearest_name(entry.key, known);
     reading_.unknown(dotted, near.empty() ? "unknown key" : "unknown key; did you mean " + near + "?",
-                     "the keys of docs/made.md");
+                     "the keys of docs/made.md and docs/gearbox.md");
   }
 
   template <class Tool>
@@ -229,6 +289,9 @@ ResultAll<ToolTables> read_tools(const std::string& path, ToolTables tools) {
 std::vector<KeyRule> tool_key_rules(std::string_view kind) {
   if (kind == "rack") return rules_of(rack_tool_keys());
   if (kind == "cutter") return rules_of(cutter_tool_keys());
+  if (kind == "motor") return rules_of(motor_tool_keys());
+  if (kind == "bearing") return rules_of(bearing_tool_keys());
+  if (kind == "screw") return rules_of(screw_tool_keys());
   return rules_of(process_keys());
 }
 

@@ -8,10 +8,12 @@
 #include "trueflank/base/result.h"
 #include "trueflank/design/key_rule.h"
 #include "trueflank/geometry/gear.h"
+#include "trueflank/train/machine/elements.h"
 #include "trueflank/train/process.h"
 
-// Tools and processes by name: the built-in ones and a user's own, [rack.NAME], [cutter.NAME] and
-// [process.NAME] in a TOML file (docs/made.md).
+// Tools, processes and what is bought by name: the built-in ones and a user's own, [rack.NAME],
+// [cutter.NAME], [process.NAME] (docs/made.md), [motor.NAME], [bearing.NAME] and [screw.NAME]
+// (docs/gearbox.md) in a TOML file.
 namespace trueflank {
 
 /// A rack-type tool.
@@ -40,6 +42,7 @@ struct ToolTables {
   std::vector<RackTool> racks;
   std::vector<CutterTool> cutters;
   ProcessTable processes = {};
+  MachineElements elements = standard_elements();  ///< motors, bearings, screws
 };
 
 /// The built-in tools: racks of ISO 53, JIS B 1701, DIN 867 and AGMA fine pitch, full-radius and

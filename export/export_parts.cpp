@@ -94,7 +94,7 @@ class Exporter {
     const auto& parts = shapes_.parts;
     const bool all = options_.part.empty();
     for (int i = 0; i < static_cast<int>(parts.size()); ++i)
-      if (all || parts[i].name == options_.part)
+      if (all ? parts[i].bought.empty() : parts[i].name == options_.part)
         for (const FileFormat format : options_.formats)
           if (!is_paper(format)) jobs_.push_back({i, format});
     const bool known = all || std::any_of(parts.begin(), parts.end(),
@@ -303,7 +303,7 @@ class Exporter {
     if (job.part != kAssembly)
       return part_scene(train_.design.name, shapes_.parts[job.part].name,
                         meshes_[job.part].part.mesh, shapes_.parts[job.part].role);
-    Scene scene{train_.design.name, {}, shapes_.assembly};
+    Scene scene{.name = train_.design.name, .shapes = {}, .bodies = shapes_.assembly};
     for (std::size_t i = 0; i < shapes_.parts.size(); ++i)
       scene.shapes.push_back(
           {shapes_.parts[i].name, &meshes_[i].part.mesh, part_colour(shapes_.parts[i].role)});

@@ -12,6 +12,9 @@ Colour part_colour(PartRole role) {
     case PartRole::kRing: return {0x5B, 0x66, 0x73};
     case PartRole::kUpperRing: return {0xC2, 0x5B, 0x4A};
     case PartRole::kCarrier: return {0x7F, 0xA8, 0x6B};
+    case PartRole::kCasing: return {0xB8, 0xC0, 0xC8};
+    case PartRole::kOutput: return {0xD9, 0x8C, 0x5F};
+    case PartRole::kBought: return {0x8A, 0x8D, 0x91};
     case PartRole::kOther: break;
   }
   return {0x9A, 0xA5, 0xB1};

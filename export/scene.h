@@ -33,6 +33,7 @@ struct Scene {
   std::string name;                ///< the design's; may be empty
   std::vector<SceneShape> shapes;
   std::vector<Placement> bodies;   ///< Placement::part: index into shapes
+  bool loose = false;              ///< bodies that have nothing to do with each other: no assembly
 };
 
 /// A part alone in its own frame.

@@ -137,6 +137,14 @@ int append_assembly(std::string& text, const Scene& scene) {
   return next_id;
 }
 
+/// What is built, at its place.
+void append_item(std::string& text, int object, const Placement* body) {
+  text += "<item";
+  append_attribute(text, "objectid", object);
+  if (body) append_transform(text, *body);
+  text += "/>";
+}
+
 PackedText model_text(const Scene& scene, const std::vector<const PackedText*>& meshes) {
   PackedText packed;
   std::string& text = packed.open_text();
@@ -149,12 +157,14 @@ PackedText model_text(const Scene& scene, const std::vector<const PackedText*>& 
   append_materials(text, scene);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
     append_shape(packed, scene.shapes[i], *meshes[i], static_cast<int>(i));
-  const bool alone = scene.bodies.size() == 1;
-  const int built = alone ? kFirstShapeId + scene.bodies.front().part : append_assembly(text, scene);
-  text += "</resources>\n<build><item";
-  append_attribute(text, "objectid", built);
-  if (alone) append_transform(text, scene.bodies.front());
-  text += "/></build>\n</model>\n";
+  const bool alone = scene.loose || scene.bodies.size() == 1;
+  const int assembly = alone ? 0 : append_assembly(text, scene);
+  text += "</resources>\n<build>";
+  if (alone)
+    for (const Placement& body : scene.bodies) append_item(text, kFirstShapeId + body.part, &body);
+  else
+    append_item(text, assembly, nullptr);
+  text += "</build>\n</model>\n";
   packed.close();
   return packed;
 }

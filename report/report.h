@@ -9,6 +9,7 @@
 #include "trueflank/check/finding.h"
 #include "trueflank/export/reported_file.h"
 #include "trueflank/report/reported_cure.h"
+#include "trueflank/solid/measure/bill_of_materials.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/inertia.h"
@@ -42,6 +43,7 @@ struct Report {
   std::optional<PlasticResult> plastic;    ///< none without a gear of a plastic
   std::optional<ReportedInertia> inertia;
   std::vector<MeshSweep> sweeps;     ///< in the order of the train's meshes; may be empty
+  BillOfMaterials bill;              ///< of a design with [housing]; empty otherwise
   double tolerance_um = kNaN;        ///< NaN for check
   std::vector<ReportedFile> files;   ///< empty for check
 };

@@ -200,6 +200,16 @@ Json file_json(const ReportedFile& file) {
   return json;
 }
 
+Json bill_json(const BillLine& line) {
+  Json json;
+  json["part"] = line.part.empty() ? Json(nullptr) : Json(line.part);
+  json["designation"] = line.designation.empty() ? Json(nullptr) : Json(line.designation);
+  json["count"] = line.count;
+  json["material"] = line.material.empty() ? Json(nullptr) : Json(line.material);
+  json["mass_g"] = line.mass_g;
+  return json;
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -222,6 +232,10 @@ std::string report_json(const Report& report) {
   }
   if (report.strength) json["strength"] = Json::parse(strength_json_text(report));
   if (report.inertia) json["inertia"] = Json::parse(inertia_json_text(*report.inertia));
+  if (!report.bill.empty()) {
+    json["bill_of_materials"] = Json::array();
+    for (const BillLine& line : report.bill) json["bill_of_materials"].push_back(bill_json(line));
+  }
   if (!report.files.empty()) {
     json["tolerance_um"] = report.tolerance_um;
     json["files"] = Json::array();

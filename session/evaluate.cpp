@@ -3,6 +3,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/check/check_gearbox.h"
+#include "trueflank/check/machine/check_machine.h"
 #include "trueflank/design/requirements_file.h"
 #include "trueflank/session/reported_cure_of.h"
 #include "trueflank/solid/measure/mass_properties.h"
@@ -17,6 +18,14 @@ namespace {
 const Material& material_of(const StrengthOptions& options, const std::string& gear) {
   const auto own = options.material_of.find(gear);
   return *options.materials.find(own == options.material_of.end() ? options.material : own->second);
+}
+
+/// A body is of its first gear's material; carrier and housing are of the gearbox's.
+const Material& material_of_part(const GearTrain& train, const StrengthOptions& options,
+                                 const PartShape& part) {
+  if (part.member == kNoMember) return material_of(options, part.name);
+  const auto gears = train.topology().gears_of(part.member);
+  return material_of(options, gears.empty() ? part.name : train.gear(gears.front()).name);
 }
 
 /// What a bench found to hold the input at rest; NaN where none was.
@@ -37,17 +46,27 @@ void add_drive(const Gearbox& gearbox, const StrengthOptions& strength_options, 
     report.iso6336 = std::move(*iso);
   const auto& shapes = gearbox.parts();  // what does not fit is told where the parts are made
   if (!shapes) return;
-  // a body is of its first gear's material, a carrier of the gearbox's
   const auto density_of = [&](const PartShape& part) {
-    const auto gears = train.topology().gears_of(part.member);
-    return material_of(strength_options, gears.empty() ? part.name : train.gear(gears.front()).name)
-        .density_kg_m3;
+    return material_of_part(train, strength_options, part).density_kg_m3;
   };
   report.inertia = {material_of(strength_options, "").density_kg_m3,
                     reflected_inertia(train, report.efficiency, body_inertias(train, *shapes, density_of),
                                       {.rotor_kg_m2 = train.design.shafts.rotor_inertia_kg_m2,
                                        .load_kg_m2 = train.design.shafts.load_inertia_kg_m2,
                                        .drag_torque_nm = drag_of(train.design)})};
+}
+
+/// What stands around the gears of a design with [housing].
+void add_machine(const Gearbox& gearbox, const StrengthOptions& strength_options, io::Report& report) {
+  const GearTrain& train = gearbox.train();
+  const auto& shapes = gearbox.parts();
+  if (!train.design.machine || !shapes) return;
+  const Findings findings = check_machine(train, *shapes);
+  report.findings.insert(report.findings.end(), findings.begin(), findings.end());
+  report.bill = bill_of_materials(*shapes, [&](const PartShape& part) {
+    const Material& material = material_of_part(train, strength_options, part);
+    return PartMaterial{material.name, material.density_kg_m3};
+  });
 }
 
 }  // namespace
@@ -62,6 +81,7 @@ io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_opti
   report.findings = check_gearbox(train, states);
   if (verdict(report.findings) == CheckStatus::kFail && !train.meshes.empty())
     report.cure = take_joint_cure(train, report.findings);
+  add_machine(gearbox, strength_options, report);
   for (std::size_t i = 0; i < states.size(); ++i)
     report.sweeps.push_back(
         {.mesh = train.meshes[i].name,

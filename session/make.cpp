@@ -19,6 +19,7 @@
 #include "trueflank/session/evaluate.h"
 #include "trueflank/session/exported_files.h"
 #include "trueflank/session/job_size.h"
+#include "trueflank/session/gearbox_files.h"
 #include "trueflank/session/report_page.h"
 
 namespace trueflank {
@@ -151,6 +152,31 @@ void judge_accuracy(const MakeOptions& options, MakeResult& result) {
   result.report.files.clear();
 }
 
+/// Bill of materials of a gearbox, print plates for a bed.
+ResultAll<bool> write_gearbox_files(const Gearbox& gearbox, const PartShapes& shapes, const MakeOptions& options,
+                                    const std::vector<io::FileFormat>& formats, MakeResult& result) {
+  std::vector<io::ReportedFile>& files = result.report.files;
+  if (!result.report.bill.empty()) {
+    auto bill = write_bill(result.report.bill, options.folder);
+    if (!bill) return fail_all({bill.error()});
+    files.push_back(std::move(*bill));
+  }
+  const MadeDesign& made = gearbox.design().made;
+  if (made.bed.empty() || std::count(formats.begin(), formats.end(), io::FileFormat::k3mf) == 0) return true;
+  if (!options.correct.empty()) {
+    result.notes += "print plates hold the parts as designed: none was written beside corrected parts\n";
+    return true;
+  }
+  auto plates = write_plates(gearbox.design().name, shapes,
+                             {.folder = options.folder,
+                              .bed = made.bed,
+                              .tolerance_mm = mm_from_um(options.tolerance_um),
+                              .compensate_for = options.compensate ? &*made.process : nullptr});
+  if (!plates) return fail_all(gearbox.located(plates.error()));
+  files.insert(files.end(), plates->begin(), plates->end());
+  return true;
+}
+
 /// The files of a design whose checks allow it, and what its result says of them.
 Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
                    const StrengthOptions& materials, const MakeOptions& options,
@@ -169,6 +195,9 @@ Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
     if (!sheets) return {sheets.error()};
     result.report.files.insert(result.report.files.end(), sheets->begin(), sheets->end());
   }
+  if (options.part.empty())
+    if (auto ok = write_gearbox_files(gearbox, shapes, options, formats, result); !ok)
+      return std::move(ok.error());
   if (options.part.empty() && has_scad(result.report.files))
     if (auto ok = io::write_scad_templates(options.folder, gearbox.train()); !ok)
       return {ok.error()};

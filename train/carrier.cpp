@@ -8,6 +8,10 @@ namespace {
 
 /// Material around the pins of a plate without an outer diameter, of the pin's diameter.
 constexpr double kRimOfPins = 0.75;
+/// A plate is this much thicker than the inserts in it are long.
+constexpr double kInsertCover_mm = 0.3;
+/// Plates turn this part of the module inside the tips of the rings, and the clearance.
+constexpr double kInsideTips = 0.1;
 
 /// Heights of the planets' bodies.
 HeightRange planet_heights(const GearTrain& train) {
@@ -21,10 +25,34 @@ HeightRange planet_heights(const GearTrain& train) {
   return range;
 }
 
+/// The plates of a gearbox hold heads and inserts of its screws, and turn inside its rings.
+CarrierDesign carrier_of_machine(const GearTrain& train, const MachineDesign& machine) {
+  const Screw& screw = machine.fasteners.carrier;
+  const double inserts =
+      std::max(screw.insert_length_mm, machine.fasteners.output.insert_length_mm) + kInsertCover_mm;
+  CarrierDesign design = train.design.carrier.value_or(CarrierDesign{
+      .plate_thickness_mm = std::max(inserts, 2.0 * screw.head_height_mm),
+      .pin_hole_clearance_mm = std::max(machine.housing.fit_mm, CarrierDesign{}.pin_hole_clearance_mm)});
+  if (!design.pin_diameter_mm && machine.bearings.planet)
+    design.pin_diameter_mm = machine.bearings.planet->bore_mm;
+  double tip = 1e300;
+  for (const TrainGear& gear : train.gears)
+    if (gear.profile.gear().kind == GearKind::kInternal)
+      tip = std::min(tip, gear.profile.tip_radius_mm() -
+                              kInsideTips * gear.profile.gear().normal_module_mm);
+  if (!design.outer_diameter_mm) design.outer_diameter_mm = 2.0 * (tip - machine.housing.clearance_mm);
+  return design;
+}
+
+std::optional<CarrierDesign> carrier_design(const GearTrain& train) {
+  if (!train.design.machine) return train.design.carrier;
+  return carrier_of_machine(train, *train.design.machine);
+}
+
 }  // namespace
 
 std::optional<CarrierLayout> carrier_layout(const GearTrain& train) {
-  const auto& design = train.design.carrier;
+  const auto design = carrier_design(train);
   const GearDesign* planet = planet_with_bore(train.design);
   if (!design || !planet) return std::nullopt;
   CarrierLayout layout;

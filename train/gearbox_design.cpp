@@ -23,6 +23,22 @@ const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear) {
   return design.gears[static_cast<std::size_t>(design.topology.first_gear_of(member))];
 }
 
+BoreDesign shaft_bore(const MachineDesign& machine) {
+  const Motor& motor = machine.motor;
+  const double fit = machine.housing.fit_mm;
+  BoreDesign bore{.diameter_mm = motor.shaft_diameter_mm + fit};
+  if (motor.flat_mm > 0.0) {
+    bore.kind = BoreKind::kDFlat;
+    bore.d_flat_mm = motor.flat_mm + fit;
+  }
+  return bore;
+}
+
+double bore_between(const Bearing& bearing) {
+  // a shoulder of about a third of the ring's height: the inner ring stays free of it
+  return bearing.bore_mm + 0.65 * (bearing.outer_mm - bearing.bore_mm);
+}
+
 double module_of(const GearboxDesign& design, const GearDesign& gear) {
   return gear.module_mm.value_or(design.module_mm);
 }

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/geometry/gear.h"
+#include "trueflank/train/machine/machine_design.h"
 #include "trueflank/train/process.h"
 #include "trueflank/train/topology.h"
 
@@ -126,6 +127,7 @@ struct MadeDesign {
   std::optional<double> axis_tolerance_mm = {};       ///< +-, of the centre distance
   std::optional<double> thickness_tolerance_mm = {};  ///< +-, of the teeth on the reference circle
   std::optional<double> clearance_mm = {};  ///< least distance of mating teeth, the play centred
+  std::string bed = {};                 ///< of the printer: its name or "WIDTHxDEPTH"; empty: no plates
 
   bool operator==(const MadeDesign&) const = default;
 };
@@ -190,6 +192,7 @@ struct GearboxDesign {
   BasicRack rack = {};
   std::vector<GearDesign> gears = {};  ///< in the order of the topology
   std::optional<CarrierDesign> carrier = {};  ///< kinds with planets
+  std::optional<MachineDesign> machine = {};  ///< of a design with [housing]: motor, housing, output, ...
   std::string material = {};  ///< of every gear that does not set its own; empty: the default
   ShaftsDesign shafts = {};
   MadeDesign made = {};
@@ -206,6 +209,8 @@ struct GearboxDesign {
 [[nodiscard]] const GearDesign* planet_with_bore(const GearboxDesign& design);
 /// The gear whose table gives bore and material of the body a gear belongs to: the body's first.
 [[nodiscard]] const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear);
+/// The bore that the motor's shaft goes into: a D where the shaft has a flat.
+[[nodiscard]] BoreDesign shaft_bore(const MachineDesign& machine);
 [[nodiscard]] double module_of(const GearboxDesign& design, const GearDesign& gear);
 
 }  // namespace trueflank

@@ -22,7 +22,7 @@ Result<std::vector<ReportedFile>> write_workshop_drawings(const DrawingModel& mo
   TRUEFLANK_EXPECTS(model.train && model.shapes && model.report && model.materials);
   std::vector<Sheet> sheets;
   for (const PartShape& part : model.shapes->parts)
-    if (options.part.empty() || options.part == part.name) sheets.push_back(part_sheet(model, part));
+    if (options.part.empty() ? part.bought.empty() : options.part == part.name) sheets.push_back(part_sheet(model, part));
   if (options.part.empty() && model.shapes->assembly.size() > 1) sheets.push_back(assembly_sheet(model));
   std::vector<ReportedFile> files;
   for (const Sheet& sheet : sheets) {

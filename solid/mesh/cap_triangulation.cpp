@@ -65,8 +65,10 @@ class CapBuilder {
       inside = separate_teeth(*inner_, *inner_ring_, outer_reach(outside), Direction::kOutwards);
     if (side_holes_.empty())
       join(outside, inside);
-    else
+    else if (holes_stand_apart())
       fill_around_holes(outside, inside);
+    else
+      fill_by_bridges(outside, inside);
     CapTriangulation result;
     result.added_points.assign(points_.begin() + static_cast<std::ptrdiff_t>(loop_points_),
                                points_.end());
@@ -212,6 +214,40 @@ class CapBuilder {
         triangles.push_back({on_a, on_b, a[++i % a.size()]});
     }
     return triangles;
+  }
+
+  /// Whether every hole has a sector of its own, seen from the centre.
+  [[nodiscard]] bool holes_stand_apart() const {
+    const std::size_t n = side_holes_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const SideHole &a = side_holes_[k], &b = side_holes_[(k + 1) % n];
+      const double from = a.angle_rad + a.half_angle_rad();
+      if (!(b.angle_rad + (k + 1 == n ? kTwoPi : 0.0) - b.half_angle_rad() > from)) return false;
+    }
+    return true;
+  }
+
+  /// One polygon of all loops, the nearest loop joined to it first: no bridge crosses another loop.
+  void fill_by_bridges(const Ring& outside, const std::optional<Ring>& inside) {
+    std::vector<Indices> holes;
+    for (const SideHole& hole : side_holes_) holes.push_back(hole.vertices);
+    if (inside) holes.push_back(inside->vertices);
+    Indices polygon = outside.vertices;
+    while (!holes.empty()) {
+      const auto nearest = std::min_element(holes.begin(), holes.end(), [&](const Indices& a, const Indices& b) {
+        return gap_squared(polygon, a) < gap_squared(polygon, b);
+      });
+      polygon = cut_open(polygon, *nearest);
+      holes.erase(nearest);
+    }
+    append_delaunay(clip_ears(points_, polygon));
+  }
+
+  [[nodiscard]] double gap_squared(const Indices& a, const Indices& b) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : a)
+      for (const std::uint32_t j : b) nearest = std::min(nearest, (points_[i] - points_[j]).squaredNorm());
+    return nearest;
   }
 
   /// Outer loop and hole as one polygon, joined by an edge between their nearest vertices.

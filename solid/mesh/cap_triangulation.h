@@ -19,7 +19,7 @@ struct CapTriangulation {
 /// How: teeth are separated from the rest by a polygon of added points on a circle between root and
 /// what lies behind it; one tooth is triangulated and the others are copies; what is left is
 /// bounded by star-shaped loops and zipped by angle, cut into sectors where there are holes beside
-/// the axis. Each zone is constrained Delaunay. Cost: linear in the points.
+/// the axis; holes that have no sector of their own are joined by bridges, the nearest first. Each zone is constrained Delaunay. Cost: linear in the points.
 /// Requires: at most one hole about the outer loop's centre; every other hole is a circle; a circle
 /// about that centre fits between any two loops about it, and no two holes touch.
 [[nodiscard]] CapTriangulation triangulate_cap(const OutlineLoop& outer,

@@ -8,6 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/shape/carrier.h"
+#include "trueflank/solid/shape/machine/machine_parts.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/train/ring_rim.h"
 
@@ -34,7 +35,14 @@ std::string text(double value_mm) {
 
 class ShapeBuilder {
  public:
-  explicit ShapeBuilder(const GearTrain& train) : train_(train) {}
+  explicit ShapeBuilder(const GearTrain& train)
+      : train_(train), layout_(machine_layout(train)), designs_(train.design.gears) {
+    if (!layout_) return;
+    for (std::size_t i = 0; i < train.gears.size(); ++i)
+      if (i == static_cast<std::size_t>(layout_->fixed_gear) ||
+          i == static_cast<std::size_t>(layout_->output_gear))
+        designs_[i] = machine_gear(*layout_, train, static_cast<int>(i));
+  }
 
   ResultAll<PartShapes> build() {
     const Topology& topology = train_.topology();
@@ -46,7 +54,9 @@ class ShapeBuilder {
       else
         add_single(member);
     }
-    for (Error& error : add_carrier(train_, shapes_)) errors_.push_back(std::move(error));
+    if (errors_.empty() || !layout_)
+      for (Error& error : layout_ ? add_machine(train_, *layout_, shapes_) : add_carrier(train_, shapes_))
+        errors_.push_back(std::move(error));
     if (!errors_.empty()) return fail_all(std::move(errors_));
     return std::move(shapes_);
   }
@@ -59,7 +69,7 @@ class ShapeBuilder {
                        .remedy = std::move(remedy)});
   }
   [[nodiscard]] const GearDesign& design_of(const TrainGear& gear) const {
-    return *find_gear(train_.design, gear.name);
+    return designs_[static_cast<std::size_t>(&gear - train_.gears.data())];
   }
   /// The bore of the body a gear belongs to.
   [[nodiscard]] const BoreDesign& bore_through(const TrainGear& gear) const {
@@ -331,6 +341,8 @@ class ShapeBuilder {
   }
 
   const GearTrain& train_;
+  std::optional<MachineLayout> layout_;  ///< of a gearbox with a housing
+  std::vector<GearDesign> designs_;      ///< as its rings have them
   PartShapes shapes_;
   Errors errors_;
 };

@@ -62,7 +62,7 @@ struct Slab {
 };
 
 /// What a part is to the eye: files and drawings colour by it.
-enum class PartRole { kOther, kSun, kPlanet, kRing, kUpperRing, kCarrier };
+enum class PartRole { kOther, kSun, kPlanet, kRing, kUpperRing, kCarrier, kCasing, kOutput, kBought };
 
 /// A part in its own frame: axis z, lowest face at z = 0, tooth 1 (of a body's first gear) on +x.
 /// Slabs are stacked bottom to top and touch; a hole that is equal in neighbours runs through.
@@ -71,6 +71,8 @@ struct PartShape {
   std::vector<Slab> slabs;
   int member = kNoMember;  ///< of the topology: whose turning it follows
   PartRole role = PartRole::kOther;
+  std::string bought = {};  ///< what to order: a standard's designation; empty: a part that is made
+  bool upside_down = false;  ///< lies on a printer's bed with its upper face: nothing overhangs then
 };
 
 /// A part's place in the assembly: turned about z, then moved.

@@ -339,6 +339,16 @@ function drawEfficiency() {
   drawOtherRatings(body);
 }
 
+// ---------------------------------------------------------------------------- bill of materials
+function drawBill() {
+  const bill = report.bill_of_materials ?? [];
+  if (!bill.length) return;
+  byId('dimensions-body').append(table('Bill of materials', ['Part', 'To order', column('Count'), 'Material', column('Mass of one, solid, g')],
+    bill.map((line, i) => h('tr', {}, h('th', {scope: 'row'}, line.part ?? '–'), h('td', {}, line.designation ?? '–'),
+      h('td', {class: 'n'}, number(`bill_of_materials/${i}/count`, 0)), h('td', {}, line.material ?? '–'),
+      h('td', {class: 'n'}, isNumber(line.mass_g) ? number(`bill_of_materials/${i}/mass_g`, 1) : '–')))));
+}
+
 // ---------------------------------------------------------------------------------------- files
 function drawFiles() {
   const files = report.files ?? [];
@@ -539,6 +549,7 @@ drawChecks();
 drawMeshes();
 drawDimensions();
 drawEfficiency();
+drawBill();
 drawFiles();
 if (!document.querySelector('#licences pre').textContent.trim()) byId('licences').remove();
 // viewer.js takes this back when it runs

@@ -20,6 +20,7 @@ LAYERS = {
     "search": ["base", "geometry", "train", "design/kinds"],
     "check": ["base", "geometry", "train"],
     "solid": ["base", "geometry", "train"],
+    "check/machine": ["base", "geometry", "train", "check", "solid"],  # of the parts around the gears
     "export": ["base", "geometry", "train", "solid"],
     "design": ["base", "geometry", "train", "search"],
     "loop": ["base", "geometry", "train", "solid", "export"],

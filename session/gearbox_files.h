@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trueflank/export/reported_file.h"
+#include "trueflank/solid/measure/bill_of_materials.h"
+#include "trueflank/solid/shape/part_shape.h"
+
+namespace trueflank {
+
+struct PlateOptions {
+  std::filesystem::path folder;
+  std::string bed;  ///< [made] bed
+  double tolerance_mm = 1e-3;
+  const Process* compensate_for = nullptr;  ///< nullptr: the parts as designed
+};
+
+/// Writes `plate_1.3mf` ... : every part that is made, as often as it is needed, the right way up,
+/// on beds. Errors: those of print_plates and of the files.
+[[nodiscard]] ResultAll<std::vector<io::ReportedFile>> write_plates(const std::string& design_name,
+                                                                    const PartShapes& shapes,
+                                                                    const PlateOptions& options);
+
+/// Writes `bom.csv`.
+[[nodiscard]] Result<io::ReportedFile> write_bill(const BillOfMaterials& bill,
+                                                  const std::filesystem::path& folder);
+
+}  // namespace trueflank

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/shape/machine/machine_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/tolerance.h"
+#include "trueflank/solid/shape/machine/bought_parts.h"
+#include "trueflank/solid/shape/machine/stacked_body.h"
+#include "trueflank/solid/shape/outline_loop.h"
+
+namespace trueflank {
+namespace {
+
+/// Room around a screw's head.
+constexpr double kHeadRoom_mm = 0.3;
+/// A journal ends this much below its bearing's upper face: the bearing is clamped, not the
+/// journal.
+constexpr double kClamp_mm = 0.05;
+/// The lips of housing and lid stay this far apart.
+constexpr double kLipGap_mm = 0.2;
+/// A hub's bore is this much wider where the shaft is round, on the radius.
+constexpr double kRoundRoom_mm = 0.1;
+
+CircleOutline circle(double radius_mm, const Point2& centre = Point2::Zero()) {
+  return {.centre = centre, .radius_mm = radius_mm};
+}
+
+class MachineBuilder {
+ public:
+  MachineBuilder(const GearTrain& train, const MachineLayout& layout, PartShapes& shapes)
+      : train_(train), machine_(*train.design.machine), m_(layout), shapes_(shapes) {}
+
+  Errors build() {
+    check_pins();
+    if (!errors_.empty()) return std::move(errors_);
+    const Topology& topology = train_.topology();
+    carrier_ = topology.carrier_of(topology.first_planet());
+    const int held = topology.gears[static_cast<std::size_t>(m_.fixed_gear)].member;
+    held_turn_ = train_.phases.rotation_rad(held, 0);
+    output_ = topology.output;
+    output_turn_ = m_.output_gear < 0 ? 0.0 : train_.phases.rotation_rad(output_, 0);
+    change_gears();
+    add_carrier();
+    add_housing();
+    add_lid();
+    add_output();
+    add_bought();
+    return {};
+  }
+
+ private:
+  void check_pins() {
+    const BoreDesign& bore = planet_with_bore(train_.design)->bore;
+    if (bore.kind == BoreKind::kRound && bore.diameter_mm > m_.carrier.pin_diameter_mm &&
+        m_.carrier.pin_diameter_mm > 0.0)
+      return;
+    errors_.push_back(
+        {.code = ErrorCode::kInfeasible,
+         .message = "the planets turn on no pin: they need a round bore that is wider than it",
+         .key = planet_with_bore(train_.design)->name + ".bore_mm",
+         .remedy = "bearings.planet, or a bore_mm above the pin's diameter"});
+  }
+
+  // ------------------------------------------------------------------------------- helpers
+
+  [[nodiscard]] HeightRange z(double from, double to) const {
+    return m_.z({std::min(from, to), std::max(from, to)});
+  }
+
+  /// Holes for screws in a body: over the head, along the shank, and for the insert from the far
+  /// face.
+  void drill(StackedBody& body, const ScrewGroup& group) const {
+    const double beyond = 1e4;  // out of the body on either side
+    const Screw& screw = group.screw;
+    const double insert = std::isnan(group.insert_mm) ? group.far_mm : group.insert_mm;
+    for (const Point2& at : group.at) {
+      body.drill(z(group.head_mm - group.way * beyond, group.head_mm),
+                 circle(0.5 * screw.head_diameter_mm + kHeadRoom_mm, at));
+      body.drill(z(group.head_mm, insert), circle(0.5 * screw.hole_mm, at));
+      if (!std::isnan(group.insert_mm))
+        body.drill(z(insert, group.far_mm), circle(0.5 * screw.insert_hole_mm, at));
+    }
+  }
+
+  PartShape& add_part(std::string name, const StackedBody& body, int member, PartRole role,
+                      double rotation_rad) {
+    shapes_.parts.push_back(
+        {.name = std::move(name), .slabs = body.slabs(), .member = member, .role = role});
+    shapes_.assembly.push_back({.part = static_cast<int>(shapes_.parts.size()) - 1,
+                                .name = shapes_.parts.back().name,
+                                .rotation_rad = rotation_rad,
+                                .translation_mm = {0.0, 0.0, body.heights().lower_mm}});
+    return shapes_.parts.back();
+  }
+
+  // ------------------------------------------------------------------------------- gears
+
+  void change_gears() {
+    for (std::size_t i = 0; i < shapes_.parts.size(); ++i) {
+      PartShape& part = shapes_.parts[i];
+      StackedBody body;
+      const double at = height_of(i);
+      body.add(part.slabs, at);
+      if (train_.topology().is_planet(part.member))
+        drill_seats(body);
+      else if (m_.driven_gear >= 0 && part.member == train_.topology().input)
+        add_hub(body, part);
+      else if (m_.output_gear >= 0 && part.member == output_)
+        add_cup(body, part, at);
+      else
+        continue;
+      part.slabs = body.slabs();
+      part.upside_down = m_.output_gear >= 0 && part.member == output_ && m_.way > 0.0;
+      for (Placement& placement : shapes_.assembly)
+        if (placement.part == static_cast<int>(i))
+          placement.translation_mm[2] += body.heights().lower_mm - at;
+    }
+  }
+
+  [[nodiscard]] double height_of(std::size_t part) const {
+    for (const Placement& placement : shapes_.assembly)
+      if (placement.part == static_cast<int>(part)) return placement.translation_mm[2];
+    return 0.0;
+  }
+
+  /// Seats of a planet's two bearings, one in either face.
+  void drill_seats(StackedBody& body) const {
+    if (!machine_.bearings.planet) return;
+    const Bearing& bearing = *machine_.bearings.planet;
+    const HeightRange all = body.heights();
+    const CircleOutline seat = circle(0.5 * (bearing.outer_mm + m_.fit_mm));
+    body.drill({all.lower_mm, all.lower_mm + bearing.width_mm}, seat);
+    body.drill({all.upper_mm - bearing.width_mm, all.upper_mm}, seat);
+  }
+
+  /// The sun's hub on the motor's shaft; round where the shaft is.
+  void add_hub(StackedBody& body, const PartShape& part) const {
+    const std::vector<Slab> gear = part.slabs;
+    const double at = body.heights().lower_mm;
+    StackedBody made;
+    for (Slab slab : gear) {
+      std::erase_if(slab.holes,
+                    [](const Outline& hole) { return std::holds_alternative<BoreOutline>(hole); });
+      made.add({slab}, at);
+    }
+    made.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
+    drill_shaft(made, find_gear(train_.design, part.name)->bore);
+    body = std::move(made);
+  }
+
+  void drill_shaft(StackedBody& body, const BoreDesign& bore) const {
+    if (!(bore.diameter_mm > 0.0)) return;
+    const double beyond = 1e4;
+    const bool flat = bore.kind == BoreKind::kDFlat;
+    const double from = flat ? std::max(m_.flat_from_mm, m_.hub.lower_mm) : -beyond;
+    if (flat) body.drill(z(-beyond, from), circle(0.5 * bore.diameter_mm + kRoundRoom_mm));
+    body.drill(z(from, m_.driven_gear < 0 ? m_.near.upper_mm : beyond), BoreOutline{bore});
+  }
+
+  /// The ring's teeth, where one outline is all of them.
+  static const ToothedOutline* teeth_of(const PartShape& part) {
+    return part.slabs.size() == 1 ? std::get_if<ToothedOutline>(&part.slabs.front().holes.front())
+                                  : nullptr;
+  }
+
+  /// Wall and floor of the cup that a driving ring makes round the carrier's far plate.
+  void add_cup(StackedBody& body, const PartShape& part, double at_mm) const {
+    double end = m_.way > 0.0 ? body.heights().upper_mm : -body.heights().lower_mm;
+    // straight teeth go on a little: the planets' ends stay clear of the cup
+    if (const ToothedOutline* teeth = teeth_of(part); teeth && is_plain_prism(*teeth)) {
+      body.add(z(end, end + m_.clearance_mm), circle(m_.cup_radius_mm));
+      ToothedOutline longer = *teeth;
+      longer.z_lower_mm += at_mm;
+      body.drill(z(end, end + m_.clearance_mm), longer);
+      end += m_.clearance_mm;
+    }
+    body.add(z(end, m_.disc.upper_mm), circle(m_.cup_radius_mm));
+    body.drill(z(end, m_.disc.lower_mm), circle(m_.cup_inner_radius_mm));
+    drill_insert_ends(body, m_.output_screws);
+  }
+
+  /// Of screws whose insert alone is in the body.
+  void drill_insert_ends(StackedBody& body, const ScrewGroup& group) const {
+    for (const Point2& at : group.at) {
+      body.drill(z(m_.disc.upper_mm, group.insert_mm), circle(0.5 * group.screw.hole_mm, at));
+      body.drill(z(group.insert_mm, group.far_mm), circle(0.5 * group.screw.insert_hole_mm, at));
+    }
+  }
+
+  // ------------------------------------------------------------------------------- carrier
+
+  void add_carrier() {
+    const std::string name = train_.topology().name_of(carrier_);
+    const double outer = 0.5 * m_.carrier.outer_diameter_mm;
+    StackedBody near, far, pillar;
+    near.add(z(m_.near.lower_mm, m_.near.upper_mm), circle(outer));
+    far.add(z(m_.far.lower_mm, m_.far.upper_mm), circle(outer));
+    for (const double angle : train_.phases.planet_position_rad) {
+      const CircleOutline hole = circle(0.5 * m_.carrier.pin_hole_diameter_mm,
+                                        train_.centre_distance_mm * unit_vector(angle));
+      near.drill(z(m_.near.upper_mm - m_.pin_depth_mm, m_.near.upper_mm), hole);
+      far.drill(z(m_.far.lower_mm, m_.far.lower_mm + m_.pin_depth_mm), hole);
+    }
+    if (m_.driven_gear < 0) {
+      near.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
+      drill_shaft(near, shaft_bore(machine_));
+    } else {
+      near.drill(z(m_.near.lower_mm, m_.near.upper_mm),
+                 circle(0.5 * m_.carrier.opening_diameter_mm));
+    }
+    if (m_.stop.upper_mm > m_.stop.lower_mm)
+      far.add(z(m_.stop.lower_mm, m_.stop.upper_mm), circle(m_.stop_radius_mm));
+    if (m_.stop_hole_radius_mm > 0.0)
+      far.drill(z(m_.stop.lower_mm, m_.shaft_end_mm + m_.clearance_mm),
+                circle(m_.stop_hole_radius_mm));
+    drill(near, m_.carrier_screws);
+    drill(far, m_.carrier_screws);
+    if (m_.output_gear < 0) drill_insert_ends(far, m_.output_screws);
+    add_part(name, near, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.driven_gear < 0;
+    add_part(name + "_top", far, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.way > 0.0;
+    pillar.add(z(m_.near.upper_mm, m_.far.lower_mm), circle(m_.pillar_radius_mm));
+    pillar.drill(z(m_.near.upper_mm, m_.far.lower_mm),
+                 circle(0.5 * m_.carrier_screws.screw.hole_mm));
+    add_part(name + "_pillar", pillar, carrier_, PartRole::kCarrier, 0.0);
+    place_copies(m_.pillars, name + "_pillar");
+  }
+
+  /// The last part stands at each of these places.
+  void place_copies(const std::vector<Point2>& at, const std::string& name) {
+    const Placement first = shapes_.assembly.back();
+    shapes_.assembly.pop_back();
+    int number = 0;
+    for (const Point2& p : at) {
+      Placement copy = first;
+      const Point2 place = rotated(p, first.rotation_rad);
+      copy.name = name + " " + std::to_string(++number);
+      copy.translation_mm = {place.x(), place.y(), first.translation_mm[2]};
+      shapes_.assembly.push_back(std::move(copy));
+    }
+  }
+
+  // ------------------------------------------------------------------------------- housing
+
+  void add_housing() {
+    StackedBody body;
+    const double seat = m_.ring_radius_mm + 0.5 * m_.fit_mm;
+    body.add(z(m_.floor.lower_mm, m_.seat_top_mm), circle(m_.outer_radius_mm));
+    body.drill(z(m_.floor.upper_mm, m_.ring.lower_mm), circle(m_.cavity_radius_mm));
+    body.drill(z(m_.ring.lower_mm, m_.seat_top_mm), circle(seat));
+    const double pilot = 0.5 * (machine_.motor.pilot_diameter_mm + m_.fit_mm);
+    const double hub =
+        std::max(m_.hub_radius_mm, 0.5 * machine_.motor.shaft_diameter_mm) + m_.clearance_mm;
+    body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm), circle(std::max(pilot, hub)));
+    drill(body, m_.motor_screws);
+    drill(body, m_.housing_screws);
+    add_part("housing", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way < 0.0;
+  }
+
+  void add_lid() {
+    StackedBody body;
+    const double seat = m_.ring_radius_mm + 0.5 * m_.fit_mm;
+    body.add(z(m_.seat_top_mm + kLipGap_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
+    body.drill(z(m_.seat_top_mm, m_.ring.upper_mm), circle(seat));
+    body.drill(z(m_.ring.upper_mm, m_.roof.lower_mm), circle(m_.lid_radius_mm));
+    body.drill(z(m_.roof.lower_mm, m_.bearings.upper_mm),
+               circle(0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm)));
+    body.drill(z(m_.bearings.upper_mm, m_.roof.upper_mm), circle(m_.outer_shoulder_mm));
+    drill(body, m_.housing_screws);
+    drill(body, m_.retainer_screws);
+    add_part("lid", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way > 0.0;
+    StackedBody ring;
+    ring.add(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.retainer_radius_mm));
+    ring.drill(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.outer_shoulder_mm));
+    drill(ring, m_.retainer_screws);
+    add_part("retainer", ring, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way > 0.0;
+  }
+
+  // ------------------------------------------------------------------------------- output
+
+  void add_output() {
+    StackedBody journal, plate;
+    journal.add(z(m_.disc.upper_mm, m_.bearings.lower_mm), circle(m_.inner_shoulder_mm));
+    journal.add(z(m_.bearings.lower_mm, m_.bearings.upper_mm - kClamp_mm),
+                circle(m_.journal_radius_mm));
+    plate.add(z(m_.bearings.upper_mm, m_.plate.lower_mm), circle(m_.inner_shoulder_mm));
+    plate.add(z(m_.plate.lower_mm, m_.plate.upper_mm), circle(m_.plate_radius_mm));
+    drill(journal, m_.output_screws);
+    drill(plate, m_.output_screws);
+    const Screw& load = machine_.fasteners.output;
+    const double insert = std::min(m_.bearings.upper_mm + load.insert_length_mm, m_.plate.upper_mm);
+    for (const Point2& at : m_.load_inserts) {
+      plate.drill(z(m_.bearings.upper_mm, insert), circle(0.5 * load.insert_hole_mm, at));
+      plate.drill(z(insert, m_.plate.upper_mm), circle(0.5 * load.hole_mm, at));
+    }
+    add_part("journal", journal, output_, PartRole::kOutput, output_turn_).upside_down =
+        m_.way < 0.0;
+    add_part("output", plate, output_, PartRole::kOutput, output_turn_).upside_down = m_.way > 0.0;
+  }
+
+  // ------------------------------------------------------------------------------- bought
+
+  void add_bought() {
+    BoughtParts bought(shapes_, m_);
+    bought.add_motor(machine_.motor, held_turn_);
+    bought.add_screws(m_.motor_screws, kNoMember, held_turn_);
+    bought.add_screws(m_.housing_screws, kNoMember, held_turn_);
+    bought.add_screws(m_.retainer_screws, kNoMember, held_turn_);
+    bought.add_screws(m_.carrier_screws, carrier_, 0.0);
+    bought.add_screws(m_.output_screws, output_, output_turn_);
+    bought.add_inserts(machine_.fasteners.output, "load", m_.load_inserts, m_.bearings.upper_mm,
+                       output_, output_turn_);
+    const Bearing& bearing = machine_.bearings.output;
+    for (int i = 0; i < machine_.bearings.outputs; ++i)
+      bought.add_bearing(bearing, {Point2::Zero()}, m_.bearings.lower_mm + i * bearing.width_mm,
+                         kNoMember);
+    std::vector<Point2> planets;
+    for (const double angle : train_.phases.planet_position_rad)
+      planets.push_back(train_.centre_distance_mm * unit_vector(angle));
+    const double pin = m_.near.upper_mm - m_.pin_depth_mm + 0.1;
+    bought.add_pins(m_.carrier.pin_diameter_mm, m_.pin_length_mm, m_.pin_is_standard, planets, pin,
+                    carrier_);
+    if (!machine_.bearings.planet) return;
+    const HeightRange body = planet_heights();
+    bought.add_bearing(*machine_.bearings.planet, planets, body.lower_mm, carrier_);
+    bought.add_bearing(*machine_.bearings.planet, planets,
+                       body.upper_mm - machine_.bearings.planet->width_mm, carrier_);
+  }
+
+  [[nodiscard]] HeightRange planet_heights() const {
+    HeightRange all{1e300, -1e300};
+    for (std::size_t i = 0; i < train_.gears.size(); ++i) {
+      if (!train_.topology().is_planet_gear(i)) continue;
+      const TrainGear& gear = train_.gears[i];
+      const HeightRange here = m_.z({gear.z_lower_mm, gear.z_lower_mm + gear.face_width_mm});
+      all = {std::min(all.lower_mm, here.lower_mm), std::max(all.upper_mm, here.upper_mm)};
+    }
+    return all;
+  }
+
+  const GearTrain& train_;
+  const MachineDesign& machine_;
+  const MachineLayout& m_;
+  PartShapes& shapes_;
+  Errors errors_;
+  int carrier_ = kNoMember, output_ = kNoMember;
+  double held_turn_ = 0.0, output_turn_ = 0.0;
+};
+
+}  // namespace
+
+GearDesign machine_gear(const MachineLayout& layout, const GearTrain& train, int gear) {
+  GearDesign design = *find_gear(train.design, train.gear(gear).name);
+  if (gear == layout.fixed_gear) {
+    design.outer_diameter_mm = 2.0 * layout.ring_radius_mm;
+    const ScrewGroup& screws = layout.housing_screws;
+    design.bolt_circle = {.count = static_cast<int>(screws.at.size()),
+                          .circle_diameter_mm = 2.0 * screws.at.front().norm(),
+                          .hole_diameter_mm = screws.screw.hole_mm};
+  } else if (gear == layout.output_gear) {
+    design.outer_diameter_mm = 2.0 * layout.cup_radius_mm;
+  }
+  return design;
+}
+
+Errors add_machine(const GearTrain& train, const MachineLayout& layout, PartShapes& shapes) {
+  return MachineBuilder(train, layout, shapes).build();
+}
+
+}  // namespace trueflank

@@ -1,0 +1,505 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From gears to a gearbox: keys, parts, findings, plates and bill of materials.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "trueflank/check/machine/bearing_life.h"
+#include "trueflank/check/machine/check_machine.h"
+#include "trueflank/design/design_file.h"
+#include "trueflank/design/design_file_writer.h"
+#include "trueflank/design/tools_file.h"
+#include "trueflank/solid/brep/brep.h"
+#include "trueflank/solid/measure/assembly_clearance.h"
+#include "trueflank/solid/measure/bill_of_materials.h"
+#include "trueflank/solid/measure/mass_properties.h"
+#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/machine/print_plates.h"
+#include "trueflank/solid/shape/outline_loop.h"
+
+namespace trueflank {
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) throw std::runtime_error("no " + what);
+  return text.replace(at, what.size(), by);
+}
+
+/// The teeth of examples/printed_actuator.
+const std::string k3k = R"(format = 1
+name = "actuator"
+[gearbox]
+kind = "3k"
+output = "ring2"
+planets = 3
+module_mm = 0.8
+centre_distance_mm = 20.5461
+backlash_mm = 0.15
+[sun]
+teeth = 12
+face_width_mm = 10
+[planet1]
+teeth = 39
+face_width_mm = 10
+[ring1]
+teeth = 90
+shift = 0.5225
+face_width_mm = 10
+[planet2]
+teeth = 32
+face_width_mm = 10
+[ring2]
+teeth = 81
+shift = 1.9967
+face_width_mm = 10
+)";
+const std::string kMachine = R"([housing]
+[motor]
+name = "nema17"
+[bearings]
+output = "6806"
+planet = "625"
+[fasteners]
+carrier = "M3-short"
+[made]
+process = "fdm-0.4"
+)";
+const std::string kSimple = R"(format = 1
+[gearbox]
+kind = "simple"
+planets = 3
+module_mm = 1
+backlash_mm = 0.15
+[sun]
+teeth = 18
+face_width_mm = 12
+[planet]
+teeth = 27
+face_width_mm = 12
+[ring]
+teeth = 72
+face_width_mm = 12
+)";
+const std::string kStepped = R"(format = 1
+[gearbox]
+kind = "stepped"
+planets = 3
+module_mm = 1
+backlash_mm = 0.15
+[sun]
+teeth = 15
+face_width_mm = 10
+[planet1]
+teeth = 39
+face_width_mm = 10
+[planet2]
+teeth = 30
+face_width_mm = 10
+[ring]
+teeth = 84
+face_width_mm = 10
+)";
+
+GearboxDesign design_of(const std::string& text) {
+  const auto design = read_design_text(text, "machine.toml");
+  if (!design)
+    throw std::runtime_error(design.error().front().key + ": " + design.error().front().message);
+  return *design;
+}
+
+std::string first_key(const std::string& text) {
+  const auto design = read_design_text(text, "machine.toml");
+  return design ? "" : design.error().front().key;
+}
+
+struct Made {
+  explicit Made(const std::string& text) : train(*lay_out(design_of(text))) {
+    auto made = part_shapes(train);
+    if (!made)
+      throw std::runtime_error(made.error().front().key + ": " + made.error().front().message);
+    shapes = std::move(*made);
+    findings = check_machine(train, shapes);
+  }
+  [[nodiscard]] const PartShape& part(const std::string& name) const {
+    for (const PartShape& shape : shapes.parts)
+      if (shape.name == name) return shape;
+    throw std::runtime_error("no part " + name);
+  }
+  [[nodiscard]] const Finding& finding(const std::string& id, const std::string& where) const {
+    for (const Finding& f : findings)
+      if (f.id == id && f.where == where) return f;
+    throw std::runtime_error("no finding " + id + " of " + where);
+  }
+  GearTrain train;
+  PartShapes shapes;
+  Findings findings;
+};
+
+std::string type_two(const std::string& text) {
+  return replaced(text, "output = \"ring2\"", "output = \"ring1\"");
+}
+std::string split_ring(const std::string& text) {
+  const std::string driven = replaced(text, "planets = 3", "planets = 3\ninput = \"carrier\"");
+  return replaced(driven, "[sun]\nteeth = 12\nface_width_mm = 10\n", "");
+}
+
+// ------------------------------------------------------------------------------------- keys
+
+TEST(MachineKeys, AreReadAndWrittenBack) {
+  const std::string text =
+      replaced(k3k + kMachine, "name = \"nema17\"", "name = \"nema17\"\nshaft_length_mm = 20") +
+      "bed = \"ender-3\"\n[output]\nspeed_rpm = 5\ntorque_nm = 3\n";
+  const GearboxDesign design = design_of(text);
+  ASSERT_TRUE(design.machine);
+  EXPECT_EQ(design.machine->motor.shaft_length_mm, 20.0);
+  EXPECT_EQ(design.machine->motor.pilot_diameter_mm, 22.0);
+  EXPECT_EQ(design.machine->bearings.output.outer_mm, 42.0);
+  EXPECT_EQ(design.machine->fasteners.carrier.insert_length_mm, 4.0);
+  const GearboxDesign again = design_of(design_file_text(design, ""));
+  EXPECT_EQ(again, design);
+}
+
+TEST(MachineKeys, TheSunGetsTheBoreOfTheMotorsShaft) {
+  const GearboxDesign design = design_of(k3k + kMachine);
+  EXPECT_EQ(design.gears[0].bore.kind, BoreKind::kDFlat);
+  EXPECT_NEAR(design.gears[0].bore.diameter_mm, 5.1, 1e-12);
+  EXPECT_NEAR(design.gears[0].bore.d_flat_mm, 4.6, 1e-12);
+}
+
+TEST(MachineKeys, WhatDoesNotAgreeIsTold) {
+  const std::string whole = k3k + kMachine;
+  EXPECT_EQ(first_key(whole), "");
+  EXPECT_EQ(first_key(replaced(whole, "[housing]\n", "")), "motor");
+  EXPECT_EQ(first_key(replaced(whole, "[motor]\nname = \"nema17\"\n", "")), "motor");
+  EXPECT_EQ(first_key(replaced(whole, "nema17", "nema18")), "motor.name");
+  EXPECT_EQ(first_key(replaced(whole, "name = \"nema17\"", "shaft_diameter_mm = 5")),
+            "motor.shaft_length_mm");
+  EXPECT_EQ(first_key(replaced(whole, "nema17\"", "nema17\"\nflat_mm = 2")), "motor.flat_mm");
+  EXPECT_EQ(first_key(replaced(whole, "output = \"6806\"\n", "")), "bearings.output");
+  EXPECT_EQ(first_key(replaced(whole, "\"625\"", "\"652\"")), "bearings.planet");
+  EXPECT_EQ(first_key(replaced(whole, "M3-short", "M3.1")), "fasteners.carrier");
+  EXPECT_EQ(first_key(replaced(whole, "teeth = 90", "teeth = 90\nouter_diameter_mm = 99")),
+            "ring1.outer_diameter_mm");
+  EXPECT_EQ(first_key(whole + "bed = \"10x10\"\n"), "made.bed");
+  EXPECT_EQ(first_key("format = 1\n[gearbox]\nkind = \"gear\"\nmodule_mm = 1\n[gear]\nteeth = 20\n"
+                      "face_width_mm = 5\n" +
+                      kMachine),
+            "housing");
+}
+
+TEST(MachineKeys, AUsersElementsReplaceAndAdd) {
+  const auto tools = read_tools_text(
+      "[bearing.6806]\ndynamic_n = 1\n[motor.mine]\nshaft_diameter_mm = 4\n"
+      "[screw.M7]\ndiameter_mm = 7\n",
+      "tools.toml");
+  ASSERT_TRUE(tools);
+  const Bearing* bearing = find_element(tools->elements.bearings, "6806");
+  EXPECT_EQ(bearing->dynamic_n, 1.0);
+  EXPECT_EQ(bearing->outer_mm, 42.0);
+  EXPECT_EQ(find_element(tools->elements.motors, "mine")->shaft_diameter_mm, 4.0);
+  EXPECT_NE(find_element(tools->elements.screws, "M7"), nullptr);
+  EXPECT_FALSE(read_tools_text("[motor.mine]\nshaft_mm = 4\n", "tools.toml"));
+}
+
+TEST(MachineKeys, EveryElementAndToolKeyIsInTheDocumentation) {
+  std::ostringstream page;
+  page << std::ifstream(std::string(TRUEFLANK_SOURCE_DIR) + "/docs/gearbox.md").rdbuf();
+  const std::string text = page.str();
+  const auto names = [&](const std::string& name) {
+    return text.find("`" + name + "`") != std::string::npos;
+  };
+  const MachineElements& elements = standard_elements();
+  for (const Motor& motor : elements.motors) EXPECT_TRUE(names(motor.name)) << motor.name;
+  for (const Bearing& bearing : elements.bearings) EXPECT_TRUE(names(bearing.name)) << bearing.name;
+  for (const Screw& screw : elements.screws) EXPECT_TRUE(names(screw.name)) << screw.name;
+  for (const Bed& bed : standard_beds()) EXPECT_TRUE(names(bed.name)) << bed.name;
+  for (const char* kind : {"bearing", "screw"})
+    for (const KeyRule& rule : tool_key_rules(kind))
+      EXPECT_NE(text.find(rule.name), std::string::npos) << rule.name;
+}
+
+// ------------------------------------------------------------------------------------- parts
+
+TEST(MachineParts, ADesignWithoutHousingHasNone) {
+  const auto train = lay_out(design_of(k3k));
+  const auto shapes = part_shapes(*train);
+  ASSERT_TRUE(shapes);
+  std::vector<std::string> names;
+  for (const PartShape& part : shapes->parts) names.push_back(part.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"sun", "planet", "ring1", "ring2"}));
+  EXPECT_TRUE(check_machine(*train, *shapes).empty());
+}
+
+class EveryKind : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryKind, HasNoFindingThatFails) {
+  const Made made(GetParam());
+  for (const Finding& f : made.findings)
+    EXPECT_TRUE(f.status == CheckStatus::kPass) << f.id << " " << f.where << ": " << f.message;
+}
+
+TEST_P(EveryKind, HasClosedPartsOfTheVolumeOfTheirSlabs) {
+  const Made made(GetParam());
+  for (const PartShape& part : made.shapes.parts) {
+    const PartMesh mesh = part_mesh(part, {.tolerance_mm = 0.001});
+    const MeshValidity validity = mesh_validity(mesh.mesh);
+    EXPECT_TRUE(validity.valid()) << part.name;
+    EXPECT_EQ(validity.components, 1U) << part.name;
+    const double volume = mass_properties(part, 1.0).volume_mm3;
+    EXPECT_NEAR(volume_mm3(mesh.mesh), volume, 2e-3 * volume) << part.name;
+    const auto solid = brep_of(part);
+    EXPECT_TRUE(solid) << part.name << ": " << (solid ? "" : solid.error().message);
+  }
+}
+
+TEST_P(EveryKind, StandsOnItsLowestFaceAndItsSlabsTouch) {
+  const Made made(GetParam());
+  for (const PartShape& part : made.shapes.parts) {
+    EXPECT_NEAR(part.slabs.front().z_lower_mm, 0.0, 1e-9) << part.name;
+    for (std::size_t i = 1; i < part.slabs.size(); ++i)
+      EXPECT_EQ(part.slabs[i].z_lower_mm, part.slabs[i - 1].z_upper_mm) << part.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Machine, EveryKind,
+                         testing::Values(k3k + kMachine, type_two(k3k + kMachine),
+                                         kSimple + kMachine, split_ring(k3k + kMachine),
+                                         kStepped + kMachine));
+
+TEST(MachineParts, TheScrewsOfTheHousingAreHeldByTheirInserts) {
+  const Made made(k3k + kMachine);
+  const auto layout = machine_layout(made.train);
+  for (const ScrewGroup* group : {&layout->housing_screws, &layout->carrier_screws,
+                                  &layout->output_screws, &layout->retainer_screws}) {
+    const double held = group->way * (group->tip_mm() - group->insert_mm);
+    EXPECT_GE(held, group->screw.diameter_mm - 1e-9) << group->what;
+    EXPECT_GE(group->way * (group->far_mm - group->tip_mm()), -1e-9) << group->what;
+  }
+  // into the motor's threads
+  const double deep = layout->floor.lower_mm - layout->motor_screws.tip_mm();
+  EXPECT_GE(deep, 3.0);
+  EXPECT_LE(deep, 4.5);
+}
+
+// ------------------------------------------------------------------------------------- findings
+
+TEST(MachineChecks, AShaftThatIsTooShortIsToldWithItsCure) {
+  const std::string text =
+      replaced(k3k + kMachine, "\"nema17\"", "\"nema17\"\nshaft_length_mm = 6");
+  const Made made(text);
+  const Finding& f = made.finding("shaft_grip", "sun");
+  EXPECT_EQ(f.status, CheckStatus::kFail);
+  const double missing = f.limit - f.value;
+  const std::string longer = std::to_string(6.0 + missing + 0.001);
+  const Made cured(replaced(text, "shaft_length_mm = 6", "shaft_length_mm = " + longer));
+  EXPECT_EQ(cured.finding("shaft_grip", "sun").status, CheckStatus::kPass);
+}
+
+TEST(MachineChecks, AHousingThatIsTooSmallFails) {
+  const Made made(replaced(k3k + kMachine, "[housing]\n", "[housing]\nouter_diameter_mm = 84\n"));
+  EXPECT_EQ(made.finding("housing_size", "housing").status, CheckStatus::kFail);
+  const Made large(replaced(k3k + kMachine, "[housing]\n", "[housing]\nouter_diameter_mm = 95\n"));
+  EXPECT_EQ(large.finding("housing_size", "housing").status, CheckStatus::kPass);
+  EXPECT_NEAR(extent(large.part("lid").slabs.back().outer).outer_radius_mm, 47.5, 1e-9);
+}
+
+TEST(MachineChecks, ScrewsThatNobodySellsAreTold) {
+  const Made made(replaced(k3k + kMachine, "\"6806\"", "\"6806\"\noutputs = 4"));
+  EXPECT_EQ(made.finding("screws", "output").status, CheckStatus::kPass);
+  const Made thin(replaced(replaced(k3k + kMachine, "\"6806\"", "\"6806\"\noutputs = 4"),
+                           "carrier =", "output = \"M2\"\ncarrier ="));
+  EXPECT_EQ(thin.finding("screws", "output").status, CheckStatus::kFail);
+}
+
+TEST(MachineChecks, AMotorTooLargeForTheGearsRunsItsHeadsIntoTheWall) {
+  const Made made(
+      replaced(k3k + kMachine, "\"nema17\"", "\"nema17\"\nbolt_circle_diameter_mm = 76"));
+  EXPECT_EQ(made.finding("screw_access", "motor").status, CheckStatus::kFail);
+}
+
+TEST(MachineChecks, ABearingTooLargeForThePlanetIsAWallThatIsMissing) {
+  const Made made(replaced(k3k + kMachine, "\"625\"", "\"6803\""));
+  EXPECT_EQ(made.finding("wall", "planet").status, CheckStatus::kFail);
+}
+
+TEST(MachineChecks, ABearingWiderThanThePlanetIsTold) {
+  const Made made(replaced(kSimple + kMachine, "\"625\"", "\"626\""));
+  EXPECT_EQ(made.finding("bearing_seat", "planet").status, CheckStatus::kFail);
+}
+
+TEST(MachineChecks, ACarrierThatReachesIntoTheRingCollides) {
+  const Made made(k3k + kMachine +
+                  "[carrier]\nplate_thickness_mm = 7\npin_hole_clearance_mm = 0.1\n"
+                  "axial_clearance_mm = 0.3\nouter_diameter_mm = 64\n");
+  EXPECT_NE(made.finding("collision", "train").status, CheckStatus::kFail);
+  PartShapes moved = made.shapes;
+  for (Placement& body : moved.assembly)
+    if (body.name == "carrier_top") body.translation_mm[2] += 1.0;  // into the cup's floor
+  EXPECT_FALSE(assembly_clearance(made.train, moved).collisions.empty());
+}
+
+/// Points inside the material of two bodies at once, at random, with the carrier and the output
+/// turned: another way to the same answer.
+TEST(MachineChecks, NoPointIsInTwoBodies) {
+  const Made made(k3k + kMachine);
+  struct Body {
+    const Placement* placement;
+    const PartShape* part;
+  };
+  std::vector<Body> bodies;
+  for (const Placement& p : made.shapes.assembly)
+    bodies.push_back({&p, &made.shapes.parts[static_cast<std::size_t>(p.part)]});
+  const auto in_material = [](const Body& body, const Point2& at, double z) {
+    const Point2 p =
+        rotated(at - Point2(body.placement->translation_mm[0], body.placement->translation_mm[1]),
+                -body.placement->rotation_rad);
+    const double height = z - body.placement->translation_mm[2];
+    for (const Slab& slab : body.part->slabs) {
+      if (height <= slab.z_lower_mm || height >= slab.z_upper_mm) continue;
+      const auto inside = [&](const Outline& outline, bool outer) {
+        const OutlineExtent e = extent(outline);
+        // teeth: what surely is material
+        const double radius = outer ? e.inner_radius_mm : e.outer_radius_mm;
+        return (p - e.centre).norm() < radius - (outer ? 1e-6 : -1e-6);
+      };
+      if (!inside(slab.outer, true)) return false;
+      return std::none_of(slab.holes.begin(), slab.holes.end(),
+                          [&](const Outline& hole) { return inside(hole, false); });
+    }
+    return false;
+  };
+  unsigned state = 12345;
+  const auto random = [&] {
+    state = state * 1664525u + 1013904223u;
+    return (state >> 8) / 16777216.0;
+  };
+  int hits = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Point2 at(90.0 * (random() - 0.5), 90.0 * (random() - 0.5));
+    const double z = -20.0 + 80.0 * random();
+    std::vector<std::string> here;
+    for (const Body& body : bodies)
+      if (in_material(body, at, z)) here.push_back(body.placement->name);
+    hits += !here.empty();
+    EXPECT_LE(here.size(), 1U) << here.front() << " and " << here.back();
+  }
+  EXPECT_GT(hits, 50000);
+}
+
+/// SKF's rolling bearings catalogue, the example of bearing 6309: C = 55.3 kN, 8 kN, 3000 rpm: 330
+/// million turns, 1 830 h.
+TEST(BearingLife, IsThatOfTheCataloguesExample) {
+  const Bearing bearing{.name = "6309", .dynamic_n = 55300, .static_n = 31500};
+  const BearingLife life = bearing_life(bearing, {.radial_n = 8000, .speed_rpm = 3000});
+  EXPECT_NEAR(life.life_h, 1830.0, 10.0);
+  EXPECT_NEAR(life.static_safety, 31500.0 / 8000.0, 1e-12);
+}
+
+TEST(BearingLife, AnAxialLoadCountsBeyondItsLimit) {
+  const Bearing bearing{.name = "x", .dynamic_n = 10000, .static_n = 10000};
+  // Fa / C0 = 0.056: e = 0.26, Y = 1.71
+  EXPECT_NEAR(
+      bearing_life(bearing, {.radial_n = 3000, .axial_n = 560, .speed_rpm = 1}).equivalent_n, 3000,
+      1e-9);
+  EXPECT_NEAR(
+      bearing_life(bearing, {.radial_n = 1000, .axial_n = 560, .speed_rpm = 1}).equivalent_n,
+      0.56 * 1000 + 1.71 * 560, 1e-9);
+}
+
+TEST(MachineChecks, TheForceOnAPlanetsPinIsThatOfItsMeshes) {
+  // simple, ring held: both meshes push alike; the pin carries the carrier's torque over its radius
+  const Made made(kSimple + kMachine + "[output]\ntorque_nm = 6\n");
+  const MachineLoads loads = machine_loads(made.train);
+  EXPECT_EQ(loads.output_torque_nm, 6.0);
+  const double tangential = 6000.0 / 3.0 / made.train.centre_distance_mm;
+  EXPECT_NEAR(loads.pin_force_n, tangential, 1e-6 * tangential);
+}
+
+TEST(MachineChecks, ALoadThatCrushesTheBearingFails) {
+  const Made made(k3k + kMachine + "[output]\nradial_load_n = 20000\n");
+  EXPECT_EQ(made.finding("bearing_load", "output").status, CheckStatus::kFail);
+}
+
+// ------------------------------------------------------------------------------------- bill,
+// plates
+
+TEST(BillOfMaterials, CountsEveryBodyOnce) {
+  const Made made(k3k + kMachine);
+  const BillOfMaterials bill = bill_of_materials(made.shapes, [](const PartShape&) {
+    return PartMaterial{"pla", 1000.0};
+  });
+  int count = 0;
+  double mass_g = 0.0;
+  for (const BillLine& line : bill) {
+    count += line.count;
+    if (!std::isnan(line.mass_g)) mass_g += line.mass_g * line.count;
+  }
+  EXPECT_EQ(count, static_cast<int>(made.shapes.assembly.size()));
+  double volume = 0.0;
+  for (const Placement& body : made.shapes.assembly)
+    if (const PartShape& part = made.shapes.parts[static_cast<std::size_t>(body.part)];
+        part.bought.empty())
+      volume += mass_properties(part, 1.0).volume_mm3;
+  EXPECT_NEAR(mass_g, 1e-3 * volume, 1e-6 * volume);
+  const std::string csv = bill_csv(bill);
+  EXPECT_NE(csv.find(",\"ISO 4762 M3x30\",3,,,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",\"ball bearing 625 (5x16x5)\",6,,,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nplanet,,3,pla,"), std::string::npos) << csv;
+}
+
+TEST(PrintPlates, HoldEveryPartThatIsMadeWithoutOverlap) {
+  const Made made(k3k + kMachine);
+  for (const Bed& bed : standard_beds()) {
+    const auto plates = print_plates(made.shapes, bed);
+    ASSERT_TRUE(plates) << bed.name;
+    std::size_t count = 0;
+    for (const PrintPlate& plate : *plates) {
+      count += plate.size();
+      const auto reach = [&](const PrintedPart& p) {
+        double r = 0.0;
+        for (const Slab& slab : made.shapes.parts[static_cast<std::size_t>(p.part)].slabs)
+          r = std::max(r, extent(slab.outer).outer_radius_mm);
+        return r;
+      };
+      for (std::size_t i = 0; i < plate.size(); ++i) {
+        const double r = reach(plate[i]);
+        EXPECT_GE(plate[i].at_mm.x() - r, -1e-9);
+        EXPECT_LE(plate[i].at_mm.x() + r, bed.width_mm + 1e-9);
+        EXPECT_GE(plate[i].at_mm.y() - r, -1e-9);
+        EXPECT_LE(plate[i].at_mm.y() + r, bed.depth_mm + 1e-9);
+        for (std::size_t j = 0; j < i; ++j)
+          EXPECT_GE((plate[i].at_mm - plate[j].at_mm).norm(), r + reach(plate[j]) + 4.999);
+      }
+    }
+    const auto is_made = [&](const Placement& p) {
+      return made.shapes.parts[static_cast<std::size_t>(p.part)].bought.empty();
+    };
+    EXPECT_EQ(count, static_cast<std::size_t>(std::count_if(made.shapes.assembly.begin(),
+                                                            made.shapes.assembly.end(), is_made)));
+  }
+  const auto small = print_plates(made.shapes, *find_bed("60x60"));
+  ASSERT_FALSE(small);
+  EXPECT_EQ(small.error().key, "made.bed");
+}
+
+/// What hangs over at the bed's side: a part the right way up widens nowhere by more than a ledge.
+TEST(PrintPlates, PartsLieTheRightWayUp) {
+  const Made made(k3k + kMachine);
+  for (const PartShape& part : made.shapes.parts) {
+    if (!part.bought.empty()) continue;
+    std::vector<Slab> slabs = part.slabs;
+    if (part.upside_down) std::reverse(slabs.begin(), slabs.end());
+    for (std::size_t i = 1; i < slabs.size(); ++i) {
+      const double widened =
+          extent(slabs[i].outer).inner_radius_mm - extent(slabs[i - 1].outer).outer_radius_mm;
+      EXPECT_LE(widened, 0.5) << part.name << " slab " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trueflank

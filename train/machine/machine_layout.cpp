@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/machine/machine_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank {
+namespace {
+
+/// Free depth over a screw's head.
+constexpr double kHeadCover_mm = 0.2;
+/// Free height between the motor's collar and the hub on its shaft, and between sun and its stop.
+constexpr double kHubGap_mm = 0.5;
+/// The bearing's rings are touched up to this part of the ring section's height.
+constexpr double kShoulder = 0.1;
+/// Rim of a ring that drives out, of the module, and at least in mm.
+constexpr double kRim = 2.5, kLeastRim_mm = 2.0;
+/// A hub stays this part of the module inside the roots.
+constexpr double kHubInset = 0.1;
+/// The lid's lip reaches this far over the fixed ring.
+constexpr double kLidLip_mm = 2.0;
+/// A journal ends this much before its bearing, so that the bearing is clamped.
+constexpr int kRetainerScrews = 4;
+/// Under a screw's head there is this much of the material at least, of the thread's diameter.
+constexpr double kUnderHead = 0.8;
+
+std::vector<Point2> on_circle(double radius_mm, int count, double first_rad) {
+  std::vector<Point2> points;
+  for (int i = 0; i < count; ++i)
+    points.push_back(radius_mm * unit_vector(first_rad + kTwoPi * i / count));
+  return points;
+}
+
+/// The shortest stocked length that holds: the tip a diameter deep in the insert, not through the
+/// far face. Where none does, the head goes deeper, by at most `deeper_mm`; the insert moves with
+/// the tip.
+void choose_length(ScrewGroup& group, double clamped_mm, double deeper_mm) {
+  const Screw& screw = group.screw;
+  const double whole = std::abs(group.far_mm - group.head_mm);
+  group.shortest_mm = clamped_mm - deeper_mm + screw.diameter_mm;
+  group.longest_mm = whole;
+  double best = 1e300;
+  for (const double length : screw.lengths_mm()) {
+    const double deeper = std::max(0.0, clamped_mm + screw.diameter_mm - length);
+    if (deeper > deeper_mm || length > whole - deeper || deeper >= best) continue;
+    best = deeper;
+    group.length_mm = length;
+  }
+  if (!group.fits()) best = 0.0;
+  group.head_mm += group.way * best;
+  const double clamped = clamped_mm - best, reach = whole - best;
+  const double from = std::clamp(group.length_mm - screw.insert_length_mm, clamped,
+                                 std::max(clamped, reach - screw.insert_length_mm));
+  group.insert_mm = group.head_mm + group.way * from;
+}
+
+class Layout {
+ public:
+  Layout(const GearTrain& train, const MachineDesign& machine)
+      : train_(train), machine_(machine), design_(train.design) {}
+
+  MachineLayout make() {
+    place_gears();
+    place_carrier();
+    place_pillars();
+    place_floor();
+    place_output();
+    place_walls();
+    place_hub();
+    return std::move(m_);
+  }
+
+ private:
+  [[nodiscard]] const Topology& topology() const { return train_.topology(); }
+  [[nodiscard]] HeightRange heights(const TrainGear& gear) const {
+    return m_.z({gear.z_lower_mm, gear.z_lower_mm + gear.face_width_mm});
+  }
+  [[nodiscard]] static bool is_ring(const TrainGear& gear) {
+    return gear.profile.gear().kind == GearKind::kInternal;
+  }
+
+  void place_gears() {
+    for (std::size_t i = 0; i < train_.gears.size(); ++i) {
+      const int member = topology().gears[i].member;
+      const bool fixed = std::count(topology().fixed.begin(), topology().fixed.end(), member) > 0;
+      if (is_ring(train_.gears[i]) && fixed) m_.fixed_gear = static_cast<int>(i);
+      if (is_ring(train_.gears[i]) && member == topology().output)
+        m_.output_gear = static_cast<int>(i);
+      if (member == topology().input) m_.driven_gear = static_cast<int>(i);
+    }
+    // the motor stands on the side of the ring that is held
+    if (m_.output_gear >= 0 &&
+        train_.gear(m_.output_gear).z_lower_mm < train_.gear(m_.fixed_gear).z_lower_mm)
+      m_.way = -1.0;
+    m_.ring = heights(train_.gear(m_.fixed_gear));
+    const double least = design_.made.process ? design_.made.process->least_wall_mm : 0.0;
+    m_.wall_mm = machine_.housing.wall_mm.value_or(std::max(1.2, 1.5 * least));
+    m_.fit_mm = machine_.housing.fit_mm;
+    m_.clearance_mm = machine_.housing.clearance_mm;
+  }
+
+  void place_carrier() {
+    m_.carrier = *carrier_layout(train_);
+    const HeightRange lower = m_.z(m_.carrier.lower_plate), upper = m_.z(m_.carrier.upper_plate);
+    m_.near = m_.way > 0.0 ? lower : upper;
+    m_.far = m_.way > 0.0 ? upper : lower;
+    // dowel pins in blind holes: the longest stocked one that leaves a web in either plate
+    const double span = m_.far.lower_mm - m_.near.upper_mm;
+    const double deepest = m_.near.upper_mm - m_.near.lower_mm - m_.wall_mm;
+    m_.pin_length_mm = span + 2.0 * deepest - kHeadCover_mm;
+    for (const double length : dowel_lengths_mm())
+      if (length >= span + m_.carrier.pin_diameter_mm &&
+          length <= span + 2.0 * deepest - kHeadCover_mm) {
+        m_.pin_length_mm = length;
+        m_.pin_is_standard = true;
+      }
+    m_.pin_depth_mm = 0.5 * (m_.pin_length_mm + kHeadCover_mm - span);
+  }
+
+  /// Gap that a pillar at a place leaves beyond the clearance.
+  [[nodiscard]] double room_of_pillar(const Point2& at) const {
+    double room = 0.5 * m_.carrier.outer_diameter_mm - at.norm() - m_.pillar_radius_mm;
+    for (std::size_t i = 0; i < train_.gears.size(); ++i) {
+      const TrainGear& gear = train_.gears[i];
+      const double tip = gear.profile.tip_radius_mm();
+      if (is_ring(gear))
+        room = std::min(room, tip - at.norm() - m_.pillar_radius_mm - m_.clearance_mm);
+      if (!topology().is_planet_gear(i)) continue;
+      for (const double angle : train_.phases.planet_position_rad)
+        room = std::min(room, (at - train_.centre_distance_mm * unit_vector(angle)).norm() - tip -
+                                  m_.pillar_radius_mm - m_.clearance_mm);
+    }
+    return room;
+  }
+
+  void place_pillars() {
+    const Screw& screw = machine_.fasteners.carrier;
+    m_.pillar_radius_mm = 0.5 * screw.hole_mm + m_.wall_mm;
+    std::vector<double> angles = train_.phases.planet_position_rad;
+    std::sort(angles.begin(), angles.end());
+    m_.pillar_room_mm = 1e300;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + kTwoPi;
+      const Point2 direction = unit_vector(0.5 * (angles[i] + next));
+      Point2 best = Point2::Zero();
+      double room = -1e300;
+      for (double r = m_.pillar_radius_mm; r < 0.5 * m_.carrier.outer_diameter_mm; r += 0.05)
+        if (const double here = room_of_pillar(r * direction); here > room) {
+          room = here;
+          best = r * direction;
+        }
+      m_.pillars.push_back(best);
+      m_.pillar_room_mm = std::min(m_.pillar_room_mm, room);
+    }
+    const double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
+    const double depth = screw.head_height_mm + kHeadCover_mm;
+    m_.carrier_screws = {.what = "carrier",
+                         .screw = screw,
+                         .at = m_.pillars,
+                         .head_mm = m_.near.lower_mm + depth,
+                         .way = 1.0,
+                         .far_mm = m_.far.upper_mm};
+    choose_length(m_.carrier_screws, m_.far.lower_mm - m_.carrier_screws.head_mm,
+                  std::max(0.0, m_.near.upper_mm - under - m_.carrier_screws.head_mm));
+  }
+
+  // ------------------------------------------------------------------------------- motor's side
+
+  void place_floor() {
+    const Motor& motor = machine_.motor;
+    const Screw& screw = machine_.fasteners.motor;
+    const double over = screw.head_height_mm + kHeadCover_mm,
+                 cavity = m_.near.lower_mm - m_.clearance_mm;
+    double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
+    if (machine_.housing.floor_mm) under = *machine_.housing.floor_mm - over;
+    ScrewGroup& group = m_.motor_screws;
+    group = {.what = "motor",
+             .screw = screw,
+             .at = on_circle(0.5 * motor.bolt_circle_diameter_mm, motor.bolt_count,
+                             kPi / motor.bolt_count),
+             .way = -1.0};
+    // into the motor's threads, a diameter deep at least; or through its flange, for nuts
+    const bool threads = motor.thread_depth_mm > 0.0;
+    const double least = threads ? screw.diameter_mm : motor.flange_mm + screw.nut_height_mm;
+    const double most = threads ? motor.thread_depth_mm : least + 3.0 * screw.diameter_mm;
+    for (const double length : screw.lengths_mm()) {
+      if (length < under + least) continue;
+      group.length_mm = length;
+      if (length > under + most && !machine_.housing.floor_mm) under = length - most;
+      if (length > under + most) group.length_mm = 0.0;
+      break;
+    }
+    group.shortest_mm = under + least;
+    group.longest_mm = under + most;
+    m_.floor = {cavity - over - under, cavity};
+    group.head_mm = cavity - over;
+    group.far_mm = m_.floor.lower_mm;
+  }
+
+  void place_hub() {
+    const Motor& motor = machine_.motor;
+    const double face = m_.floor.lower_mm;
+    m_.shaft_end_mm = face + motor.shaft_length_mm;
+    m_.flat_from_mm = motor.flat_mm > 0.0 ? m_.shaft_end_mm - motor.flat_length_mm : face;
+    HeightRange driven = m_.near;
+    m_.hub_radius_mm = 0.5 * motor.shaft_diameter_mm + std::max(2.0 * m_.wall_mm, 2.0);
+    m_.hub_room_mm = 1e300;
+    if (m_.driven_gear >= 0) {
+      const TrainGear& gear = train_.gear(m_.driven_gear);
+      driven = heights(gear);
+      m_.hub_radius_mm =
+          gear.profile.root_radius_mm() - kHubInset * gear.profile.gear().normal_module_mm;
+      place_stop(gear, driven);
+    }
+    m_.hub = {std::min(face + motor.pilot_height_mm + kHubGap_mm, driven.lower_mm),
+              driven.lower_mm};
+    for (std::size_t i = 0; i < train_.gears.size(); ++i)
+      if (m_.driven_gear >= 0 && topology().is_planet_gear(i) &&
+          heights(train_.gears[i]).lower_mm < driven.lower_mm)
+        m_.hub_room_mm = std::min(m_.hub_room_mm, train_.centre_distance_mm -
+                                                      train_.gears[i].profile.tip_radius_mm() -
+                                                      m_.hub_radius_mm - m_.clearance_mm);
+    m_.gripped = {m_.hub.lower_mm, std::min(driven.upper_mm, m_.shaft_end_mm)};
+  }
+
+  /// Over a sun that ends far below the far plate stands a stop: it keeps the sun on the shaft.
+  /// The shaft's end has a hole of its own in it.
+  void place_stop(const TrainGear& gear, const HeightRange& sun) {
+    m_.stop = {std::min(sun.upper_mm + kHubGap_mm, m_.far.lower_mm), m_.far.lower_mm};
+    m_.stop_radius_mm = gear.profile.tip_radius_mm();
+    if (m_.shaft_end_mm + m_.clearance_mm > m_.stop.lower_mm)
+      m_.stop_hole_radius_mm = 0.5 * machine_.motor.shaft_diameter_mm + m_.clearance_mm;
+    for (std::size_t i = 0; i < train_.gears.size(); ++i)
+      if (topology().is_planet_gear(i) && heights(train_.gears[i]).upper_mm > m_.stop.lower_mm)
+        m_.stop_radius_mm =
+            std::min(m_.stop_radius_mm, train_.centre_distance_mm - m_.clearance_mm -
+                                            train_.gears[i].profile.tip_radius_mm());
+    if (m_.stop_radius_mm < m_.stop_hole_radius_mm + m_.wall_mm ||
+        m_.stop.upper_mm - m_.stop.lower_mm < m_.wall_mm)
+      m_.stop.lower_mm = m_.stop.upper_mm;
+  }
+
+  // ------------------------------------------------------------------------------- output's side
+
+  void place_output() {
+    const Screw& screw = machine_.fasteners.output;
+    const Bearing& bearing = machine_.bearings.output;
+    const double head = screw.head_height_mm + kHeadCover_mm;
+    const double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
+    m_.disc = m_.far;
+    if (m_.output_gear >= 0) {
+      const TrainGear& ring = train_.gear(m_.output_gear);
+      const double m = ring.profile.gear().normal_module_mm;
+      m_.cup_radius_mm = ring.profile.root_radius_mm() + std::max(kRim * m, kLeastRim_mm);
+      m_.cup_inner_radius_mm = 0.5 * m_.carrier.outer_diameter_mm + m_.clearance_mm;
+      m_.disc.lower_mm = m_.far.upper_mm + m_.clearance_mm;
+      m_.disc.upper_mm =
+          m_.disc.lower_mm + std::max(screw.insert_length_mm + 0.3, 2.0 * m_.wall_mm);
+    }
+    m_.retainer.lower_mm = m_.disc.upper_mm + m_.clearance_mm;
+    m_.retainer.upper_mm = m_.retainer.lower_mm + head + under;
+    m_.bearings = {m_.retainer.upper_mm,
+                   m_.retainer.upper_mm + machine_.bearings.outputs * bearing.width_mm};
+    const double shoulder = kShoulder * (bearing.outer_mm - bearing.bore_mm);
+    m_.journal_radius_mm = 0.5 * (bearing.bore_mm - m_.fit_mm);
+    m_.inner_shoulder_mm = 0.5 * bearing.bore_mm + shoulder;
+    m_.outer_shoulder_mm = 0.5 * bearing.outer_mm - shoulder;
+    m_.roof = {m_.bearings.lower_mm, m_.bearings.upper_mm + std::max(2.0, m_.wall_mm)};
+    m_.plate.lower_mm = m_.roof.upper_mm + m_.clearance_mm;
+    m_.plate.upper_mm = m_.plate.lower_mm + head + under;
+    m_.plate_radius_mm = 0.5 * bearing.outer_mm;
+    place_output_screws(head);
+    place_retainer(head);
+  }
+
+  void place_output_screws(double head_mm) {
+    const Screw& screw = machine_.fasteners.output;
+    const int bolts = machine_.output.bolts;
+    const double circle = machine_.output.bolt_circle_diameter_mm
+                              ? 0.5 * *machine_.output.bolt_circle_diameter_mm
+                              : m_.journal_radius_mm - m_.wall_mm - 0.5 * screw.hole_mm;
+    m_.load_inserts = on_circle(circle, bolts, kPi / bolts);
+    m_.output_screws = {.what = "output",
+                        .screw = screw,
+                        .at = on_circle(circle, bolts, 0.0),
+                        .head_mm = m_.plate.upper_mm - head_mm,
+                        .way = -1.0,
+                        .far_mm = m_.disc.lower_mm};
+    choose_length(m_.output_screws, m_.output_screws.head_mm - m_.disc.upper_mm,
+                  std::max(0.0, m_.output_screws.head_mm - m_.plate.lower_mm));
+  }
+
+  void place_retainer(double head_mm) {
+    const Screw& screw = machine_.fasteners.output;
+    const double circle =
+        0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm + screw.insert_hole_mm) + m_.wall_mm;
+    m_.retainer_radius_mm = circle + 0.5 * screw.head_diameter_mm + m_.wall_mm + kHeadCover_mm;
+    m_.retainer_screws = {.what = "retainer",
+                          .screw = screw,
+                          .at = on_circle(circle, kRetainerScrews, kPi / kRetainerScrews),
+                          .head_mm = m_.retainer.lower_mm + head_mm,
+                          .way = 1.0,
+                          .far_mm = m_.roof.upper_mm};
+    choose_length(m_.retainer_screws, m_.roof.lower_mm - m_.retainer_screws.head_mm, 0.0);
+  }
+
+  // ------------------------------------------------------------------------------- walls
+
+  /// What turns inside the lid.
+  [[nodiscard]] double turning_radius_mm() const {
+    double radius = std::max(m_.cup_radius_mm, m_.retainer_radius_mm);
+    if (m_.output_gear < 0) radius = std::max(radius, 0.5 * m_.carrier.outer_diameter_mm);
+    return radius + m_.clearance_mm;
+  }
+
+  void place_walls() {
+    const Screw& screw = machine_.fasteners.housing;
+    m_.cavity_radius_mm = 0.5 * m_.carrier.outer_diameter_mm + m_.clearance_mm;
+    m_.lid_radius_mm = turning_radius_mm();
+    for (std::size_t i = 0; i < train_.gears.size(); ++i) {
+      if (!topology().is_planet_gear(i)) continue;
+      const HeightRange at = heights(train_.gears[i]);
+      const double reach =
+          train_.centre_distance_mm + train_.gears[i].profile.tip_radius_mm() + m_.clearance_mm;
+      if (at.lower_mm < m_.ring.lower_mm + m_.clearance_mm)
+        m_.cavity_radius_mm = std::max(m_.cavity_radius_mm, reach);
+      if (at.upper_mm > m_.ring.upper_mm - m_.clearance_mm)
+        m_.lid_radius_mm = std::max(m_.lid_radius_mm, reach);
+    }
+    const double root = train_.gear(m_.fixed_gear).profile.root_radius_mm();
+    const double hole = 0.5 * screw.hole_mm, insert = 0.5 * screw.insert_hole_mm;
+    const double circle =
+        m_.wall_mm + std::max({root + hole, m_.cavity_radius_mm + insert, m_.lid_radius_mm + hole});
+    const double lip = m_.wall_mm + 0.5 * m_.fit_mm;
+    m_.least_outer_radius_mm =
+        std::max(circle + hole + m_.wall_mm + lip,
+                 circle + 0.5 * screw.head_diameter_mm + kHeadCover_mm + m_.wall_mm);
+    m_.asked_radius_mm = machine_.housing.outer_diameter_mm
+                             ? 0.5 * *machine_.housing.outer_diameter_mm
+                             : m_.least_outer_radius_mm;
+    m_.outer_radius_mm = std::max(m_.asked_radius_mm, m_.least_outer_radius_mm);
+    m_.ring_radius_mm = m_.outer_radius_mm - lip;
+    m_.seat_top_mm =
+        std::max(m_.ring.upper_mm - kLidLip_mm, 0.5 * (m_.ring.lower_mm + m_.ring.upper_mm));
+    const double head = screw.head_height_mm + kHeadCover_mm;
+    m_.housing_screws = {.what = "housing",
+                         .screw = screw,
+                         .at = on_circle(circle, machine_.housing.screws, 0.0),
+                         .head_mm = m_.roof.upper_mm - head,
+                         .way = -1.0,
+                         .far_mm = m_.floor.lower_mm};
+    choose_length(m_.housing_screws, m_.housing_screws.head_mm - m_.ring.lower_mm + m_.wall_mm,
+                  m_.housing_screws.head_mm - m_.ring.upper_mm - screw.diameter_mm);
+  }
+
+  const GearTrain& train_;
+  const MachineDesign& machine_;
+  const GearboxDesign& design_;
+  MachineLayout m_;
+};
+
+}  // namespace
+
+std::optional<MachineLayout> machine_layout(const GearTrain& train) {
+  if (!train.design.machine) return std::nullopt;
+  return Layout(train, *train.design.machine).make();
+}
+
+}  // namespace trueflank

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueflank/train/carrier.h"
+#include "trueflank/train/gear_train.h"
+
+namespace trueflank {
+
+/// Screws of one kind at one place. Heights as in MachineLayout.
+struct ScrewGroup {
+  std::string what;  ///< "housing", "carrier", ...
+  Screw screw = {};
+  double length_mm = 0.0;       ///< stocked; 0: none of the stocked lengths does
+  std::vector<Point2> at = {};  ///< in the frame of the body it is in
+  double head_mm = 0.0;         ///< where the head rests
+  double way = 1.0;             ///< +1: the shank points to the output, -1: to the motor
+  double far_mm = 0.0;  ///< the face through which the insert is pressed in, on the shank's side
+  double insert_mm =
+      kNaN;  ///< the insert's end nearer the head; NaN: none, the motor's own threads or nuts
+  double shortest_mm = 0.0,
+         longest_mm = 0.0;  ///< between these a length would do at the deepest head
+
+  [[nodiscard]] bool fits() const { return length_mm > 0.0; }
+  [[nodiscard]] double tip_mm() const { return head_mm + way * length_mm; }
+  [[nodiscard]] double head_top_mm() const { return head_mm - way * screw.head_height_mm; }
+};
+
+/// A gearbox sized: every radius and height of the parts around the gears, of a train with a
+/// machine. Heights grow from the motor to the output: they are the assembly's z where the motor
+/// stands below the gears (`way` +1), its negative where it stands above (3k type II).
+struct MachineLayout {
+  double way = 1.0;
+  double wall_mm = 1.2, fit_mm = 0.1, clearance_mm = 0.5;
+  int fixed_gear = -1;   ///< the ring that is held
+  int output_gear = -1;  ///< the ring that drives out; -1: the carrier does
+  int driven_gear = -1;  ///< on the motor's shaft; -1: the carrier is
+
+  // housing and lid
+  double outer_radius_mm = 0.0;
+  double least_outer_radius_mm = 0.0;  ///< that holds everything
+  double asked_radius_mm = 0.0;        ///< by the design; the parts have the larger of both
+  HeightRange floor;                   ///< from the motor's face to the cavity
+  double cavity_radius_mm = 0.0;
+  HeightRange ring;  ///< the fixed ring
+  double ring_radius_mm = 0.0;
+  double seat_top_mm = 0.0;    ///< where the lips of housing and lid meet, around the ring
+  double lid_radius_mm = 0.0;  ///< inside the lid
+  HeightRange roof;            ///< of the lid; its underside holds the bearing
+  ScrewGroup housing_screws, motor_screws;
+
+  // carrier
+  CarrierLayout carrier;
+  HeightRange near, far;  ///< plates, towards the motor and towards the output
+  double pin_length_mm = 0.0, pin_depth_mm = 0.0;
+  bool pin_is_standard = false;
+  std::vector<Point2> pillars;
+  double pillar_radius_mm = 0.0;
+  double pillar_room_mm = 0.0;  ///< least gap of a pillar to planets and rings beyond the clearance
+  ScrewGroup carrier_screws;
+  HeightRange stop;  ///< of the far plate, over the sun; empty: none
+  double stop_radius_mm = 0.0;
+  double stop_hole_radius_mm =
+      0.0;  ///< for the end of the motor's shaft; 0: it does not reach there
+
+  // motor's shaft and hub
+  HeightRange hub;  ///< of sun or carrier towards the motor; empty: none
+  double hub_radius_mm = 0.0;
+  double hub_room_mm = 0.0;  ///< beyond the clearance, to planets that it passes
+  double flat_from_mm = 0.0, shaft_end_mm = 0.0;
+  HeightRange gripped;  ///< of the shaft, in hub and gear
+
+  // output
+  double cup_radius_mm = 0.0;  ///< outside, of a ring that drives out
+  double cup_inner_radius_mm = 0.0;
+  HeightRange disc;  ///< holds the inserts of the output's screws
+  HeightRange retainer, bearings, plate;
+  double retainer_radius_mm = 0.0;
+  double inner_shoulder_mm = 0.0, outer_shoulder_mm = 0.0;  ///< radii, of the bearing's rings
+  double plate_radius_mm = 0.0;
+  double journal_radius_mm = 0.0;
+  ScrewGroup output_screws, retainer_screws;
+  std::vector<Point2> load_inserts;
+
+  [[nodiscard]] HeightRange z(const HeightRange& heights) const {
+    return way > 0.0 ? heights : HeightRange{-heights.upper_mm, -heights.lower_mm};
+  }
+};
+
+/// Sizes the gearbox of a design with [housing]; nothing of another. What does not fit is in its
+/// numbers: the checks tell.
+[[nodiscard]] std::optional<MachineLayout> machine_layout(const GearTrain& train);
+
+}  // namespace trueflank
