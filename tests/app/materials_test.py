@@ -69,11 +69,14 @@ def main():
 
     # every torque with its material; ISO 6336 for metals, VDI 2736 for plastics
     done = subprocess.run([PROGRAM, "check", OUTPUT / "design.toml"], capture_output=True, text=True)
+    assert "(pom, scm440-hb280)" in done.stdout and "in the form of VDI 2736" in done.stdout, done.stdout
+    done = subprocess.run([PROGRAM, "check", OUTPUT / "design.toml", "--material", "brass"], capture_output=True,
+                          text=True)
     assert "(brass)" in done.stdout and "in the form of ISO 6336" in done.stdout, done.stdout
     strength = plain["strength"]
     assert strength["limiting_material"] == "scm440-hb280" and strength["plastic"] is None
     assert 0.5 < strength["iso6336"]["output_torque_nm"] / strength["output_torque_nm"] < 2, strength["iso6336"]
-    assert mixed["strength"]["limiting_material"] == "pom" and mixed["strength"]["iso6336"] is None
+    assert mixed["strength"]["limiting_material"] == "brass, pom" and mixed["strength"]["iso6336"] is None
     cool = mixed["strength"]["plastic"]
     assert [t["gear"] for t in cool["teeth"]] == ["wheel"] and cool["teeth"][0]["flank_c"] == 20, cool
     _, fast = check(gearbox='material = "pom"', pinion='material = "brass"',
