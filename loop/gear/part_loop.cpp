@@ -48,6 +48,7 @@ void PartLoop::run() {
   look_at_sizes();
   drop_impossible();
   drop_what_mends_a_shape();
+  join_flanks();
   if (!is_rounding() && !options_.joined) look_at_neighbours();
   veto();
   if (scan_for_more) remainder_ = remainder_of(effects_, RemainderOf::kAll);
@@ -502,6 +503,59 @@ void PartLoop::drop_what_mends_a_shape() {
     refine_shapes(geometry_, table_, patches_, effects_);
     std::copy(given.begin(), given.end(), effects_.begin());
   }
+}
+
+namespace {
+
+/// The family that says on both flanks what this one says on one; nullptr: none does.
+const EffectFamily* on_both_flanks(const EffectFamily& family) {
+  if (!family.flank_only) return &family;
+  for (const EffectFamily& other : effect_library())
+    if (other.local && !other.flank_only && other.shape_names == family.shape_names) return &other;
+  return nullptr;
+}
+
+bool are_two_flanks_of_one(const Effect& a, const Effect& b) {
+  if (a.family != b.family || a.flank == b.flank || a.flank == FlankChoice::kBoth || b.flank == FlankChoice::kBoth)
+    return false;
+  constexpr double kSameShape = 0.03;
+  for (std::size_t k = 0; k < a.shape.size(); ++k)
+    if (a.family->shape_is_continuous ? std::abs(a.shape[k] - b.shape[k]) > kSameShape * std::abs(a.shape[k])
+                                      : a.shape[k] != b.shape[k])
+      return false;
+  return true;
+}
+
+}  // namespace
+
+/// An effect found on the left flanks and on the right ones, of one size, is one effect: of a tooth, too.
+void PartLoop::join_flanks() {
+  constexpr double kErrors = 3.0, kSameSize = 0.1;
+  const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b) {
+    for (int k = 0; k < effects_[a].columns(); ++k) {
+      const int at_a = fit.first_column(static_cast<int>(a)) + k, at_b = fit.first_column(static_cast<int>(b)) + k;
+      const double left = fit.coefficients()[at_a], right = fit.coefficients()[at_b];
+      const double spread = std::sqrt(fit.covariance()(at_a, at_a) + fit.covariance()(at_b, at_b));
+      if (std::abs(left - right) > std::max(kErrors * spread, 0.5 * kSameSize * std::abs(left + right))) return false;
+    }
+    return true;
+  };
+  for (std::size_t a = options_.given.size(); a < effects_.size(); ++a)
+    for (std::size_t b = a + 1; b < effects_.size(); ++b) {
+      const EffectFamily* both = on_both_flanks(*effects_[a].family);
+      if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b]) ||
+          !same_size(PointFit(geometry_, table_, patches_, effects_), a, b))
+        continue;
+      for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
+        effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
+      effects_[a].family = both;
+      effects_[a].flank = FlankChoice::kBoth;
+      discovery_.chosen[a].p_value = std::min(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
+      discovery_.chosen[a].group = -1;
+      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(b));
+      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(b));
+      b = a;
+    }
 }
 
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.

@@ -65,6 +65,7 @@ class PartLoop {
   [[nodiscard]] bool ban_impossible();
   void drop_impossible();
   void drop_what_mends_a_shape();
+  void join_flanks();
   void look_at_single_teeth();
   void look_at_sizes();
   void look_at_neighbours();

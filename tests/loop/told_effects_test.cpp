@@ -112,6 +112,23 @@ TEST(ToldEffects, UnnamedEffectsCarryTerms) {
   }
 }
 
+TEST(ToldEffects, ATwoFlankToothIsOneEffectInRunoutAndIndex) {
+  // A ball in the two gaps beside the tooth, and the index of both flanks, as small sets of records have them.
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const MadeGear made = spur(37);
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.noise_um = 0.7;
+    options.seed = seed;
+    const auto proud = grown([](auto&, const FlankSpot& s, auto&) { return s.tooth == 8 ? 18.0 : 0.0; });
+    const auto result = close(made, inspection_of(made, {proud}, options));
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_EQ(result.effects[0].id, "single_tooth") << list(result);
+    EXPECT_NEAR(parameter(result.effects[0], "amount_um").value, 18.0, 1.5);
+    EXPECT_EQ(result.effects[0].flank, "both");
+  }
+}
+
 TEST(ToldEffects, AMeasurementThatTellsIsSaidOnce) {
   std::vector<loop::FoundEffect> effects(3);
   effects[0] = {.id = "pitch_wave", .confounded_with = {"lobing", "eccentricity"}};

@@ -19,9 +19,9 @@ EffectFamily ghost_order() {
   f.form = ParameterForm::kWave;
   f.preference = 1;
   f.shapes = [](const FlankGeometry& g) {
-    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer
-    // than the patches.
-    return whole_numbers(3, std::min(3 * g.teeth(), 160));
+    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer than
+    // the patches, and above the second number there are more candidates than data.
+    return whole_numbers(3, std::min(3 * g.teeth(), 400));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
