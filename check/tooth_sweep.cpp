@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "trueflank/base/tolerance.h"
@@ -23,6 +24,8 @@ constexpr double kFlankStep = 0.1;     // of the module, along the involute
 // A valley with a radius of curvature of 0.1 module lies at most 0.003 module below its grid.
 constexpr double kRefineBand = 0.01;   // of the module above the lowest grid value
 constexpr std::size_t kMostRefined = 24;
+/// Clearances and angles this near are equal, far above rounding and below what anybody reads.
+constexpr double kSame_mm = 1e-9, kSame_rad = 1e-7;
 
 /// A point of the half tooth that is swept.
 struct Sample {
@@ -89,6 +92,7 @@ class Sweep {
   };
 
   [[nodiscard]] Place lowest() const;
+  [[nodiscard]] static bool comes_first(const Place& a, const Place& b);
   [[nodiscard]] MeshPlace describe(const Place& place) const;
 
  private:
@@ -130,6 +134,18 @@ std::size_t columns_without(double above_mm, double first_mm, double growth_mm) 
   const double k =
       (std::sqrt(first_mm * first_mm + 2.0 * growth_mm * above_mm) - first_mm) / growth_mm;
   return static_cast<std::size_t>(std::clamp(std::floor(k * (1.0 - 1e-9)), 0.0, 1e6));
+}
+
+/// The order of places: by clearance, and among equals by how near the line of centres they are, by
+/// the mover's piece and place on it: not by a last bit that other compilers and processors round
+/// otherwise.
+bool Sweep::comes_first(const Place& a, const Place& b) {
+  if (!std::isfinite(b.clearance)) return std::isfinite(a.clearance);
+  const auto rank = [](const Place& p) {
+    return std::tuple(std::round(p.clearance / kSame_mm), std::round(std::abs(p.angle) / kSame_rad),
+                      p.angle, p.sample.piece, p.sample.parameter);
+  };
+  return rank(a) < rank(b);
 }
 
 Sweep::Place Sweep::lowest() const {
@@ -191,7 +207,8 @@ Sweep::Place Sweep::lowest() const {
                                 static_cast<std::size_t>(near.piece)) * 4 +
                                (near.corner ? 2u : 0u) + (near.clockwise_half ? 1u : 0u);
       Place& best = best_of_kind[kind];
-      if (near.distance_mm < best.clearance) best = {near.distance_mm, samples[i], angle};
+      if (near.distance_mm < best.clearance - kSame_mm)
+        best = {near.distance_mm, samples[i], angle};
     }
   }
 
@@ -206,14 +223,18 @@ Sweep::Place Sweep::lowest() const {
         starts.push_back({f[0], samples[i], -reach + step * static_cast<double>(j)});
     }
   }
-  std::sort(starts.begin(), starts.end(),
-            [](const Place& a, const Place& b) { return a.clearance < b.clearance; });
+  std::sort(starts.begin(), starts.end(), comes_first);
   Place best;
+  double least_mm = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < std::min(starts.size(), kMostRefined); ++k) {
     if (starts[k].clearance > lowest + kRefineBand * m) break;
-    const Place place = refined(starts[k], step);
-    if (place.clearance < best.clearance) best = place;
+    Place place = refined(starts[k], step);
+    least_mm = std::min(least_mm, place.clearance);
+    // along a path of contact all clearances are equal: there the search went where rounding led it
+    if (place.clearance > starts[k].clearance - kSame_mm) place = starts[k];
+    if (comes_first(place, best)) best = place;
   }
+  best.clearance = std::min(best.clearance, least_mm);
   return best;
 }
 
@@ -295,8 +316,8 @@ MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const 
   const auto place1 = first.lowest();
   const auto place2 = second.lowest();
   MeshClearance result;
-  const bool use_first = place1.clearance <= place2.clearance;
-  result.clearance_mm = use_first ? place1.clearance : place2.clearance;
+  const bool use_first = place1.clearance <= place2.clearance + kSame_mm;
+  result.clearance_mm = std::min(place1.clearance, place2.clearance);
   if (std::abs(result.clearance_mm) < kZero_mm) result.clearance_mm = 0.0;
   result.place = use_first ? first.describe(place1) : second.describe(place2);
   return result;

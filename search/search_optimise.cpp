@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <nlopt.hpp>
 #include <optional>
 
@@ -84,6 +85,8 @@ void run_quietly(nlopt::opt& opt, std::vector<double>& x) {
   double value = 0.0;
   try {
     opt.optimize(x, value);
+  } catch (const std::bad_alloc&) {  // another answer for want of memory would be a wrong one
+    throw;
   } catch (const std::exception&) {  // roundoff_limited, generic failure of a line search
   }
 }
