@@ -13,7 +13,7 @@ namespace {
 
 /// The mesh, what measuring keeps of it and what the writers hold, a facet; measured:
 /// docs/reliability.md.
-constexpr double kMemoryOfFacet_bytes = 150.0;
+constexpr double kMemoryOfFacet_bytes = 220.0;
 /// Coarsest tolerance that make takes.
 constexpr double kCoarsest_mm = 1.0;
 
