@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The printed actuator in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
+every part that bom.csv says is made, as often as it says."""
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+import zipfile
+from collections import Counter
+
+SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+BED = "0x0,250x0,250x210,0x210"  # prusa-mk4, as the design says
+QUICK = ["--layer-height", "0.3", "--first-layer-height", "0.3", "--perimeters", "2", "--fill-density", "10%"]
+
+
+def run(*command):
+    result = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False, timeout=1500)
+    return result.returncode, result.stdout + result.stderr
+
+
+class PrintedActuator(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        code, cls.told = run(PROGRAM, "make", SOURCE / "examples/printed_actuator/design.toml", "-o", OUTPUT,
+                             "--formats", "3mf", "--tolerance-um", "20")
+        assert code == 0, cls.told
+        cls.plates = sorted(OUTPUT.glob("plate_*.3mf"))
+
+    def test_nothing_warns(self):
+        _, text = run(PROGRAM, "check", SOURCE / "examples/printed_actuator/design.toml", "-v")
+        self.assertIn("verdict: pass", text)
+        self.assertNotRegex(text, r"(?m)^(warn|fail)")
+
+    def test_the_plates_hold_what_the_bill_says_is_made(self):
+        with open(OUTPUT / "bom.csv", encoding="utf-8") as file:
+            wanted = {row["part"]: int(row["count"]) for row in csv.DictReader(file) if row["part"]}
+        found = Counter()
+        for plate in self.plates:
+            model = zipfile.ZipFile(plate).read("3D/3dmodel.model").decode()
+            names = dict(re.findall(r'<object id="(\d+)" type="model" name="([^"]+)"', model))
+            found.update(names[item] for item in re.findall(r'<item objectid="(\d+)"', model))
+        self.assertEqual(found, Counter(wanted))
+        self.assertIn("housing", wanted)
+
+    def test_prusa_slicer_has_nothing_to_repair(self):
+        for plate in self.plates:
+            _, text = run("prusa-slicer", "--info", plate)
+            manifold = re.findall(r"manifold = (\w+)", text)
+            self.assertGreater(len(manifold), 0)
+            self.assertEqual(set(manifold), {"yes"}, plate.name)
+            self.assertNotRegex(text, r"(?i)repair|edges_fixed|open edges")
+
+    def test_prusa_slicer_slices_every_plate_without_a_warning(self):
+        self.assertGreaterEqual(len(self.plates), 2)
+        for plate in self.plates:
+            gcode = plate.with_suffix(".gcode")
+            code, text = run("prusa-slicer", "--export-gcode", "--dont-arrange", "--bed-shape", BED, *QUICK,
+                             "-o", gcode, plate)
+            self.assertEqual(code, 0, text)
+            self.assertNotRegex(text, r"(?i)warn|error|outside|unstable|empty layer", plate.name)
+            self.assertGreater(gcode.stat().st_size, 1_000_000)
+
+
+if __name__ == "__main__":
+    unittest.main()
