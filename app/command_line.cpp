@@ -132,7 +132,18 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
   command->add_option("--kind", options.kind, new_design_kinds())->capture_default_str();
-  command->callback([&] { code = run_new(options); });
+  CLI::Option* ratio = command->add_option("--ratio", options.ratio, "search teeth for this ratio (3k)");
+  const auto wish = [&](const char* flag, auto& value, const char* what) {
+    command->add_option(flag, value, what)->needs(ratio)->capture_default_str();
+  };
+  wish("--motor", options.motor, "motor of the table: with a housing around the gears");
+  wish("--process", options.process, "how it is made");
+  wish("--material", options.material, "of the gears");
+  wish("--outer-diameter", options.outer_diameter_mm, "of the whole, mm, at most");
+  command->callback([&, ratio] {
+    options.wished = ratio->count() > 0;
+    code = run_new(options);
+  });
 }
 
 /// Lines of help broken at 80 columns; what follows stands under the descriptions.

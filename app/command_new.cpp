@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -6,6 +7,7 @@
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/terminal.h"
 #include "trueflank/session/new_design_file.h"
+#include "trueflank/session/wished_design.h"
 
 namespace trueflank::app {
 
@@ -20,14 +22,34 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
+/// Searches for the design that was asked for, and writes it.
+ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::string& told) {
+  const auto design = wished_design(std::filesystem::path(options.name).stem().string(),
+                                    {.kind = options.kind,
+                                     .ratio = options.ratio,
+                                     .motor = options.motor,
+                                     .process = options.process,
+                                     .material = options.material,
+                                     .outer_diameter_mm = options.outer_diameter_mm});
+  if (!design) return fail_all(design.error());
+  for (const std::string& sentence : design->told) told += sentence + "\n";
+  const auto path = write_design(options.name, design->text);
+  if (!path) return fail_all({path.error()});
+  return *path;
+}
+
 }  // namespace
 
 int run_new(const NewOptions& options) {
-  const auto path = write_new_design(options.name, {.kind = options.kind});
-  if (!path) return report_errors({path.error()});
+  std::string told;
+  const auto path = options.wished ? write_wished(options, told)
+                                   : write_new_design(options.name, {.kind = options.kind}).map_error([](Error error) {
+                                       return Errors{std::move(error)};
+                                     });
+  if (!path) return report_errors(path.error());
   const std::string file = path->string();
   const std::string parts = path->stem().string();
-  if (auto ok = print("wrote " + file + "\nnext: trueflank make " + shell_word(file) + " -o " +
+  if (auto ok = print(told + "wrote " + file + "\nnext: trueflank make " + shell_word(file) + " -o " +
                       shell_word(parts) + "\n");
       !ok)
     return report_errors({ok.error()});

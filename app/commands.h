@@ -70,6 +70,9 @@ int run_loop(const LoopOptions& options);
 struct NewOptions {
   std::string name;  ///< of the design, and of its file with .toml
   std::string kind = "3k";
+  bool wished = false;  ///< a ratio is asked for: the design is searched
+  double ratio = 0.0, outer_diameter_mm = 90.0;
+  std::string motor, process = "fdm-0.4", material = "pla";
 };
 int run_new(const NewOptions& options);
 

@@ -22,10 +22,15 @@ Result<std::string> new_design_text(const std::string& name, const NewDesignOpti
 
 Result<std::filesystem::path> write_new_design(const std::string& name,
                                                const NewDesignOptions& options) {
-  std::filesystem::path path(name);
+  const std::filesystem::path path(name);
   const auto text = new_design_text(path.extension() == ".toml" ? path.stem().string()
                                                                 : path.filename().string(), options);
   if (!text) return fail(text.error());
+  return write_design(name, *text);
+}
+
+Result<std::filesystem::path> write_design(const std::string& name, const std::string& text) {
+  std::filesystem::path path(name);
   if (path.filename().string().find_first_not_of('.') == std::string::npos || path.filename() == ".toml")
     return fail({.code = ErrorCode::kUsage,
                  .message = "no name for a design",
@@ -39,7 +44,7 @@ Result<std::filesystem::path> write_new_design(const std::string& name,
                  .message = "this file exists and is not replaced",
                  .remedy = "another NAME",
                  .file = path.string()});
-  if (auto ok = io::write_file(path, *text); !ok) return fail(ok.error());
+  if (auto ok = io::write_file(path, text); !ok) return fail(ok.error());
   return path;
 }
 

@@ -19,6 +19,9 @@ struct NewDesignOptions {
 [[nodiscard]] Result<std::string> new_design_text(const std::string& name,
                                                   const NewDesignOptions& options);
 
+/// Writes a design's text to NAME.toml (see below), which must not exist.
+[[nodiscard]] Result<std::filesystem::path> write_design(const std::string& name, const std::string& text);
+
 /// Writes it to NAME.toml (NAME may have folders before it and .toml behind). Returns the path.
 /// Errors: kUsage where the kind or the name is none or the file exists; those of writing.
 [[nodiscard]] Result<std::filesystem::path> write_new_design(const std::string& name,

@@ -27,7 +27,7 @@ _trueflank() {
       check) options+=" --json --html --tolerance --material --materials --process --pictures --verbose" ;;
       make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --compensate --kerf-mm --allow-failing --verbose" ;;
       fix) options+=" -o --output" ;;
-      new) options="--help --kind" ;;
+      new) options="--help --kind --ratio --motor --process --material --outer-diameter" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;
       compare) options+=" --tolerance-um --json --picture" ;;

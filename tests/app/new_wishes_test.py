@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""trueflank new with a ratio: the design it writes passes every check, has the ratio and the size asked for."""
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+
+PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
+OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, cwd=OUTPUT,
+                          timeout=900)
+
+
+class NewWishes(unittest.TestCase):
+    def test_the_design_passes_and_is_what_was_asked_for(self):
+        (OUTPUT / "joint.toml").unlink(missing_ok=True)
+        made = run("new", "joint", "--kind", "3k", "--ratio", "96", "--motor", "nema17", "--process", "fdm-0.4",
+                   "--material", "pla", "--outer-diameter", "90")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("for 96.000 asked", made.stdout)
+        self.assertIn("# ratio", (OUTPUT / "joint.toml").read_text(encoding="utf-8"))
+        report = json.loads(run("check", "joint.toml", "--json", "-").stdout)
+        self.assertEqual(report["verdict"], "pass")
+        self.assertAlmostEqual(report["train"]["ratio"] / 96, 1, delta=0.02)
+        size = [c["value"] for c in report["checks"] if c["id"] == "housing_size"]
+        self.assertLessEqual(size[0], 90)
+        again = run("new", "joint", "--ratio", "96")
+        self.assertEqual(again.returncode, 2)
+
+    def test_what_is_not_known_is_told(self):
+        for option, value in (("--motor", "nema18"), ("--process", "fdm-0.5"), ("--material", "cheese"),
+                              ("--kind", "pair"), ("--outer-diameter", "4")):
+            with self.subTest(option):
+                told = run("new", "other", "--ratio", "96", option, value)
+                self.assertEqual(told.returncode, 2)
+                self.assertIn(option, told.stderr)
+                self.assertFalse((OUTPUT / "other.toml").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
