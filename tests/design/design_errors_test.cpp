@@ -156,8 +156,8 @@ TEST(DesignErrors, UnknownKeysNameTheNearestKnownOne) {
             "teeth = \"drive\""},
            {"planets = 3", "planets = 3\nzzzzzzzz = 1", kUnknown, "gearbox.zzzzzzzz", "1",
             "unknown key kind, output", "zzzzzzzz"},
-           {"[rack]", "[motor]\n[rack]", kUnknown, "motor", "a table", "format, name, tools, sun",
-            "[motor]"}}) {
+           {"[rack]", "[engine]\n[rack]", kUnknown, "engine", "a table", "format, name, tools, sun",
+            "[engine]"}}) {
     SCOPED_TRACE(slip.with);
     const auto design = read_design_text(replaced(k3k, slip.what, slip.with), "slip.toml");
     ASSERT_FALSE(design);
