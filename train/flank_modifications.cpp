@@ -25,15 +25,21 @@ double grown(double share, ReliefShape shape) {
   return shape == ReliefShape::kLinear ? share : share * share;
 }
 
+/// Where such a removal is steepest: at its end.
+double steepest_of(double amount_mm, double length_mm, ReliefShape shape) {
+  return amount_mm == 0.0
+             ? 0.0
+             : (shape == ReliefShape::kLinear ? 1.0 : 2.0) * std::abs(amount_mm / length_mm);
+}
+
 /// A relief along the roll length, from its start to the end where it is deepest.
 struct RollRelief {
   double amount_mm = 0.0, start_mm = 0.0, end_mm = 1.0;
   ReliefShape shape = ReliefShape::kParabola;
 
   [[nodiscard]] double removed_mm(double roll_mm) const {
-    return amount_mm == 0.0
-               ? 0.0
-               : amount_mm * grown((roll_mm - start_mm) / (end_mm - start_mm), shape);
+    return amount_mm == 0.0 ? 0.0
+                            : amount_mm * grown((roll_mm - start_mm) / (end_mm - start_mm), shape);
   }
 };
 
@@ -102,8 +108,8 @@ class DeviationBuilder {
   }
 
   /// A start diameter lies on the involute, off its ends.
-  RollRelief relief(const char* name, double amount_um, double start_diameter_mm, double end_roll_mm,
-                    ReliefShape shape) {
+  RollRelief relief(const char* name, double amount_um, double start_diameter_mm,
+                    double end_roll_mm, ReliefShape shape) {
     if (amount_um == 0.0) return {};
     const double r_b = base_radius_mm(profile_.gear());
     const double start = roll_length_mm(0.5 * start_diameter_mm, r_b);
@@ -120,8 +126,8 @@ class DeviationBuilder {
     t_.kind = profile_.gear().kind;
     t_.root_form_mm = profile_.root_form_roll_length_mm();
     t_.tip_form_mm = profile_.tip_form_roll_length_mm();
-    t_.tip = relief("tip_relief", m_.tip_relief_um, m_.tip_relief_start_diameter_mm,
-                    t_.tip_form_mm, m_.tip_relief_shape);
+    t_.tip = relief("tip_relief", m_.tip_relief_um, m_.tip_relief_start_diameter_mm, t_.tip_form_mm,
+                    m_.tip_relief_shape);
     t_.root = relief("root_relief", m_.root_relief_um, m_.root_relief_start_diameter_mm,
                      t_.root_form_mm, m_.root_relief_shape);
     t_.profile_crowning_mm = mm_from_um(m_.profile_crowning_um);
@@ -155,9 +161,9 @@ class DeviationBuilder {
     if (t_.end_relief_mm != 0.0 && 2.0 * t_.end_length_mm < width)
       field.z_breaks_mm = {t_.end_length_mm, width - t_.end_length_mm};
     if (field.varies_along_face && face_.herringbone)
-      field.z_breaks_mm.insert(field.z_breaks_mm.begin() +
-                                   static_cast<std::ptrdiff_t>(field.z_breaks_mm.size() / 2),
-                               0.5 * width);
+      field.z_breaks_mm.insert(
+          field.z_breaks_mm.begin() + static_cast<std::ptrdiff_t>(field.z_breaks_mm.size() / 2),
+          0.5 * width);
     std::sort(field.roll_breaks_mm.begin(), field.roll_breaks_mm.end());
     return field;
   }
@@ -189,7 +195,11 @@ class DeviationBuilder {
   [[nodiscard]] double steepest_slope(const FlankDeviation& field) const {
     constexpr int kSteps = 64;
     const double span = t_.tip_form_mm - t_.root_form_mm, width = face_.face_width_mm;
-    double steepest = 0.0;
+    // reliefs may be shorter than the steps below
+    double steepest = steepest_of(t_.end_relief_mm, t_.end_length_mm, t_.end_shape);
+    for (const RollRelief& relief : {t_.tip, t_.root})
+      steepest = std::max(
+          steepest, steepest_of(relief.amount_mm, relief.end_mm - relief.start_mm, relief.shape));
     for (Flank flank : {Flank::kLeft, Flank::kRight})
       for (int i = 0; i < kSteps; ++i) {
         const double roll = t_.root_form_mm + span * i / kSteps, z = width * i / kSteps;
@@ -214,18 +224,21 @@ class DeviationBuilder {
       }
     }
     if (field.empty() && m_.edge_chamfer_mm == 0.0) return;
-    const Toothing toothing{.profile = &profile_, .twist = face_,
+    const Toothing toothing{.profile = &profile_,
+                            .twist = face_,
                             .deviation = field.empty() ? nullptr : &field,
                             .edge_chamfer_mm = m_.edge_chamfer_mm};
     double least = 1e300, most = -1e300, at = 0.0;
     constexpr int kHeights = 16;
     if (const ProfilePiece& last = profile_.pieces().back(); last.kind == PieceKind::kInvolute) {
-      // the flanks of neighbours meet in the gap's middle: what moves them there parts or crosses them
-      const ToothPlace end{.tooth = 0, .side = 1, .piece = profile_.pieces().size() - 1,
+      // the flanks of neighbours meet in the gap's middle: what moves them there parts or crosses
+      // them
+      const ToothPlace end{.tooth = 0,
+                           .side = 1,
+                           .piece = profile_.pieces().size() - 1,
                            .parameter = last.curve.end};
       for (int i = 0; i <= kHeights; ++i) {
-        const double turn =
-            deviation_turn_rad(toothing, end, face_.face_width_mm * i / kHeights);
+        const double turn = deviation_turn_rad(toothing, end, face_.face_width_mm * i / kHeights);
         if (std::abs(turn) * profile_.root_radius_mm() < tolerance::kShortestPiece_mm) continue;
         const std::string key = deepest_key("root_relief_um");
         report(key, value_of(key),
@@ -246,7 +259,8 @@ class DeviationBuilder {
     if (profile_.notes().pointed && most * r_a > tolerance::kShortestPiece_mm) {
       const std::string key = deepest_key("tip_relief_um");
       report(key, value_of(key), "adds to flanks that meet in a pointed tip, which would cross",
-             "none, or a tip_diameter_mm below " + short_text(2.0 * r_a) + " mm, where the tooth has a land");
+             "none, or a tip_diameter_mm below " + short_text(2.0 * r_a) +
+                 " mm, where the tooth has a land");
       return;
     }
     if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
@@ -278,7 +292,9 @@ double tip_land_half_angle_rad(const Toothing& toothing, double z_mm) {
   const auto& pieces = toothing.profile->pieces();
   double least = 1e300;
   for (const int side : {1, -1}) {
-    const ToothPlace place{.tooth = 0, .side = side, .piece = 0,
+    const ToothPlace place{.tooth = 0,
+                           .side = side,
+                           .piece = 0,
                            .parameter = pieces.front().kind == PieceKind::kTip
                                             ? pieces.front().curve.end
                                             : pieces.front().curve.begin};

@@ -144,6 +144,16 @@ TEST(FlankModifications, WhatCannotBeIsRefusedWithNumbers) {
             2u);
 }
 
+TEST(FlankModifications, AReliefShorterThanItsDepthIsRefusedHoweverSmallItIs) {
+  // 1 um of relief that starts 0.1 um before the flank's end
+  const Made plain = made(single(GearKind::kInternal, {}));
+  const double tip_form = 2.0 * plain.gear.profile.tip_form_radius_mm();
+  const auto train = lay_out(single(GearKind::kInternal, {.tip_relief_um = 1.0,
+                                                          .tip_relief_start_diameter_mm = tip_form + 1e-4}));
+  ASSERT_FALSE(train);
+  EXPECT_NE(train.error().front().message.find("would lean"), std::string::npos) << train.error().front().message;
+}
+
 TEST(FlankModifications, FlanksThatMeetInTheGapStayThere) {
   // a ring whose spaces close before its root circle has no root that could take up a difference
   GearboxDesign design = single(GearKind::kInternal, {});
