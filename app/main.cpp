@@ -5,6 +5,7 @@
 #include <string_view>
 
 #ifdef __GLIBC__
+#include <execinfo.h>
 #include <malloc.h>
 #endif
 
@@ -25,10 +26,20 @@ void keep_freed_memory() {
 #endif
 }
 
+/// glibc looks for the unwinder when an exception first passes through its own code (std::call_once, futures),
+/// and ends the program where there is no memory for that: out of memory must not be that first time.
+void load_unwinder() {
+#ifdef __GLIBC__
+  void* frame = nullptr;
+  backtrace(&frame, 1);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   keep_freed_memory();
+  load_unwinder();
   trueflank::app::install_interrupt_handlers();
   try {
     return trueflank::app::run_command_line(argc, argv);

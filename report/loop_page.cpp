@@ -175,9 +175,9 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   const double percent = 100.0 * e.explained_fraction;
   html += "<p>It explains " + number(percent, "%.1f") + " % of the variance.</p><div class='share'><i style='width:" +
           number(std::isnan(percent) ? 0.0 : std::fmin(100.0, std::fmax(0.0, percent)), "%.1f") + "%'></i></div>";
+  if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
   html += "<details><summary>form and cause</summary><p>" + escaped(e.description) + "</p>";
   if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
-  if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
   html += "</details>";
   if (!e.confounded_with.empty())
     html += "<p class='note'>These data cannot tell it from " + escaped(joined(e.confounded_with)) + ".</p>";

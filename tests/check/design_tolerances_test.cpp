@@ -46,6 +46,7 @@ TEST(DesignTolerances, WhatOnlyTheProcessSaysWarns) {
   d.backlash_mm = d.made.process->backlash_mm;
   const Finding wanted = only(check_gearbox(laid_out(d)), "tolerance", "train");
   EXPECT_LE(wanted.value, wanted.limit) << wanted.message;
+  EXPECT_EQ(wanted.status, CheckStatus::kPass) << wanted.message;
   EXPECT_EQ(lacking_backlash_mm(laid_out(pair_with(0.0))), 0.0);
 }
 
