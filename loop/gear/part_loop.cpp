@@ -89,22 +89,24 @@ void PartLoop::nominate() {
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
-    if (looks_like_a_name(*finding.effect)) continue;
+    if (name_like(*finding.effect) != nullptr) continue;
     candidates_.push_back(*finding.effect);
     banned_.push_back(false);
     unseen_.push_back(false);
   }
 }
 
-/// True where some effect with a name does nearly the same: its shape may still move, so it is
-/// asked first.
-bool PartLoop::looks_like_a_name(const Effect& form) const {
+/// The effect with a name that does nearly the same on these data, the simplest of several; none: nullptr.
+const Effect* PartLoop::name_like(const Effect& form) const {
   constexpr double kNearly = 0.9;
   std::vector<Effect> effects{form};
+  std::vector<std::size_t> group;
   for (std::size_t g = 0; g < candidates_.size(); ++g)
     if (candidates_[g].family->named && !candidates_[g].family->local && !banned_[g] &&
-        candidates_[g].columns() == 1)
+        candidates_[g].columns() == form.columns() && (form.columns() == 1 || candidates_[g].order() == form.order())) {
       effects.push_back(candidates_[g]);
+      group.push_back(g);
+    }
   DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
   Eigen::MatrixXd columns = problem.candidates.cast<double>();
   std::map<int, std::pair<Eigen::VectorXd, double>> zeros;
@@ -120,10 +122,19 @@ bool PartLoop::looks_like_a_name(const Effect& form) const {
     columns.row(i) *= std::sqrt(problem.weight[i]);
   }
   const Eigen::VectorXd norms = columns.colwise().norm();
-  const Eigen::VectorXd with = columns.transpose() * columns.col(0);
-  for (Eigen::Index k = form.columns(); k < columns.cols(); ++k)
-    if (std::abs(with[k]) > kNearly * norms[0] * norms[k]) return true;
-  return false;
+  const auto is_alike = [&](std::size_t effect) {
+    for (Eigen::Index k = 0; k < form.columns(); ++k) {
+      const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
+      if (!(std::abs(columns.col(k).dot(columns.col(other))) > kNearly * norms[k] * norms[other])) return false;
+    }
+    return true;
+  };
+  const Effect* name = nullptr;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Effect& candidate = candidates_[group[i]];
+    if (is_alike(i + 1) && (name == nullptr || candidate.order() < name->order())) name = &candidate;
+  }
+  return name;
 }
 
 /// The finding enters the model, and all else is chosen anew beside it.
@@ -143,8 +154,11 @@ bool PartLoop::take_up_remainder() {
   };
   const auto take_first = [&](RemainderOf which, bool local) {
     const std::vector<RemainderFinding> findings = remainder_of(effects, which);
-    for (const RemainderFinding& finding : findings) {
-      if (!finding.effect || finding.local != local || known(*finding.effect)) continue;
+    for (RemainderFinding finding : findings) {
+      if (!finding.effect || finding.local != local) continue;
+      // what a name says is told by its name
+      if (const Effect* name = local ? nullptr : name_like(*finding.effect)) finding.effect = *name;
+      if (known(*finding.effect)) continue;
       take_up(finding);
       effects.push_back(*finding.effect);
       return true;
@@ -227,8 +241,10 @@ bool PartLoop::ban_what_forms_explain() {
 }
 
 /// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
-/// one that harms most first. Of what stands on one tooth it knows nothing.
+/// one that harms most first. A weak effect that is true may cost a little there by its own error; and of
+/// what stands on one tooth the hold-out knows nothing: these go only where the error would rise.
 void PartLoop::veto() {
+  constexpr double kClearly = 0.98;
   const std::size_t told = options_.given.size() - given_p_values_.size();
   while (effects_.size() > told) {
     const PointFit fit(geometry_, table_, patches_, effects_);
@@ -237,10 +253,11 @@ void PartLoop::veto() {
     const double full = fit.errors(with).held_out_rms_um;
     // Together they may harm where none does alone.
     const double none = PointFit(geometry_, measured_, patches_, {}).errors({}).held_out_rms_um;
-    double least = full > none ? 1e300 : full;
+    const bool rises = full > none;
+    double least = rises ? 1e300 : kClearly * full;
     std::size_t worst = effects_.size();
     for (std::size_t e = told; e < effects_.size(); ++e) {
-      if (effects_[e].family->local) continue;
+      if (effects_[e].family->local && !rises) continue;
       with[e] = false;
       const double error = fit.errors(with).held_out_rms_um;
       with[e] = true;
@@ -256,6 +273,14 @@ void PartLoop::veto() {
       given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(worst - told));
     }
     vetoed_ = true;
+    const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+      return static_cast<bool>(effect.family->displacement_mm);
+    });
+    if (!body && !measured_.points_mm.empty()) {  // deviations about a displacement that is taken back
+      table_ = measured_;
+      patches_ = make_patches(geometry_, table_);
+      leave_out_across_steps();
+    }
   }
 }
 

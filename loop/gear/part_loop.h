@@ -50,7 +50,7 @@ class PartLoop {
   void explain();
   void select();
   void nominate();
-  [[nodiscard]] bool looks_like_a_name(const Effect& form) const;
+  [[nodiscard]] const Effect* name_like(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
   [[nodiscard]] bool ban_what_forms_explain();
