@@ -155,6 +155,16 @@ def legendre(degree, x):
     return numpy.polynomial.legendre.Legendre.basis(degree)(x)
 
 
+def form_over_the_face(term, z):
+    """A step, a groove or ridge, or waves over the face [um] at the heights z [mm]."""
+    if "wavelength_mm" in term:
+        angle = 2 * math.pi * z / term["wavelength_mm"]
+        return term["cos_um"] * numpy.cos(angle) + term["sin_um"] * numpy.sin(angle)
+    if "width_mm" in term:
+        return term["cos_um"] * numpy.exp(-((z - term["place_mm"]) / term["width_mm"]) ** 2)
+    return term["cos_um"] * (z > term["place_mm"])
+
+
 def predicted_helix(gear, result, tooth, side, z):
     """What the found effects say of a helix trace, by formulas written here."""
     roll = gear.base * math.tan(gear.alpha_t)
@@ -177,8 +187,17 @@ def predicted_helix(gear, result, tooth, side, z):
             total += value["slope_um_per_mm"] * lever * math.cos(gear.beta_b) * numpy.cos(direction)
         elif effect["id"] == "unnamed" and "terms" in effect:
             for term in effect["terms"]:
+                if "along" in term:  # a form along the flank, the same on every tooth
+                    if term["along"] == "face":
+                        total += form_over_the_face(term, z)
+                    continue
                 if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so
+                if "first_tooth" in term:
+                    if (tooth - term["first_tooth"]) % gear.teeth < term["teeth"]:
+                        total += term["cos_um"] * v ** term["face_degree"] * (
+                            side if term["flanks"] == "opposite" else 1)
+                    continue
                 wave = (term["cos_um"] * math.cos(term["order"] * theta) +
                         term["sin_um"] * math.sin(term["order"] * theta))
                 total += wave * legendre(term["face_degree"], v) * (
