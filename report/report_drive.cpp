@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json drive_json(const DirectionEfficiency& drive) {
-  Json json;
+  Json json = Json::object();
   json["members"] = Json::object();
   for (const auto& member : drive.members)
     json["members"][member.name] = {{"speed", member.speed},
@@ -166,7 +166,7 @@ std::string inertia_json_text(const ReportedInertia& inertia) {
 }
 
 std::string axial_thrust_json_text(const AxialThrust& thrust, double input_torque_nm) {
-  Json json;
+  Json json = Json::object();
   json["input_torque_nm"] = finite(input_torque_nm);
   json["meshes"] = Json::object();
   for (const auto& mesh : thrust.meshes)

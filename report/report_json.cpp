@@ -30,7 +30,7 @@ Json train_json(const GearTrain& train) {
   const double output = train.speeds.output;
   const Topology& topology = train.topology();
   const bool has_planets = topology.has_planets();
-  Json json;
+  Json json = Json::object();
   json["kind"] = topology.kind;
   json["output"] = topology.output == kNoMember ? "none" : topology.name_of(topology.output);
   json["input"] = topology.meshes.empty() ? "none" : topology.name_of(topology.input);
@@ -67,7 +67,7 @@ Json thickness_json(const TrainGear& gear, int span_teeth, double pin_mm) {
   const double r = reference_radius_mm(thick);
   // thicker teeth of a ring leave less room between its pins
   const Gear &widest = external ? thick : thin, &narrowest = external ? thin : thick;
-  Json json;
+  Json json = Json::object();
   json["upper_um"] = um_from_mm(limits.upper_mm);
   json["lower_um"] = um_from_mm(limits.lower_mm);
   json["reference_thickness_min_mm"] = tooth_thickness_mm(thin, r);
@@ -87,7 +87,7 @@ Json gear_json(const GearTrain& train, const TrainGear& gear) {
   const int span_teeth = recommended_span_teeth(g);
   const double pin = recommended_pin_diameter_mm(g);
   const ProfileNotes& notes = profile.notes();
-  Json json;
+  Json json = Json::object();
   json["teeth"] = g.teeth;
   json["internal"] = !external;
   json["shift"] = gear.shift;
@@ -142,7 +142,7 @@ Json mesh_json(const Report& report, std::size_t index) {
   const TrainMesh& mesh = train.meshes[index];
   const GearPair pair = train.pair(mesh);
   const ContactRatios ratios = contact_ratios(pair);
-  Json json;
+  Json json = Json::object();
   json["working_pressure_angle_deg"] = deg_from_rad(working_pressure_angle_rad(pair));
   json["contact_ratio"] = ratios.total;
   json["effective_contact_ratio"] = ratios.effective;
@@ -169,7 +169,7 @@ Json mesh_json(const Report& report, std::size_t index) {
 }
 
 Json finding_json(const Finding& finding) {
-  Json json;
+  Json json = Json::object();
   json["id"] = finding.id;
   json["where"] = finding.where;
   json["status"] = to_text(finding.status);
@@ -183,7 +183,7 @@ Json finding_json(const Finding& finding) {
 }
 
 Json file_json(const ReportedFile& file) {
-  Json json;
+  Json json = Json::object();
   json["path"] = file.path;
   json["part"] = file.part;
   json["format"] = file.format;
@@ -201,7 +201,7 @@ Json file_json(const ReportedFile& file) {
 }
 
 Json bill_json(const BillLine& line) {
-  Json json;
+  Json json = Json::object();
   json["part"] = line.part.empty() ? Json(nullptr) : Json(line.part);
   json["designation"] = line.designation.empty() ? Json(nullptr) : Json(line.designation);
   json["count"] = line.count;
@@ -214,7 +214,7 @@ Json bill_json(const BillLine& line) {
 
 std::string report_json(const Report& report) {
   const GearTrain& train = *report.train;
-  Json json;
+  Json json = Json::object();
   json["format"] = "trueflank-report";
   json["version"] = 1;
   json["design"] = train.design.name;

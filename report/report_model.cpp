@@ -61,7 +61,7 @@ Json rows_json(const TrainGear& gear, double chord_error_mm) {
 
 Json tolerances_json(const TrainGear& gear) {
   const ToleranceSize size = tolerance_size(gear.profile.gear(), gear.face_width_mm);
-  Json json;
+  Json json = Json::object();
   json["scope"] = nullptr;
   json["classes"] = Json::object();
   for (int k = kFinestToleranceClass; k <= kCoarsestToleranceClass; ++k) {
@@ -82,7 +82,7 @@ Json tolerances_json(const TrainGear& gear) {
 
 Json gear_json(const GearTrain& train, const TrainGear& gear, const HtmlModel& model) {
   const Gear& g = gear.profile.gear();
-  Json json;
+  Json json = Json::object();
   json["name"] = gear.name;
   json["teeth"] = g.teeth;
   json["internal"] = g.kind == GearKind::kInternal;
@@ -109,7 +109,7 @@ Json gear_json(const GearTrain& train, const TrainGear& gear, const HtmlModel& m
 Json mesh_json(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const LineOfAction line = line_of_action(pair);
-  Json json;
+  Json json = Json::object();
   json["name"] = mesh.name;
   json["gear1"] = mesh.gear1;
   json["gear2"] = mesh.gear2;
@@ -127,7 +127,7 @@ Json mesh_json(const GearTrain& train, const TrainMesh& mesh) {
 }
 
 Json direction_json(const DirectionEfficiency& direction) {
-  Json json;
+  Json json = Json::object();
   json["efficiency"] = direction.efficiency;
   json["self_locking"] = direction.self_locking;
   json["members"] = Json::array();
@@ -146,7 +146,7 @@ Json direction_json(const DirectionEfficiency& direction) {
 }
 
 Json strength_json(const StrengthResult& strength) {
-  Json json;
+  Json json = Json::object();
   json["output_torque_nm"] = strength.output_torque_nm;
   json["input_torque_nm"] = strength.input_torque_nm;
   json["limiting_mesh"] = strength.limiting_mesh;
@@ -219,7 +219,7 @@ Json outline_json(const GearTrain& train, const Outline& outline, double chord_e
 }
 
 Json slab_json(const GearTrain& train, const Slab& slab, double chord_error_mm) {
-  Json json;
+  Json json = Json::object();
   json["z"] = {slab.z_lower_mm, slab.z_upper_mm};
   json["outer"] = outline_json(train, slab.outer, chord_error_mm);
   json["holes"] = Json::array();
@@ -308,7 +308,7 @@ PartShapes bare_shapes(const GearTrain& train) {
 std::string report_model_json(const Report& report, const HtmlModel& model) {
   const GearTrain& train = *report.train;
   const PartShapes shapes = model.shapes ? *model.shapes : bare_shapes(train);
-  Json json;
+  Json json = Json::object();
   json["mesh_chord_error_um"] = um_from_mm(model.mesh_chord_error_mm);
   json["solid_chord_error_um"] = um_from_mm(model.solid_chord_error_mm);
   json["gears"] = Json::array();

@@ -41,7 +41,7 @@ std::string cure_table(const ReportedCure& cure) {
 }
 
 std::string cure_json_text(const ReportedCure& cure) {
-  Json json;
+  Json json = Json::object();
   json["cured"] = cure.cured;
   json["search_ended"] = cure.search_ended;
   json["changes"] = Json::array();

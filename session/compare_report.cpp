@@ -161,7 +161,7 @@ std::string comparison_text(const CompareReport& report) {
 
 std::string comparison_json(const CompareReport& report) {
   const MeshComparison& c = report.comparison;
-  nlohmann::ordered_json json;
+  auto json = nlohmann::ordered_json::object();
   json["format"] = "trueflank-compare";
   json["version"] = 1;
   json["part"] = report.part();
