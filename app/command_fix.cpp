@@ -7,10 +7,10 @@
 
 namespace trueflank::app {
 
-int run_fix(const FixOptions& options) {
+int run_fix(const FixCommand& options) {
   const auto fixed = [&] {
     const Progress progress("looking for the smallest change", options.quiet);
-    return fixed_design(options.design);
+    return fixed_design(options.design, {.warnings = options.warnings});
   }();
   if (!fixed) return report_errors(fixed.error());
   if (auto ok = write_document(options.output, fixed->design_text); !ok) return report_errors({ok.error()});

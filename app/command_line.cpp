@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "trueflank/app/command_search.h"
+#include "trueflank/app/command_shifts.h"
 #include "trueflank/app/commands.h"
 #include "trueflank/app/error_text.h"
 #include "trueflank/app/suggestion.h"
@@ -34,7 +35,7 @@ void add_check(CLI::App& program, CheckOptions& options, int& code) {
   command->add_option("--pictures", options.pictures,
                       "draw each mesh at its worst place, an SVG in this folder");
   command->add_flag("--verbose,-v", options.verbose, "the checks that passed too, each in its line");
-  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->add_flag("--quiet,-q", options.quiet, "print no table; the exit code is the answer");
   command->callback([&] { code = run_check(options); });
 }
 
@@ -45,10 +46,14 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->add_option("--output,-o", options.folder, "folder for the files; created if need be")
       ->required();
   command->add_option("--formats", options.formats,
-                      "comma-separated: " + io::format_names(",") + " (default: all)")
+                      "comma-separated: " + io::format_names(",") + " (default: all but " +
+                          io::asked_format_names(",") + ")")
       ->delimiter(',');
   command->add_option("--tolerance-um", options.tolerance_um,
                       "largest distance of a facet from the true surface")
+      ->capture_default_str();
+  command->add_option("--step-schema", options.step_schema,
+                      "of STEP files: ap214, or ap242 with sizes, limits, datum and runouts")
       ->capture_default_str();
   command->add_option("--part", options.part, "only this part");
   command->add_option("--correct", options.correct,
@@ -65,7 +70,7 @@ void add_make(CLI::App& program, MakeOptions& options, int& code) {
   command->add_flag("--allow-failing", options.allow_failing,
                     "write the parts though a check failed (the exit code is still 1)");
   command->add_flag("--verbose,-v", options.verbose, "the checks that passed too, each in its line");
-  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->add_flag("--quiet,-q", options.quiet, "print no table; the exit code is the answer");
   command->callback([&] { code = run_make(options); });
 }
 
@@ -85,13 +90,30 @@ void add_search(CLI::App& program, SearchOptions& options, int& code) {
   command->callback([&] { code = run_search(options); });
 }
 
-void add_fix(CLI::App& program, FixOptions& options, int& code) {
+void add_shifts(CLI::App& program, ShiftsOptions& options, int& code) {
+  CLI::App* command = program.add_subcommand(
+      "shifts", "the efficiency of one tooth set over its shifts, with every limit's border");
+  command->add_option("REQUIREMENTS", options.requirements, "requirements file (TOML)")->required();
+  command->add_option("--teeth", options.teeth, "of a search's set, for example 12/39/90/32/81")
+      ->required();
+  command->add_option("--output,-o", options.folder, "folder for the files; created if need be")
+      ->required();
+  command->add_option("--points", options.points, "along each axis")
+      ->check(CLI::Range(11, 501))
+      ->capture_default_str();
+  command->add_flag("--quiet,-q", options.quiet, "no summary");
+  command->callback([&] { code = run_shifts(options); });
+}
+
+void add_fix(CLI::App& program, FixCommand& options, int& code) {
   CLI::App* command = program.add_subcommand("fix", "the smallest change of a design after which every check passes");
   command->add_option("DESIGN", options.design, "design file (TOML)")->required();
   command->add_option("--output,-o", options.output,
                       "the mended design file, with its comments (- is standard output)")
       ->required();
-  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->add_flag("--warnings", options.warnings,
+                    "also change a design that passes, where that ends warnings about the contact");
+  command->add_flag("--quiet,-q", options.quiet, "print no table; the exit code is the answer");
   command->callback([&] { code = run_fix(options); });
 }
 
@@ -104,7 +126,7 @@ void add_compare(CLI::App& program, CompareOptions& options, int& code) {
       ->capture_default_str();
   command->add_option("--json", options.json, "write the figures as JSON here (- is standard output)");
   command->add_option("--picture", options.picture, "draw the worst place as SVG here");
-  command->add_flag("--quiet,-q", options.quiet, "no table: the exit code tells");
+  command->add_flag("--quiet,-q", options.quiet, "print no table; the exit code is the answer");
   command->callback([&] { code = run_compare(options); });
 }
 
@@ -132,10 +154,13 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   CLI::App* command = program.add_subcommand("new", "a commented design file to start from");
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
   command->add_option("--kind", options.kind, new_design_kinds())->capture_default_str();
-  CLI::Option* ratio = command->add_option("--ratio", options.ratio, "search teeth for this ratio (3k)");
+  CLI::Option* ratio = command->add_option(
+      "--ratio", options.ratio, "search teeth for this ratio (3k, stepped, simple, pair)");
   const auto wish = [&](const char* flag, auto& value, const char* what) {
     command->add_option(flag, value, what)->needs(ratio)->capture_default_str();
   };
+  wish("--input", options.input, "what is driven: sun, or carrier (3k)");
+  wish("--output", options.output, "what drives out: ring1 or ring2 (3k), carrier or ring");
   wish("--motor", options.motor, "motor of the table: with a housing around the gears");
   wish("--process", options.process, "how it is made");
   wish("--material", options.material, "of the gears");
@@ -241,25 +266,26 @@ std::string welcome_text() {
          "  trueflank make mydrive.toml -o parts    STL, 3MF, STEP and more, with a report\n"
          "  trueflank search needs.toml -o designs  find tooth numbers and profile shifts\n"
          "  trueflank loop mydrive.toml scan.stl --gear sun -o loop\n"
-         "                                          what the made part tells\n"
+         "                                          what the measurements show\n"
          "  trueflank compare golden.stl new.stl    same shape? for continuous integration\n"
          "\n"
-         "trueflank help COMMAND tells more.\n";
+         "trueflank help COMMAND explains one command.\n";
 }
 
 int run_command_line(int argc, char** argv) {
   CLI::App program("Gear geometry: checked, made, measured and corrected.", "trueflank");
   program.set_version_flag("--version", "trueflank " TRUEFLANK_VERSION);
   program.require_subcommand(0, 1);
-  program.footer("trueflank help COMMAND tells of one command.");
+  program.footer("trueflank help COMMAND explains one command.");
   int code = 0;
   CheckOptions check;
   MakeOptions make;
-  FixOptions fix;
+  FixCommand fix;
   CompareOptions compare;
   NewOptions fresh;
   LoopOptions loop;
   SearchOptions search;
+  ShiftsOptions shifts;
   add_check(program, check, code);
   add_make(program, make, code);
   add_fix(program, fix, code);
@@ -267,6 +293,7 @@ int run_command_line(int argc, char** argv) {
   add_new(program, fresh, code);
   add_loop(program, loop, code);
   add_search(program, search, code);
+  add_shifts(program, shifts, code);
   try {
     std::vector<std::string> words = with_help_asked(program, argc, argv);
     std::reverse(words.begin(), words.end());  // as the parser takes them

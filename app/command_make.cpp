@@ -27,6 +27,7 @@ int run_make(const MakeOptions& options) {
   trueflank::MakeOptions wanted{.folder = options.folder,
                                       .formats = options.formats,
                                       .tolerance_um = options.tolerance_um,
+                                      .step_schema = options.step_schema,
                                       .part = options.part,
                                       .correct = options.correct,
                                       .compensate = options.compensate,

@@ -26,6 +26,8 @@ std::string shell_word(const std::string& text) {
 ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::string& told) {
   const auto design = wished_design(std::filesystem::path(options.name).stem().string(),
                                     {.kind = options.kind,
+                                     .input = options.input,
+                                     .output = options.output,
                                      .ratio = options.ratio,
                                      .motor = options.motor,
                                      .process = options.process,

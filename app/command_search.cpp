@@ -25,7 +25,7 @@ Result<SearchPart> parse_shard(const std::string& text) {
                .value = text, .remedy = "i/n with i from 1 to n, for example 2/8"});
 }
 
-ResultAll<std::vector<SearchRecord>> run_part(const SearchTask& task, const SearchPart& part,
+ResultAll<SearchRecords> run_part(const SearchTask& task, const SearchPart& part,
                                               const SearchOptions& options) {
   const StopOnInterrupt interrupt;  // before the journal: from its first line on --resume is offered
   SearchProgress progress(options.quiet);
@@ -40,7 +40,7 @@ ResultAll<std::vector<SearchRecord>> run_part(const SearchTask& task, const Sear
              }});
 }
 
-int conclude(const SearchTask& task, const std::vector<SearchRecord>& records,
+int conclude(const SearchTask& task, const SearchRecords& records,
              const SearchOptions& options) {
   const SearchReport report = [&] {
     const Progress progress("judging the best designs", options.quiet);
@@ -82,14 +82,14 @@ int run_search(const SearchOptions& options) {
   std::size_t total = 0;
   for (std::size_t i = 0; i < task->enumeration.sets.size(); ++i) total += part.holds(i);
   if (!options.quiet)
-    if (auto ok = print("part " + options.shard + ": " + std::to_string(records->size()) + " of " +
+    if (auto ok = print("part " + options.shard + ": " + std::to_string(records->sets()) + " of " +
                         std::to_string(total) + " tooth sets in " +
                         journal_path(options.folder, part).string() +
                         "\nnext, with all parts: trueflank search " + options.requirements +
                         " -o DIR --merge FOLDERS\n");
         !ok)
       return report_errors({ok.error()});
-  if (records->size() == total) return 0;
+  if (records->sets() == total) return 0;
   return report_errors({{.code = ErrorCode::kInterrupted,
                          .message = "stopped before the part was done",
                          .remedy = "--resume to go on"}});

@@ -26,13 +26,13 @@ int run_search(const SearchOptions& options);
 /// @{
 /// "i/n". Errors: kUsage.
 [[nodiscard]] Result<SearchPart> parse_shard(const std::string& text);
-/// Runs a part, journal in the folder, with progress and Ctrl-C. Returns its records, old and new;
-/// fewer than the part has where it was stopped.
-[[nodiscard]] ResultAll<std::vector<SearchRecord>> run_part(const SearchTask& task, const SearchPart& part,
+/// Runs a part, journal in the folder, with progress and Ctrl-C. Returns its records, old and new; of
+/// fewer sets than the part has where it was stopped.
+[[nodiscard]] ResultAll<SearchRecords> run_part(const SearchTask& task, const SearchPart& part,
                                                             const SearchOptions& options);
 /// Ranks and judges records, writes the search's files into the folder, and prints the summary.
 /// Returns the exit code: 0; 3 where records are missing (stopped).
-[[nodiscard]] int conclude(const SearchTask& task, const std::vector<SearchRecord>& records,
+[[nodiscard]] int conclude(const SearchTask& task, const SearchRecords& records,
                            const SearchOptions& options);
 /// @}
 

@@ -28,6 +28,7 @@ struct MakeOptions {
   std::string folder;
   std::vector<std::string> formats;  ///< empty: all
   double tolerance_um = 1.0;
+  std::string step_schema = "ap214";
   std::string part;     ///< empty: all
   std::string correct;  ///< loop.json; empty: none
   bool compensate = false;  ///< meshes with walls moved against the process's effects
@@ -40,12 +41,13 @@ struct MakeOptions {
 };
 int run_make(const MakeOptions& options);
 
-struct FixOptions {
+struct FixCommand {
   std::string design;
   std::string output;  ///< the mended design file; "-": standard output
+  bool warnings = false;
   bool quiet = false;
 };
-int run_fix(const FixOptions& options);
+int run_fix(const FixCommand& options);
 
 struct CompareOptions {
   std::string golden, fresh;
@@ -72,6 +74,7 @@ struct NewOptions {
   std::string kind = "3k";
   bool wished = false;  ///< a ratio is asked for: the design is searched
   double ratio = 0.0, outer_diameter_mm = 90.0;
+  std::string input, output;  ///< members; empty: the usual ones
   std::string motor, process = "fdm-0.4", material = "pla";
 };
 int run_new(const NewOptions& options);

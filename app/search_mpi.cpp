@@ -48,12 +48,16 @@ int run_rank(SearchOptions options, int rank, int ranks) {
   if (options.threads == 0) options.threads = 1;  // a rank is a core
   const bool quiet = options.quiet;
   options.quiet = quiet || rank != 0;
-  const auto records = run_part(*task, {rank + 1, ranks}, options);
+  const SearchPart part{rank + 1, ranks};
+  const auto records = run_part(*task, part, options);
   if (!records) code = report_errors(records.error());
   if ((code = agreed(code))) return code;
 
   std::string lines;
-  for (const SearchRecord& record : *records) lines += journal_line(record) + "\n";
+  for (const SearchRecord& record : records->optimised) lines += journal_line(record) + "\n";
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < task->enumeration.sets.size(); ++i) own += part.holds(i);
+  if (records->sets() == own) lines += journal_end(part) + "\n";
   const std::string all = gathered(lines, rank, ranks);
   if (rank == 0) {
     auto read = read_journal(journal_header(task->requirements, task->enumeration) + "\n" + all,
@@ -61,10 +65,7 @@ int run_rank(SearchOptions options, int rank, int ranks) {
     if (!read) {
       code = report_errors({read.error()});
     } else {
-      std::sort(read->begin(), read->end(), [](const SearchRecord& p, const SearchRecord& q) {
-        return p.index < q.index;
-      });
-      code = conclude(*task, *read, options);
+      code = conclude(*task, gathered_records(*task, std::move(*read)), options);
     }
   }
   return agreed(code);

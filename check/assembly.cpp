@@ -41,7 +41,17 @@ std::string places_text(const GearTrain& train) {
          (train.sun() ? "sun" : "axis") + ").";
 }
 
+/// Whether every ring is made as two parts that close over the planets.
+bool rings_in_halves(const GearTrain& train) {
+  return std::all_of(train.design.gears.begin(), train.design.gears.end(), [&](const GearDesign& gear) {
+    return gear.kind != GearKind::kInternal || is_made_in_halves(train.design, gear);
+  });
+}
+
 std::string order_text(const GearTrain& train, const std::vector<MeshState>& states) {
+  if (rings_in_halves(train))
+    return " Order: planets round the sun first, radially, then onto their pins; then the lower half of"
+           " each ring along the axis, turning with its teeth, and the upper half from the other side.";
   if (train.design.herringbone)
     return " Order: herringbone teeth do not slide into each other along the axis, and planets between"
            " sun and ring cannot move apart: this set can only be assembled from halves. Planets round"
@@ -81,11 +91,12 @@ Finding without_planets(const GearTrain& train) {
                   .where = "train",
                   .status = CheckStatus::kNotApplicable,
                   .message = "there are no planets to assemble"};
-  if (!train.meshes.empty() && train.design.herringbone && train.pair(train.meshes[0]).internal()) {
+  if (!train.meshes.empty() && train.design.herringbone && train.pair(train.meshes[0]).internal() &&
+      !rings_in_halves(train)) {
     finding.status = CheckStatus::kWarn;
     finding.message = "herringbone teeth do not slide into a ring along the axis: this pair can only be "
                       "assembled from halves.";
-    finding.cure = "split the wheel at the apex and close it over the pinion";
+    finding.cure = "halves = true for the wheel: two parts that close over the pinion";
   }
   return finding;
 }
@@ -165,10 +176,12 @@ Findings check_assembly(const GearTrain& train, const std::vector<MeshState>& st
     finding.message += " Turned, every mesh of every planet keeps its phase.";
   }
   if (finding.status != CheckStatus::kFail) finding.message += order_text(train, states);
-  if (train.design.herringbone && finding.status != CheckStatus::kFail) {
+  if (train.design.herringbone && !rings_in_halves(train) && finding.status != CheckStatus::kFail) {
     finding.status = CheckStatus::kWarn;
     finding.cure += std::string(finding.cure.empty() ? "" : "; ") +
-                    "make the rings (or the sun) in halves that part at the apex";
+                    (train.design.machine
+                         ? "helical or straight teeth: in a housing the ring that drives out is one part"
+                         : "halves = true for every ring (or make the sun in halves that part at the apex)");
   }
   return {finding};
 }

@@ -18,6 +18,9 @@
 namespace trueflank {
 namespace {
 
+/// Several heights are turned, driving both ways.
+constexpr int kTurnsOfModified = 6;
+
 void add(Judgement& all, const std::string& id, int layer, double lacking, bool fails) {
   all.complaints.push_back({id, layer, std::max(lacking, 1e-6), fails});
 }
@@ -98,9 +101,11 @@ const ContactJudge::Clearances& ContactJudge::clearances(const GearTrain& train,
   append(key, pair.gear1());
   append(key, pair.gear2());
   append(key, pair.centre_distance_mm);
+  // Modifications are the mesh's own, and the same in all designs of a search.
   const bool modified = is_modified(train, mesh);
-  if (const auto found = known_.find(key); found != known_.end() && !modified) return found->second;
-  ++turned_;
+  if (modified) append(key, static_cast<double>(&mesh - train.meshes.data()));
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  turned_ += modified ? kTurnsOfModified : 1;
   Clearances c;
   MeshPlace place;
   if (modified) {

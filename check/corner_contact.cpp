@@ -13,8 +13,9 @@
 namespace trueflank {
 namespace {
 
-/// ISO 6336-1 counts with 14 N/(mm um) for a mesh of steel; 70 N on a millimetre of face and module is a full
-/// load: such teeth give by 5 um a millimetre of module, and flanks that come so much later still carry.
+/// ISO 6336-1 counts with 14 N/(mm um) for a mesh of steel; 70 N on a millimetre of face and module
+/// is a full load: such teeth give by 5 um a millimetre of module, and flanks that come so much
+/// later still carry.
 constexpr double kLimit = 0.005;
 
 /// The state in which the play is taken up; without play the centred one.
@@ -32,9 +33,15 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshPla
   const GearPair pair = train.pair(mesh);
   const bool tip_of_gear1 = std::abs(place.radius1_mm - pair.profile1->tip_radius_mm()) <
                             std::abs(place.radius2_mm - pair.profile2->tip_radius_mm());
-  return cure_text(train, mesh, tip_of_gear1, [](const GearPair& changed) {
-    return closed_clearance_mm(changed) + tolerance::kTouch_mm;
-  });
+  return cure_text(train, mesh, tip_of_gear1,
+                   {.exact =
+                        [](const GearPair& changed) {
+                          return closed_clearance_mm(changed) + tolerance::kTouch_mm;
+                        },
+                    .quick =
+                        [](const GearPair& changed) {
+                          return tip_driving_clearance_mm(changed) + tolerance::kTouch_mm;
+                        }});
 }
 
 Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
@@ -52,7 +59,8 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   if (modified_mesh(train, mesh).backlash_mm < -tolerance::kTouch_mm) {
     finding.value = finding.margin = kNaN;
     finding.status = CheckStatus::kNotApplicable;
-    finding.message = "the teeth are too thick for their gaps: they jam before they drive (see overlap)";
+    finding.message =
+        "the teeth are too thick for their gaps: they jam before they drive (see overlap)";
     return finding;
   }
   if (passes) {
@@ -60,10 +68,12 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
     return finding;
   }
   finding.status = ahead > most ? CheckStatus::kFail : CheckStatus::kWarn;
-  finding.message = "driving, the " + place_text(closed.place, gear1_name(train, mesh), gear2_name(train, mesh)) +
+  finding.message = "driving, the " +
+                    place_text(closed.place, gear1_name(train, mesh), gear2_name(train, mesh)) +
                     " meet " + um_text(ahead) + " before the flanks do";
   if (finding.status == CheckStatus::kWarn)
-    finding.message += "; a full load bends the teeth by about " + um_text(most) + ", so the flanks still carry then";
+    finding.message += "; a full load bends the teeth by about " + um_text(most) +
+                       ", so the flanks still carry then";
   finding.cure = cure_of(train, mesh, closed.place);
   return finding;
 }

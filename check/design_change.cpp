@@ -7,8 +7,16 @@
 namespace trueflank {
 namespace {
 
+/// What design files take; backlash: at most a module.
+constexpr double kLeastAddendum = 0.05;
+
+constexpr double kFar = 0.5;  // modules, of a centre distance
+
 /// Centre distances and leading shifts as people write them.
 double written(double value) { return std::round(value * 1e4) / 1e4; }
+
+/// A leading shift that stays, or was solved: its mates are solved to it, and nobody reads 16 digits.
+double kept(double shift) { return std::round(shift * 1e6) / 1e6; }
 
 /// What other teeth ask of the centre distance: that of the first mesh without shifts, less before.
 double reference_change_mm(const GearTrain& train, const std::vector<int>& teeth) {
@@ -64,22 +72,27 @@ GearboxDesign changed_design(const GearTrain& train, const DesignChange& change,
   design.tips = TipCircles::kClear;
   design.planets += change.planets;
   if (change.layer_gap_mm != 0.0) design.layer_gap_mm = written(design.layer_gap_mm + change.layer_gap_mm);
-  if (change.backlash != 0.0) design.backlash_mm = written(design.backlash_mm + change.backlash * m);
+  if (change.backlash != 0.0) design.backlash_mm = std::min(written(design.backlash_mm + change.backlash * m), m);
   if (change.root_radius != 0.0) design.rack.root_radius = written(std::max(0.0, design.rack.root_radius + change.root_radius));
-  if (change.addendum != 0.0) design.rack.addendum = written(design.rack.addendum + change.addendum);
+  if (change.addendum != 0.0) design.rack.addendum = written(std::max(kLeastAddendum, design.rack.addendum + change.addendum));
   for (std::size_t i = 0; i < change.teeth.size(); ++i) design.gears[i].teeth += change.teeth[i];
   for (const auto& [i, diameter] : change.tip_diameter_mm) design.gears[i].tip_diameter_mm = diameter;
   if (!change.moves_shifts() && fits) return design;
 
   const double a = train.centre_distance_mm + change.centre_distance * m + reference_change_mm(train, change.teeth);
   const bool new_distance = change.centre_distance != 0.0 || !change.teeth.empty();
-  design.centre_distance_mm = new_distance ? written(a) : a;
+  if (new_distance) design.centre_distance_mm = written(a);
+  if (!design.centre_distance_mm) design.centre_distance_mm = kept(a);
   for (GearDesign& gear : design.gears) gear.shift.reset();
   for (const int layer : meshing_layers(train)) {
     const std::size_t lead = leading_gear(train, layer);
     const auto moved = change.shift_of_layer.find(layer);
     const double by = moved == change.shift_of_layer.end() ? 0.0 : moved->second;
-    design.gears[lead].shift = by == 0.0 ? train.gears[lead].shift : written(train.gears[lead].shift + by);
+    // a shift that was solved for a distance far from the new one says nothing there
+    const bool solved_elsewhere =
+        std::abs(change.centre_distance) > kFar && !train.design.gears[lead].shift;
+    const double from = solved_elsewhere ? 0.0 : train.gears[lead].shift;
+    design.gears[lead].shift = by == 0.0 ? kept(from) : written(from + by);
   }
   return design;
 }

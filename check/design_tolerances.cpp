@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/check/mesh_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
 
@@ -79,8 +80,27 @@ double lacking_backlash_mm(const GearTrain& train) {
   const auto result = analyse_tolerances(train, tolerances->options);
   if (!result || verdict(check_tolerance(train, *result)) != CheckStatus::kFail) return 0.0;
   double lacking = 0.0;
-  for (const MeshTolerance& mesh : result->meshes)
-    lacking = std::max(lacking, -std::min(mesh.smallest_backlash_mm, 2.0 * mesh.smallest_clearance_mm));
+  for (std::size_t k = 0; k < result->meshes.size(); ++k) {
+    const MeshTolerance& mesh = result->meshes[k];
+    // what stands in the way without any tolerance is not for backlash to clear
+    const double in_the_way = mesh.smallest_clearance_mm < 0.0
+                                  ? std::min(0.0, sweep_clearance_mm(train.pair(train.meshes[k])))
+                                  : 0.0;
+    lacking = std::max({lacking, -mesh.smallest_backlash_mm,
+                        -2.0 * (mesh.smallest_clearance_mm - in_the_way)});
+  }
+  return lacking;
+}
+
+double lacking_for_clearance_mm(const GearTrain& train) {
+  const double asked = train.design.made.clearance_mm.value_or(0.0);
+  double lacking = 0.0;
+  if (asked > 0.0)
+    for (const TrainMesh& mesh : train.meshes) {
+      const GearPair pair = train.pair(mesh);
+      const double normal = std::cos(working_pressure_angle_rad(pair)) * std::cos(base_helix_angle_rad(pair.gear1()));
+      lacking = std::max(lacking, 2.0 * asked / normal - mesh.backlash_mm);
+    }
   return lacking;
 }
 

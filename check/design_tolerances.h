@@ -26,4 +26,8 @@ struct DesignTolerances {
 /// nothing fails.
 [[nodiscard]] double lacking_backlash_mm(const GearTrain& train);
 
+/// By how much the backlash of a design falls short of the clearance of flanks that it asks for; 0 where it does
+/// not. It hangs on the pressure angle in mesh.
+[[nodiscard]] double lacking_for_clearance_mm(const GearTrain& train);
+
 }  // namespace trueflank

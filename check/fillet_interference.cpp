@@ -105,9 +105,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
     finding.message += trouble_text(state, name1, name2);
   }
   const bool tip_of_gear1 = to_the_tips.gear2 < to_the_tips.gear1;
-  finding.cure = cure_text(train, mesh, tip_of_gear1, [](const GearPair& changed) {
+  finding.cure = cure_text(train, mesh, tip_of_gear1, {.exact = [](const GearPair& changed) {
     return margins_of(changed).smaller() + kEqualRadii_mm;
-  });
+  }});
   return finding;
 }
 

@@ -21,7 +21,8 @@ std::optional<GearTrain> with_layer_shifted(const GearTrain& train, const TrainM
                                             double change) {
   GearboxDesign design = train.design;
   const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
-  // the inner gear of an external mesh (sun, pinion) moves against its mates, everything else with them
+  // the inner gear of an external mesh (sun, pinion) moves against its mates, everything else with
+  // them
   const auto moves_against = [&](std::size_t gear) {
     return std::any_of(train.meshes.begin(), train.meshes.end(), [&](const TrainMesh& other) {
       return other.gear1 == static_cast<int>(gear) && !train.pair(other).internal();
@@ -46,32 +47,43 @@ double margin_with_shift(const GearTrain& train, const TrainMesh& mesh, double c
   return shifted ? margin(shifted->pair(mesh)) : kNaN;
 }
 
-}  // namespace
+/// Sought with the quick margin. The exact one is never above it: what the quick one refuses fails,
+/// and what it finds holds where the exact one agrees.
+template <class Seek, class Agrees>
+auto found_by(const CureMargin& margin, const Seek& seek, const Agrees& agrees) {
+  if (margin.quick) {
+    const auto found = seek(margin.quick);
+    if (!found || agrees(*found)) return found;
+  }
+  return seek(margin.exact);
+}
 
-std::optional<double> tip_radius_cure_mm(const GearPair& pair, bool of_gear1,
-                                         const PairMargin& margin) {
+double margin_with_tip(const GearPair& pair, bool of_gear1, double radius_mm,
+                       const PairMargin& margin) {
+  Gear gear = (of_gear1 ? *pair.profile1 : *pair.profile2).gear();
+  gear.tip_radius_mm = radius_mm;
+  const auto made = ToothProfile::make(gear);
+  if (!made) return kNaN;
+  GearPair changed = pair;
+  (of_gear1 ? changed.profile1 : changed.profile2) = &*made;
+  return margin(changed);
+}
+
+std::optional<double> sought_tip_radius_mm(const GearPair& pair, bool of_gear1,
+                                           const PairMargin& margin) {
   const ToothProfile& profile = of_gear1 ? *pair.profile1 : *pair.profile2;
-  const auto margin_at = [&](double radius_mm) {
-    Gear gear = profile.gear();
-    gear.tip_radius_mm = radius_mm;
-    const auto made = ToothProfile::make(gear);
-    if (!made) return kNaN;
-    GearPair changed = pair;
-    (of_gear1 ? changed.profile1 : changed.profile2) = &*made;
-    return margin(changed);
-  };
   double bad = profile.tip_radius_mm();
   double fine = 0.5 * (profile.tip_form_radius_mm() + profile.root_form_radius_mm());
-  if (!good(margin_at(fine))) return std::nullopt;
+  if (!good(margin_with_tip(pair, of_gear1, fine, margin))) return std::nullopt;
   while (std::abs(fine - bad) > kTipResolution_mm) {
     const double mid = 0.5 * (fine + bad);
-    (good(margin_at(mid)) ? fine : bad) = mid;
+    (good(margin_with_tip(pair, of_gear1, mid, margin)) ? fine : bad) = mid;
   }
   return fine;
 }
 
-std::optional<ShiftCure> shift_cure(const GearTrain& train, const TrainMesh& mesh,
-                                    const PairMargin& margin) {
+std::optional<double> sought_shift(const GearTrain& train, const TrainMesh& mesh,
+                                   const PairMargin& margin) {
   for (double step = 0.05; step <= kLargestShiftChange; step *= 2.0) {
     for (const double sign : {1.0, -1.0}) {
       double fine = sign * step, bad = step > 0.05 ? 0.5 * fine : 0.0;
@@ -80,23 +92,41 @@ std::optional<ShiftCure> shift_cure(const GearTrain& train, const TrainMesh& mes
         const double mid = 0.5 * (fine + bad);
         (good(margin_with_shift(train, mesh, mid, margin)) ? fine : bad) = mid;
       }
-      const auto shifted = with_layer_shifted(train, mesh, fine);
-      return ShiftCure{fine, shifted->gears[static_cast<std::size_t>(mesh.gear1)].shift,
-                       shifted->gears[static_cast<std::size_t>(mesh.gear2)].shift};
+      return fine;
     }
   }
   return std::nullopt;
 }
 
+}  // namespace
+
+std::optional<double> tip_radius_cure_mm(const GearPair& pair, bool of_gear1,
+                                         const CureMargin& margin) {
+  return found_by(
+      margin, [&](const PairMargin& by) { return sought_tip_radius_mm(pair, of_gear1, by); },
+      [&](double radius) { return good(margin_with_tip(pair, of_gear1, radius, margin.exact)); });
+}
+
+std::optional<ShiftCure> shift_cure(const GearTrain& train, const TrainMesh& mesh,
+                                    const CureMargin& margin) {
+  const auto change = found_by(
+      margin, [&](const PairMargin& by) { return sought_shift(train, mesh, by); },
+      [&](double shift) { return good(margin_with_shift(train, mesh, shift, margin.exact)); });
+  if (!change) return std::nullopt;
+  const auto shifted = with_layer_shifted(train, mesh, *change);
+  return ShiftCure{*change, shifted->gears[static_cast<std::size_t>(mesh.gear1)].shift,
+                   shifted->gears[static_cast<std::size_t>(mesh.gear2)].shift};
+}
+
 std::string cure_text(const GearTrain& train, const TrainMesh& mesh, bool tip_of_gear1,
-                      const PairMargin& margin) {
+                      const CureMargin& margin) {
   const GearPair pair = train.pair(mesh);
   const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
   std::string text;
   if (const auto radius = tip_radius_cure_mm(pair, tip_of_gear1, margin)) {
     const double now = (tip_of_gear1 ? pair.profile1 : pair.profile2)->tip_radius_mm();
-    text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " + mm_text(2.0 * *radius) + " (" +
-           (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
+    text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " + mm_text(2.0 * *radius) +
+           " (" + (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
   }
   if (const auto shift = shift_cure(train, mesh, margin)) {
     text += text.empty() ? "" : "; or ";

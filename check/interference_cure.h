@@ -12,10 +12,17 @@ namespace trueflank {
 /// How far a pair is on the good side; a cure is where this becomes 0. NaN counts as bad.
 using PairMargin = std::function<double(const GearPair&)>;
 
+/// A margin that is costly to ask, with one that is quick and never below it: the quick one seeks, the costly
+/// one verifies what was found, and seeks itself only where it disagrees.
+struct CureMargin {
+  PairMargin exact;
+  PairMargin quick = {};  ///< empty: the exact one is quick
+};
+
 /// Tip circle radius nearest to the present one at which the margin is not negative, found by
 /// bisection to 0.5 um; empty where shortening the teeth does not help.
 [[nodiscard]] std::optional<double> tip_radius_cure_mm(const GearPair& pair, bool of_gear1,
-                                                       const PairMargin& margin);
+                                                       const CureMargin& margin);
 
 /// Profile shift by which the layer of a mesh must move (planets and rings up, sun or wheel down; the
 /// backlash stays) so that the margin of the mesh is not negative; the smaller of both directions,
@@ -26,10 +33,10 @@ struct ShiftCure {
   double shift2 = 0.0;   ///< of gear 2 then
 };
 [[nodiscard]] std::optional<ShiftCure> shift_cure(const GearTrain& train, const TrainMesh& mesh,
-                                                  const PairMargin& margin);
+                                                  const CureMargin& margin);
 
 /// Both cures in a sentence; `tip_of_gear1` says whose tip is to be shortened.
 [[nodiscard]] std::string cure_text(const GearTrain& train, const TrainMesh& mesh, bool tip_of_gear1,
-                                    const PairMargin& margin);
+                                    const CureMargin& margin);
 
 }  // namespace trueflank

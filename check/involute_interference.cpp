@@ -72,9 +72,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   // where the reliefs do not keep it clear, the whole flank counts
   if (rolls.smaller() >= 0.0) finding.value = finding.margin = to_the_tips.smaller();
   const bool tip_of_gear1 = to_the_tips.gear2_mm < to_the_tips.gear1_mm;
-  finding.cure = cure_text(train, mesh, tip_of_gear1, [](const GearPair& changed) {
+  finding.cure = cure_text(train, mesh, tip_of_gear1, {.exact = [](const GearPair& changed) {
     return roll_lengths(changed).smaller();
-  });
+  }});
   return finding;
 }
 

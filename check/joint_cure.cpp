@@ -16,9 +16,10 @@
 #include "trueflank/check/contact_judgement.h"
 #include "trueflank/check/design_change.h"
 #include "trueflank/check/design_tolerances.h"
-#include "trueflank/check/interference_cure.h"
 #include "trueflank/check/joint_cure_moves.h"
+#include "trueflank/check/needed_changes.h"
 #include "trueflank/check/profile.h"
+#include "trueflank/check/shortened_tips.h"
 #include "trueflank/check/tip_thickness.h"
 #include "trueflank/check/undercut.h"
 
@@ -26,8 +27,8 @@ namespace trueflank {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kWantedTipClearance = 0.1;   // of the module
-constexpr double kWrittenTip_mm = 1e-3;       // tip diameters are written so
+constexpr double kMoreForHousing =
+    1.0;  // dearer teeth are tried too: a housing may not take the first
 constexpr int kMostJudged = 6;                // candidates that every check judges
 
 struct Trial {
@@ -62,26 +63,27 @@ int count(const Findings& findings, CheckStatus status) {
                                         [&](const Finding& f) { return f.status == status; }));
 }
 
-/// A check that passed fails now.
-bool any_newly_fails(const Findings& before, const Findings& after) {
+/// A check that passed fails now; parts around gears that pass then may have to follow by hand.
+bool any_newly_fails(const Findings& before, const Findings& after,
+                     const std::set<std::string>& ids_around) {
   const auto passed = [&](const Finding& asked) {
     return std::any_of(before.begin(), before.end(), [&](const Finding& f) {
       return f.id == asked.id && f.where == asked.where && f.status == CheckStatus::kPass;
     });
   };
-  return std::any_of(after.begin(), after.end(),
-                     [&](const Finding& f) { return f.status == CheckStatus::kFail && passed(f); });
-}
-
-bool complained(const Judgement& judgement, const char* id) {
-  return std::any_of(judgement.complaints.begin(), judgement.complaints.end(),
-                     [&](const Complaint& c) { return c.id == id; });
+  return std::any_of(after.begin(), after.end(), [&](const Finding& f) {
+    return f.status == CheckStatus::kFail && !ids_around.contains(f.id) && passed(f);
+  });
 }
 
 class Search {
  public:
-  Search(const GearTrain& train, const JointCureOptions& options)
-      : train_(train), options_(options), layers_(meshing_layers(train)), warned_(warned(train, 0)) {
+  Search(const GearTrain& train, const JointCureOptions& options, const AroundGears& around)
+      : train_(train),
+        options_(options),
+        around_(around),
+        layers_(meshing_layers(train)),
+        warned_(warned(train, 0)) {
     fits_ = std::all_of(train.meshes.begin(), train.meshes.end(), [&](const TrainMesh& mesh) {
       const double implied = mesh.implied_backlash_mm / train.design.module_mm;
       return implied > -1e-4 && implied < 0.25;
@@ -89,45 +91,58 @@ class Search {
     for (const Complaint& c : ContactJudge::without_turning(train).complaints)
       if (c.id == "axial") layer_gap_mm_ = c.lacking * train.design.module_mm + 0.2 * train.design.module_mm;
     lacking_backlash_ = wanted_backlash_mm() / train.design.module_mm;
+    if (around)
+      for (const Finding& f : around(train).value_or(Findings{})) ids_around_.insert(f.id);
   }
 
   JointCure run(const Findings& before) {
     JointCure result{.design = train_.design, .findings = before, .changed = false, .conflict = {}};
-    for (DesignChange common : common_moves()) {
+    for (DesignChange common : common_moves(train_)) {
       common.backlash += lacking_backlash_;
       if (spent() || common.cost() >= cost_of_cleanest_) break;
       try_common(common);
+      if (needs_other_teeth()) break;
     }
     result.search_ended = !spent();
     if (trials_.empty() || !trials_.front().passes()) try_teeth();
     choose(result);
-    if (!result.cured()) result.conflict = conflict_text();
+    if (!result.cured())
+      result.conflict = gears_pass(result.findings)
+                            ? "the gears pass; what is around them has to follow by hand"
+                            : conflict_text();
     return result;
   }
 
  private:
   /// What tolerances and the clearance that is asked for need beyond the backlash there is.
   [[nodiscard]] double wanted_backlash_mm() const {
-    double wanted = lacking_backlash_mm(train_);
-    const double asked = train_.design.made.clearance_mm.value_or(0.0);
-    if (asked > 0.0)
-      for (const TrainMesh& mesh : train_.meshes) {
-        const GearPair pair = train_.pair(mesh);
-        const double normal = std::cos(working_pressure_angle_rad(pair)) * std::cos(base_helix_angle_rad(pair.gear1()));
-        wanted = std::max(wanted, 2.0 * asked / normal - mesh.backlash_mm);
-      }
-    return wanted > 0.0 ? wanted + 2e-4 : 0.0;  // centre distances and backlash are written to 0.1 um
+    return rounded_up(std::max(lacking_backlash_mm(train_), lacking_for_clearance_mm(train_)));
   }
+
+  /// Centre distances and backlash are written to 0.1 um.
+  [[nodiscard]] static double rounded_up(double backlash_mm) { return backlash_mm > 0.0 ? backlash_mm + 2e-4 : 0.0; }
 
   [[nodiscard]] bool spent() const {
     return designs_ >= options_.most_designs || judge_.turned() + bisected_ / 2 >= options_.most_turned;
   }
 
+  /// The parts of a change can be made, with the gears what stands around them.
+  [[nodiscard]] bool can_be_made(const DesignChange& change) const {
+    const auto laid = lay_out(changed_design(train_, change, fits_));
+    return !around_ || (laid && around_(*laid));
+  }
+
   void keep(Trial trial) {
+    if (trial.clean() && !can_be_made(trial.change)) return;  // others are to be sought
     if (trial.clean()) cost_of_cleanest_ = std::min(cost_of_cleanest_, trial.cost);
     trials_.push_back(std::move(trial));
     std::stable_sort(trials_.begin(), trials_.end(), better);
     if (trials_.size() > kMostJudged) trials_.pop_back();
+  }
+
+  /// Planets that do not mesh at equal spacing: nothing but teeth and their number mends that.
+  [[nodiscard]] bool needs_other_teeth() const {
+    return train_.design.planets > 1 && !train_.assembly.equal_spacing;
   }
 
   /// Every layer's smallest shift with these common values.
@@ -149,12 +164,8 @@ class Search {
       all = all && best->passes();
       joint.shift_of_layer[layer] = best->change.shift_of_layer[layer];
     }
-    if (layers_.size() > 1 || all) keep(tried(joint, 0));
-    else keep_nearest(joint);
-  }
-
-  void keep_nearest(const DesignChange& change) {
-    if (trials_.empty() || !trials_.front().passes()) keep(tried(change, 0));
+    const bool nearest = trials_.empty() || !trials_.front().passes();
+    if (layers_.size() > 1 || all || nearest) keep(tried(joint, 0));
   }
 
   void try_teeth() {
@@ -162,18 +173,19 @@ class Search {
     int tried_sets = 0;
     for (const DesignChange& move : teeth_moves(train_)) {
       if (designs_ >= 2 * options_.most_designs || judge_.turned() + bisected_ / 2 >= 2 * options_.most_turned) return;
-      if (move.cost() >= cost_of_cleanest_) return;
+      if (move.cost() >= cost_of_cleanest_ + (train_.design.machine ? kMoreForHousing : 0.0))
+        continue;
       DesignChange change = move;
       change.layer_gap_mm = layer_gap_mm_;
       change.backlash = lacking_backlash_;
       const auto laid = lay_out(changed_design(train_, change, fits_));
       ++designs_;
-      if (!laid || !laid->assembly.equal_spacing) continue;
+      if (!laid || !laid->assembly.equal_spacing || planets_collide(*laid)) continue;
       if (++tried_sets > 40) return;
       DesignChange joint = change;
       for (const int layer : layers_) {
         std::optional<Trial> best;
-        for (const double shift : {0.0, 0.1, -0.1, 0.2, -0.2, 0.4, -0.4}) {
+        for (const double shift : {0.0, 0.1, -0.1, 0.2, -0.2, 0.4, -0.4, 0.7, -0.7, 1.0, -1.0}) {
           DesignChange moved = change;
           moved.shift_of_layer[layer] = shift;
           const Trial trial = tried(moved, layer);
@@ -192,6 +204,10 @@ class Search {
     trial.cost = change.cost();
     ++designs_;
     auto laid = lay_out(changed_design(train_, change, fits_));
+    if (const double more = laid ? lacking_for_clearance_mm(*laid) : 0.0; more > 0.0) {
+      change.backlash += rounded_up(more) / train_.design.module_mm;
+      laid = lay_out(changed_design(train_, change, fits_));
+    }
     if (!laid) {
       trial.change = std::move(change);
       return trial;
@@ -203,7 +219,8 @@ class Search {
       if (!shortened && judgement.failing() == 0.0) {
         const Judgement turned = judge_.by_turning(*laid, layer);
         judgement.complaints.insert(judgement.complaints.end(), turned.complaints.begin(), turned.complaints.end());
-        shortened = !turned.clean() && round < 3 && shorten_in_the_way(*laid, layer, change);
+        shortened = !turned.clean() && round < 3 &&
+                    shorten_in_the_way(*laid, layer, judge_, bisected_, change);
       }
       if (!shortened) break;
       auto again = lay_out(changed_design(train_, change, fits_));
@@ -221,86 +238,6 @@ class Search {
     return trial;
   }
 
-  void set_tip(const GearTrain& laid, std::size_t gear, double radius_mm, DesignChange& change) const {
-    const bool ring = laid.gears[gear].profile.gear().kind == GearKind::kInternal;
-    const double steps = 2.0 * radius_mm / kWrittenTip_mm;
-    change.tip_diameter_mm[gear] = kWrittenTip_mm * (ring ? std::ceil(steps + 1e-6) : std::floor(steps - 1e-6));
-  }
-
-  /// Tips whose written diameter reaches into a fillet, or leaves too little contact, end where clear ones would.
-  bool shorten_given(const GearTrain& laid, const Judgement& judgement, DesignChange& change) const {
-    const bool in_fillet = complained(judgement, "fillet_interference");
-    const bool short_contact = complained(judgement, "contact_ratio");
-    if (!in_fillet && !short_contact) return false;
-    GearboxDesign open = laid.design;
-    for (GearDesign& gear : open.gears) gear.tip_diameter_mm.reset();
-    const auto clear = lay_out(open);
-    if (!clear) return false;
-    bool any = false;
-    for (std::size_t i = 0; i < laid.gears.size(); ++i) {
-      const double given = laid.gears[i].profile.gear().tip_radius_mm;
-      const double wanted = clear->gears[i].profile.gear().tip_radius_mm;
-      const bool ring = laid.gears[i].profile.gear().kind == GearKind::kInternal;
-      if (!laid.design.gears[i].tip_diameter_mm || change.tip_diameter_mm.contains(i)) continue;
-      const double too_long = ring ? wanted - given : given - wanted;
-      const bool digs = in_fillet && too_long > 1e-6 && clear->gears[i].tip_shortened_mm > 0.0;
-      if (!digs && !(short_contact && too_long < -1e-3)) continue;
-      set_tip(laid, i, wanted, change);
-      any = true;
-    }
-    return any;
-  }
-
-  /// Tips that come too near the mate's root circle, or to their neighbour.
-  bool shorten_at_roots(const GearTrain& laid, const Judgement& judgement, DesignChange& change) const {
-    bool any = false;
-    const auto shorten = [&](int gear, double by_mm) {
-      if (!(by_mm > 1e-9)) return;
-      const auto i = static_cast<std::size_t>(gear);
-      const Gear& g = laid.gears[i].profile.gear();
-      if (by_mm > 0.6 * g.normal_module_mm) return;
-      set_tip(laid, i, g.tip_radius_mm + (g.kind == GearKind::kInternal ? by_mm : -by_mm), change);
-      any = true;
-    };
-    if (complained(judgement, "tip_clearance"))
-      for (const TrainMesh& mesh : laid.meshes) {
-        const GearPair pair = laid.pair(mesh);
-        const double wanted = kWantedTipClearance * pair.gear1().normal_module_mm;
-        shorten(mesh.gear1, wanted - tip_clearance_of_gear1_mm(pair));
-        shorten(mesh.gear2, wanted - tip_clearance_of_gear2_mm(pair));
-      }
-    if (!any && complained(judgement, "planet_spacing") && laid.design.planets > 1)
-      for (std::size_t i = 0; i < laid.gears.size(); ++i) {
-        if (!laid.topology().is_planet_gear(i)) continue;
-        const double room = laid.centre_distance_mm * std::sin(kPi / laid.design.planets);
-        shorten(static_cast<int>(i), laid.gears[i].profile.tip_radius_mm() - room + 0.02 * laid.design.module_mm);
-      }
-    return any;
-  }
-
-  /// The tip that turning shows in the way, by bisection.
-  bool shorten_in_the_way(const GearTrain& laid, int layer, DesignChange& change) {
-    bool any = false;
-    for (const TrainMesh& mesh : laid.meshes) {
-      if (layer != 0 && layer_of(laid, mesh) != layer) continue;
-      const ContactJudge::Clearances c = judge_.clearances(laid, mesh);
-      if (!(c.driving_mm < -tolerance::kTouch_mm || c.centred_mm < -tolerance::kTouch_mm)) continue;
-      const auto margin = [this](const GearPair& pair) {
-        ++bisected_;
-        const double driving = driving_clearance(pair).clearance_mm;
-        return (std::isnan(driving) ? sweep_clearance_mm(pair) : driving) + 0.5 * tolerance::kTouch_mm;
-      };
-      for (const bool of_gear1 : {c.tip_of_gear1, !c.tip_of_gear1}) {
-        const auto radius = tip_radius_cure_mm(laid.pair(mesh), of_gear1, margin);
-        if (!radius) continue;
-        set_tip(laid, static_cast<std::size_t>(of_gear1 ? mesh.gear1 : mesh.gear2), *radius, change);
-        any = true;
-        break;
-      }
-    }
-    return any;
-  }
-
   /// What is taken off tips beyond what they have, in modules.
   [[nodiscard]] double tip_cost(const DesignChange& change) const {
     double sum = 0.0;
@@ -316,27 +253,78 @@ class Search {
     if (!ids.empty()) ++failed_together_[ids];
   }
 
+  /// Every check of a design; nothing where it cannot be laid out or its parts cannot be made.
+  [[nodiscard]] std::optional<Findings> judged(const GearboxDesign& design) const {
+    const auto laid = lay_out(design);
+    if (!laid) return std::nullopt;
+    Findings findings = check_gearbox(*laid);
+    if (!around_) return findings;
+    const auto more = around_(*laid);
+    if (!more) return std::nullopt;
+    findings.insert(findings.end(), more->begin(), more->end());
+    return findings;
+  }
+
+  /// The same, but no answer where the contact fails already.
+  [[nodiscard]] std::optional<Findings> judged_where_gears_pass(const GearboxDesign& design) const {
+    const auto laid = lay_out(design);
+    if (!laid || ContactJudge::without_turning(*laid).failing() > 0.0) return std::nullopt;
+    return judged(design);
+  }
+
+  /// The design, and where parts around it fail, the same with a housing as large as it must be.
+  [[nodiscard]] std::optional<JudgedDesign> judged_with_housing(const GearboxDesign& design) const {
+    auto findings = judged(design);
+    const bool fixed_size = design.machine && design.machine->housing.outer_diameter_mm;
+    if (!fixed_size || (findings && verdict(*findings) != CheckStatus::kFail)) {
+      if (!findings) return std::nullopt;
+      return JudgedDesign{design, std::move(*findings)};
+    }
+    GearboxDesign free = design;
+    free.machine->housing.outer_diameter_mm.reset();
+    auto freed = judged(free);
+    const bool helps = freed && (!findings || count(*freed, CheckStatus::kFail) <
+                                                  count(*findings, CheckStatus::kFail));
+    if (helps) return JudgedDesign{std::move(free), std::move(*freed)};
+    if (!findings) return std::nullopt;
+    return JudgedDesign{design, std::move(*findings)};
+  }
+
   /// The best that every check agrees with.
   void choose(JointCure& result) {
     const Findings before = result.findings;
-    const int fails_before = count(result.findings, CheckStatus::kFail);
-    const int warns_before = count(result.findings, CheckStatus::kWarn);
-    int fails = fails_before, warns = warns_before;
+    int fails = count(before, CheckStatus::kFail), warns = count(before, CheckStatus::kWarn);
     for (Trial& trial : trials_) {
       if (trial.passes()) shrink(trial);
-      const GearboxDesign design = changed_design(train_, trial.change, fits_);
-      const auto laid = lay_out(design);
-      if (!laid || (design == train_.design)) continue;
-      Findings findings = check_gearbox(*laid);
-      const int f = count(findings, CheckStatus::kFail), w = count(findings, CheckStatus::kWarn);
-      if (f > fails || (f == fails && w >= warns) || any_newly_fails(before, findings)) continue;
+      auto found = judged_with_housing(changed_design(train_, trial.change, fits_));
+      if (!found || found->design == train_.design) continue;
+      const int f = count(found->findings, CheckStatus::kFail),
+                w = count(found->findings, CheckStatus::kWarn);
+      if (f > fails || (f == fails && w >= warns) ||
+          any_newly_fails(before, found->findings, ids_around_))
+        continue;
       fails = f;
       warns = w;
-      result.design = design;
-      result.findings = std::move(findings);
+      result.design = std::move(found->design);
+      result.findings = std::move(found->findings);
       result.changed = true;
-      if (fails == 0 && trial.clean()) return;
+      if (fails == 0 && trial.clean()) break;
     }
+    if (result.changed) reduce(result);
+  }
+
+  /// Without what the verdict does not need.
+  void reduce(JointCure& result) const {
+    const bool cured = result.cured();
+    const DesignJudge judge = [&](const GearboxDesign& d) {
+      return cured ? judged_where_gears_pass(d) : judged(d);
+    };
+    JudgedDesign needed =
+        with_needed_changes(train_, {std::move(result.design), std::move(result.findings)}, judge,
+                            options_.most_judged);
+    result.changed = !(needed.design == train_.design);
+    result.design = std::move(needed.design);
+    result.findings = std::move(needed.findings);
   }
 
   /// Shifts and centre distance as near to the old ones as the verdict allows.
@@ -356,6 +344,12 @@ class Search {
     for (const int layer : layers_)
       if (trial.change.shift_of_layer[layer] != 0.0)
         smaller([layer](DesignChange& c, double factor) { c.shift_of_layer[layer] *= factor; });
+  }
+
+  [[nodiscard]] bool gears_pass(const Findings& findings) const {
+    return std::none_of(findings.begin(), findings.end(), [&](const Finding& f) {
+      return f.status == CheckStatus::kFail && !ids_around_.contains(f.id);
+    });
   }
 
   [[nodiscard]] std::string conflict_text() const {
@@ -378,6 +372,8 @@ class Search {
 
   const GearTrain& train_;
   JointCureOptions options_;
+  const AroundGears& around_;
+  std::set<std::string> ids_around_;
   std::vector<int> layers_;
   std::set<std::string> warned_;
   bool fits_ = true;
@@ -396,8 +392,9 @@ JointCure joint_cure(const GearTrain& train, const JointCureOptions& options) {
   return joint_cure(train, check_gearbox(train), options);
 }
 
-JointCure joint_cure(const GearTrain& train, const Findings& findings, const JointCureOptions& options) {
-  return Search(train, options).run(findings);
+JointCure joint_cure(const GearTrain& train, const Findings& findings,
+                     const JointCureOptions& options, const AroundGears& around) {
+  return Search(train, options, around).run(findings);
 }
 
 }  // namespace trueflank

@@ -12,7 +12,6 @@
 #include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
-namespace {
 
 void add_exact_verdict(const GearPair& pair, MeshClearance& result) {
   const Point2 axis2(pair.internal() ? -pair.centre_distance_mm : pair.centre_distance_mm, 0.0);
@@ -21,6 +20,8 @@ void add_exact_verdict(const GearPair& pair, MeshClearance& result) {
   result.exact = crossing.cross ? ExactVerdict::kCross : ExactVerdict::kApart;
   result.chord_error_mm = crossing.chord_error_mm;
 }
+
+namespace {
 
 struct PairDistances {
   GearDistance gear1, gear2;
@@ -52,14 +53,18 @@ MeshClearance mirror_image(MeshClearance c) {
   return c;
 }
 
+/// The lower of both halves, the clockwise one as its image has it, gear 2 turned by an angle.
+MeshClearance lower_of_halves(MeshClearance own, const MirroredPair& image, double turn_rad) {
+  MeshClearance other = mirror_image(sweep_both(image.pair(), image.distances.gear1,
+                                                image.distances.gear2, -turn_rad, -turn_rad));
+  return other.clearance_mm < own.clearance_mm ? other : own;
+}
+
 /// Both halves of both gears against each other, gear 2 turned by an angle.
 MeshClearance swept(const GearPair& pair, const PairDistances& d, double turn_rad) {
   MeshClearance result = sweep_both(pair, d.gear1, d.gear2, turn_rad, turn_rad);
   if (turn_rad == 0.0 && symmetric(pair)) return result;
-  const MirroredPair image(pair);
-  const MeshClearance other = mirror_image(sweep_both(
-      image.pair(), image.distances.gear1, image.distances.gear2, -turn_rad, -turn_rad));
-  return other.clearance_mm < result.clearance_mm ? other : result;
+  return lower_of_halves(std::move(result), MirroredPair(pair), turn_rad);
 }
 
 MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_rad) {
@@ -70,15 +75,26 @@ MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_
 
 /// Gear 2 turned towards the counter-clockwise flank of gear 1; a ring's own counter-clockwise flank
 /// touches on the other side.
-MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn) {
-  return pair.internal() ? sweep_both(pair, d.gear1, d.gear2, -turn, turn)
-                         : sweep_both(pair, d.gear1, d.gear2, turn, turn);
+MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn,
+                     SweptPlaces places = SweptPlaces::kAll) {
+  return sweep_both(pair, d.gear1, d.gear2, pair.internal() ? -turn : turn, turn, places);
+}
+
+/// By which gear 2 turns from the middle of its play to its end; 0 without play.
+double closing_rad(const GearPair& pair) {
+  const double backlash = circumferential_backlash_mm(pair);
+  return backlash > kZero_mm ? 0.5 * backlash / pitch_radius2_mm(pair) : 0.0;
 }
 
 MeshClearance driving(const GearPair& pair, const PairDistances& d) {
-  const double backlash = circumferential_backlash_mm(pair);
-  if (!(backlash > kZero_mm)) return {};
-  return closed(pair, d, 0.5 * backlash / pitch_radius2_mm(pair));
+  const double turn = closing_rad(pair);
+  return turn > 0.0 ? closed(pair, d, turn) : MeshClearance{};
+}
+
+double tip_clearance_mm(const GearPair& pair, double turn_rad) {
+  TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
+  const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
+  return closed(pair, d, turn_rad, SweptPlaces::kTips).clearance_mm;
 }
 
 const char* piece_text(PieceKind kind) {
@@ -113,20 +129,32 @@ double sweep_clearance_mm(const GearPair& pair) {
   return swept(pair, d, 0.0).clearance_mm;
 }
 
+double tip_sweep_clearance_mm(const GearPair& pair) { return tip_clearance_mm(pair, 0.0); }
+
+double tip_driving_clearance_mm(const GearPair& pair) { return tip_clearance_mm(pair, closing_rad(pair)); }
+
 MeshClearance driving_clearance(const GearPair& pair) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
   return driving(pair, d);
 }
 
-MeshClearance closed_clearance(const GearPair& pair, Flank flank1, double closing_rad) {
+MeshState mesh_state(const GearPair& pair, double left_rad, double right_rad) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
-  if (flank1 == Flank::kRight) {
-    const MirroredPair image(pair);
-    return mirror_image(closed(image.pair(), image.distances, closing_rad));
-  }
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-  return closed(pair, d, closing_rad);
+  const bool drives = left_rad > 0.0 && right_rad > 0.0;
+  MeshState state;
+  state.centred = sweep_both(pair, d.gear1, d.gear2, 0.0, 0.0);
+  if (!symmetric(pair) || drives) {
+    const MirroredPair image(pair);
+    if (!symmetric(pair)) state.centred = lower_of_halves(std::move(state.centred), image, 0.0);
+    if (drives) {
+      state.driving = closed(pair, d, left_rad);
+      MeshClearance right = mirror_image(closed(image.pair(), image.distances, right_rad));
+      if (right.clearance_mm < state.driving.clearance_mm) state.driving = std::move(right);
+    }
+  }
+  return state;
 }
 
 std::string place_text(const MeshPlace& place, const std::string& name1, const std::string& name2) {

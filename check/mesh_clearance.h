@@ -54,12 +54,16 @@ struct MeshClearance {
 /// The clearance alone, without the exact verdict; for solvers.
 [[nodiscard]] double sweep_clearance_mm(const GearPair& pair);
 
+/// The same of the tip corners alone (or their roundings): a small part of the work, and never below the
+/// clearance of all places. For bisections that verify their answer.
+[[nodiscard]] double tip_sweep_clearance_mm(const GearPair& pair);
+/// The same as one gear drives the other; centred where there is no backlash to take up.
+[[nodiscard]] double tip_driving_clearance_mm(const GearPair& pair);
+
 /// The clearance with gear 2 turned until the flanks of the left side of gear 1 touch as they do when
 /// driving. Below 0: something else touches first (a tip corner in a root fillet), and the teeth
 /// cannot run conjugate there. NaN where there is no backlash to take up.
 [[nodiscard]] MeshClearance driving_clearance(const GearPair& pair);
-/// The same with gear 2 turned by a given angle [rad] that closes the play of one side of gear 1.
-[[nodiscard]] MeshClearance closed_clearance(const GearPair& pair, Flank flank1, double closing_rad);
 
 /// What stands at a place, in words: "tip corner of sun (diameter 14.2 mm) at the root fillet of ...".
 [[nodiscard]] std::string place_text(const MeshPlace& place, const std::string& name1,
@@ -71,6 +75,11 @@ struct MeshState {
   MeshClearance driving;  ///< of modified flanks, which differ by the side, the lower of both sides
   std::optional<RadialRemoval> removal;  ///< rings only
 };
+/// Of one pair, gear 2 turned by these angles [rad] that close the play of either side of gear 1; no
+/// driving one where either is 0. No exact verdict, no removal.
+[[nodiscard]] MeshState mesh_state(const GearPair& pair, double left_rad, double right_rad);
+/// Whether the teeth cross at the place of a centred clearance.
+void add_exact_verdict(const GearPair& pair, MeshClearance& result);
 /// Of every mesh of a train, in its order. Where flanks are modified the sections of both gears at the
 /// heights with most material are turned, exact to section_profile.h; the worst of them counts.
 [[nodiscard]] std::vector<MeshState> mesh_states(const GearTrain& train);

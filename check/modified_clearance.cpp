@@ -91,16 +91,17 @@ std::vector<MeshSection> decisive_sections(const GearTrain& train, const TrainMe
 MeshState modified_state(const GearTrain& train, const TrainMesh& mesh) {
   const ModifiedMesh play = modified_mesh(train, mesh);
   const double r_b2 = base_radius_mm(gear_of(train, mesh.gear2).profile.gear());
+  const bool drives = play.ccw_play_mm > kNoPlay_mm && play.cw_play_mm > kNoPlay_mm;
   MeshState state;
-  for (const MeshSection& section : decisive_sections(train, mesh)) {
-    const GearPair pair = section.pair();
-    keep_lower(state.centred, mesh_clearance(pair), section.z_mm);
-    if (!(play.ccw_play_mm > kNoPlay_mm && play.cw_play_mm > kNoPlay_mm)) continue;
-    keep_lower(state.driving, closed_clearance(pair, Flank::kLeft, play.ccw_play_mm / r_b2),
-               section.z_mm);
-    keep_lower(state.driving, closed_clearance(pair, Flank::kRight, play.cw_play_mm / r_b2),
-               section.z_mm);
+  const std::vector<MeshSection> sections = decisive_sections(train, mesh);
+  for (const MeshSection& section : sections) {
+    MeshState here = mesh_state(section.pair(), drives ? play.ccw_play_mm / r_b2 : 0.0,
+                                drives ? play.cw_play_mm / r_b2 : 0.0);
+    keep_lower(state.centred, std::move(here.centred), section.z_mm);
+    if (drives) keep_lower(state.driving, std::move(here.driving), section.z_mm);
   }
+  for (const MeshSection& section : sections)
+    if (section.z_mm == state.centred.z_mm) add_exact_verdict(section.pair(), state.centred);
   return state;
 }
 

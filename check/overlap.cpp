@@ -25,7 +25,8 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
   const double unmodified =
       is_modified(train, mesh) ? sweep_clearance_mm(pair) : centred.clearance_mm;
   if (is_modified(train, mesh) && unmodified > -tolerance::kTouch_mm)
-    return "without their modifications these teeth clear each other: smaller slopes, or backlash_mm "
+    return "without their modifications these teeth clear each other: smaller slopes, or "
+           "backlash_mm "
            "larger by " +
            number_text(-2.0 * centred.clearance_mm / std::cos(working_pressure_angle_rad(pair)));
   const double backlash = circumferential_backlash_mm(pair);
@@ -34,13 +35,21 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
            um_text(-backlash * reference_radius_mm(pair.gear1()) / pitch_radius1_mm(pair)) +
            " on the reference circle (both gears together), or shifts that fit the centre distance";
   const double cost = std::max(0.0, unmodified - centred.clearance_mm);  // of the modifications
-  return cure_text(train, mesh, tip_is_of_gear1(pair, centred.place), [cost](const GearPair& changed) {
-    return sweep_clearance_mm(changed) - cost + tolerance::kTouch_mm;
-  });
+  const double less_mm = tolerance::kTouch_mm - cost;
+  return cure_text(
+      train, mesh, tip_is_of_gear1(pair, centred.place),
+      {.exact =
+           [less_mm](const GearPair& changed) { return sweep_clearance_mm(changed) + less_mm; },
+       .quick =
+           [less_mm](const GearPair& changed) {
+             return tip_sweep_clearance_mm(changed) + less_mm;
+           }});
 }
 
-/// Flanks part by half of the backlash, seen along their normal; a root that is nearer needs another tip or shift.
-std::string cure_of_clearance(const GearTrain& train, const TrainMesh& mesh, double clearance, double asked) {
+/// Flanks part by half of the backlash, seen along their normal; a root that is nearer needs
+/// another tip or shift.
+std::string cure_of_clearance(const GearTrain& train, const TrainMesh& mesh, double clearance,
+                              double asked) {
   const GearPair pair = train.pair(mesh);
   const double per_backlash = 0.5 * std::cos(working_pressure_angle_rad(pair)) *
                               std::cos(base_helix_angle_rad(pair.gear1()));
@@ -68,8 +77,8 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshClearance
     finding.margin = um_from_mm(clearance - asked);
     if (clearance < asked - tolerance::kTouch_mm) {
       finding.status = CheckStatus::kFail;
-      finding.message = "smallest clearance " + um_text(clearance) + " over a mesh cycle, " + um_text(asked) +
-                        " are asked for (made.clearance_um): " + place;
+      finding.message = "smallest clearance " + um_text(clearance) + " over a mesh cycle, " +
+                        um_text(asked) + " are asked for (made.clearance_um): " + place;
       finding.cure = cure_of_clearance(train, mesh, clearance, asked);
       return finding;
     }

@@ -20,15 +20,6 @@ double smallest_angle_rad(const std::vector<double>& positions) {
   return smallest;
 }
 
-/// Most planets of a tip radius that stand at equal spacing without touching.
-int most_planets(double centre_distance_mm, double tip_radius_mm) {
-  const double ratio = tip_radius_mm / centre_distance_mm;
-  if (ratio >= 1.0) return 1;
-  int n = static_cast<int>(std::floor(kPi / std::asin(ratio)));
-  while (n > 1 && centre_distance_mm * std::sin(kPi / n) <= tip_radius_mm) --n;
-  return n;
-}
-
 Finding judge(const GearTrain& train, const TrainGear& gear) {
   const double a = train.centre_distance_mm, tip = gear.profile.tip_radius_mm();
   const double angle = std::min(smallest_angle_rad(train.phases.planet_position_rad), kPi);
@@ -53,6 +44,14 @@ Finding judge(const GearTrain& train, const TrainGear& gear) {
 }
 
 }  // namespace
+
+int most_planets(double centre_distance_mm, double tip_radius_mm) {
+  const double ratio = tip_radius_mm / centre_distance_mm;
+  if (ratio >= 1.0) return 1;
+  int n = static_cast<int>(std::floor(kPi / std::asin(ratio)));
+  while (n > 1 && centre_distance_mm * std::sin(kPi / n) <= tip_radius_mm) --n;
+  return n;
+}
 
 Findings check_planet_spacing(const GearTrain& train) {
   Findings findings;

@@ -10,4 +10,7 @@ namespace trueflank {
 /// neighbouring planets where they stand. Fails where they touch.
 [[nodiscard]] Findings check_planet_spacing(const GearTrain& train);
 
+/// Most planets of a tip radius that stand at equal spacing without touching.
+[[nodiscard]] int most_planets(double centre_distance_mm, double tip_radius_mm);
+
 }  // namespace trueflank

@@ -17,12 +17,12 @@
 namespace trueflank {
 namespace {
 
-constexpr double kGridStep = 0.05;     // of the module, along the path and along the profile
-constexpr double kSagOfGrid = 2e-4;    // of the module: finer where the profile bends
-constexpr double kReachMargin = 0.3;   // of the module, beyond the mate's tip circle
-constexpr double kFlankStep = 0.1;     // of the module, along the involute
+constexpr double kGridStep = 0.05;    // of the module, along the path and along the profile
+constexpr double kSagOfGrid = 2e-4;   // of the module: finer where the profile bends
+constexpr double kReachMargin = 0.3;  // of the module, beyond the mate's tip circle
+constexpr double kFlankStep = 0.1;    // of the module, along the involute
 // A valley with a radius of curvature of 0.1 module lies at most 0.003 module below its grid.
-constexpr double kRefineBand = 0.01;   // of the module above the lowest grid value
+constexpr double kRefineBand = 0.01;  // of the module above the lowest grid value
 constexpr std::size_t kMostRefined = 24;
 /// Clearances and angles this near are equal, far above rounding and below what anybody reads.
 constexpr double kSame_mm = 1e-9, kSame_rad = 1e-7;
@@ -34,34 +34,54 @@ struct Sample {
   double parameter, low, high;  // neighbours on the piece, for refinement; equal for a corner
 };
 
-std::vector<Sample> samples_of(const ToothProfile& profile) {
+Sample corner_sample(const Curve& curve, std::size_t piece, double at) {
+  return {point_at(curve, at), static_cast<int>(piece), at, at, at};
+}
+
+/// The places of one piece, ends included.
+void add_samples(const ToothProfile& profile, std::size_t k, std::vector<Sample>& samples) {
   const double m = profile.gear().normal_module_mm;
+  const Curve& curve = profile.pieces()[k].curve;
+  double length = 0.0;
+  constexpr int kRough = 16;
+  for (int i = 0; i < kRough; ++i) {
+    const double u = curve.begin + (curve.end - curve.begin) * i / kRough;
+    length += (point_at(curve, u + (curve.end - curve.begin) / kRough) - point_at(curve, u)).norm();
+  }
+  const double wanted = profile.pieces()[k].kind == PieceKind::kInvolute ? kFlankStep : kGridStep;
+  const double sag = chord_error_mm(curve, curve.begin, curve.end);
+  const int n = static_cast<int>(std::clamp(
+      std::ceil(std::max(length / (wanted * m), std::sqrt(sag / (kSagOfGrid * m)))), 2.0, 400.0));
+  const double step = (curve.end - curve.begin) / n;
+  for (int i = 0; i <= n; ++i) {
+    const double u = i == n ? curve.end : curve.begin + step * i;
+    const double low = i == 0 ? curve.begin : u - step, high = i == n ? curve.end : u + step;
+    samples.push_back({point_at(curve, u), static_cast<int>(k), u, low, high});
+  }
+}
+
+std::vector<Sample> samples_of(const ToothProfile& profile) {
   std::vector<Sample> samples;
   const auto& pieces = profile.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Curve& curve = pieces[k].curve;
-    double length = 0.0;
-    constexpr int kRough = 16;
-    for (int i = 0; i < kRough; ++i) {
-      const double u = curve.begin + (curve.end - curve.begin) * i / kRough;
-      length += (point_at(curve, u + (curve.end - curve.begin) / kRough) - point_at(curve, u)).norm();
-    }
-    const double wanted = pieces[k].kind == PieceKind::kInvolute ? kFlankStep : kGridStep;
-    const double sag = chord_error_mm(curve, curve.begin, curve.end);
-    const int n = static_cast<int>(std::clamp(
-        std::ceil(std::max(length / (wanted * m), std::sqrt(sag / (kSagOfGrid * m)))), 2.0, 400.0));
-    const double step = (curve.end - curve.begin) / n;
-    const int piece = static_cast<int>(k);
-    samples.push_back({curve.start_point(), piece, curve.begin, curve.begin, curve.begin});
-    for (int i = 0; i <= n; ++i) {
-      const double u = i == n ? curve.end : curve.begin + step * i;
-      const double low = i == 0 ? curve.begin : u - step, high = i == n ? curve.end : u + step;
-      samples.push_back({point_at(curve, u), piece, u, low, high});
-    }
+    samples.push_back(corner_sample(pieces[k].curve, k, pieces[k].curve.begin));
+    add_samples(profile, k, samples);
   }
-  const Curve& last = pieces.back().curve;
-  samples.push_back(
-      {last.end_point(), static_cast<int>(pieces.size()) - 1, last.end, last.end, last.end});
+  samples.push_back(corner_sample(pieces.back().curve, pieces.size() - 1, pieces.back().curve.end));
+  return samples;
+}
+
+/// Tip corners, and the pieces that stand in their place.
+std::vector<Sample> tips_of(const ToothProfile& profile) {
+  std::vector<Sample> samples;
+  const auto& pieces = profile.pieces();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Sample begin = corner_sample(pieces[k].curve, k, pieces[k].curve.begin);
+    if (std::abs(begin.point.norm() - profile.tip_radius_mm()) < tolerance::kTouch_mm)
+      samples.push_back(begin);
+    if (pieces[k].kind == PieceKind::kTipRounding || pieces[k].kind == PieceKind::kTrim)
+      add_samples(profile, k, samples);
+  }
   return samples;
 }
 
@@ -91,7 +111,7 @@ class Sweep {
     double angle = 0.0;
   };
 
-  [[nodiscard]] Place lowest() const;
+  [[nodiscard]] Place lowest(SweptPlaces places) const;
   [[nodiscard]] static bool comes_first(const Place& a, const Place& b);
   [[nodiscard]] MeshPlace describe(const Place& place) const;
 
@@ -120,7 +140,8 @@ double Sweep::reach_rad() const {
   const double m = mover_.gear().normal_module_mm;
   const double r = mover_.tip_radius_mm(), a = distance_;
   const bool mate_is_ring = mate_profile_.gear().kind == GearKind::kInternal;
-  const double r_mate = mate_profile_.tip_radius_mm() + (mate_is_ring ? -1.0 : 1.0) * kReachMargin * m;
+  const double r_mate =
+      mate_profile_.tip_radius_mm() + (mate_is_ring ? -1.0 : 1.0) * kReachMargin * m;
   double cosine = (a * a + r * r - r_mate * r_mate) / (2.0 * a * r);
   if (mate_is_ring) cosine = -cosine;  // near where the distance from the ring's axis is large
   return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover_.gear().teeth, kPi);
@@ -148,9 +169,10 @@ bool Sweep::comes_first(const Place& a, const Place& b) {
   return rank(a) < rank(b);
 }
 
-Sweep::Place Sweep::lowest() const {
+Sweep::Place Sweep::lowest(SweptPlaces places) const {
   const double m = mover_.gear().normal_module_mm;
-  const std::vector<Sample> samples = samples_of(mover_);
+  const std::vector<Sample> samples =
+      places == SweptPlaces::kTips ? tips_of(mover_) : samples_of(mover_);
   const double reach = reach_rad();
   // relative speed = relative turning times the distance from the pitch point
   const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
@@ -188,9 +210,10 @@ Sweep::Place Sweep::lowest() const {
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
       const double from_pitch_point = std::hypot(x + axis_ - pitch_radius, y);
       const auto pass_over = [&](double distance_mm) {
-        next_column[i] = j + 1 + columns_without(distance_mm - (lowest + kRefineBand * m),
-                                                 step * turning * from_pitch_point,
-                                                 step * step * turning * p.norm());
+        next_column[i] =
+            j + 1 +
+            columns_without(distance_mm - (lowest + kRefineBand * m),
+                            step * turning * from_pitch_point, step * step * turning * p.norm());
       };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
       const double beyond = mate_outward * (std::hypot(x, y) - mate_tip);
@@ -204,7 +227,8 @@ Sweep::Place Sweep::lowest() const {
       lowest = std::min(lowest, near.distance_mm);
       pass_over(near.distance_mm);
       const std::size_t kind = (static_cast<std::size_t>(samples[i].piece) * mate_pieces +
-                                static_cast<std::size_t>(near.piece)) * 4 +
+                                static_cast<std::size_t>(near.piece)) *
+                                   4 +
                                (near.corner ? 2u : 0u) + (near.clockwise_half ? 1u : 0u);
       Place& best = best_of_kind[kind];
       if (near.distance_mm < best.clearance - kSame_mm)
@@ -245,9 +269,9 @@ Sweep::Place Sweep::refined(const Place& start, double step) const {
     if (start.sample.low == start.sample.high) return clearance(start.sample.point, angle);
     const double low = std::min(start.sample.low, start.sample.high);
     const double high = std::max(start.sample.low, start.sample.high);
-    const ScalarMinimum inner = find_minimum(
-        [&](double u) { return clearance(point_at(curve, u), angle); }, low, high,
-        1e-6 * (high - low));
+    const ScalarMinimum inner =
+        find_minimum([&](double u) { return clearance(point_at(curve, u), angle); }, low, high,
+                     1e-6 * (high - low));
     if (inner.value < best.clearance) {
       best.clearance = inner.value;
       best.angle = angle;
@@ -307,14 +331,14 @@ MeshPlace Sweep::describe(const Place& place) const {
 }  // namespace
 
 MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2,
-                         double turn_rad, double turn_for_gear2_moving_rad) {
+                         double turn_rad, double turn_for_gear2_moving_rad, SweptPlaces places) {
   const Sweep first(pair, gear2, true, turn_rad);
   // seen from gear 2, gear 1 is turned back by the same motion at the pitch circle
   const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth;
   const double back = (pair.internal() ? -1.0 : 1.0) * turn_for_gear2_moving_rad * z2 / z1;
   const Sweep second(pair, gear1, false, back);
-  const auto place1 = first.lowest();
-  const auto place2 = second.lowest();
+  const auto place1 = first.lowest(places);
+  const auto place2 = second.lowest(places);
   MeshClearance result;
   const bool use_first = place1.clearance <= place2.clearance + kSame_mm;
   result.clearance_mm = std::min(place1.clearance, place2.clearance);

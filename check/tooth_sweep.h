@@ -9,6 +9,12 @@ namespace trueflank {
 /// Distances below this are told as 0.
 inline constexpr double kZero_mm = 1e-9;
 
+/// Which places of the moving tooth are looked at.
+enum class SweptPlaces {
+  kAll,
+  kTips,  ///< tip corners alone, or what stands in their place (rounding, trimmed corner): never less than kAll
+};
+
 /// The counter-clockwise half tooth of either gear turned through the whole mesh against the other gear;
 /// the lowest place of both sweeps, without the exact verdict. With centred backlash the clockwise halves
 /// are the mirror image. `gear1`, `gear2`: distances from the pair's profiles. Gear 2 is turned out of the
@@ -16,6 +22,7 @@ inline constexpr double kZero_mm = 1e-9;
 /// Accuracy: mesh_clearance()'s.
 [[nodiscard]] MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1,
                                        const GearDistance& gear2, double turn_rad,
-                                       double turn_for_gear2_moving_rad);
+                                       double turn_for_gear2_moving_rad,
+                                       SweptPlaces places = SweptPlaces::kAll);
 
 }  // namespace trueflank

@@ -13,11 +13,13 @@
 namespace trueflank {
 namespace {
 
-std::string axial_text(const GearTrain& train, const MeshState& state) {
+std::string axial_text(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   if (state.centred.clearance_mm < -tolerance::kTouch_mm)
     return " Axially it does not go in either: the profiles penetrate.";
   if (train.design.herringbone)
-    return " A herringbone cannot go in axially: the ring must be split.";
+    return is_made_in_halves(train.design, train.design.gears[static_cast<std::size_t>(mesh.gear2)])
+               ? " Axially each half of the ring goes on from its side."
+               : " A herringbone cannot go in axially: the ring must be split (halves = true).";
   return " It goes in axially.";
 }
 
@@ -50,14 +52,14 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
   }
   if (removal.at_every_rotation) return finding;
   finding.status = CheckStatus::kWarn;
-  finding.message += axial_text(train, state);
+  finding.message += axial_text(train, mesh, state);
   const double unmodified = trimming_margin_rad(pair);
   const double cost = std::isnan(unmodified) ? 0.0 : unmodified - margin;  // of the modifications
   const PairMargin wanted = [cost](const GearPair& changed) {
     return changed.internal() ? trimming_margin_rad(changed) - cost : kNaN;
   };
   finding.cure = margin >= 0.0 ? "axial assembly; or more teeth between pinion and ring"
-                               : "axial assembly; or " + cure_text(train, mesh, true, wanted);
+                               : "axial assembly; or " + cure_text(train, mesh, true, {.exact = wanted});
   return finding;
 }
 

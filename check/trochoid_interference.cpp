@@ -44,9 +44,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& st
                                 : "; the exact profiles clear each other by " +
                                       um_text(state.centred.clearance_mm);
   const double cost = trochoid_margin_rad(pair) - margin;  // of the modifications
-  finding.cure = cure_text(train, mesh, true, [cost](const GearPair& changed) {
+  finding.cure = cure_text(train, mesh, true, {.exact = [cost](const GearPair& changed) {
     return changed.internal() ? trochoid_margin_rad(changed) - cost : kNaN;
-  });
+  }});
   return finding;
 }
 

@@ -27,6 +27,8 @@ file(WRITE "${OUTPUT}.new" "// Generated from templates/report.\n"
 append_constant(kFrame "${TEMPLATES}/page.html")
 append_constant(kStyle "${TEMPLATES}/style.css")
 append_constant(kScript "${TEMPLATES}/page.js")
+append_constant(kDimensions "${TEMPLATES}/dimensions.js")
+append_constant(kMeshes "${TEMPLATES}/meshes.js")
 append_constant(kViewer "${VIEWER}")
 append_constant(kLicence "${LICENCE}")
 file(APPEND "${OUTPUT}.new" "}  // namespace trueflank::io::page\n")

@@ -40,6 +40,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   search/search_model.h
   search/search_optimise.h
   search/search_requirements.h
+  search/search_train.h
   check/check_gearbox.h
   check/finding.h
   check/mesh_clearance.h

@@ -14,7 +14,8 @@ function(trueflank_report_page source)
       COMMAND ${TRUEFLANK_NODE} ${modules}/esbuild/bin/esbuild ${templates}/viewer.js
         --bundle --minify --format=iife --legal-comments=inline --target=es2020
         --log-level=warning --outfile=${viewer}
-      DEPENDS ${templates}/viewer.js ${templates}/package-lock.json
+      DEPENDS ${templates}/viewer.js ${templates}/solids.js ${templates}/section.js ${templates}/labels.js
+        ${templates}/package-lock.json
       COMMENT "Bundling three.js into the report" VERBATIM)
   else()
     message(STATUS "trueflank: no three.js, report.html will have no picture in 3D "
@@ -27,7 +28,9 @@ function(trueflank_report_page source)
     COMMAND ${CMAKE_COMMAND} -D OUTPUT=${generated} -D TEMPLATES=${templates}
       -D VIEWER=${viewer} -D LICENCE=${licence}
       -P ${PROJECT_SOURCE_DIR}/cmake/embed_report_page.cmake
-    DEPENDS ${templates}/page.html ${templates}/style.css ${templates}/page.js ${viewer}
+    DEPENDS ${templates}/page.html ${templates}/style.css ${templates}/page.js
+      ${templates}/dimensions.js
+      ${templates}/meshes.js ${viewer}
       ${PROJECT_SOURCE_DIR}/cmake/embed_report_page.cmake
     COMMENT "Embedding the report's page" VERBATIM)
   set(${source} ${generated} PARENT_SCOPE)

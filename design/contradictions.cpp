@@ -8,6 +8,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
 #include "trueflank/design/design_name.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -36,6 +37,7 @@ class Contradictions {
       check_modifications();
       if (gear.kind == GearKind::kInternal) {
         check_bolts();
+        check_halves();
         check_outer_diameter();
         check_cutter();
       } else {
@@ -339,6 +341,16 @@ class Contradictions {
             "more than " + mm(*root + bolts.hole_diameter_mm));
   }
 
+  void check_halves() {
+    if (gear_->halves.value_or(false) && !design_.herringbone && good("halves"))
+      wrong("halves", "halves part at the apex of herringbone teeth, and these teeth have none",
+            "herringbone = true, or no such key");
+    if (gear_->halves.value_or(false) && design_.herringbone && design_.machine && good("halves") &&
+        !is_made_in_halves(design_, *gear_))
+      wrong("halves", "the ring that drives out is one part with its cup in a [housing]",
+            "no such key, or no [housing]");
+  }
+
   void check_outer_diameter() {
     const auto root = root_diameter_mm();
     if (root && good("outer_diameter_mm") && *gear_->outer_diameter_mm <= *root)
@@ -407,9 +419,9 @@ class Contradictions {
 
   void check_machine() {
     const Topology& topology = design_.topology;
-    if (kind_known_ && !(topology.has_planets() && carries_planets_freely(topology)))
-      reading_.contradiction("housing", "no housing is made for this kind with this output",
-                             "a kind with planets and a fixed ring, or no [housing]");
+    if (kind_known_ && !has_housing(topology))
+      reading_.contradiction("housing", "no housing is made for a kind without planets",
+                             "a kind with planets, or no [housing]");
     check_motor(design_.machine->motor);
     for (const GearDesign& gear : design_.gears)
       if (gear.kind == GearKind::kInternal)
@@ -420,12 +432,6 @@ class Contradictions {
     if (reading_.has("carrier.bearing_diameter_mm"))
       reading_.contradiction("carrier.bearing_diameter_mm", "the carrier of a gearbox has no such seat",
                              "[bearings], or no [housing]");
-  }
-
-  /// A ring is held, and the carrier turns.
-  static bool carries_planets_freely(const Topology& topology) {
-    return std::none_of(topology.fixed.begin(), topology.fixed.end(),
-                        [&](int member) { return topology.is_carrier(member); });
   }
 
   void check_motor(const Motor& motor) {

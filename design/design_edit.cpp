@@ -29,15 +29,23 @@ struct ValuePlace {
   std::size_t begin = 0, end = 0;          ///< of the value, blanks left out
 };
 
-std::optional<ValuePlace> value_place(const std::string& line, const std::string& key) {
+/// `dotted`: the key with its tables; the line may name any number of them ("ring.cutter.teeth =
+/// 20").
+std::optional<ValuePlace> value_place(const std::string& line, const std::string& dotted) {
+  const auto names = [&](const std::string& name) {
+    return name == dotted ||
+           (dotted.ends_with(name) && dotted[dotted.size() - name.size() - 1] == '.');
+  };
   ValuePlace place;
   while (place.key_begin < line.size() && blank(line[place.key_begin])) ++place.key_begin;
   const auto equals = line.find('=', place.key_begin);
   if (equals == std::string::npos) return std::nullopt;
   place.key_end = equals;
   while (place.key_end > place.key_begin && blank(line[place.key_end - 1])) --place.key_end;
-  const std::string name = line.substr(place.key_begin, place.key_end - place.key_begin);
-  if (name != key && name != "\"" + key + "\"") return std::nullopt;
+  std::string name = line.substr(place.key_begin, place.key_end - place.key_begin);
+  if (name.size() > 2 && name.starts_with('"') && name.ends_with('"'))
+    name = name.substr(1, name.size() - 2);
+  if (name.empty() || !names(name)) return std::nullopt;
   place.begin = equals + 1;
   while (place.begin < line.size() && blank(line[place.begin])) ++place.begin;
   char quote = 0;
@@ -53,10 +61,18 @@ std::optional<ValuePlace> value_place(const std::string& line, const std::string
   return place;
 }
 
+/// "ring.cutter." of "ring.cutter.teeth = 20"; empty where the line names the key alone.
+std::string tables_before(const std::string& line, const ValuePlace& place) {
+  const std::string name = line.substr(place.key_begin, place.key_end - place.key_begin);
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? "" : name.substr(0, dot + 1);
+}
+
 /// The value replaced; a comment behind it keeps its column where there is room.
 std::string with_value(const std::string& line, const ValuePlace& place, const std::string& name,
                        const std::string& value) {
-  std::string changed = line.substr(0, place.key_begin) + name + line.substr(place.key_end, place.begin - place.key_end) + value;
+  std::string changed = line.substr(0, place.key_begin) + tables_before(line, place) + name +
+                        line.substr(place.key_end, place.begin - place.key_end) + value;
   std::string rest = line.substr(place.end);
   const auto comment = rest.find('#');
   if (comment == std::string::npos) return changed + rest;
@@ -79,10 +95,10 @@ class Editor {
       const std::string inches = change.key.substr(0, change.key.size() - 3) + "_in";
       const std::string dotted = change.table.empty() ? inches : change.table + "." + inches;
       if (const auto other = file_.lines.find(dotted); other != file_.lines.end())
-        return replace(other->second, change, inches);
+        return replace(other->second, change, dotted);
     }
     const auto found = file_.lines.find(change.dotted());
-    if (found != file_.lines.end()) return replace(found->second, change, change.key);
+    if (found != file_.lines.end()) return replace(found->second, change, change.dotted());
     return change.after.empty() || insert(change);
   }
 
@@ -97,9 +113,9 @@ class Editor {
   }
 
  private:
-  bool replace(int number, const DesignKeyChange& change, const std::string& key) {
+  bool replace(int number, const DesignKeyChange& change, const std::string& dotted) {
     std::string& line = lines_.at(static_cast<std::size_t>(number - 1));
-    const auto place = value_place(line, key);
+    const auto place = value_place(line, dotted);
     if (!place) return false;
     line = change.after.empty() ? "# " + line : with_value(line, *place, change.key, change.after);
     return true;
@@ -118,12 +134,19 @@ class Editor {
       return true;
     }
     int last = header->second;
+    std::string tables;  // that keys beside it name: those of a table without a header do
     const std::string prefix = change.table + ".";
     for (const auto& [key, line] : file_.lines)
       if (key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos &&
-          !is_table(key))
-        last = std::max(last, line);
-    behind_[static_cast<std::size_t>(last - 1)].push_back(written);
+          !is_table(key) && line >= last) {
+        last = line;
+        const std::string& beside = lines_.at(static_cast<std::size_t>(line - 1));
+        const auto place = value_place(beside, key);
+        tables = place ? tables_before(beside, *place) : "";
+      }
+    const bool carriage_return = lines_.at(static_cast<std::size_t>(last - 1)).ends_with('\r');
+    behind_[static_cast<std::size_t>(last - 1)].push_back(tables + written +
+                                                          (carriage_return ? "\r" : ""));
     return true;
   }
 

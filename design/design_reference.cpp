@@ -15,7 +15,8 @@ constexpr const char* kIntroduction = R"(# The design file
 A gearbox is described in one [TOML](https://toml.io) file of UTF-8 text. Lengths are in
 millimetres, small ones in micrometres, angles in degrees; every key with a unit says it in its
 name. Keys without a unit are pure numbers or multiples of the module. Every key that ends in `_mm`
-may be given as `_in`, in inches, and `diametral_pitch` (teeth per inch) for `module_mm`.
+may be given as `_in`, in inches, and `diametral_pitch` (teeth per inch) for `module_mm`; the table
+of `trueflank check`, `report.json` (`inches`) and `report.html` then tell sizes in both.
 
 ```toml
 format = 1

@@ -174,6 +174,12 @@ std::vector<DesignKey<G>> ring_keys() {
        KeyPlace::kRing,
        [](G& g, const KeyValue& v) { g.bolt_circle.hole_diameter_mm = number(v); },
        [](const G& g) { return unless_zero(g.bolt_circle.hole_diameter_mm); }},
+      {{.name = "halves", .type = KeyType::kFlag, .by_default = "true in a [housing], else false",
+        .meaning = "herringbone rings: made as two parts, split at the apex, that close over the planets "
+                   "from either side"},
+       KeyPlace::kRing,
+       [](G& g, const KeyValue& v) { g.halves = std::get<bool>(v); },
+       [](const G& g) { return g.halves ? Value(*g.halves) : Value(); }},
       {{.name = "root", .type = KeyType::kChoice, .choices = {"fillet", "shaper"},
         .by_default = "\"fillet\"",
         .meaning = "fillet: the involute to the root circle, filleted with root_radius, full round "

@@ -2,6 +2,8 @@
 #include "trueflank/design/inch_keys.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <optional>
 
 namespace trueflank {
@@ -14,6 +16,15 @@ std::optional<double> number_of(const TomlValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* number = std::get_if<double>(&value)) return *number;
   return std::nullopt;
+}
+
+/// The nearest number of 15 digits: 0.09 in is 2.286 mm, not 2.2859999999999996.
+double as_decimal(double value) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, 14).ptr;
+  double decimal = value;
+  std::from_chars(text.data(), end, decimal);
+  return decimal;
 }
 
 /// The metric key; empty where this is none in inches.
@@ -36,7 +47,7 @@ void convert(TomlTable& table, const std::string& prefix, std::vector<InchKey>& 
     const bool twice = table.find(metric) != nullptr;
     renamed.push_back({prefix + entry.key, prefix + metric, quoted_toml(entry.value), entry.line, twice});
     if (twice) continue;
-    entry.value = entry.key == kPitch ? kInch_mm / *number : kInch_mm * *number;
+    entry.value = entry.key == kPitch ? kInch_mm / *number : as_decimal(kInch_mm * *number);
     entry.key = metric;
   }
   // what is told twice is told to the user, and taken once

@@ -11,11 +11,18 @@ namespace {
 
 std::string type_name(const KeyRule& rule) {
   switch (rule.type) {
-    case KeyType::kWhole: return rule.lower == rule.upper ? "" : "a whole number";
-    case KeyType::kNumber: return "a number";
-    case KeyType::kText: return "text in quotes";
-    case KeyType::kFlag: return "true or false";
-    case KeyType::kChoice: break;
+    case KeyType::kWholeList:
+      return "a whole number, or several in quotes by commas, each";
+    case KeyType::kWhole:
+      return rule.lower == rule.upper ? "" : "a whole number";
+    case KeyType::kNumber:
+      return "a number";
+    case KeyType::kText:
+      return "text in quotes";
+    case KeyType::kFlag:
+      return "true or false";
+    case KeyType::kChoice:
+      break;
   }
   std::string list = rule.choices.size() == 1 ? "" : "one of ";
   for (std::size_t i = 0; i < rule.choices.size(); ++i)
@@ -24,7 +31,9 @@ std::string type_name(const KeyRule& rule) {
 }
 
 std::string range(const KeyRule& rule) {
-  if (rule.type != KeyType::kWhole && rule.type != KeyType::kNumber) return "";
+  if (rule.type != KeyType::kWhole && rule.type != KeyType::kWholeList &&
+      rule.type != KeyType::kNumber)
+    return "";
   const bool below = std::isfinite(rule.lower), above = std::isfinite(rule.upper);
   if (rule.lower == rule.upper) return plain_number(rule.lower);
   if (below && above)
@@ -105,7 +114,24 @@ Result<KeyValue> take_value(const KeyRule& rule, const std::string& key, const T
       if (static_cast<double>(*whole) < rule.lower || static_cast<double>(*whole) > rule.upper)
         return out_of_range("out of range");
       return KeyValue(*whole);
-    case KeyType::kNumber: break;
+    case KeyType::kWholeList: {
+      std::string list = text ? *text + "," : whole ? std::to_string(*whole) + "," : "";
+      if (list.empty()) return wrong_type("neither a whole number nor text in quotes");
+      std::erase(list, ' ');
+      for (std::size_t from = 0; from < list.size();) {
+        const std::size_t end = list.find(',', from);
+        double number = 0.0;
+        const auto [stop, error] = std::from_chars(list.data() + from, list.data() + end, number);
+        if (error != std::errc() || stop != list.data() + end || number != std::floor(number))
+          return wrong_type("not whole numbers by commas");
+        if (number < rule.lower || number > rule.upper) return out_of_range("out of range");
+        from = end + 1;
+      }
+      list.pop_back();
+      return KeyValue(list);
+    }
+    case KeyType::kNumber:
+      break;
   }
   const auto* real = std::get_if<double>(&value);
   if (!whole && !real) return wrong_type("not a number");

@@ -13,7 +13,7 @@
 
 namespace trueflank {
 
-enum class KeyType { kWhole, kNumber, kText, kChoice, kFlag };
+enum class KeyType { kWhole, kWholeList, kNumber, kText, kChoice, kFlag };
 
 /// What a key of a TOML file of ours may hold.
 struct KeyRule {
@@ -28,7 +28,7 @@ struct KeyRule {
   const char* meaning = "";     ///< one line for the reference
 };
 
-/// A value that obeys its rule: kWhole, kNumber, kText and kChoice, kFlag.
+/// A value that obeys its rule: kWhole, kNumber, kText, kChoice and kWholeList (a text by commas), kFlag.
 using KeyValue = std::variant<std::int64_t, double, std::string, bool>;
 
 /// Takes a value by its rule; whole numbers are taken where numbers are wanted. `key` is the dotted

@@ -38,8 +38,8 @@ std::string set_objectives(R& r, const V& v) {
   for (const std::string& word : words(text(v))) {
     const auto all = {SearchObjective::kForward, SearchObjective::kBackward,
                       SearchObjective::kTorque, SearchObjective::kSize};
-    const auto it = std::find_if(all.begin(), all.end(),
-                                 [&](SearchObjective o) { return word == to_text(o); });
+    const auto it =
+        std::find_if(all.begin(), all.end(), [&](SearchObjective o) { return word == to_text(o); });
     if (it == all.end()) return "forward, backward, torque, size: one, or several by commas";
     if (std::find(r.objectives.begin(), r.objectives.end(), *it) != r.objectives.end())
       return "each objective once";
@@ -60,11 +60,20 @@ std::string set_module_ratios(R& r, const V& v) {
   return "";
 }
 
-std::string set_output(R& r, const V& v) {
-  if (text(v) == "any")
-    r.outputs = {OutputMember::kRing2, OutputMember::kRing1};
-  else
-    r.outputs = {text(v) == "ring1" ? OutputMember::kRing1 : OutputMember::kRing2};
+/// Whole numbers by commas.
+std::string set_planets(R& r, const V& v) {
+  r.planets.clear();
+  for (const std::string& word : words(text(v))) {
+    double number = 0.0;
+    std::from_chars(word.data(), word.data() + word.size(), number);
+    r.planets.push_back(static_cast<int>(number));
+  }
+  return "";
+}
+
+std::string set_wheel(R& r, const V& v) {
+  r.external_wheels = text(v) != "internal";
+  r.internal_wheels = text(v) != "external";
   return "";
 }
 
@@ -77,52 +86,114 @@ std::string set_direction(R& r, const V& v) {
 
 RequirementsSection top() {
   return {"",
-          {{{.name = "format", .type = KeyType::kWhole, .lower = 1, .upper = 1, .required = true,
+          {{{.name = "format",
+             .type = KeyType::kWhole,
+             .lower = 1,
+             .upper = 1,
+             .required = true,
              .meaning = "of this file"},
             [](R&, const V&) { return std::string(); }},
-           {{.name = "name", .type = KeyType::kText, .by_default = "the file's name",
+           {{.name = "name",
+             .type = KeyType::kText,
+             .by_default = "the file's name",
              .meaning = "of the designs found"},
             [](R& r, const V& v) { return r.name = text(v), std::string(); }}}};
 }
 
 RequirementsSection gearbox() {
-  return {"gearbox",
-          {{{.name = "kind", .type = KeyType::kChoice, .choices = {"3k"}, .required = true,
-             .meaning = "what is searched"},
-            [](R&, const V&) { return std::string(); }},
-           {{.name = "output", .type = KeyType::kChoice, .choices = {"ring2", "ring1", "any"},
-             .by_default = "ring2", .meaning = "type I, type II, or both"},
-            set_output},
-           {{.name = "planets", .type = KeyType::kWhole, .lower = 1, .upper = 20,
-             .by_default = "3", .meaning = "number of planet bodies"},
-            [](R& r, const V& v) { return r.planets = whole(v), std::string(); }},
-           {{.name = "friction", .lower = 0, .upper = 1, .by_default = "0.1",
-             .meaning = "mesh friction coefficient"},
-            [](R& r, const V& v) { return r.friction = number(v), std::string(); }},
-           {{.name = "module_mm", .unit = "mm", .lower = 0.05, .upper = 100, .by_default = "1",
-             .meaning = "of layer 1"},
-            [](R& r, const V& v) { return r.module_mm = number(v), std::string(); }},
-           {{.name = "outer_diameter_mm", .unit = "mm", .lower = 1, .upper = 20000,
-             .by_default = "none", .meaning = "of the larger ring: the module follows from it"},
-            [](R& r, const V& v) { return r.outer_diameter_mm = number(v), std::string(); }},
-           {{.name = "rim", .unit = "module", .lower = 0, .upper = 20, .by_default = "2.5",
-             .meaning = "of the rings outside their root circles"},
-            [](R& r, const V& v) { return r.rim = number(v), std::string(); }},
-           {{.name = "layer2_module_ratios", .type = KeyType::kText, .by_default = "\"1\"",
-             .meaning = "module of layer 2 over that of layer 1: every value tried, \"1, 0.8\""},
-            set_module_ratios},
-           {{.name = "face_width_mm", .unit = "mm", .lower = 0.1, .upper = 10000,
-             .by_default = "10", .meaning = "of every gear"},
-            [](R& r, const V& v) { return r.face_width_mm = number(v), std::string(); }},
-           {{.name = "backlash_mm", .unit = "mm", .lower = 0, .upper = 100, .by_default = "0.04 modules",
-             .meaning = "of every mesh, written into the designs"},
-            [](R& r, const V& v) { return r.backlash_mm = number(v), std::string(); }}}};
+  return {
+      "gearbox",
+      {{{.name = "kind",
+         .type = KeyType::kText,
+         .required = true,
+         .meaning =
+             "what is searched: 3k, stepped, simple, pair; several by commas are ranked together"},
+        [](R& r, const V& v) { return r.kinds = words(text(v)), std::string(); }},
+       {{.name = "output",
+         .type = KeyType::kText,
+         .by_default = "the usual one of each kind",
+         .meaning = "what drives out. 3k: ring2 (type I) or ring1 (type II); simple, stepped: "
+                    "carrier or ring; "
+                    "any: each; several by commas"},
+        [](R& r, const V& v) { return r.outputs = words(text(v)), std::string(); }},
+       {{.name = "input",
+         .type = KeyType::kText,
+         .by_default = "the usual one of each kind",
+         .meaning = "what drives in. 3k: sun, or carrier (the split-ring set, searched without a "
+                    "sun); any: "
+                    "each; several by commas"},
+        [](R& r, const V& v) { return r.inputs = words(text(v)), std::string(); }},
+       {{.name = "wheel",
+         .type = KeyType::kChoice,
+         .choices = {"external", "internal", "any"},
+         .by_default = "external",
+         .meaning = "of pairs"},
+        set_wheel},
+       {{.name = "planets",
+         .type = KeyType::kWholeList,
+         .lower = 1,
+         .upper = 20,
+         .by_default = "3",
+         .meaning = "number of planet bodies; \"3, 4\" tries both"},
+        set_planets},
+       {{.name = "friction",
+         .lower = 0,
+         .upper = 1,
+         .by_default = "0.1",
+         .meaning = "mesh friction coefficient"},
+        [](R& r, const V& v) { return r.friction = number(v), std::string(); }},
+       {{.name = "module_mm",
+         .unit = "mm",
+         .lower = 0.05,
+         .upper = 100,
+         .by_default = "1",
+         .meaning = "of layer 1, of all gears where there is one layer"},
+        [](R& r, const V& v) { return r.module_mm = number(v), std::string(); }},
+       {{.name = "outer_diameter_mm",
+         .unit = "mm",
+         .lower = 1,
+         .upper = 20000,
+         .by_default = "none",
+         .meaning = "of the smallest circle around all gears, rims and planets on their way round: "
+                    "the module "
+                    "follows from it"},
+        [](R& r, const V& v) { return r.outer_diameter_mm = number(v), std::string(); }},
+       {{.name = "rim",
+         .unit = "module",
+         .lower = 0,
+         .upper = 20,
+         .by_default = "2.5",
+         .meaning = "of the rings outside their root circles"},
+        [](R& r, const V& v) { return r.rim = number(v), std::string(); }},
+       {{.name = "layer2_module_ratios",
+         .type = KeyType::kText,
+         .by_default = "\"1\"",
+         .meaning = "module of layer 2 over that of layer 1: every value tried, \"1, 0.8\""},
+        set_module_ratios},
+       {{.name = "face_width_mm",
+         .unit = "mm",
+         .lower = 0.1,
+         .upper = 10000,
+         .by_default = "10",
+         .meaning = "of every gear"},
+        [](R& r, const V& v) { return r.face_width_mm = number(v), std::string(); }},
+       {{.name = "backlash_mm",
+         .unit = "mm",
+         .lower = 0,
+         .upper = 100,
+         .by_default = "0.04 modules",
+         .meaning = "of every mesh, written into the designs"},
+        [](R& r, const V& v) { return r.backlash_mm = number(v), std::string(); }}}};
 }
 
 RequirementsSection rack() {
   return {"rack",
-          {{{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 45,
-             .by_default = "20", .meaning = "basic rack, as in a design file"},
+          {{{.name = "pressure_angle_deg",
+             .unit = "deg",
+             .lower = 5,
+             .upper = 45,
+             .by_default = "20",
+             .meaning = "basic rack, as in a design file"},
             [](R& r, const V& v) {
               return r.rack.pressure_angle_rad = rad_from_deg(number(v)), std::string();
             }},
@@ -136,19 +207,30 @@ RequirementsSection rack() {
 
 RequirementsSection ratio() {
   return {"ratio",
-          {{{.name = "min", .lower = 1, .upper = 1e6, .required = true,
+          {{{.name = "min",
+             .lower = 1,
+             .upper = 1e6,
+             .required = true,
              .meaning = "least input speed over output speed"},
             [](R& r, const V& v) { return r.ratio_min = number(v), std::string(); }},
            {{.name = "max", .lower = 1, .upper = 1e6, .required = true, .meaning = "greatest"},
             [](R& r, const V& v) { return r.ratio_max = number(v), std::string(); }},
-           {{.name = "direction", .type = KeyType::kChoice, .choices = {"any", "same", "opposite"},
-             .by_default = "any", .meaning = "of the output against the input"},
+           {{.name = "direction",
+             .type = KeyType::kChoice,
+             .choices = {"any", "same", "opposite"},
+             .by_default = "any",
+             .meaning = "of the output against the input"},
             set_direction}}};
 }
 
-KeyRule teeth_rule(const char* name, double least, const char* by_default) {
-  return {.name = name, .type = KeyType::kWhole, .lower = least, .upper = 1000,
-          .by_default = by_default};
+KeyRule teeth_rule(const char* name, double least, const char* by_default,
+                   const char* meaning = "") {
+  return {.name = name,
+          .type = KeyType::kWhole,
+          .lower = least,
+          .upper = 1000,
+          .by_default = by_default,
+          .meaning = meaning};
 }
 
 RequirementsSection teeth() {
@@ -173,40 +255,88 @@ RequirementsSection teeth() {
             [](R& r, const V& v) { return r.ring2.min = whole(v), std::string(); }},
            {teeth_rule("ring2_max", 6, "120"),
             [](R& r, const V& v) { return r.ring2.max = whole(v), std::string(); }},
-           {{.name = "identical_planets", .type = KeyType::kFlag, .by_default = "true",
+           {teeth_rule("planet_min", 4, "planet1's", "of simple sets"),
+            [](R& r, const V& v) { return r.planet.min = whole(v), std::string(); }},
+           {teeth_rule("planet_max", 4, "planet1's", "of simple sets"),
+            [](R& r, const V& v) { return r.planet.max = whole(v), std::string(); }},
+           {teeth_rule("ring_min", 6, "ring1's; stepped: ring2's", "of simple and stepped sets"),
+            [](R& r, const V& v) { return r.ring.min = whole(v), std::string(); }},
+           {teeth_rule("ring_max", 6, "ring1's; stepped: ring2's", "of simple and stepped sets"),
+            [](R& r, const V& v) { return r.ring.max = whole(v), std::string(); }},
+           {teeth_rule("pinion_min", 4, "sun's", "of pairs"),
+            [](R& r, const V& v) { return r.pinion.min = whole(v), std::string(); }},
+           {teeth_rule("pinion_max", 4, "sun's", "of pairs"),
+            [](R& r, const V& v) { return r.pinion.max = whole(v), std::string(); }},
+           {teeth_rule("wheel_min", 4, "planet1's; internal: ring1's", "of pairs"),
+            [](R& r, const V& v) { return r.wheel.min = whole(v), std::string(); }},
+           {teeth_rule("wheel_max", 4, "planet1's; internal: ring1's", "of pairs"),
+            [](R& r, const V& v) { return r.wheel.max = whole(v), std::string(); }},
+           {{.name = "identical_planets",
+             .type = KeyType::kFlag,
+             .by_default = "true",
              .meaning = "all planet bodies alike at equal spacing"},
             [](R& r, const V& v) { return r.identical_planets = flag(v), std::string(); }}}};
 }
 
 RequirementsSection shift() {
   return {"shift",
-          {{{.name = "min", .unit = "module", .lower = -5, .upper = 5, .by_default = "-2",
+          {{{.name = "min",
+             .unit = "module",
+             .lower = -5,
+             .upper = 5,
+             .by_default = "-2",
              .meaning = "least profile shift of every gear"},
             [](R& r, const V& v) { return r.shift_min = number(v), std::string(); }},
-           {{.name = "max", .unit = "module", .lower = -5, .upper = 5, .by_default = "2",
+           {{.name = "max",
+             .unit = "module",
+             .lower = -5,
+             .upper = 5,
+             .by_default = "2",
              .meaning = "greatest"},
             [](R& r, const V& v) { return r.shift_max = number(v), std::string(); }}}};
 }
 
 RequirementsSection limits() {
   return {"limits",
-          {{{.name = "contact_ratio_min", .lower = 1, .upper = 5, .by_default = "1",
+          {{{.name = "contact_ratio_min",
+             .lower = 1,
+             .upper = 5,
+             .by_default = "1",
              .meaning = "of every mesh, of its tip circles and of what its roots leave"},
             [](R& r, const V& v) { return r.contact_ratio_min = number(v), std::string(); }},
-           {{.name = "contact_ratio_max", .lower = 1, .upper = 10, .by_default = "2",
+           {{.name = "contact_ratio_max",
+             .lower = 1,
+             .upper = 10,
+             .by_default = "2",
              .meaning = "of every mesh, of its tip circles"},
             [](R& r, const V& v) { return r.contact_ratio_max = number(v), std::string(); }},
-           {{.name = "clearance_um", .unit = "um", .lower = 0, .upper = 1000, .by_default = "2",
+           {{.name = "clearance_um",
+             .unit = "um",
+             .lower = 0,
+             .upper = 1000,
+             .by_default = "2",
              .meaning = "least, of tip corners to the mate's root and flank"},
             [](R& r, const V& v) { return r.clearance_um = number(v), std::string(); }},
-           {{.name = "tip_clearance", .unit = "module", .lower = 0, .upper = 1,
-             .by_default = "0.1", .meaning = "least, tip to root"},
+           {{.name = "tip_clearance",
+             .unit = "module",
+             .lower = 0,
+             .upper = 1,
+             .by_default = "0.1",
+             .meaning = "least, tip to root"},
             [](R& r, const V& v) { return r.tip_clearance = number(v), std::string(); }},
-           {{.name = "tip_thickness", .unit = "module", .lower = 0, .upper = 1,
-             .by_default = "0.2", .meaning = "least"},
+           {{.name = "tip_thickness",
+             .unit = "module",
+             .lower = 0,
+             .upper = 1,
+             .by_default = "0.2",
+             .meaning = "least"},
             [](R& r, const V& v) { return r.tip_thickness = number(v), std::string(); }},
-           {{.name = "planet_clearance_mm", .unit = "mm", .lower = 0, .upper = 1000,
-             .by_default = "0.5", .meaning = "least, between tip circles of neighbours"},
+           {{.name = "planet_clearance_mm",
+             .unit = "mm",
+             .lower = 0,
+             .upper = 1000,
+             .by_default = "0.5",
+             .meaning = "least, between tip circles of neighbours"},
             [](R& r, const V& v) { return r.planet_clearance_mm = number(v), std::string(); }}}};
 }
 
@@ -215,59 +345,77 @@ KeyRule factor_rule(const char* name, const char* by_default, const char* meanin
 }
 
 RequirementsSection strength() {
-  return {"strength",
-          {{{.name = "output_torque_nm", .unit = "N m", .lower = 0, .upper = 1e9,
-             .by_default = "none", .meaning = "to be carried by every design"},
-            [](R& r, const V& v) { return r.output_torque_nm = number(v), std::string(); }},
-           {{.name = "material", .type = KeyType::kText, .by_default = kDefaultMaterial,
-             .meaning = "of every gear (docs/strength.md)"},
-            [](R& r, const V& v) { return r.strength.material = text(v), std::string(); }},
-           {{.name = "reversing", .type = KeyType::kFlag, .by_default = "true",
-             .meaning = "loaded in both directions"},
-            [](R& r, const V& v) { return r.strength.reversing = flag(v), std::string(); }},
-           {factor_rule("overload_factor", "1", "K_O"),
-            [](R& r, const V& v) { return r.strength.overload_factor = number(v), std::string(); }},
-           {factor_rule("dynamic_factor", "1", "K_V"),
-            [](R& r, const V& v) { return r.strength.dynamic_factor = number(v), std::string(); }},
-           {factor_rule("face_load_factor", "1", "K_Hbeta"),
-            [](R& r, const V& v) { return r.strength.face_load_factor = number(v), std::string(); }},
-           {factor_rule("planet_load_factor", "1", "worst planet's share over the mean"),
-            [](R& r, const V& v) {
-              return r.strength.planet_load_factor = number(v), std::string();
-            }},
-           {factor_rule("bending_life_factor", "1", "K_L"),
-            [](R& r, const V& v) {
-              return r.strength.bending_life_factor = number(v), std::string();
-            }},
-           {factor_rule("contact_life_factor", "1", "K_HL"),
-            [](R& r, const V& v) {
-              return r.strength.contact_life_factor = number(v), std::string();
-            }},
-           {factor_rule("bending_safety", "1.2", "S_F"),
-            [](R& r, const V& v) { return r.strength.bending_safety = number(v), std::string(); }},
-           {factor_rule("contact_safety", "1.15", "S_H"),
-            [](R& r, const V& v) {
-              return r.strength.contact_safety = number(v), std::string();
-            }}}};
+  return {
+      "strength",
+      {{{.name = "output_torque_nm",
+         .unit = "N m",
+         .lower = 0,
+         .upper = 1e9,
+         .by_default = "none",
+         .meaning = "to be carried by every design"},
+        [](R& r, const V& v) { return r.output_torque_nm = number(v), std::string(); }},
+       {{.name = "material",
+         .type = KeyType::kText,
+         .by_default = kDefaultMaterial,
+         .meaning = "of every gear (docs/strength.md)"},
+        [](R& r, const V& v) { return r.strength.material = text(v), std::string(); }},
+       {{.name = "reversing",
+         .type = KeyType::kFlag,
+         .by_default = "true",
+         .meaning = "loaded in both directions"},
+        [](R& r, const V& v) { return r.strength.reversing = flag(v), std::string(); }},
+       {factor_rule("overload_factor", "1", "K_O"),
+        [](R& r, const V& v) { return r.strength.overload_factor = number(v), std::string(); }},
+       {factor_rule("dynamic_factor", "1", "K_V"),
+        [](R& r, const V& v) { return r.strength.dynamic_factor = number(v), std::string(); }},
+       {factor_rule("face_load_factor", "1", "K_Hbeta"),
+        [](R& r, const V& v) { return r.strength.face_load_factor = number(v), std::string(); }},
+       {factor_rule("planet_load_factor", "1", "worst planet's share over the mean"),
+        [](R& r, const V& v) { return r.strength.planet_load_factor = number(v), std::string(); }},
+       {factor_rule("bending_life_factor", "1", "K_L"),
+        [](R& r, const V& v) { return r.strength.bending_life_factor = number(v), std::string(); }},
+       {factor_rule("contact_life_factor", "1", "K_HL"),
+        [](R& r, const V& v) { return r.strength.contact_life_factor = number(v), std::string(); }},
+       {factor_rule("bending_safety", "1.2", "S_F"),
+        [](R& r, const V& v) { return r.strength.bending_safety = number(v), std::string(); }},
+       {factor_rule("contact_safety", "1.15", "S_H"),
+        [](R& r, const V& v) { return r.strength.contact_safety = number(v), std::string(); }}}};
 }
 
 RequirementsSection search() {
-  return {"search",
-          {{{.name = "objectives", .type = KeyType::kText, .by_default = "\"forward\"",
-             .meaning = "forward, backward, torque, size: one, or several for their Pareto front"},
-            set_objectives},
-           {{.name = "loss_model", .type = KeyType::kChoice,
-             .choices = {"contact_ratios", "path_integral"}, .by_default = "path_integral",
-             .meaning = "how a mesh's basic efficiency is computed: by the sliding itself, or by the "
-                        "paper's formula"},
-            [](R& r, const V& v) {
-              r.loss_model = text(v) == "path_integral" ? LossModel::kPathIntegral
-                                                        : LossModel::kContactRatios;
-              return std::string();
-            }},
-           {{.name = "results", .type = KeyType::kWhole, .lower = 1, .upper = 1000,
-             .by_default = "20", .meaning = "design files written at most"},
-            [](R& r, const V& v) { return r.results = whole(v), std::string(); }}}};
+  return {
+      "search",
+      {{{.name = "objectives",
+         .type = KeyType::kText,
+         .by_default = "\"forward\"",
+         .meaning = "forward, backward, torque, size: one, or several for their Pareto front"},
+        set_objectives},
+       {{.name = "loss_model",
+         .type = KeyType::kChoice,
+         .choices = {"contact_ratios", "path_integral"},
+         .by_default = "path_integral",
+         .meaning = "how a mesh's basic efficiency is computed: by the sliding itself, or by the "
+                    "paper's formula"},
+        [](R& r, const V& v) {
+          r.loss_model =
+              text(v) == "path_integral" ? LossModel::kPathIntegral : LossModel::kContactRatios;
+          return std::string();
+        }},
+       {{.name = "results",
+         .type = KeyType::kWhole,
+         .lower = 1,
+         .upper = 1000,
+         .by_default = "20",
+         .meaning = "design files written at most"},
+        [](R& r, const V& v) { return r.results = whole(v), std::string(); }},
+       {{.name = "listed",
+         .type = KeyType::kWhole,
+         .lower = 0,
+         .upper = 1000000,
+         .by_default = "200",
+         .meaning = "tooth sets in search.csv, the best; sets of which a bound says that they "
+                    "cannot be among them are not optimised; 0: all"},
+        [](R& r, const V& v) { return r.listed = whole(v), std::string(); }}}};
 }
 
 }  // namespace
@@ -302,18 +450,26 @@ RequirementsSection losses(std::index_sequence<I...>) {
 
 const std::vector<RequirementsSection>& requirements_sections() {
   static const std::vector<RequirementsSection> kSections{
-      top(),    gearbox(),  rack(),   ratio(), teeth(), shift(),
-      limits(), strength(), search(), losses(std::make_index_sequence<kLossKeys>{})};
+      top(),   gearbox(), rack(),     ratio(),  teeth(),
+      shift(), limits(),  strength(), search(), losses(std::make_index_sequence<kLossKeys>{})};
   return kSections;
 }
 
 const std::vector<RequirementsKey<Material>>& material_keys() {
   using M = Material;
   static const std::vector<RequirementsKey<Material>> kKeys{
-      {{.name = "bending_limit_mpa", .unit = "MPa", .lower = 0.1, .upper = 1e4, .required = true,
+      {{.name = "bending_limit_mpa",
+        .unit = "MPa",
+        .lower = 0.1,
+        .upper = 1e4,
+        .required = true,
         .meaning = "sigma_Flim, pulsating"},
        [](M& m, const V& v) { return m.bending_limit_mpa = number(v), std::string(); }},
-      {{.name = "contact_limit_mpa", .unit = "MPa", .lower = 0.1, .upper = 1e4, .required = true,
+      {{.name = "contact_limit_mpa",
+        .unit = "MPa",
+        .lower = 0.1,
+        .upper = 1e4,
+        .required = true,
         .meaning = "sigma_Hlim"},
        [](M& m, const V& v) { return m.contact_limit_mpa = number(v), std::string(); }},
       {{.name = "elastic_modulus_mpa", .unit = "MPa", .lower = 1, .upper = 1e7, .required = true},
@@ -322,7 +478,9 @@ const std::vector<RequirementsKey<Material>>& material_keys() {
        [](M& m, const V& v) { return m.poisson_ratio = number(v), std::string(); }},
       {{.name = "density_kg_m3", .unit = "kg/m3", .lower = 1, .upper = 1e5, .required = true},
        [](M& m, const V& v) { return m.density_kg_m3 = number(v), std::string(); }},
-      {{.name = "source", .type = KeyType::kText, .by_default = "empty",
+      {{.name = "source",
+        .type = KeyType::kText,
+        .by_default = "empty",
         .meaning = "where the limits come from"},
        [](M& m, const V& v) { return m.source = text(v), std::string(); }}};
   return kKeys;

@@ -102,15 +102,15 @@ ErrorCode code_of(int error_number) {
   }
 }
 
-const char* remedy_of(int error_number) {
+const char* remedy_of(int error_number, bool reading) {
   switch (error_number) {
     case ENOENT:
     case ENOTDIR:
-      return "an existing folder";
+      return reading ? "a file that is there" : "an existing folder";
     case EACCES:
     case EPERM:
     case EROFS:
-      return "a place you may write to";
+      return reading ? "a file you may read" : "a place you may write to";
     case ENOSPC:
     case EDQUOT:
       return "free some space or write elsewhere";
@@ -198,7 +198,7 @@ Error file_error(std::string_view what, const fs::path& path, int error_number) 
                                  ? "interrupted"
                                  : std::generic_category().message(error_number);
   error.message = "cannot " + std::string(what) + " '" + path.string() + "': " + reason;
-  error.remedy = remedy_of(error_number);
+  error.remedy = remedy_of(error_number, what == "read" || what == "verify");
   error.file = path.string();
   return error;
 }

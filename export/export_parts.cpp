@@ -236,7 +236,9 @@ class Exporter {
     if (!solid) return fail(std::move(solid.error()));
     const Colour colour = part_colour(shape.role);
     solids_[i] = {shape.name, std::move(*solid),
-                  {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}};
+                  {colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0}, {}};
+    if (options_.step_schema == StepSchema::kAp242)
+      solids_[i].pmi = step_pmi(train_, shape, solids_[i].solid);
     return {};
   }
 
@@ -320,12 +322,13 @@ class Exporter {
   Status write_step(const Job& job, const std::filesystem::path& path, ReportedFile& file) const {
     if (job.part != kAssembly) {
       file.accuracy_um = um_from_mm(solids_[job.part].solid.fit_error_mm);
-      return write_file(path, step_text(solids_[job.part]));
+      return write_file(path, step_text(solids_[job.part], options_.step_schema));
     }
     file.accuracy_um = 0.0;
     for (const StepPart& part : solids_)
       file.accuracy_um = std::max(file.accuracy_um, um_from_mm(part.solid.fit_error_mm));
-    return write_file(path, step_text(solids_, shapes_.assembly, train_.design.name));
+    return write_file(path, step_text(solids_, shapes_.assembly, train_.design.name,
+                                      options_.step_schema));
   }
 
   /// Reads the file from the disk and compares it with what was to be written.

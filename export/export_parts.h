@@ -41,6 +41,7 @@ struct ExportOptions {
   /// Above 0: DXF files of parts hold the path of a wire or beam that cuts this width (kerf_path.h);
   /// the assembly's and all other formats the parts as they are.
   double kerf_mm = 0.0;
+  StepSchema step_schema = StepSchema::kAp214;
   std::string part;  ///< this part alone, without the assembly; empty: all
   /// Called after each file, by one thread at a time; for showing progress.
   std::function<void(const std::string& file_name)> on_written = {};

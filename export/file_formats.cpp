@@ -33,6 +33,8 @@ const std::vector<FileFormatInfo>& file_format_table() {
       {kSvg, "svg", kSection, true, "SVG: sections as a picture"},
       {kScad, "scad", kProgram, false, "OpenSCAD: the part as a program to build on"},
       {kPdf, "pdf", kPaper, true, "PDF: workshop drawings, and their DXF"},
+      {kPng, "png", kPaper, true, "PNG: pictures, the assembly's with a quarter cut away", false},
+      {kApng, "apng", kPaper, true, "animated PNG: the assembly turning, a quarter cut away", false},
   };
   return table;
 }
@@ -53,7 +55,9 @@ const std::vector<FileFormat>& file_formats() {
   return all;
 }
 
-const char* to_text(FileFormat format) { return info(format).name.data(); }  // of a literal: ends with 0
+const char* to_text(FileFormat format) {
+  return info(format).name.data();
+}  // of a literal: ends with 0
 
 std::string format_names(std::string_view separator) {
   return names_where(separator, [](const FileFormatInfo&) { return true; });
@@ -63,10 +67,18 @@ std::string format_names(std::string_view separator, FormatContent content) {
   return names_where(separator, [&](const FileFormatInfo& row) { return row.content == content; });
 }
 
+std::string asked_format_names(std::string_view separator) {
+  return names_where(separator, [](const FileFormatInfo& row) { return !row.unasked; });
+}
+
 ResultAll<std::vector<FileFormat>> parse_formats(const std::vector<std::string>& names) {
   const auto& all = file_formats();
-  if (names.empty()) return all;
   std::vector<FileFormat> formats;
+  if (names.empty()) {
+    for (const FileFormatInfo& row : file_format_table())
+      if (row.unasked) formats.push_back(row.format);
+    return formats;
+  }
   Errors errors;
   for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(),
@@ -82,6 +94,16 @@ ResultAll<std::vector<FileFormat>> parse_formats(const std::vector<std::string>&
   }
   if (!errors.empty()) return fail_all(std::move(errors));
   return formats;
+}
+
+Result<StepSchema> step_schema_of(const std::string& name) {
+  if (name == "ap214") return StepSchema::kAp214;
+  if (name == "ap242") return StepSchema::kAp242;
+  return fail(Error{.code = ErrorCode::kUsage,
+                    .message = "no such STEP schema",
+                    .key = "--step-schema",
+                    .value = name,
+                    .remedy = "ap214 (the default) or ap242, which holds tolerances too"});
 }
 
 }  // namespace trueflank::io

@@ -11,7 +11,7 @@
 // error messages and the tests of the documentation follow it.
 namespace trueflank::io {
 
-enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg, kScad, kPdf };
+enum class FileFormat { kStl, k3mf, kObj, kPly, kGlb, kStep, kDxf, kSvg, kScad, kPdf, kPng, kApng };
 
 /// What a file of a format holds.
 enum class FormatContent {
@@ -19,7 +19,7 @@ enum class FormatContent {
   kSolid,    ///< the surfaces themselves
   kSection,  ///< a drawing of the parts' sections
   kProgram,  ///< a text that another program makes the part from
-  kPaper,    ///< sheets for people; written by report/drawing, not by export_parts
+  kPaper,    ///< sheets and pictures for people; written by report/, not by export_parts
 };
 
 struct FileFormatInfo {
@@ -28,6 +28,7 @@ struct FileFormatInfo {
   FormatContent content = FormatContent::kMesh;
   bool corrected = true;  ///< can hold teeth that a correction has displaced
   std::string_view description;
+  bool unasked = true;  ///< written too where no format is named
 };
 
 /// Every format, in the order of the enumeration.
@@ -40,11 +41,19 @@ struct FileFormatInfo {
 [[nodiscard]] const std::vector<FileFormat>& file_formats();
 /// The name that is option value and file extension: "stl", "3mf", ...
 [[nodiscard]] const char* to_text(FileFormat format);
-/// The names of all formats, or of those with this content.
+/// The names of all formats, of those with this content, or of those that are not written unasked.
 [[nodiscard]] std::string format_names(std::string_view separator);
 [[nodiscard]] std::string format_names(std::string_view separator, FormatContent content);
-/// Formats by their names, each once; all for an empty list. Errors: kUsage, one a wrong name.
+[[nodiscard]] std::string asked_format_names(std::string_view separator);
+/// Formats by their names, each once; for an empty list those that are written unasked. Errors:
+/// kUsage, one a wrong name.
 [[nodiscard]] ResultAll<std::vector<FileFormat>> parse_formats(
     const std::vector<std::string>& names);
+
+/// Application protocol of STEP files: the words one may use. By AP242 they hold sizes, limits, datum
+/// and runouts beside the solids.
+enum class StepSchema { kAp214, kAp242 };
+/// By its name, "ap214" or "ap242". Errors: kUsage.
+[[nodiscard]] Result<StepSchema> step_schema_of(const std::string& name);
 
 }  // namespace trueflank::io

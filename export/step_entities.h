@@ -47,8 +47,12 @@ class StepEntities {
 [[nodiscard]] StepId add_point(StepEntities& out, const Point3& point);
 [[nodiscard]] StepId add_direction(StepEntities& out, const Point3& direction);
 [[nodiscard]] StepId add_placement(StepEntities& out, const Frame3& frame);
+struct SolidIds {
+  StepId solid = 0;
+  std::vector<StepId> faces;  ///< one a face of the solid
+};
 /// A MANIFOLD_SOLID_BREP with everything it needs.
-[[nodiscard]] StepId add_solid(StepEntities& out, const Brep& solid, std::string_view name);
+[[nodiscard]] SolidIds add_solid(StepEntities& out, const Brep& solid, std::string_view name);
 /// @}
 
 }  // namespace trueflank::io

@@ -16,7 +16,7 @@ class SolidWriter {
  public:
   SolidWriter(StepEntities& out, const Brep& solid) : out_(out), solid_(solid) {}
 
-  StepId write(std::string_view name) {
+  SolidIds write(std::string_view name) {
     up_ = add_direction(out_, Point3::UnitZ());
     up_vector_ = out_.begin("VECTOR('',");
     out_.put(up_).put(",1.").end();
@@ -33,7 +33,7 @@ class SolidWriter {
     out_.put(faces).end();
     const StepId solid = out_.begin("MANIFOLD_SOLID_BREP(");
     out_.put_quoted(name).put(",").put(shell).end();
-    return solid;
+    return {solid, std::move(faces)};
   }
 
  private:
@@ -219,7 +219,7 @@ StepId add_placement(StepEntities& out, const Frame3& frame) {
   return id;
 }
 
-StepId add_solid(StepEntities& out, const Brep& solid, std::string_view name) {
+SolidIds add_solid(StepEntities& out, const Brep& solid, std::string_view name) {
   return SolidWriter(out, solid).write(name);
 }
 

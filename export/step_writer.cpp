@@ -11,17 +11,32 @@ namespace {
 
 /// What the placement of a part refers to.
 struct ProductIds {
-  StepId definition = 0, representation = 0, origin = 0;
+  StepId definition = 0, representation = 0, origin = 0, shape = 0;
 };
+
+/// What a schema calls itself.
+struct SchemaWords {
+  std::string_view context;   ///< APPLICATION_CONTEXT
+  std::string_view protocol;  ///< name and year
+  std::string_view schema;    ///< FILE_SCHEMA
+};
+const SchemaWords& words_of(StepSchema schema) {
+  static const SchemaWords kAp214 = {"'core data for automotive mechanical design processes'",
+                                     "'automotive_design',2000",
+                                     "'AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'"};
+  static const SchemaWords kAp242 = {
+      "'managed model based 3d engineering'", "'ap242_managed_model_based_3d_engineering',2014",
+      "'AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }'"};
+  return schema == StepSchema::kAp214 ? kAp214 : kAp242;
+}
 
 class StepFile {
  public:
-  explicit StepFile(std::size_t bytes) {
+  StepFile(std::size_t bytes, StepSchema schema) : schema_(schema) {
     out_.reserve(bytes);
-    application_ = out_.add("APPLICATION_CONTEXT(",
-                            "'core data for automotive mechanical design processes'");
-    out_.begin("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,");
-    out_.put(application_).end();
+    application_ = out_.add("APPLICATION_CONTEXT(", words_of(schema).context);
+    out_.begin("APPLICATION_PROTOCOL_DEFINITION('international standard',");
+    out_.put(words_of(schema).protocol).put(",").put(application_).end();
     millimetre_ = out_.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.)", "");
     radian_ = out_.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.)", "");
     steradian_ = out_.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT()", "");
@@ -33,11 +48,20 @@ class StepFile {
     ProductIds ids;
     ids.definition = add_product(part.name);
     ids.origin = add_placement(out_, {});
-    const StepId solid = add_solid(out_, part.solid, part.name);
+    SolidIds solid = add_solid(out_, part.solid, part.name);
     const StepId context = add_context();
-    ids.representation = add_representation("ADVANCED_BREP_SHAPE_REPRESENTATION(", part.name,
-                                            {ids.origin, solid}, context, ids.definition);
-    add_colour(solid, part.colour, context);
+    add_representation("ADVANCED_BREP_SHAPE_REPRESENTATION(", part.name, {ids.origin, solid.solid},
+                       context, ids);
+    add_colour(solid.solid, part.colour, context);
+    if (schema_ == StepSchema::kAp242)
+      add_pmi(out_, part.pmi,
+              {.shape = ids.shape,
+               .definition = ids.definition,
+               .representation = ids.representation,
+               .context = context,
+               .millimetre = millimetre_,
+               .radian = radian_,
+               .faces = std::move(solid.faces)});
     return ids;
   }
 
@@ -52,8 +76,7 @@ class StepFile {
           out_, {Point3(p.translation_mm[0], p.translation_mm[1], p.translation_mm[2]),
                  Point3::UnitZ(),
                  Point3(std::cos(p.rotation_rad), std::sin(p.rotation_rad), 0.0)}));
-    assembly.representation = add_representation("SHAPE_REPRESENTATION(", name, items,
-                                                 add_context(), assembly.definition);
+    add_representation("SHAPE_REPRESENTATION(", name, items, add_context(), assembly);
     for (std::size_t i = 0; i < placements.size(); ++i) {
       TRUEFLANK_EXPECTS(placements[i].part >= 0 &&
                         static_cast<std::size_t>(placements[i].part) < parts.size());
@@ -68,7 +91,8 @@ class StepFile {
     // no clock: the same design gives the same bytes
     header.put("),'2;1');\nFILE_NAME(").put_quoted(name + ".step");
     header.put(",'1970-01-01T00:00:00',(''),(''),'Trueflank','Trueflank','');\n"
-               "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n");
+               "FILE_SCHEMA((");
+    header.put(words_of(schema_).schema).put("));\nENDSEC;\nDATA;\n");
     return header.take() + out_.take() + "ENDSEC;\nEND-ISO-10303-21;\n";
   }
 
@@ -100,15 +124,15 @@ class StepFile {
     return id;
   }
 
-  StepId add_representation(std::string_view kind, const std::string& name,
-                            const std::vector<StepId>& items, StepId context, StepId definition) {
-    const StepId representation = out_.begin(kind);
+  /// Completes the ids of a product that has its definition.
+  void add_representation(std::string_view kind, const std::string& name,
+                          const std::vector<StepId>& items, StepId context, ProductIds& ids) {
+    ids.representation = out_.begin(kind);
     out_.put_quoted(name).put(",").put(items).put(",").put(context).end();
-    const StepId shape = out_.begin("PRODUCT_DEFINITION_SHAPE('','',");
-    out_.put(definition).end();
+    ids.shape = out_.begin("PRODUCT_DEFINITION_SHAPE('','',");
+    out_.put(ids.definition).end();
     out_.begin("SHAPE_DEFINITION_REPRESENTATION(");
-    out_.put(shape).put(",").put(representation).end();
-    return representation;
+    out_.put(ids.shape).put(",").put(ids.representation).end();
   }
 
   void add_colour(StepId solid, const std::array<double, 3>& colour, StepId context) {
@@ -147,6 +171,7 @@ class StepFile {
   }
 
   StepEntities out_;
+  StepSchema schema_;
   StepId application_ = 0, millimetre_ = 0, radian_ = 0, steradian_ = 0, uncertainty_ = 0;
 };
 
@@ -157,17 +182,17 @@ std::size_t expected_bytes(const StepPart& part) {
 
 }  // namespace
 
-std::string step_text(const StepPart& part) {
-  StepFile file(expected_bytes(part));
+std::string step_text(const StepPart& part, StepSchema schema) {
+  StepFile file(expected_bytes(part), schema);
   file.add_part(part);
   return file.finish(part.name);
 }
 
 std::string step_text(const std::vector<StepPart>& parts, const std::vector<Placement>& placements,
-                      const std::string& name) {
+                      const std::string& name, StepSchema schema) {
   std::size_t bytes = 1000 * placements.size();
   for (const StepPart& part : parts) bytes += expected_bytes(part);
-  StepFile file(bytes);
+  StepFile file(bytes, schema);
   std::vector<ProductIds> ids;
   for (const StepPart& part : parts) ids.push_back(file.add_part(part));
   file.add_assembly(ids, placements, name);

@@ -61,7 +61,7 @@ void append_outline(std::string& text, const Contour& contour) {
 
 /// A shaded face under the outlines, so that a section is seen for what it is.
 void append_face(std::string& text, const SectionBody& body) {
-  text += "<path class=\"face\" fill=\"" + hex_text(part_colour(body.role)) + "\" d=\"";
+  text += "<path class=\"face\" style=\"fill:" + hex_text(part_colour(body.role)) + "\" d=\"";
   append_path_data(text, body.outer);
   for (const Contour& hole : body.holes) append_path_data(text, hole);
   text += "\"/>\n";

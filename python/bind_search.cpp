@@ -43,7 +43,7 @@ SearchResult search_of(SearchRequirements requirements, int threads) {
   auto running = begun_beside([&] {
     return run_search(task.requirements, task.enumeration, {.threads = threads, .stop = &stop});
   });
-  const std::vector<SearchRecord> records = wait_for(running, stop);
+  const SearchRecords records = wait_for(running, stop);
   if (stop) return {};  // the caller raises KeyboardInterrupt
   const SearchReport report = finish_search(task, records);
   SearchResult result{.json = search_json(task, report), .csv = search_csv(task, report), .designs = {}};

@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/report/drive_points.h"
 #include "trueflank/report/loop_page.h"
 
 namespace trueflank::loop {
 namespace {
-
-constexpr int kMostCells = 14;
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -25,36 +23,9 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Cells of one axis: the distinct set points where these are few, equal parts of the range else.
-struct Axis {
-  std::vector<double> centres;
-  explicit Axis(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const double span = values.back() - values.front();
-    for (std::size_t i = 0; i < values.size();) {
-      std::size_t k = i;
-      double sum = 0.0;
-      while (k < values.size() && values[k] - values[i] <= 0.025 * span) sum += values[k++];
-      centres.push_back(sum / static_cast<double>(k - i));
-      i = k;
-    }
-    if (static_cast<int>(centres.size()) <= kMostCells) return;
-    const double low = values.front();
-    centres.clear();
-    for (int i = 0; i < kMostCells; ++i) centres.push_back(low + span * (i + 0.5) / kMostCells);
-  }
-  [[nodiscard]] int cell(double value) const {
-    const auto nearest = std::min_element(centres.begin(), centres.end(), [&](double a, double b) {
-      return std::abs(a - value) < std::abs(b - value);
-    });
-    return static_cast<int>(nearest - centres.begin());
-  }
-  [[nodiscard]] int count() const { return static_cast<int>(centres.size()); }
-};
-
 /// Mean efficiencies of the cells of one direction, in per cent.
 struct Map {
-  Axis speed, load;
+  CellAxis speed, load;
   enum Kind { kMeasured, kBefore, kAfter, kResidual };
   std::array<std::vector<double>, 4> value;
   double low = 1e300, high = -1e300, most_residual = 1e-9;
@@ -172,114 +143,6 @@ std::string maps_of(const DriveLoop& closed, bool forward) {
   return html + "</div>";
 }
 
-/// Points of one chart: places on the paper, and words for the pointer.
-struct Dots {
-  std::string circles, under_pointer;
-  void add(const char* kind, double x, double y, const std::string& words) {
-    const std::string at_x = printed_number(x, "%.1f"), at_y = printed_number(y, "%.1f");
-    circles += std::string("<circle class='") + kind + "' cx='" + at_x + "' cy='" + at_y + "' r='2.2'/>";
-    if (words.empty()) return;
-    under_pointer += (under_pointer.empty() ? "[" : ",[") + at_x + "," + at_y + ",\"" + words + "\"]";
-  }
-};
-
-constexpr double kLeft = 66, kTop = 8, kWide = 600, kHigh = 260;
-
-std::string svg_of(const Dots& dots, const std::string& axes) {
-  return "<svg viewBox='0 0 " + printed_number(kLeft + kWide + 14, "%g") + " " + printed_number(kTop + kHigh + 40, "%g") +
-         "' data-chart='{\"kind\":\"points\",\"rows\":[" + dots.under_pointer + "]}'>" + axes + dots.circles + "</svg>";
-}
-
-std::string text_at(double x, double y, const char* anchor, const std::string& text) {
-  return "<text x='" + printed_number(x) + "' y='" + printed_number(y) + "' text-anchor='" + anchor + "'>" + text + "</text>";
-}
-
-/// Four lines each way with their values.
-std::string axes(double x_low, double x_high, double y_low, double y_high, const std::string& x_name) {
-  std::string svg;
-  for (int i = 0; i <= 4; ++i) {
-    const double share = 0.25 * i, x = kLeft + kWide * share, y = kTop + kHigh * (1.0 - share);
-    const double value = y_low + (y_high - y_low) * share;
-    svg += "<path class='" + std::string(std::abs(value) < 1e-9 * (y_high - y_low) ? "zero" : "grid") + "' d='M" +
-           printed_number(kLeft) + " " + printed_number(y) + "h" + printed_number(kWide, "%g") + "'/>" +
-           text_at(kLeft - 6, y + 4, "end", printed_number(value, "%.3g")) +
-           text_at(x, kTop + kHigh + 16, i == 0 ? "start" : i == 4 ? "end" : "middle",
-                   printed_number(x_low + (x_high - x_low) * share, "%.4g"));
-  }
-  return svg + text_at(kLeft + 0.5 * kWide, kTop + kHigh + 34, "middle", x_name);
-}
-
-/// Points a chart can carry: of long logs every n-th.
-std::size_t stride_of(const DriveLoop& closed) {
-  constexpr std::size_t kMostPoints = 3000;
-  return closed.table.points.size() / kMostPoints + 1;
-}
-
-std::string set_point(const BenchPoint& p) {
-  return std::string(p.forward ? "forward " : "backward ") + printed_number(p.speed_rpm, "%.4g") + " rpm, " +
-         printed_number(p.driving_nm, "%.4g") + " N m driving: ";
-}
-
-/// Residual before (grey) and after (blue) over one quantity, as torque lost at the input.
-std::string residual_chart(const DriveLoop& closed, const char* caption,
-                           const std::function<double(const BenchPoint&)>& abscissa) {
-  double low = 1e300, high = -1e300, size = 1e-300;
-  const auto at_input = [&](std::size_t i, const std::vector<double>& residual) {
-    const BenchPoint& p = closed.table.points[i];
-    return residual[i] / (p.forward ? closed.model.ratio : 1.0);
-  };
-  for (std::size_t i = 0; i < closed.table.points.size(); ++i) {
-    low = std::min(low, abscissa(closed.table.points[i]));
-    high = std::max(high, abscissa(closed.table.points[i]));
-    size = std::max(size, std::abs(at_input(i, closed.before_nm)));
-  }
-  if (!(high > low)) return {};
-  Dots dots;
-  for (const bool after : {false, true})
-    for (std::size_t i = 0; i < closed.table.points.size(); i += stride_of(closed)) {
-      const BenchPoint& p = closed.table.points[i];
-      const double value = at_input(i, after ? closed.after_nm : closed.before_nm);
-      dots.add(after ? "a" : "f", kLeft + kWide * (abscissa(p) - low) / (high - low),
-               kTop + 0.5 * kHigh * (1.0 - std::clamp(value / size, -1.0, 1.0)),
-               after ? set_point(p) + "left " + printed_number(value, "%.3g") + " N m, before " +
-                           printed_number(at_input(i, closed.before_nm), "%.3g")
-                     : "");
-    }
-  return std::string("<figure><figcaption>residual [N m at the input] over the <b>") + caption + "</b></figcaption>" +
-         svg_of(dots, axes(low, high, -size, size, caption)) + "</figure>";
-}
-
-/// Predicted over measured torque of the driven side: on the line the model is right.
-std::string torque_chart(const DriveLoop& closed, bool forward, bool after) {
-  const std::vector<double>& residual = after ? closed.after_nm : closed.before_nm;
-  double high = 1e-300;
-  for (const BenchPoint& p : closed.table.points)
-    if (p.forward == forward) high = std::max(high, p.driven_nm);
-  Dots dots;
-  for (std::size_t i = 0; i < closed.table.points.size(); i += stride_of(closed)) {
-    const BenchPoint& p = closed.table.points[i];
-    if (p.forward != forward) continue;
-    const double predicted = p.driven_nm - residual[i];
-    dots.add(after ? "a" : "f", kLeft + kWide * std::clamp(p.driven_nm / high, 0.0, 1.0),
-             kTop + kHigh * (1.0 - std::clamp(predicted / high, 0.0, 1.0)),
-             set_point(p) + "measured " + printed_number(p.driven_nm, "%.4g") + ", model " + printed_number(predicted, "%.4g"));
-  }
-  std::string line = axes(0.0, high, 0.0, high, "measured, N m");
-  line += "<path class='zero' d='M" + printed_number(kLeft) + " " + printed_number(kTop + kHigh) + "L" +
-          printed_number(kLeft + kWide) + " " + printed_number(kTop) + "'/>";
-  return std::string("<figure><figcaption><b>") + (after ? "after" : "before") + "</b>, " +
-         (forward ? "forward: output" : "backward: input") + " torque of the model [N m] over the measured one</figcaption>" +
-         svg_of(dots, line) + "</figure>";
-}
-
-std::string torques(const DriveLoop& closed) {
-  std::string html = "<h2>Torque, measured and predicted</h2><p class='note'>On the line the model is right.</p><div class='two'>";
-  for (const bool forward : {true, false})
-    for (const bool after : {false, true})
-      if (closed.table.has(forward)) html += torque_chart(closed, forward, after);
-  return html + "</div>";
-}
-
 std::string possible_table(const LoopResult& result) {
   if (result.possible.empty()) return {};
   std::string html =
@@ -298,21 +161,10 @@ std::string possible_table(const LoopResult& result) {
 }  // namespace
 
 std::string drive_html(const DriveLoop& closed) {
-  std::string page = loop_page_opening(closed.result, "What the bench tells of the drive");
+  std::string page = loop_page_opening(closed.result, "What the bench tells of the drive", residual_trends(closed));
   page += possible_table(closed.result);
-  if (!closed.table.points.empty()) {
-    page += torques(closed);
-    page += "<h2>Residual before (grey) and after (blue)</h2><div class='two'>";
-    page += residual_chart(closed, "load (as torque at the input, N m)",
-                           [](const BenchPoint& p) { return p.load_nm; });
-    page += residual_chart(closed, "input speed, rpm", [](const BenchPoint& p) { return p.speed_rpm; });
-    if (closed.table.has_temperature)
-      page += residual_chart(closed, "temperature, C", [](const BenchPoint& p) { return p.temperature_c; });
-    if (closed.table.has_angle)
-      page += residual_chart(closed, "input angle, turns",
-                             [](const BenchPoint& p) { return p.angle_rad / kTwoPi; });
-    page += "</div>" + maps_of(closed, true) + maps_of(closed, false);
-  }
+  if (!closed.table.points.empty())
+    page += torque_charts(closed) + residual_charts(closed) + maps_of(closed, true) + maps_of(closed, false);
   return page + loop_page_end(closed.result);
 }
 

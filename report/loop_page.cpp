@@ -42,14 +42,16 @@ h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;fon
 figcaption b{color:var(--ink)}svg{display:block;width:100%;height:auto}svg text{fill:var(--soft);font-size:12px}
 .grid{stroke:var(--line);fill:none}.zero{stroke:var(--soft);fill:none;stroke-width:.7;opacity:.6}
 .f{fill:var(--none);opacity:.55}.a{fill:var(--accent)}.z{stroke:var(--line);fill:none}
-.four{display:grid;grid-template-columns:repeat(4,1fr);gap:.8rem}.four svg text{font-size:10px}
+.four{display:grid;grid-template-columns:1fr 1fr;gap:.8rem;max-width:64rem}.four svg text{font-size:8px}
+.points text{font-size:13px}.points .w{fill:#c77700;opacity:.5}.points .a{opacity:.75}.am,.wm{fill:none;stroke:var(--accent);stroke-width:2.4;stroke-linejoin:round}
+.wm{stroke:#c77700;stroke-dasharray:6 4}.key span{display:inline-block;margin-right:.5rem;font-weight:600}
+.key span::before{content:"";display:inline-block;width:.75em;height:.75em;border-radius:50%;margin-right:.4em;background:var(--accent)}.key .w::before{background:#c77700}
 .t{stroke:var(--accent);fill:none;stroke-width:1.1}.b{fill:var(--accent)}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.95rem}td,th{padding:.3rem .8rem .3rem 0;text-align:left}
 th{color:var(--soft);font-weight:600}td+td,th+th{text-align:right}.words :is(td,th){text-align:left;vertical-align:top}.scroll{overflow-x:auto}
 pre{white-space:pre-wrap;font-size:.85rem;background:var(--card);border:1px solid var(--line);border-radius:12px;padding:1rem}
 summary{cursor:pointer;color:var(--accent)}
-@media(max-width:62rem){.four{grid-template-columns:1fr 1fr}}
-@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}}
+@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}.points text{font-size:21px}.four svg text{font-size:9px}}
 @media print{body{background:#fff}figure,.card{break-inside:avoid;box-shadow:none}details{display:none}}
 )";
 
@@ -116,8 +118,7 @@ double larger_than_noise(double noise, int values) {
 }
 
 /// What does not add up: a reader must not miss it.
-std::string alarm(const LoopResult& r) {
-  std::vector<std::string> wrong;
+std::string alarm(const LoopResult& r, std::vector<std::string> wrong) {
   const std::string unit = std::string(" ") + r.unit.sign;
   const auto size = [&](double value) { return number(value, "%.3g") + unit; };
   if (r.after.held_out_rms > 1.02 * r.before.held_out_rms)
@@ -213,13 +214,14 @@ std::string script_text(std::string text) {
 
 }  // namespace
 
-std::string loop_page_opening(const LoopResult& r, const std::string& heading) {
+std::string loop_page_opening(const LoopResult& r, const std::string& heading,
+                              const std::vector<std::string>& not_adding_up) {
   std::string page =
       "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
       escaped(r.gear) + " – Trueflank loop</title><style>" + kStyle +
       "</style></head><body><main><p class='brand'>Trueflank</p><h1>" + escaped(heading) +
-      "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + alarm(r) + figure_cards(r);
+      "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + alarm(r, not_adding_up) + figure_cards(r);
   page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
   for (const FoundEffect& effect : r.effects) page += effect_card(effect, !r.unit.efficiency_points);
   return page + left_over(r);

@@ -43,6 +43,7 @@ struct Report {
   std::optional<PlasticResult> plastic;    ///< none without a gear of a plastic
   std::optional<ReportedInertia> inertia;
   std::vector<MeshSweep> sweeps;     ///< in the order of the train's meshes; may be empty
+  bool inches = false;               ///< the main sizes in inches too
   BillOfMaterials bill;              ///< of a design with [housing]; empty otherwise
   double tolerance_um = kNaN;        ///< NaN for check
   std::vector<ReportedFile> files;   ///< empty for check

@@ -72,12 +72,15 @@ std::string report_html(const Report& report, std::string_view report_json_text,
   const std::string licence = text_for_html(page::kLicence);
   const std::string data = json_for_script(report_json_text);
   const std::string drawn = json_for_script(model_json_text);
-  return filled<7>(page::kFrame, {{{"@TITLE@", title},
+  return filled<10>(page::kFrame, {{{"@TITLE@", title},
                                    {"@STYLE@", page::kStyle},
+                                   {"@VERSION@", TRUEFLANK_VERSION},
                                    {"@LICENCE@", licence},
                                    {"@REPORT@", data},
                                    {"@MODEL@", drawn},
                                    {"@SCRIPT@", page::kScript},
+                                   {"@DIMENSIONS@", page::kDimensions},
+                                   {"@MESHES@", page::kMeshes},
                                    {"@VIEWER@", page::kViewer}}});
 }
 

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "trueflank/geometry/tooth_span.h"
+#include "trueflank/report/flank_limits.h"
 #include "trueflank/report/gear_dimensions.h"
+#include "trueflank/report/inch_sizes.h"
 #include "trueflank/report/report.h"
 #include "trueflank/report/report_drive.h"
 #include "trueflank/train/mesh_face.h"
@@ -130,6 +132,7 @@ Json gear_json(const GearTrain& train, const TrainGear& gear) {
   json["lead_mm"] = g.helix_angle_rad == 0.0
                         ? kNaN
                         : kTwoPi * reference_radius_mm(g) / std::tan(std::abs(g.helix_angle_rad));
+  json["iso_1328_limits_um"] = nlohmann::ordered_json::parse(flank_limits_json_text(gear));
   json["relief_groove_mm"] = gear.twist.relief_groove_mm;
   json["modified"] = !gear.deviation.empty() || gear.edge_chamfer_mm > 0.0 || g.tip_rounding_mm > 0.0;
   json["protuberance_undercut_um"] = um_from_mm(notes.protuberance_undercut_mm);
@@ -243,6 +246,7 @@ std::string report_json(const Report& report) {
   }
   json["checks"] = Json::array();
   for (const Finding& finding : report.findings) json["checks"].push_back(finding_json(finding));
+  if (report.inches) json["inches"] = Json::parse(inch_json_text(*report.train));
   json["joint_cure"] = report.cure ? Json::parse(cure_json_text(*report.cure)) : Json(nullptr);
   json["verdict"] = to_text(verdict(report.findings));
   // names come from users: what is no UTF-8 is shown as the replacement character

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "trueflank/export/scene.h"
-#include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/geometry/polyline.h"
 #include "trueflank/geometry/section_profile.h"
+#include "trueflank/report/flank_limits.h"
 #include "trueflank/solid/shape/toothing_grid.h"
 
 namespace trueflank::io {
@@ -59,27 +59,6 @@ Json rows_json(const TrainGear& gear, double chord_error_mm) {
   return rows;
 }
 
-Json tolerances_json(const TrainGear& gear) {
-  const ToleranceSize size = tolerance_size(gear.profile.gear(), gear.face_width_mm);
-  Json json = Json::object();
-  json["scope"] = nullptr;
-  json["classes"] = Json::object();
-  for (int k = kFinestToleranceClass; k <= kCoarsestToleranceClass; ++k) {
-    const auto limits = flank_tolerances(size, k);
-    if (!limits) {
-      json["scope"] = limits.error().message + "; " + limits.error().remedy;
-      break;
-    }
-    json["classes"][std::to_string(k)] = {
-        {"f_p", limits->single_pitch_um},   {"F_p", limits->total_cumulative_pitch_um},
-        {"f_Ha", limits->profile_slope_um}, {"f_fa", limits->profile_form_um},
-        {"F_a", limits->total_profile_um},  {"f_Hb", limits->helix_slope_um},
-        {"f_fb", limits->helix_form_um},    {"F_b", limits->total_helix_um},
-        {"F_r", limits->runout_um}};
-  }
-  return json;
-}
-
 Json gear_json(const GearTrain& train, const TrainGear& gear, const HtmlModel& model) {
   const Gear& g = gear.profile.gear();
   Json json = Json::object();
@@ -102,7 +81,7 @@ Json gear_json(const GearTrain& train, const TrainGear& gear, const HtmlModel& m
   json["tooth"] = tooth_json(section.profile, model.mesh_chord_error_mm);
   json["coarse_tooth"] = tooth_json(gear.profile, model.solid_chord_error_mm);
   json["rows"] = rows_json(gear, model.solid_chord_error_mm);
-  json["iso1328"] = tolerances_json(gear);
+  json["iso1328"] = nlohmann::ordered_json::parse(flank_limits_json_text(gear));
   return json;
 }
 
@@ -228,12 +207,31 @@ Json slab_json(const GearTrain& train, const Slab& slab, double chord_error_mm) 
   return json;
 }
 
+/// What a part is, for the page: how it is drawn follows from it.
+const char* to_text(PartRole role) {
+  switch (role) {
+    case PartRole::kSun: return "sun";
+    case PartRole::kPlanet: return "planet";
+    case PartRole::kRing: return "ring";
+    case PartRole::kUpperRing: return "upper_ring";
+    case PartRole::kCarrier: return "carrier";
+    case PartRole::kCasing: return "casing";
+    case PartRole::kOutput: return "output";
+    case PartRole::kBought: return "bought";
+    case PartRole::kOther: break;
+  }
+  return "other";
+}
+
 Json parts_json(const GearTrain& train, const PartShapes& shapes, double chord_error_mm) {
   Json list = Json::array();
   for (const PartShape& part : shapes.parts) {
     Json slabs = Json::array();
     for (const Slab& slab : part.slabs) slabs.push_back(slab_json(train, slab, chord_error_mm));
-    list.push_back({{"name", part.name}, {"colour", hex_text(part_colour(part.role))}, {"slabs", slabs}});
+    list.push_back({{"name", part.name},
+                    {"role", to_text(part.role)},
+                    {"colour", hex_text(part_colour(part.role))},
+                    {"slabs", slabs}});
   }
   return list;
 }

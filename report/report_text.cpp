@@ -4,6 +4,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/geometry/tooth_span.h"
+#include "trueflank/report/inch_sizes.h"
 #include "trueflank/report/report.h"
 #include "trueflank/report/report_drive.h"
 #include "trueflank/train/axial_thrust.h"
@@ -120,12 +121,14 @@ std::string heading_text(const Report& report) {
   text += interrupted_text(train, e);
   if (report.strength && !std::isnan(report.strength->output_torque_nm)) {
     const StrengthResult& s = *report.strength;
-    text += "allowable output torque " + formatted("%.4g", s.output_torque_nm) + " N m, limited by " +
-            s.limiting_mode + " of " + s.limiting_gear + " (" + limiting_material(s) + ")\n";
+    text += wrapped("allowable output torque " + formatted("%.4g", s.output_torque_nm) + " N m, limited by " +
+                        s.limiting_mode + " of " + s.limiting_gear + " (" + limiting_material(s) + ")",
+                    0);
   }
   if (report.iso6336 && !std::isnan(report.iso6336->output_torque_nm))
-    text += "  in the form of ISO 6336: " + formatted("%.4g", report.iso6336->output_torque_nm) + " N m, limited by " +
-            report.iso6336->limiting_mode + " of " + report.iso6336->limiting_gear + "\n";
+    text += wrapped("in the form of ISO 6336: " + formatted("%.4g", report.iso6336->output_torque_nm) +
+                        " N m, limited by " + report.iso6336->limiting_mode + " of " + report.iso6336->limiting_gear,
+                    2);
   if (report.plastic) text += plastic_text(*report.plastic);
   return text + "\n";
 }
@@ -363,7 +366,8 @@ std::string report_text(const Report& report, const ReportTextOptions& options) 
     warnings += finding.status == CheckStatus::kWarn;
     failures += finding.status == CheckStatus::kFail;
   }
-  std::string text = heading_text(report) + gear_table(*report.train) + mesh_table(report) +
+  std::string text = heading_text(report) + gear_table(*report.train) +
+                     (report.inches ? inch_table(*report.train) : std::string()) + mesh_table(report) +
                      carrying_text(*report.train) + helix_table(report) +
                      thickness_table(*report.train) +
                      check_table(report, options) +

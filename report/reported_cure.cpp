@@ -12,8 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// One blank at least stands behind it.
 std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
+  text.resize(std::max(width, text.size() + 1), ' ');
   return text;
 }
 

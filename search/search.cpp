@@ -2,23 +2,18 @@
 #include "trueflank/search/search.h"
 
 #include <algorithm>
-#include <exception>
 #include <map>
-#include <mutex>
 
-#include "trueflank/base/threads.h"
 #include "trueflank/train/efficiency.h"
 
 namespace trueflank {
 namespace {
 
 constexpr int kTightenings = 4;
+/// So many times as many sets are listed where those listed do not do.
+constexpr std::size_t kMoreListed = 4;
 /// First extra distance from a limit a check found broken, in modules; four times that each time.
 constexpr double kFirstTightening = 5e-5;
-
-int thread_count(int wanted) {
-  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 /// Limits whose reserve may mend a failed check.
 std::vector<Limit> limits_behind(const std::string& check) {
@@ -79,8 +74,8 @@ class Judging {
                                    std::optional<RankedCandidate>& again) {
     const ToothSet& set = enumeration_.sets[ranked.set_index];
     const SearchModel model(r_, set);
-    FoundDesign found{.set = set, .candidate = ranked.candidate,
-                      .design = model.design(ranked.candidate.free)};
+    FoundDesign found{
+        .set = set, .candidate = ranked.candidate, .design = model.design(ranked.candidate.free)};
     ++report_.judged;
     const auto train = lay_out(found.design);
     if (!train) {
@@ -144,13 +139,14 @@ class Judging {
 };
 
 void count_records(const SearchRequirements& requirements, const SetEnumeration& enumeration,
-                   const std::vector<SearchRecord>& records, SearchReport& report) {
+                   const SearchRecords& records, SearchReport& report) {
   report.considered = enumeration.considered;
   report.classes = enumeration.rejected;
   report.sets = enumeration.sets.size();
-  report.optimised = records.size();
+  report.optimised = records.sets();
+  report.passed_over = records.passed_over;
   std::map<std::string, SetClass> by_limit;
-  for (const SearchRecord& record : records) {
+  for (const SearchRecord& record : records.optimised) {
     report.evaluations += record.result.evaluations;
     for (const SearchCandidate& candidate : record.result.candidates)
       report.ranking.push_back({record.index, candidate, false});
@@ -163,13 +159,17 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
       c = {"torque", "no shifts carry the output torque asked for", 0};
     } else if (record.result.failed_limit >= 0) {
       const LimitEntry& entry =
-          limit_entries()[static_cast<std::size_t>(record.result.failed_limit)];
+          enumeration.sets[record.index]
+              .train->limits[static_cast<std::size_t>(record.result.failed_limit)];
       c.id = std::string(to_text(entry.limit)) + ":" + entry.where;
       c.description = "no shifts keep this limit together with the others";
     }
     by_limit.try_emplace(c.id, c).first->second.count++;
   }
   for (const auto& [id, c] : by_limit) report.classes.push_back(c);
+  if (records.passed_over > 0)
+    report.classes.push_back({"not_listed", "no better than the last one listed, or none at all",
+                              static_cast<long long>(records.passed_over)});
   std::sort(report.ranking.begin(), report.ranking.end(),
             BetterCandidate{&requirements.objectives});
   mark_front(report.ranking, requirements.objectives);
@@ -177,50 +177,10 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
 
 }  // namespace
 
-std::vector<SearchRecord> run_search(const SearchRequirements& requirements,
-                                     const SetEnumeration& enumeration,
-                                     const SearchRunOptions& options) {
-  std::map<std::size_t, SearchRecord> records;
-  for (const SearchRecord& record : options.done)
-    if (options.part.holds(record.index)) records.insert({record.index, record});
-  std::vector<std::size_t> open;
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < enumeration.sets.size(); ++i) {
-    if (!options.part.holds(i)) continue;
-    ++total;
-    if (!records.contains(i)) open.push_back(i);
-  }
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    try {
-      while (!(options.stop && options.stop->load())) {
-        const std::size_t k = next.fetch_add(1);
-        if (k >= open.size()) return;
-        SearchRecord record{open[k], optimise_set(requirements, enumeration.sets[open[k]])};
-        const std::lock_guard lock(mutex);
-        const auto it = records.insert({record.index, std::move(record)}).first;
-        if (options.on_record) options.on_record(it->second, records.size(), total);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      next = open.size();
-    }
-  };
-  auto threads = helping_threads(static_cast<std::size_t>(thread_count(options.threads) - 1), work);
-  work();
-  threads.clear();  // joins
-  if (failure) std::rethrow_exception(failure);
-  std::vector<SearchRecord> result;
-  for (auto& [index, record] : records) result.push_back(std::move(record));
-  return result;
-}
+namespace {
 
-SearchReport conclude_search(const SearchRequirements& requirements,
-                             const SetEnumeration& enumeration,
-                             const std::vector<SearchRecord>& records, const DesignJudge& judge) {
+SearchReport judged(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+                    const SearchRecords& records, const DesignJudge& judge) {
   SearchReport report;
   count_records(requirements, enumeration, records, report);
   const BetterCandidate better{&requirements.objectives};
@@ -237,6 +197,34 @@ SearchReport conclude_search(const SearchRequirements& requirements,
       const auto from = queue.begin() + static_cast<std::ptrdiff_t>(i) + 1;
       queue.insert(std::upper_bound(from, queue.end(), *again, better), *again);
     }
+  }
+  return report;
+}
+
+/// Whether sets that were passed over might be better than a design that is reported: they can be as
+/// good as the last one listed.
+bool might_lack_one(const SearchRequirements& requirements, const SearchReport& report) {
+  if (report.passed_over == 0) return false;
+  if (report.designs.size() < static_cast<std::size_t>(requirements.results)) return true;
+  const SearchObjective objective = requirements.objectives.front();
+  return std::any_of(report.designs.begin(), report.designs.end(), [&](const FoundDesign& found) {
+    return found.candidate.merit(objective) < report.ranking.back().candidate.merit(objective);
+  });
+}
+
+}  // namespace
+
+SearchReport conclude_search(const SearchRequirements& requirements,
+                             const SetEnumeration& enumeration, const SearchRecords& records,
+                             const DesignJudge& judge) {
+  SearchReport report = judged(requirements, enumeration, records, judge);
+  SearchRequirements wider = requirements;
+  SearchRecords more;
+  while (might_lack_one(requirements, report)) {
+    wider.listed = static_cast<int>(kMoreListed * listed_sets(wider));
+    more = run_search(wider, enumeration,
+                      {.done = more.optimised.empty() ? records.optimised : more.optimised});
+    report = judged(requirements, enumeration, more, judge);
   }
   return report;
 }

@@ -22,12 +22,22 @@ struct SearchRecord {
   SetResult result;
 };
 
+/// What a search has of its tooth sets, or of those of a part.
+struct SearchRecords {
+  std::vector<SearchRecord> optimised;  ///< by index
+  /// Sets of which a bound says that they cannot be among the best that are listed, or that were not
+  /// among them. Where there are any, `optimised` holds those that are listed and no others.
+  std::size_t passed_over = 0;
+  [[nodiscard]] std::size_t sets() const { return optimised.size() + passed_over; }
+};
+
 /// Part `part` (1-based) of `parts`: the sets whose index leaves part - 1 when divided by parts.
 struct SearchPart {
   int part = 1, parts = 1;
   [[nodiscard]] bool holds(std::size_t index) const {
     return index % static_cast<std::size_t>(parts) == static_cast<std::size_t>(part - 1);
   }
+  bool operator==(const SearchPart&) const = default;
 };
 
 struct SearchRunOptions {
@@ -35,16 +45,27 @@ struct SearchRunOptions {
   SearchPart part;
   std::vector<SearchRecord> done;           ///< of an earlier run: not computed again
   const std::atomic<bool>* stop = nullptr;  ///< set: what is under way is finished, no more started
-  /// Called for every new record, one call at a time, in no fixed order.
+  /// Called for every new record, one call at a time, in no fixed order; `finished` counts the sets
+  /// that are passed over too.
   std::function<void(const SearchRecord&, std::size_t finished, std::size_t total)> on_record;
 };
 
-/// Optimises the sets of one part. Returns the records of the part, old and new, by index: all of
-/// them, or fewer where it was stopped.
+/// How many sets of one search are listed (SearchRequirements::listed); 0: all, since their number
+/// does not say or no bound is known.
+[[nodiscard]] std::size_t listed_sets(const SearchRequirements& requirements);
+
+/// Optimises the sets of one part, those of the best bound (search_bound.h) first, until no other can
+/// be among the best that are listed. Where fewer sets have feasible shifts than are listed, all sets
+/// are optimised and recorded. Stopped early it returns what there is, with nothing passed over.
 /// Guarantees: the same records for any number of threads and whatever was done before.
-[[nodiscard]] std::vector<SearchRecord> run_search(const SearchRequirements& requirements,
-                                                   const SetEnumeration& enumeration,
-                                                   const SearchRunOptions& options = {});
+[[nodiscard]] SearchRecords run_search(const SearchRequirements& requirements,
+                                       const SetEnumeration& enumeration,
+                                       const SearchRunOptions& options = {});
+
+/// The records of `sets` tooth sets as a run that did them all returns them: cut to those listed.
+/// Requires: what is missing could not be among them.
+[[nodiscard]] SearchRecords listed_records(const SearchRequirements& requirements,
+                                           std::vector<SearchRecord> records, std::size_t sets);
 
 /// What the exact checks say of a design.
 struct DesignVerdict {
@@ -75,7 +96,8 @@ struct SearchReport {
   long long considered = 0;
   std::vector<SetClass> classes;  ///< of everything that fell, whole numbers first, then shifts
   std::size_t sets = 0;           ///< that were to be optimised
-  std::size_t optimised = 0;      ///< that were; fewer: stopped early
+  std::size_t optimised = 0;      ///< that were, or passed over; fewer: stopped early
+  std::size_t passed_over = 0;    ///< of them, since they could not be among those listed
   std::size_t feasible = 0;       ///< with shifts that keep all limits
   long long evaluations = 0;      ///< of a layer
   std::vector<RankedCandidate> ranking;  ///< of all candidates, best first
@@ -86,10 +108,11 @@ struct SearchReport {
 
 /// Ranks records and judges from the best until enough designs passed. A design that fails a check is
 /// optimised again with more distance from the limits concerned, at most three times.
-/// `threads` as above. Guarantees: a function of records alone, not of how they came about.
+/// Where a set that was passed over could be among the designs (so many of the listed failed a check),
+/// more are optimised. Guarantees: a function of records alone, not of how they came about.
 [[nodiscard]] SearchReport conclude_search(const SearchRequirements& requirements,
                                            const SetEnumeration& enumeration,
-                                           const std::vector<SearchRecord>& records,
+                                           const SearchRecords& records,
                                            const DesignJudge& judge);
 
 /// @name Journal: one line a record, read back bit for bit
@@ -97,11 +120,18 @@ struct SearchReport {
 [[nodiscard]] std::string journal_header(const SearchRequirements& requirements,
                                          const SetEnumeration& enumeration);
 [[nodiscard]] std::string journal_line(const SearchRecord& record);
+/// Ends the journal of a part that is done.
+[[nodiscard]] std::string journal_end(const SearchPart& part);
+struct SearchJournal {
+  std::vector<SearchRecord> records;
+  std::vector<SearchPart> ended;  ///< parts of which nothing is missing but what was passed over
+  [[nodiscard]] bool covers(std::size_t index) const;
+};
 /// Reads header and records; a last line cut short is left out. Errors: kInconsistent where the
 /// journal is of other requirements, kSyntax.
-[[nodiscard]] Result<std::vector<SearchRecord>> read_journal(const std::string& text,
-                                                             const SearchRequirements& requirements,
-                                                             const SetEnumeration& enumeration);
+[[nodiscard]] Result<SearchJournal> read_journal(const std::string& text,
+                                                 const SearchRequirements& requirements,
+                                                 const SetEnumeration& enumeration);
 /// @}
 
 }  // namespace trueflank

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
+#include <utility>
 
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/scalar_root.h"
@@ -51,8 +50,7 @@ class CentreDistances {
     const auto a_high = zero_backlash_centre_distance_mm(teeth, high);
     const auto a_low = zero_backlash_centre_distance_mm(teeth, low);
     // a sum so small that the base circles meet first: the distance where they do
-    const double least =
-        reference_centre_distance_mm(teeth) * std::cos(r_.rack.pressure_angle_rad);
+    const double least = reference_centre_distance_mm(teeth) * std::cos(r_.rack.pressure_angle_rad);
     Interval result;
     if (a_high) result = {a_low ? *a_low : least * (1.0 + 1e-12), *a_high};
     return cache_[key] = result;
@@ -68,27 +66,35 @@ double shift_sum_at(const MeshTeeth& mesh, double centre_distance) {
   return angle ? shift_sum(mesh, *angle) : -1e9;
 }
 
-/// Layer 1 shares planet1 between two meshes: x_s + x_r1 = sum of both shift sums, within bounds.
-Interval layer1_interval(const SearchRequirements& r, CentreDistances& distances, int z_s, int z_p,
-                         int z_r) {
+/// The distances a layer allows. Sun, planet and ring share the planet between two meshes: x_s +
+/// x_r = sum of both shift sums, within bounds.
+Interval layer_interval(const SearchRequirements& r, CentreDistances& distances, int z_s, int z_p,
+                        int z_r) {
+  if (z_r == 0) return distances.interval(z_s + z_p, false, 1.0);
   if (z_r <= z_p) return {};
+  if (z_s == 0) return distances.interval(z_r - z_p, true, 1.0);
   Interval both =
       common(distances.interval(z_s + z_p, false, 1.0), distances.interval(z_r - z_p, true, 1.0));
   if (both.empty()) return both;
   const MeshTeeth external = CentreDistances::mesh(r, z_s + z_p, false, 1.0);
   const MeshTeeth internal = CentreDistances::mesh(r, z_r - z_p, true, 1.0);
-  const auto total = [&](double a) { return shift_sum_at(external, a) + shift_sum_at(internal, a); };
+  const auto total = [&](double a) {
+    return shift_sum_at(external, a) + shift_sum_at(internal, a);
+  };
   // both sums grow with the distance
   if (total(both.low) > 2.0 * r.shift_max || total(both.high) < 2.0 * r.shift_min) return {};
   if (total(both.high) > 2.0 * r.shift_max)
-    both.high = find_root([&](double a) { return total(a) - 2.0 * r.shift_max; }, both.low, both.high);
+    both.high =
+        find_root([&](double a) { return total(a) - 2.0 * r.shift_max; }, both.low, both.high);
   if (total(both.low) < 2.0 * r.shift_min)
-    both.low = find_root([&](double a) { return total(a) - 2.0 * r.shift_min; }, both.low, both.high);
+    both.low =
+        find_root([&](double a) { return total(a) - 2.0 * r.shift_min; }, both.low, both.high);
   return both;
 }
 
-/// A bound on planet1's tip radius that no choice of shifts goes below.
+/// A bound on the tip radius of a planet of layer 1 that no choice of shifts goes below.
 double least_planet1_tip(const SearchRequirements& r, int z_s, int z_p, const Interval& a) {
+  if (z_s == 0) return 0.5 * z_p + r.rack.addendum + r.shift_min;
   const double y = a.low - 0.5 * (z_s + z_p);  // tip shortening at the least distance
   return 0.5 * z_p + r.rack.addendum + std::min(r.shift_min, y - r.shift_max);
 }
@@ -96,58 +102,94 @@ double least_planet2_tip(const SearchRequirements& r, int z_p2, double module) {
   return module * (0.5 * z_p2 + r.rack.addendum + r.shift_min);
 }
 
-bool neighbours_collide(const SearchRequirements& r, double greatest_distance, double tip_radius) {
-  if (r.planets < 2) return false;
+bool neighbours_collide(const SearchRequirements& r, const ToothSet& set, double greatest_distance,
+                        double tip_radius) {
+  if (set.planets < 2) return false;
   // an outer diameter leaves the module open; the clearance then only has to be positive
   const double clearance = r.outer_diameter_mm ? 0.0 : r.planet_clearance_mm / r.module_mm;
-  return 2.0 * greatest_distance * std::sin(kPi / r.planets) < 2.0 * tip_radius + clearance;
+  return 2.0 * greatest_distance * std::sin(kPi / set.planets) < 2.0 * tip_radius + clearance;
 }
 
-enum Reason { kAssembly, kDistance1, kPlanets1, kDistance2, kRatio, kPlanets2, kIdentical, kReasons };
+enum Reason {
+  kAssembly,
+  kDistance1,
+  kPlanets1,
+  kDistance2,
+  kRatio,
+  kPlanets2,
+  kIdentical,
+  kReasons
+};
 
 std::vector<SetClass> empty_classes() {
-  return {{"assembly", "planets at equal spacing do not mesh with sun and ring1", 0},
-          {"centre_distance_layer1", "no shifts within bounds give sun, planet1 and ring1 one centre "
-                                     "distance", 0},
-          {"planet_spacing_layer1", "neighbouring planets collide in layer 1 whatever the shifts", 0},
-          {"centre_distance_layer2", "no shifts within bounds give layer 2 the centre distance of "
-                                     "layer 1", 0},
-          {"ratio", "ratio or direction outside the requirement", 0},
-          {"planet_spacing_layer2", "neighbouring planets collide in layer 2 whatever the shifts", 0},
-          {"identical_planets", "planet bodies would differ at equal spacing", 0}};
+  return {
+      {"assembly", "planets at equal spacing do not mesh with sun and ring1", 0},
+      {"centre_distance_layer1",
+       "no shifts within bounds give sun, planet1 and ring1 one centre "
+       "distance",
+       0},
+      {"planet_spacing_layer1", "neighbouring planets collide in layer 1 whatever the shifts", 0},
+      {"centre_distance_layer2",
+       "no shifts within bounds give layer 2 the centre distance of "
+       "layer 1",
+       0},
+      {"ratio", "ratio or direction outside the requirement", 0},
+      {"planet_spacing_layer2", "neighbouring planets collide in layer 2 whatever the shifts", 0},
+      {"identical_planets", "planet bodies would differ at equal spacing", 0}};
 }
 
-/// One enumeration under way.
+/// The enumeration of the trains of one kind and input, which differ in their output, with one
+/// number of planets.
 class Enumerator {
  public:
-  explicit Enumerator(const SearchRequirements& requirements)
-      : r_(requirements), distances_(requirements) {
-    result_.rejected = empty_classes();
-    layer2_pairs_ = r_.planet2.count() * r_.ring2.count();
-    variants_ = static_cast<long long>(r_.layer2_module_ratios.size() * r_.outputs.size());
+  Enumerator(const SearchRequirements& requirements, std::vector<const SearchTrain*> trains,
+             int planets, SetEnumeration& result)
+      : r_(requirements),
+        trains_(std::move(trains)),
+        planets_(planets),
+        distances_(requirements),
+        result_(result) {
+    two_layers_ = trains_.front()->layers.size() > 1;
+    const std::size_t ratios = two_layers_ ? r_.layer2_module_ratios.size() : 1;
+    for (const TrainPlace place : trains_.front()->places())
+      ranges_[static_cast<std::size_t>(place)] = tooth_range(r_, *trains_.front(), place);
+    behind_layer1_ = range(TrainPlace::kPlanet2).count() * range(TrainPlace::kRing2).count() *
+                     static_cast<long long>(ratios * trains_.size());
   }
 
-  SetEnumeration run() {
-    for (int z_s = r_.sun.min; z_s <= r_.sun.max; ++z_s)
-      for (int z_p = r_.planet1.min; z_p <= r_.planet1.max; ++z_p)
-        for (int z_r = r_.ring1.min; z_r <= r_.ring1.max; ++z_r) layer1(z_s, z_p, z_r);
-    return std::move(result_);
+  void run() {
+    const ToothRange suns = range(TrainPlace::kSun), planets = range(TrainPlace::kPlanet1),
+                     rings = range(TrainPlace::kRing1);
+    for (int z_s = suns.min; z_s <= suns.max; ++z_s)
+      for (int z_p = planets.min; z_p <= planets.max; ++z_p)
+        for (int z_r = rings.min; z_r <= rings.max; ++z_r) layer1(z_s, z_p, z_r);
   }
 
  private:
+  /// One choice, no tooth, where the train has no such gear.
+  [[nodiscard]] const ToothRange& range(TrainPlace place) const {
+    return ranges_[static_cast<std::size_t>(place)];
+  }
+
   void reject(Reason reason, long long count) {
     result_.rejected[static_cast<std::size_t>(reason)].count += count;
   }
 
   void layer1(int z_s, int z_p, int z_r) {
-    const long long behind = layer2_pairs_ * variants_;
-    result_.considered += behind;
-    ToothSet set{.sun = z_s, .planet1 = z_p, .ring1 = z_r};
-    if (!sun_and_ring_accept_planets(set, r_.planets)) return reject(kAssembly, behind);
-    const Interval a = layer1_interval(r_, distances_, z_s, z_p, z_r);
-    if (a.empty()) return reject(kDistance1, behind);
-    if (neighbours_collide(r_, a.high, least_planet1_tip(r_, z_s, z_p, a)))
-      return reject(kPlanets1, behind);
+    result_.considered += behind_layer1_;
+    ToothSet set{
+        .sun = z_s, .planet1 = z_p, .ring1 = z_r, .train = trains_.front(), .planets = planets_};
+    if (!set.train->accepts_planets(set.teeth(), planets_))
+      return reject(kAssembly, behind_layer1_);
+    const Interval a = layer_interval(r_, distances_, z_s, z_p, z_r);
+    if (a.empty()) return reject(kDistance1, behind_layer1_);
+    if (neighbours_collide(r_, set, a.high, least_planet1_tip(r_, z_s, z_p, a)))
+      return reject(kPlanets1, behind_layer1_);
+    if (!two_layers_) {
+      set.centre_distance_min = a.low;
+      set.centre_distance_max = a.high;
+      return every_output(set);
+    }
     for (const double module : r_.layer2_module_ratios) {
       set.layer2_module_ratio = module;
       layer2(set, a);
@@ -155,10 +197,9 @@ class Enumerator {
   }
 
   void layer2(ToothSet set, const Interval& layer1) {
-    const auto outputs = static_cast<long long>(r_.outputs.size());
     long long with_distance = 0;
-    const int centre = static_cast<int>(std::lround((layer1.low + layer1.high) /
-                                                    set.layer2_module_ratio));
+    const int centre =
+        static_cast<int>(std::lround((layer1.low + layer1.high) / set.layer2_module_ratio));
     const auto try_difference = [&](int difference) {
       if (difference < 1) return false;
       const Interval a =
@@ -174,7 +215,8 @@ class Enumerator {
     while (first > 1 && fits(layer1, first - 1, set.layer2_module_ratio)) --first;
     for (int d = first; d <= centre || fits(layer1, d, set.layer2_module_ratio); ++d)
       try_difference(d);
-    reject(kDistance2, (layer2_pairs_ - with_distance) * outputs);
+    const long long pairs = range(TrainPlace::kPlanet2).count() * range(TrainPlace::kRing2).count();
+    reject(kDistance2, (pairs - with_distance) * static_cast<long long>(trains_.size()));
   }
 
   bool fits(const Interval& layer1, int difference, double module) {
@@ -184,57 +226,116 @@ class Enumerator {
   /// All planet2, ring2 of one difference; returns how many there are.
   long long pairs_of_difference(ToothSet set, int difference) {
     long long pairs = 0;
-    for (set.planet2 = r_.planet2.min; set.planet2 <= r_.planet2.max; ++set.planet2) {
+    const ToothRange planets = range(TrainPlace::kPlanet2), rings = range(TrainPlace::kRing2);
+    for (set.planet2 = planets.min; set.planet2 <= planets.max; ++set.planet2) {
       set.ring2 = set.planet2 + difference;
-      if (set.ring2 < r_.ring2.min || set.ring2 > r_.ring2.max) continue;
+      if (set.ring2 < rings.min || set.ring2 > rings.max) continue;
       ++pairs;
-      for (const OutputMember output : r_.outputs) {
-        set.output = output;
-        last_tests(set);
-      }
+      every_output(set);
     }
     return pairs;
   }
 
+  void every_output(ToothSet set) {
+    for (const SearchTrain* train : trains_) {
+      set.train = train;
+      last_tests(set);
+    }
+  }
+
   void last_tests(const ToothSet& set) {
     if (!ratio_fits(set, r_)) return reject(kRatio, 1);
-    if (neighbours_collide(r_, set.centre_distance_max,
+    if (two_layers_ &&
+        neighbours_collide(r_, set, set.centre_distance_max,
                            least_planet2_tip(r_, set.planet2, set.layer2_module_ratio)))
       return reject(kPlanets2, 1);
-    if (r_.identical_planets && !planets_are_identical(set, r_.planets))
+    if (r_.identical_planets && !set.train->planets_are_identical(set.teeth(), planets_))
       return reject(kIdentical, 1);
     result_.sets.push_back(set);
   }
 
   const SearchRequirements& r_;
+  std::vector<const SearchTrain*> trains_;
+  int planets_;
   CentreDistances distances_;
-  SetEnumeration result_;
-  long long layer2_pairs_ = 0;
-  long long variants_ = 0;
+  SetEnumeration& result_;
+  std::array<ToothRange, kTrainPlaces> ranges_{};
+  bool two_layers_ = false;
+  long long behind_layer1_ = 0;  ///< sets behind each choice of layer 1
 };
+
+/// Alike but for the output.
+bool same_but_output(const SearchTrain& p, const SearchTrain& q) {
+  return p.kind() == q.kind() && p.input == q.input && p.internal_wheel == q.internal_wheel;
+}
+
+/// What is asked for of the choices a kind has: its usual one where none of them is named.
+std::vector<std::string> chosen(const std::vector<std::string>& asked,
+                                const std::vector<std::string>& choices) {
+  std::vector<std::string> result;
+  const auto named = [&](const std::string& name) {
+    return std::find(asked.begin(), asked.end(), name) != asked.end();
+  };
+  for (const std::string& choice : choices)
+    if (named("any") || named(choice)) result.push_back(choice);
+  if (result.empty()) result.push_back(choices.front());
+  return result;
+}
 
 }  // namespace
 
-double signed_ratio(const ToothSet& set) {
-  // differences of products in integers: exact
-  const long long product1 = 1LL * set.ring1 * set.planet2, product2 = 1LL * set.planet1 * set.ring2;
-  if (product1 == product2) return std::numeric_limits<double>::infinity();
-  const double i1 = static_cast<double>(set.ring1) / set.sun;
-  if (set.output == OutputMember::kRing2)
-    return (1.0 + i1) * static_cast<double>(product2) / static_cast<double>(product2 - product1);
-  // (1 + I1 / I2) / (1 - 1 / I2)
-  const double i2 = static_cast<double>(product1) / static_cast<double>(product2);
-  return (i2 + i1) * static_cast<double>(product2) / static_cast<double>(product1 - product2);
+std::vector<const SearchTrain*> searched_trains(const SearchRequirements& r) {
+  std::vector<const SearchTrain*> result;
+  for (const std::string& kind : r.kinds) {
+    std::vector<std::string> outputs, inputs;
+    const auto add = [](std::vector<std::string>& names, const std::string& name) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const SearchTrain& train : search_trains()) {
+      if (train.kind() != kind) continue;
+      add(outputs, train.output);
+      add(inputs, train.input);
+    }
+    if (outputs.empty()) continue;
+    outputs = chosen(r.outputs, outputs);
+    inputs = chosen(r.inputs, inputs);
+    for (const SearchTrain& train : search_trains()) {
+      const bool wheel =
+          train.has_planets() || (train.internal_wheel ? r.internal_wheels : r.external_wheels);
+      if (train.kind() == kind && wheel &&
+          std::count(outputs.begin(), outputs.end(), train.output) > 0 &&
+          std::count(inputs.begin(), inputs.end(), train.input) > 0)
+        result.push_back(&train);
+    }
+  }
+  return result;
 }
 
-bool sun_and_ring_accept_planets(const ToothSet& set, int planets) {
-  return (set.sun + set.ring1) % planets == 0;
+ToothRange tooth_range(const SearchRequirements& r, const SearchTrain& train, TrainPlace place) {
+  const auto at_place = [&](TrainPlace at) -> const ToothRange& {
+    switch (at) {
+      case TrainPlace::kSun:
+        return r.sun;
+      case TrainPlace::kPlanet1:
+        return r.planet1;
+      case TrainPlace::kRing1:
+        return r.ring1;
+      case TrainPlace::kPlanet2:
+        return r.planet2;
+      case TrainPlace::kRing2:
+        break;
+    }
+    return r.ring2;
+  };
+  const std::string& name = train.name_at(place);
+  if (name == "planet") return r.planet.over(at_place(place));
+  if (name == "ring") return r.ring.over(at_place(place));
+  if (name == "pinion") return r.pinion.over(r.sun);
+  if (name == "wheel") return r.wheel.over(at_place(place));
+  return at_place(place);
 }
 
-bool planets_are_identical(const ToothSet& set, int planets) {
-  const long long difference = 1LL * set.ring1 * set.planet2 - 1LL * set.ring2 * set.planet1;
-  return difference % (1LL * planets * std::gcd(set.planet1, set.planet2)) == 0;
-}
+double signed_ratio(const ToothSet& set) { return set.train->signed_ratio(set.teeth()); }
 
 bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements) {
   const double ratio = signed_ratio(set);
@@ -244,7 +345,18 @@ bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements) {
 }
 
 SetEnumeration enumerate_sets(const SearchRequirements& requirements) {
-  return Enumerator(requirements).run();
+  SetEnumeration result;
+  result.rejected = empty_classes();
+  const std::vector<const SearchTrain*> trains = searched_trains(requirements);
+  for (std::size_t i = 0; i < trains.size();) {
+    std::vector<const SearchTrain*> alike;
+    for (; i < trains.size() && (alike.empty() || same_but_output(*alike.front(), *trains[i])); ++i)
+      alike.push_back(trains[i]);
+    const std::vector<int> planets =
+        alike.front()->has_planets() ? requirements.planets : std::vector<int>{1};
+    for (const int count : planets) Enumerator(requirements, alike, count, result).run();
+  }
+  return result;
 }
 
 }  // namespace trueflank

@@ -5,26 +5,42 @@
 #include <vector>
 
 #include "trueflank/search/search_requirements.h"
+#include "trueflank/search/search_train.h"
 
 namespace trueflank {
 
-/// One choice of the whole numbers (and the ratio of the modules).
+/// The trains that are searched, in the order of the kinds asked for; those that differ in their
+/// output alone are neighbours.
+[[nodiscard]] std::vector<const SearchTrain*> searched_trains(
+    const SearchRequirements& requirements);
+
+/// The tooth numbers asked for of the gear at a place of a train.
+[[nodiscard]] ToothRange tooth_range(const SearchRequirements& requirements,
+                                     const SearchTrain& train, TrainPlace place);
+
+/// One choice of the whole numbers (and the ratio of the modules). Places without a gear hold 0.
 struct ToothSet {
   int sun = 0, planet1 = 0, ring1 = 0, planet2 = 0, ring2 = 0;
-  OutputMember output = OutputMember::kRing2;
+  const SearchTrain* train = &usual_search_train();
+  int planets = 3;
   double layer2_module_ratio = 1.0;
   /// Centre distances, in modules of layer 1, at which all shifts can lie within their bounds.
   double centre_distance_min = 0.0, centre_distance_max = 0.0;
 
   bool operator==(const ToothSet&) const = default;
+
+  [[nodiscard]] ToothNumbers teeth() const { return {sun, planet1, ring1, planet2, ring2}; }
+  [[nodiscard]] int teeth_at(TrainPlace place) const {
+    return teeth()[static_cast<std::size_t>(place)];
+  }
 };
 
-/// Sun speed over output speed, signed; infinite where the output stands still.
+/// Input speed over output speed, signed; infinite where the output stands still.
 [[nodiscard]] double signed_ratio(const ToothSet& set);
 
 /// Why a class of sets fell, and how many sets.
 struct SetClass {
-  std::string id;           ///< "assembly", "centre_distance_layer1", ...
+  std::string id;  ///< "assembly", "centre_distance_layer1", ...
   std::string description;
   long long count = 0;
 };
@@ -37,15 +53,10 @@ struct SetEnumeration {
 };
 
 /// Every tooth set within the limits that passes what can be decided from whole numbers and shift
-/// bounds alone: exact conditions, and for colliding planets a bound that no choice of shifts passes.
-/// Guarantees: no set that has a solution is left out (tested against plain enumeration).
+/// bounds alone: exact conditions, and for colliding planets a bound that no choice of shifts
+/// passes. Guarantees: no set that has a solution is left out (tested against plain enumeration).
 [[nodiscard]] SetEnumeration enumerate_sets(const SearchRequirements& requirements);
 
-/// @name The conditions themselves, for one set; enumerate_sets applies them in this order.
-/// @{
-[[nodiscard]] bool sun_and_ring_accept_planets(const ToothSet& set, int planets);
-[[nodiscard]] bool planets_are_identical(const ToothSet& set, int planets);
 [[nodiscard]] bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements);
-/// @}
 
 }  // namespace trueflank

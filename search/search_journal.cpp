@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <sstream>
@@ -48,22 +49,38 @@ std::string digest(std::string_view text) {
   return {buffer, end};
 }
 
+constexpr std::string_view kEnd = "end";
+
 /// A line ends with the digest of what stands before it.
-bool read_record(const std::string& line, std::size_t sets, SearchRecord& record) {
+bool read_undamaged(std::string& line) {
   const std::size_t last = line.rfind(' ');
   if (last == std::string::npos ||
       line.substr(last + 1) != digest(std::string_view(line).substr(0, last)))
     return false;
-  Words words(line.substr(0, last));
+  line.resize(last);
+  return true;
+}
+
+bool read_end(const std::string& line, SearchPart& part) {
+  if (!line.starts_with(kEnd)) return false;
+  Words words(line.substr(kEnd.size()));
+  return words.take(part.part) && words.take(part.parts) && words.ended() && part.part >= 1 &&
+         part.part <= part.parts;
+}
+
+bool read_record(const std::string& line, std::size_t sets, SearchRecord& record) {
+  Words words(line);
   std::size_t candidates = 0;
-  if (!words.take(record.index) || record.index >= sets || !words.take(record.result.failed_limit) ||
-      !words.take(record.result.evaluations) || !words.take(candidates) || candidates > 1000)
+  if (!words.take(record.index) || record.index >= sets ||
+      !words.take(record.result.failed_limit) || !words.take(record.result.evaluations) ||
+      !words.take(candidates) || candidates > 1000)
     return false;
   for (std::size_t i = 0; i < candidates; ++i) {
     SearchCandidate c;
-    if (!words.take(c.free.centre_distance) || !words.take(c.free.ring1_shift) ||
-        !words.take(c.free.ring2_shift) || !words.take(c.forward) || !words.take(c.backward) ||
-        !words.take(c.torque_nm) || !words.take(c.size_mm) || !words.take(c.least_margin))
+    if (!words.take(c.free.centre_distance) || !words.take(c.free.layer1_shift) ||
+        !words.take(c.free.layer2_shift) || !words.take(c.forward) || !words.take(c.backward) ||
+        !words.take(c.torque_nm) || !words.take(c.size_mm) || !words.take(c.least_margin) ||
+        !words.take(c.gap))
       return false;
     record.result.candidates.push_back(c);
   }
@@ -74,7 +91,7 @@ bool read_record(const std::string& line, std::size_t sets, SearchRecord& record
 
 std::string journal_header(const SearchRequirements& requirements,
                            const SetEnumeration& enumeration) {
-  return "trueflank-search-journal 2 " + digest(fingerprint(requirements)) + " " +
+  return "trueflank-search-journal 4 " + digest(fingerprint(requirements)) + " " +
          std::to_string(enumeration.sets.size());
 }
 
@@ -84,18 +101,31 @@ std::string journal_line(const SearchRecord& record) {
   append(line, static_cast<long long>(record.result.evaluations));
   append(line, static_cast<long long>(record.result.candidates.size()));
   for (const SearchCandidate& c : record.result.candidates)
-    for (const double value : {c.free.centre_distance, c.free.ring1_shift, c.free.ring2_shift,
-                               c.forward, c.backward, c.torque_nm, c.size_mm, c.least_margin})
+    for (const double value :
+         {c.free.centre_distance, c.free.layer1_shift, c.free.layer2_shift, c.forward, c.backward,
+          c.torque_nm, c.size_mm, c.least_margin, c.gap})
       append(line, value);
   return line + ' ' + digest(line);
 }
 
-Result<std::vector<SearchRecord>> read_journal(const std::string& text,
-                                               const SearchRequirements& requirements,
-                                               const SetEnumeration& enumeration) {
-  std::vector<SearchRecord> records;
+std::string journal_end(const SearchPart& part) {
+  std::string line(kEnd);
+  append(line, static_cast<long long>(part.part));
+  append(line, static_cast<long long>(part.parts));
+  return line + ' ' + digest(line);
+}
+
+bool SearchJournal::covers(std::size_t index) const {
+  return std::any_of(ended.begin(), ended.end(),
+                     [&](const SearchPart& part) { return part.holds(index); });
+}
+
+Result<SearchJournal> read_journal(const std::string& text, const SearchRequirements& requirements,
+                                   const SetEnumeration& enumeration) {
+  SearchJournal journal;
   std::size_t from = text.find('\n');
-  if (from == std::string::npos || text.substr(0, from) != journal_header(requirements, enumeration))
+  if (from == std::string::npos ||
+      text.substr(0, from) != journal_header(requirements, enumeration))
     return fail({.code = ErrorCode::kInconsistent,
                  .message = "the journal is not of a search for these requirements by this version",
                  .remedy = "the requirements it was begun with, or another output folder"});
@@ -103,17 +133,23 @@ Result<std::vector<SearchRecord>> read_journal(const std::string& text,
   for (++from; from < text.size(); ++line_number) {
     const std::size_t end = text.find('\n', from);
     if (end == std::string::npos) break;  // cut short: that set is computed again
+    std::string line = text.substr(from, end - from);
     SearchRecord record;
-    if (!read_record(text.substr(from, end - from), enumeration.sets.size(), record))
+    SearchPart part;
+    const bool whole = read_undamaged(line);
+    if (whole && read_end(line, part))
+      journal.ended.push_back(part);
+    else if (whole && read_record(line, enumeration.sets.size(), record))
+      journal.records.push_back(std::move(record));
+    else
       return fail({.code = ErrorCode::kSyntax,
                    .message = "the journal is damaged",
                    .value = text.substr(from, std::min<std::size_t>(60, end - from)),
                    .remedy = "an undamaged copy, or a fresh start without it",
                    .line = line_number + 1});
-    records.push_back(std::move(record));
     from = end + 1;
   }
-  return records;
+  return journal;
 }
 
 }  // namespace trueflank

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
-#include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/base/contract.h"
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/involute.h"
 #include "trueflank/search/search_corner.h"
@@ -13,11 +15,10 @@ namespace trueflank {
 namespace {
 
 /// Writes margins in order and knows when to stop.
-template <std::size_t N>
 class Margins {
  public:
-  Margins(std::array<double, N>& margins, double stop_below)
-      : margins_(margins), stop_below_(stop_below) {
+  Margins(std::array<double, kLayerLimits>& margins, std::size_t count, double stop_below)
+      : margins_(margins), count_(count), stop_below_(stop_below) {
     margins_.fill(-1e9);
   }
   void add(double margin) {
@@ -25,10 +26,11 @@ class Margins {
     least_ = margin < least_ ? margin : least_;
   }
   [[nodiscard]] bool stop() const { return least_ < stop_below_; }
-  [[nodiscard]] double least() const { return next_ == N ? least_ : std::min(least_, -1e9); }
+  [[nodiscard]] double least() const { return next_ == count_ ? least_ : std::min(least_, -1e9); }
 
  private:
-  std::array<double, N>& margins_;
+  std::array<double, kLayerLimits>& margins_;
+  std::size_t count_;
   double stop_below_;
   std::size_t next_ = 0;
   double least_ = 1e300;
@@ -45,6 +47,7 @@ double root_radius(const Gear& gear) { return nominal_root_radius_mm(gear); }
 /// What a mesh has before its profiles are known: contact ratios and path from the tip circles.
 struct MeshView {
   double approach = 0.0, recess = 0.0;
+  double span = 0.0;  ///< between the tangent points of the base circles
   ContactPath path;
 };
 
@@ -60,6 +63,7 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
   const double end = roll_length_mm(gear1.tip_radius_mm, r_b1);
   return {.approach = (pitch_point - start) / base_pitch,
           .recess = (end - pitch_point) / base_pitch,
+          .span = span,
           .path = {.base_radius1_mm = r_b1,
                    .base_radius2_mm = r_b2,
                    .internal = internal,
@@ -69,12 +73,33 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
                    .base_pitch_mm = base_pitch}};
 }
 
-/// The straight part of the rack's flank cuts no involute away.
-bool surely_not_undercut(const SearchRequirements& r, const Gear& gear) {
-  const double sine = std::sin(r.rack.pressure_angle_rad), cosine = std::cos(r.rack.pressure_angle_rad);
+/// Roll length at which a gear's involute begins where the rack's straight flank cuts it; below 0:
+/// undercut.
+double involute_start_mm(const SearchRequirements& r, const Gear& gear) {
+  const double sine = std::sin(r.rack.pressure_angle_rad),
+               cosine = std::cos(r.rack.pressure_angle_rad);
   const double full_round = (0.25 * kPi - r.rack.dedendum * sine / cosine) * cosine / (1.0 - sine);
   const double rounding = std::clamp(r.rack.root_radius, 0.0, std::max(0.0, full_round));
-  return gear.shift >= r.rack.dedendum - rounding * (1.0 - sine) - 0.5 * gear.teeth * sine * sine;
+  return 0.5 * gear.teeth * sine - (r.rack.dedendum - rounding * (1.0 - sine) - gear.shift) / sine;
+}
+
+/// Neither undercut nor a fillet shortens the path between the tips on the involute of a gear of
+/// which the lowest point of the path has this roll length.
+bool surely_whole(const SearchRequirements& r, const Gear& gear, double lowest_mm) {
+  const double start = involute_start_mm(r, gear);
+  return start >= 0.0 && lowest_mm >= start;
+}
+
+/// The part of a path that loses least: of what undercut or a fillet can leave of it nothing loses
+/// less. The loss is that of the contact ratios' formula, e1^2 + e2^2 - e1 - e2 + 1, least where both
+/// are as close to a half as a whole base pitch allows.
+ContactPath best_part(const MeshView& view) {
+  ContactPath path = view.path;
+  const double approach = std::min(view.approach, std::max(0.5, 1.0 - view.recess)),
+               recess = std::min(view.recess, std::max(0.5, 1.0 - view.approach));
+  path.start_mm = path.pitch_point_mm - approach * path.base_pitch_mm;
+  path.end_mm = path.pitch_point_mm + recess * path.base_pitch_mm;
+  return path;
 }
 
 /// Distance the tips of planet and ring keep outside the line of action, on the ring's tip circle;
@@ -101,8 +126,8 @@ double backlash_of(const SearchRequirements& r, double module_mm) {
   return r.backlash_mm ? *r.backlash_mm / module_mm : kUsualBacklash;
 }
 
-/// Least arc at the tip circle: each gear of a mesh is thinned by half of the backlash, a ring by what its planet
-/// leaves of it, which is hardly more.
+/// Least arc at the tip circle: each gear of a mesh is thinned by half of the backlash, a ring by
+/// what its planet leaves of it, which is hardly more.
 double tip_thickness(const Gear& gear, double backlash) {
   const double thinning = 0.55 * backlash;
   return 2.0 * gear.tip_radius_mm * tooth_half_angle_rad(gear, gear.tip_radius_mm) -
@@ -110,112 +135,142 @@ double tip_thickness(const Gear& gear, double backlash) {
 }
 
 /// Tip corners in the mate's roots, both ways, and the contact that undercut and root form leave.
-template <class M>
-void add_root_margins(const SearchRequirements& r, const GearPair& pair, M& margins) {
+LineOfAction add_root_margins(const SearchRequirements& r, const GearPair& pair, Margins& margins) {
   margins.add(corner_clearance_in_gear1_mm(pair));
   margins.add(corner_clearance_in_gear2_mm(pair));
   const LineOfAction line = line_of_action(pair);
   margins.add((line.effective_end_mm - line.effective_start_mm) / line.base_pitch_mm -
               r.contact_ratio_min);
+  return line;
 }
 
-template <class M>
-void add_contact_ratio_margins(const SearchRequirements& r, const MeshView& view, M& margins) {
+void add_contact_ratio_margins(const SearchRequirements& r, const MeshView& view,
+                               Margins& margins) {
   margins.add(view.approach + view.recess - r.contact_ratio_min);
   margins.add(r.contact_ratio_max - view.approach - view.recess);
 }
 
-template <class M>
 void add_internal_clearances(const SearchRequirements& r, const Gear& planet, const Gear& ring,
-                             double a, M& margins) {
+                             double a, Margins& margins) {
   margins.add(root_radius(ring) - a - planet.tip_radius_mm - r.tip_clearance);
   margins.add(ring.tip_radius_mm - a - root_radius(planet) - r.tip_clearance);
 }
 
-double spacing_margin(const SearchRequirements& r, double a, double tip_radius, double module_mm) {
-  if (r.planets < 2) return 1.0;
-  return 2.0 * a * std::sin(kPi / r.planets) - 2.0 * tip_radius - r.planet_clearance_mm / module_mm;
+double spacing_margin(const SearchRequirements& r, int planets, double a, double tip_radius,
+                      double module_mm) {
+  if (planets < 2) return 1.0;
+  return 2.0 * a * std::sin(kPi / planets) - 2.0 * tip_radius - r.planet_clearance_mm / module_mm;
 }
 
 }  // namespace
 
-const char* to_text(Limit limit) {
-  switch (limit) {
-    case Limit::kShift: return "shift";
-    case Limit::kContactRatio: return "contact_ratio";
-    case Limit::kFillet: return "fillet_interference";
-    case Limit::kTipClearance: return "tip_clearance";
-    case Limit::kTrochoid: return "trochoid_interference";
-    case Limit::kTipThickness: return "tip_thickness";
-    case Limit::kPlanetSpacing: return "planet_spacing";
-    case Limit::kRingTip: return "ring_tip";
-  }
-  return "";
-}
-
-const std::array<LimitEntry, kLimits>& limit_entries() {
-  using enum Limit;
-  static const std::array<LimitEntry, kLimits> kEntries{{
-      {kShift, 1, "sun"}, {kShift, 1, "sun"}, {kShift, 1, "planet1"}, {kShift, 1, "planet1"},
-      {kPlanetSpacing, 1, "planet1"}, {kTipThickness, 1, "sun"}, {kTipThickness, 1, "planet1"},
-      {kTipThickness, 1, "ring1"}, {kRingTip, 1, "ring1"},
-      {kContactRatio, 1, "sun-planet1"}, {kContactRatio, 1, "sun-planet1"},
-      {kContactRatio, 1, "planet1-ring1"}, {kContactRatio, 1, "planet1-ring1"},
-      {kTipClearance, 1, "sun-planet1"}, {kTipClearance, 1, "sun-planet1"},
-      {kTipClearance, 1, "planet1-ring1"}, {kTipClearance, 1, "planet1-ring1"},
-      {kTrochoid, 1, "planet1-ring1"},
-      {kFillet, 1, "sun-planet1"}, {kFillet, 1, "sun-planet1"}, {kContactRatio, 1, "sun-planet1"},
-      {kFillet, 1, "planet1-ring1"}, {kFillet, 1, "planet1-ring1"},
-      {kContactRatio, 1, "planet1-ring1"},
-      {kShift, 2, "planet2"}, {kShift, 2, "planet2"}, {kPlanetSpacing, 2, "planet2"},
-      {kTipThickness, 2, "planet2"}, {kTipThickness, 2, "ring2"}, {kRingTip, 2, "ring2"},
-      {kContactRatio, 2, "planet2-ring2"}, {kContactRatio, 2, "planet2-ring2"},
-      {kTipClearance, 2, "planet2-ring2"}, {kTipClearance, 2, "planet2-ring2"},
-      {kTrochoid, 2, "planet2-ring2"},
-      {kFillet, 2, "planet2-ring2"}, {kFillet, 2, "planet2-ring2"},
-      {kContactRatio, 2, "planet2-ring2"},
-  }};
-  return kEntries;
-}
-
 SearchModel::SearchModel(const SearchRequirements& requirements, const ToothSet& set)
     : requirements_(&requirements), set_(set) {
-  const auto mesh = [&](int z1, int z2, bool internal) {
-    return MeshTeeth{.teeth1 = z1, .teeth2 = z2, .internal = internal, .normal_module_mm = 1.0,
-                     .pressure_angle_rad = requirements.rack.pressure_angle_rad};
-  };
-  mesh_a_ = mesh(set.sun, set.planet1, false);
-  mesh_b_ = mesh(set.planet1, set.ring1, true);
-  mesh_c_ = mesh(set.planet2, set.ring2, true);
-  const BalanceTrain ideal = balance_train(train_topology("3k", to_text(set.output)),
-                                           {set.sun, set.planet1, -set.ring1, set.planet2, -set.ring2});
-  const BalanceState forward = solve_balance(ideal, DriveDirection::kForward);
-  for (std::size_t k = 0; k < 3; ++k) {
-    gear1_drives_forward_[k] = forward.meshes[k].gear1_drives;
-    gear1_drives_backward_[k] = !forward.meshes[k].gear1_drives;
-  }
-  sun_speed_over_output_ = signed_ratio(set);
-  least_module_mm_ = module_mm({0.0, requirements.shift_max, requirements.shift_max});
+  set_up_layers();
+  set_up_balance();
+  least_module_mm_ = requirements.outer_diameter_mm
+                         ? *requirements.outer_diameter_mm / greatest_outer_diameter()
+                         : requirements.module_mm;
 }
 
-double SearchModel::efficiency(const MeshLoss& a, const MeshLoss& b, const MeshLoss& c,
+void SearchModel::set_up_layers() {
+  const auto mesh = [&](int z1, int z2, bool internal) {
+    return MeshTeeth{.teeth1 = z1,
+                     .teeth2 = z2,
+                     .internal = internal,
+                     .normal_module_mm = 1.0,
+                     .pressure_angle_rad = requirements_->rack.pressure_angle_rad};
+  };
+  for (const SearchLayer& gears : train().layers) {
+    const bool first = layers_.empty();
+    Layer layer{.module = first ? 1.0 : set_.layer2_module_ratio,
+                .planet_at = first ? TrainPlace::kPlanet1 : TrainPlace::kPlanet2,
+                .ring_at = first ? TrainPlace::kRing1 : TrainPlace::kRing2};
+    layer.planet = set_.teeth_at(layer.planet_at);
+    if (gears.sun >= 0) layer.sun = set_.teeth_at(layer.sun_at);
+    if (gears.ring >= 0) layer.ring = set_.teeth_at(layer.ring_at);
+    if (layer.sun) layer.sun_planet = mesh(layer.sun, layer.planet, false);
+    if (layer.ring) layer.planet_ring = mesh(layer.planet, layer.ring, true);
+    layers_.push_back(layer);
+  }
+}
+
+void SearchModel::set_up_balance() {
+  const Topology& topology = train().topology;
+  std::vector<int> teeth;
+  for (std::size_t g = 0; g < topology.gears.size(); ++g) {
+    const TrainPlace place = train().place_of(static_cast<int>(g));
+    const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
+    teeth.push_back(ring ? -set_.teeth_at(place) : set_.teeth_at(place));
+  }
+  const BalanceState forward =
+      solve_balance(balance_train(topology, teeth), DriveDirection::kForward);
+  for (std::size_t k = 0; k < topology.meshes.size(); ++k) {
+    const TopologyMesh& mesh = topology.meshes[k];
+    const auto gear1 = static_cast<std::size_t>(mesh.gear1),
+               gear2 = static_cast<std::size_t>(mesh.gear2);
+    balance_.push_back({.layer = topology.gears[gear1].layer - 1,
+                        .internal = teeth[gear2] < 0,
+                        .teeth_ratio = static_cast<double>(teeth[gear2]) / teeth[gear1],
+                        .gear1_drives_forward = forward.meshes[k].gear1_drives,
+                        .member1 = topology.gears[gear1].member,
+                        .member2 = topology.gears[gear2].member});
+  }
+  ratio_ = signed_ratio(set_);
+}
+
+double SearchModel::output_torque(const std::array<double, 3>& torque_ratios) const {
+  const Topology& t = train().topology;
+  const std::size_t count = balance_.size();
+  // What each mesh's torque on its gear 1 does to a member: on a carrier all that its gears do
+  // about the axis.
+  const auto share = [&](int member, std::size_t k) {
+    const BalanceMesh& mesh = balance_[k];
+    const bool carrier = t.is_carrier(member);
+    const auto acts = [&](int other) {
+      return carrier ? (t.is_planet(other) ? 0.0 : -1.0) : other == member ? 1.0 : 0.0;
+    };
+    return acts(mesh.member1) + acts(mesh.member2) * torque_ratios[k];
+  };
+  std::array<std::array<double, 4>, 3> rows{};
+  std::size_t row = 0;
+  for (int member = 0; member < static_cast<int>(t.members.size()); ++member) {
+    if (member == t.output || std::find(t.fixed.begin(), t.fixed.end(), member) != t.fixed.end())
+      continue;
+    TRUEFLANK_EXPECTS(row < count);
+    for (std::size_t k = 0; k < count; ++k) rows[row][k] = share(member, k);
+    rows[row++][3] = member == t.input ? -1.0 : 0.0;
+  }
+  TRUEFLANK_EXPECTS(row == count);
+  for (std::size_t k = 0; k < count; ++k) {  // Gauss and Jordan, the largest pivot first
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < count; ++i)
+      if (std::abs(rows[i][k]) > std::abs(rows[pivot][k])) pivot = i;
+    std::swap(rows[k], rows[pivot]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i == k) continue;
+      const double factor = rows[i][k] / rows[k][k];
+      for (std::size_t j = k; j < 4; ++j) rows[i][j] -= factor * rows[k][j];
+    }
+  }
+  double out = 0.0;
+  for (std::size_t k = 0; k < count; ++k) out -= share(t.output, k) * rows[k][3] / rows[k][k];
+  return out;
+}
+
+double SearchModel::efficiency(const LayerEvaluation& layer1, const LayerEvaluation& layer2,
                                DriveDirection direction) const {
   const bool forward = direction == DriveDirection::kForward;
-  const auto& gear1_drives = forward ? gear1_drives_forward_ : gear1_drives_backward_;
-  // torque on gear 2 per torque on gear 1
-  const auto ratio = [&](const MeshTeeth& mesh, const MeshLoss& loss, bool gear1) {
-    const double efficiency = gear1 ? loss.driving1 : 1.0 / loss.driving2;
-    return (mesh.internal ? -1.0 : 1.0) * efficiency * mesh.teeth2 / mesh.teeth1;
-  };
-  const double k_a = ratio(mesh_a_, a, gear1_drives[0]);
-  const double k_b = ratio(mesh_b_, b, gear1_drives[1]);
-  const double k_c = ratio(mesh_c_, c, gear1_drives[2]);
-  // unit torque on the sun; planet: k_a + t_b + t_c = 0, all about the axis: 1 + k_b t_b + k_c t_c = 0
-  const double t_b = (k_c * k_a - 1.0) / (k_b - k_c);
-  const double t_c = -k_a - t_b;
-  const double out = set_.output == OutputMember::kRing2 ? k_c * t_c : k_b * t_b;
-  // power out / power in of the forward drive: - out w_out / w_sun
-  const double eta = -out / sun_speed_over_output_;
+  std::array<double, 3> torque_ratios{};
+  for (std::size_t k = 0; k < balance_.size(); ++k) {
+    const BalanceMesh& mesh = balance_[k];
+    const LayerEvaluation& layer = mesh.layer == 0 ? layer1 : layer2;
+    const MeshLoss& loss = mesh.internal ? layer.planet_ring : layer.sun_planet;
+    const bool gear1_drives = mesh.gear1_drives_forward == forward;
+    torque_ratios[k] = mesh.teeth_ratio * (gear1_drives ? loss.driving1 : 1.0 / loss.driving2);
+  }
+  // power out / power in of the forward drive
+  const double eta = -output_torque(torque_ratios) / ratio_;
   const double result = forward ? eta : 1.0 / eta;
   return result > 0.0 && result <= 1.0 + 1e-12 ? result : 0.0;
 }
@@ -237,147 +292,191 @@ MeshLoss SearchModel::path_loss(ContactPath path) const {
   return {s.gear1_driving, s.gear2_driving};
 }
 
-Layer1Evaluation SearchModel::layer1(
-    double a, double ring1_shift, double stop_below,
-    const std::function<bool(const Layer1Evaluation&)>& worth) const {
+LayerEvaluation SearchModel::outline(int number, double centre_distance, double shift,
+                                     double stop_below) const {
+  return layer(number, centre_distance, shift, stop_below, {}, Profiles::kLeftOut);
+}
+
+LayerEvaluation SearchModel::layer(int number, double a1, double shift, double stop_below,
+                                   const std::function<bool(const LayerEvaluation&)>& worth,
+                                   Profiles profiles) const {
   const SearchRequirements& r = *requirements_;
-  Layer1Evaluation result;
-  Margins margins(result.margins, stop_below);
+  LayerEvaluation result;
+  if (static_cast<std::size_t>(number) >= layers_.size()) {
+    result.least_margin = 1e9;
+    return result;
+  }
+  const Layer& own = layers_[static_cast<std::size_t>(number)];
+  const std::size_t first = number == 0 ? 0 : train().layer1_limits;
+  Margins margins(result.margins, number == 0 ? train().layer1_limits : limits() - first,
+                  stop_below);
   const auto done = [&] {
     result.least_margin = margins.least();
     return result;
   };
-  const Shifts x = shifts({a, ring1_shift, 0.0});
-  margins.add(x.sun - r.shift_min);
-  margins.add(r.shift_max - x.sun);
-  margins.add(x.planet1 - r.shift_min);
-  margins.add(r.shift_max - x.planet1);
+  Shifts x{};
+  add_shifts(number, a1, shift, x);
+  const auto shift_at = [&](TrainPlace place) { return x[static_cast<std::size_t>(place)]; };
+  const double x_s = own.sun ? shift_at(own.sun_at) : 0.0, x_p = shift_at(own.planet_at);
+  const auto within_bounds = [&](double value) {
+    margins.add(value - r.shift_min);
+    margins.add(r.shift_max - value);
+  };
+  if (own.sun) within_bounds(x_s);
+  if (own.ring) within_bounds(x_p);
   if (margins.stop()) return done();
 
-  Gear sun = gear_of(r, GearKind::kExternal, set_.sun, x.sun);
-  Gear planet = gear_of(r, GearKind::kExternal, set_.planet1, x.planet1);
-  const Gear ring = gear_of(r, GearKind::kInternal, set_.ring1, x.ring1);
-  const double y = a - 0.5 * (set_.sun + set_.planet1);
-  sun.tip_radius_mm = 0.5 * set_.sun + r.rack.addendum + y - x.planet1;
-  planet.tip_radius_mm = std::min(planet.tip_radius_mm,
-                                  0.5 * set_.planet1 + r.rack.addendum + y - x.sun);
-  margins.add(spacing_margin(r, a, planet.tip_radius_mm, least_module_mm_));
-  const double backlash = backlash_of(r, least_module_mm_);
-  for (const Gear* gear : {static_cast<const Gear*>(&sun), static_cast<const Gear*>(&planet), &ring})
-    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear, backlash) - r.tip_thickness
-                                                            : -1.0);
-  margins.add(ring.tip_radius_mm - base_radius_mm(ring));
+  const double a = a1 / own.module, least_module_mm = least_module_mm_ * own.module;
+  Gear planet = gear_of(r, GearKind::kExternal, own.planet, x_p);
+  std::optional<Gear> sun, ring;
+  if (own.ring) ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
+  if (own.sun) {
+    sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
+    const double y = a - 0.5 * (own.sun + own.planet);
+    sun->tip_radius_mm = 0.5 * own.sun + r.rack.addendum + y - x_p;
+    planet.tip_radius_mm =
+        std::min(planet.tip_radius_mm, 0.5 * own.planet + r.rack.addendum + y - x_s);
+  }
+  margins.add(spacing_margin(r, set_.planets, a, planet.tip_radius_mm, least_module_mm));
+  const double backlash = backlash_of(r, least_module_mm);
+  const auto add_thickness = [&](const Gear& gear) {
+    margins.add(gear.tip_radius_mm > base_radius_mm(gear)
+                    ? tip_thickness(gear, backlash) - r.tip_thickness
+                    : -1.0);
+  };
+  if (sun) add_thickness(*sun);
+  add_thickness(planet);
+  if (ring) {
+    add_thickness(*ring);
+    margins.add(ring->tip_radius_mm - base_radius_mm(*ring));
+  }
   if (margins.stop()) return done();
 
-  const MeshView view_a = view_of(sun, planet, a), view_b = view_of(planet, ring, a);
-  add_contact_ratio_margins(r, view_a, margins);
-  add_contact_ratio_margins(r, view_b, margins);
-  margins.add(a - sun.tip_radius_mm - root_radius(planet) - r.tip_clearance);
-  margins.add(a - planet.tip_radius_mm - root_radius(sun) - r.tip_clearance);
-  add_internal_clearances(r, planet, ring, a, margins);
-  margins.add(trochoid_margin(planet, ring, a));
+  const MeshView outer = sun ? view_of(*sun, planet, a) : MeshView{};
+  const MeshView inner = ring ? view_of(planet, *ring, a) : MeshView{};
+  if (sun) add_contact_ratio_margins(r, outer, margins);
+  if (ring) add_contact_ratio_margins(r, inner, margins);
+  if (sun) {
+    margins.add(a - sun->tip_radius_mm - root_radius(planet) - r.tip_clearance);
+    margins.add(a - planet.tip_radius_mm - root_radius(*sun) - r.tip_clearance);
+  }
+  if (ring) {
+    add_internal_clearances(r, planet, *ring, a, margins);
+    margins.add(trochoid_margin(planet, *ring, a));
+  }
   if (margins.stop()) return done();
   const bool formula = r.loss_model == LossModel::kContactRatios;
-  const bool known = formula || (surely_not_undercut(r, sun) && surely_not_undercut(r, planet));
-  result.sun_planet =
-      formula ? formula_loss(mesh_a_, view_a.approach, view_a.recess) : path_loss(view_a.path);
-  result.planet_ring =
-      formula ? formula_loss(mesh_b_, view_b.approach, view_b.recess) : path_loss(view_b.path);
-  if (known && worth && !worth(result)) return done();
+  const bool known =
+      formula || ((!sun || (surely_whole(r, *sun, outer.path.start_mm) &&
+                            surely_whole(r, planet, outer.span - outer.path.end_mm))) &&
+                  (!ring || surely_whole(r, planet, inner.path.start_mm)));
+  const auto loss = [&](const MeshTeeth& mesh, const MeshView& view) {
+    if (formula) return formula_loss(mesh, view.approach, view.recess);
+    return path_loss(!known && profiles == Profiles::kLeftOut ? best_part(view) : view.path);
+  };
+  if (sun) result.sun_planet = loss(own.sun_planet, outer);
+  if (ring) result.planet_ring = loss(own.planet_ring, inner);
+  if (profiles == Profiles::kLeftOut || (known && worth && !worth(result))) return done();
 
-  const auto sun_profile = ToothProfile::make(sun), planet_profile = ToothProfile::make(planet),
-             ring_profile = ToothProfile::make(ring);
-  if (!sun_profile || !planet_profile || !ring_profile) return done();
-  const GearPair pair_a{&*sun_profile, &*planet_profile, a};
-  const GearPair pair_b{&*planet_profile, &*ring_profile, a};
-  add_root_margins(r, pair_a, margins);
-  add_root_margins(r, pair_b, margins);
-  if (!known) {
-    result.sun_planet = path_loss(contact_path(pair_a, r.face_width_mm));
-    result.planet_ring = path_loss(contact_path(pair_b, r.face_width_mm));
+  const auto planet_profile = ToothProfile::make(planet);
+  if (!planet_profile) return done();
+  const auto judge = [&](const GearPair& pair, const MeshView& view, MeshLoss& mesh_loss) {
+    const LineOfAction line = add_root_margins(r, pair, margins);
+    // undercut, or a root form circle above the mate's tip, shortens the path
+    constexpr double kSame_mm = 1e-10;
+    if (!formula && (line.effective_start_mm > view.path.start_mm + kSame_mm ||
+                     line.effective_end_mm < view.path.end_mm - kSame_mm))
+      mesh_loss = path_loss(contact_path(pair, r.face_width_mm));
+  };
+  if (sun) {
+    const auto profile = ToothProfile::make(*sun);
+    if (!profile) return done();
+    judge({&*profile, &*planet_profile, a}, outer, result.sun_planet);
+  }
+  if (ring) {
+    const auto profile = ToothProfile::make(*ring);
+    if (!profile) return done();
+    judge({&*planet_profile, &*profile, a}, inner, result.planet_ring);
   }
   return done();
 }
 
-Layer2Evaluation SearchModel::layer2(
-    double a1, double ring2_shift, double stop_below,
-    const std::function<bool(const Layer2Evaluation&)>& worth) const {
-  const SearchRequirements& r = *requirements_;
-  Layer2Evaluation result;
-  Margins margins(result.margins, stop_below);
-  const auto done = [&] {
-    result.least_margin = margins.least();
-    return result;
-  };
-  const double m2 = set_.layer2_module_ratio, a = a1 / m2;
-  const Shifts x = shifts({a1, 0.0, ring2_shift});
-  margins.add(x.planet2 - r.shift_min);
-  margins.add(r.shift_max - x.planet2);
-  if (margins.stop()) return done();
-
-  const Gear planet = gear_of(r, GearKind::kExternal, set_.planet2, x.planet2);
-  const Gear ring = gear_of(r, GearKind::kInternal, set_.ring2, x.ring2);
-  margins.add(spacing_margin(r, a, planet.tip_radius_mm, least_module_mm_ * m2));
-  const double backlash = backlash_of(r, least_module_mm_ * m2);
-  for (const Gear* gear : {&planet, &ring})
-    margins.add(gear->tip_radius_mm > base_radius_mm(*gear) ? tip_thickness(*gear, backlash) - r.tip_thickness
-                                                            : -1.0);
-  margins.add(ring.tip_radius_mm - base_radius_mm(ring));
-  if (margins.stop()) return done();
-
-  const MeshView view = view_of(planet, ring, a);
-  add_contact_ratio_margins(r, view, margins);
-  add_internal_clearances(r, planet, ring, a, margins);
-  margins.add(trochoid_margin(planet, ring, a));
-  if (margins.stop()) return done();
-  const bool formula = r.loss_model == LossModel::kContactRatios;
-  const bool known = formula || surely_not_undercut(r, planet);
-  result.planet_ring = formula ? formula_loss(mesh_c_, view.approach, view.recess) : path_loss(view.path);
-  if (known && worth && !worth(result)) return done();
-
-  const auto planet_profile = ToothProfile::make(planet), ring_profile = ToothProfile::make(ring);
-  if (!planet_profile || !ring_profile) return done();
-  const GearPair pair{&*planet_profile, &*ring_profile, a};
-  add_root_margins(r, pair, margins);
-  if (!known) result.planet_ring = path_loss(contact_path(pair, r.face_width_mm));
-  return done();
-}
-
-SearchModel::Shifts SearchModel::shifts(const FreeShifts& free) const {
+void SearchModel::add_shifts(int number, double a1, double shift, Shifts& x) const {
   const auto sum = [&](const MeshTeeth& mesh, double a) {
     const auto angle = working_pressure_angle_rad(mesh, a);
     return angle ? shift_sum(mesh, *angle) : -1e3;
   };
+  const Layer& own = layers_[static_cast<std::size_t>(number)];
+  const double a = a1 / own.module;
+  double& planet = x[static_cast<std::size_t>(own.planet_at)];
+  planet = shift;
+  if (own.ring) {
+    x[static_cast<std::size_t>(own.ring_at)] = shift;
+    planet = shift - sum(own.planet_ring, a);
+  }
+  if (own.sun) x[static_cast<std::size_t>(own.sun_at)] = sum(own.sun_planet, a) - planet;
+}
+
+SearchModel::Shifts SearchModel::shifts(const FreeShifts& free) const {
   Shifts x{};
-  x.ring1 = free.ring1_shift;
-  x.planet1 = x.ring1 - sum(mesh_b_, free.centre_distance);
-  x.sun = sum(mesh_a_, free.centre_distance) - x.planet1;
-  x.ring2 = free.ring2_shift;
-  x.planet2 = x.ring2 - sum(mesh_c_, free.centre_distance / set_.layer2_module_ratio);
+  add_shifts(0, free.centre_distance, free.layer1_shift, x);
+  if (has_layer2()) add_shifts(1, free.centre_distance, free.layer2_shift, x);
   return x;
 }
 
-std::array<double, 2> SearchModel::ring1_shift_range(double a) const {
+std::array<double, 2> SearchModel::shift_range(int number, double a) const {
+  if (static_cast<std::size_t>(number) >= layers_.size()) return {0.0, 0.0};
   const SearchRequirements& r = *requirements_;
-  const Shifts x = shifts({a, 0.0, 0.0});  // planet1 = x_r1 + x.planet1, sun = x.sun - x_r1
-  return {std::max({r.shift_min, r.shift_min - x.planet1, x.sun - r.shift_max}),
-          std::min({r.shift_max, r.shift_max - x.planet1, x.sun - r.shift_min})};
-}
-
-std::array<double, 2> SearchModel::ring2_shift_range(double a) const {
-  const SearchRequirements& r = *requirements_;
-  const Shifts x = shifts({a, 0.0, 0.0});
-  return {std::max(r.shift_min, r.shift_min - x.planet2),
-          std::min(r.shift_max, r.shift_max - x.planet2)};
+  Shifts x{};
+  add_shifts(number, a, 0.0, x);  // planet = shift + x of the planet, sun = x of the sun - shift
+  const Layer& own = layers_[static_cast<std::size_t>(number)];
+  std::array<double, 2> range{r.shift_min, r.shift_max};
+  if (own.ring) {
+    const double planet = x[static_cast<std::size_t>(own.planet_at)];
+    range = {std::max(range[0], r.shift_min - planet), std::min(range[1], r.shift_max - planet)};
+  }
+  if (own.sun) {
+    const double sun = x[static_cast<std::size_t>(own.sun_at)];
+    range = {std::max(range[0], sun - r.shift_max), std::min(range[1], sun - r.shift_min)};
+  }
+  return range;
 }
 
 double SearchModel::outer_diameter(const FreeShifts& free) const {
   const SearchRequirements& r = *requirements_;
-  const auto outer = [&](int teeth, double shift, double module) {
-    return module * (teeth + 2.0 * (r.rack.dedendum + shift + r.rim));
-  };
-  return std::max(outer(set_.ring1, free.ring1_shift, 1.0),
-                  outer(set_.ring2, free.ring2_shift, set_.layer2_module_ratio));
+  const Shifts x = shifts(free);
+  double largest = 0.0;
+  for (const Layer& own : layers_) {
+    const double x_p = x[static_cast<std::size_t>(own.planet_at)],
+                 a = free.centre_distance / own.module;
+    if (own.ring) {
+      const double x_r = x[static_cast<std::size_t>(own.ring_at)];
+      largest = std::max(largest, own.module * (own.ring + 2.0 * (r.rack.dedendum + x_r + r.rim)));
+    } else {
+      const double x_s = x[static_cast<std::size_t>(own.sun_at)],
+                   y = a - 0.5 * (own.sun + own.planet);
+      const double planet_tip = 0.5 * own.planet + r.rack.addendum + std::min(x_p, y - x_s);
+      const double sun_tip = 0.5 * own.sun + r.rack.addendum + y - x_p;
+      largest = std::max(largest, own.module * (train().has_planets() ? 2.0 * (a + planet_tip)
+                                                                      : a + planet_tip + sun_tip));
+    }
+  }
+  return largest;
+}
+
+/// No shifts within the bounds and no centre distance give more.
+double SearchModel::greatest_outer_diameter() const {
+  const SearchRequirements& r = *requirements_;
+  double largest = 0.0;
+  for (const Layer& own : layers_) {
+    const double a = set_.centre_distance_max / own.module;
+    const auto tip = [&](int teeth) { return 0.5 * teeth + r.rack.addendum + r.shift_max; };
+    const double outer = own.ring ? own.ring + 2.0 * (r.rack.dedendum + r.shift_max + r.rim)
+                         : train().has_planets() ? 2.0 * (a + tip(own.planet))
+                                                 : a + tip(own.planet) + tip(own.sun);
+    largest = std::max(largest, own.module * outer);
+  }
+  return largest;
 }
 
 double SearchModel::module_mm(const FreeShifts& free) const {
@@ -388,11 +487,11 @@ double SearchModel::module_mm(const FreeShifts& free) const {
 GearboxDesign SearchModel::design(const FreeShifts& free) const {
   const SearchRequirements& r = *requirements_;
   const Shifts x = shifts(free);
-  const double m1 = module_mm(free), m2 = m1 * set_.layer2_module_ratio;
+  const double m1 = module_mm(free);
   GearboxDesign design;
   design.name = r.name;
-  design.topology = train_topology("3k", to_text(set_.output));
-  design.planets = r.planets;
+  design.topology = train().topology;
+  design.planets = set_.planets;
   design.module_mm = m1;
   design.centre_distance_mm = free.centre_distance * m1;
   design.friction = r.friction;
@@ -403,23 +502,23 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
   // a material of the requirements' own is in no design's table
   if (r.strength.material != kDefaultMaterial && MaterialTable().find(r.strength.material))
     design.material = r.strength.material;
-  const auto add = [&](const char* name, GearKind kind, int teeth, double shift, double module) {
+  for (std::size_t g = 0; g < train().topology.gears.size(); ++g) {
+    const TrainPlace place = train().place_of(static_cast<int>(g));
+    const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
+    const bool upper = place == TrainPlace::kPlanet2 || place == TrainPlace::kRing2;
+    const double module = upper ? m1 * set_.layer2_module_ratio : m1;
     GearDesign gear;
-    gear.name = name;
-    gear.kind = kind;
-    gear.teeth = teeth;
-    gear.shift = shift;
+    gear.name = train().topology.gears[g].name;
+    gear.kind = ring ? GearKind::kInternal : GearKind::kExternal;
+    gear.teeth = set_.teeth_at(place);
+    gear.shift = x[static_cast<std::size_t>(place)];
     gear.face_width_mm = r.face_width_mm;
     if (module != m1) gear.module_mm = module;
-    if (kind == GearKind::kInternal)
-      gear.outer_diameter_mm = module * (teeth + 2.0 * (r.rack.dedendum + shift + r.rim));
+    if (ring)
+      gear.outer_diameter_mm =
+          module * (gear.teeth + 2.0 * (r.rack.dedendum + *gear.shift + r.rim));
     design.gears.push_back(gear);
-  };
-  add("sun", GearKind::kExternal, set_.sun, x.sun, m1);
-  add("planet1", GearKind::kExternal, set_.planet1, x.planet1, m1);
-  add("ring1", GearKind::kInternal, set_.ring1, x.ring1, m1);
-  add("planet2", GearKind::kExternal, set_.planet2, x.planet2, m2);
-  add("ring2", GearKind::kInternal, set_.ring2, x.ring2, m2);
+  }
   return design;
 }
 

@@ -14,52 +14,25 @@
 #include "trueflank/train/gearbox_design.h"
 
 // What an optimiser sees of one tooth set: efficiency and the margins of all limits as functions of
-// the centre distance and the ring shifts. Lengths are in modules of layer 1.
+// the centre distance and the free shifts. Lengths are in modules of layer 1.
 namespace trueflank {
 
-/// The free variables; every other shift follows from the centre distance.
+/// The free variables; every other shift follows from the centre distance. A layer's free shift is
+/// its ring's; without a ring its planet's (of a pair, its wheel's).
 struct FreeShifts {
-  double centre_distance = kNaN, ring1_shift = kNaN, ring2_shift = kNaN;
+  double centre_distance = kNaN, layer1_shift = kNaN;
+  double layer2_shift = kNaN;  ///< 0 where there is one layer
 
   bool operator==(const FreeShifts&) const = default;
 };
-
-/// Limits of layer 1 and of layer 2. A margin >= 0 keeps the limit; lengths in modules of the layer.
-enum class Limit {
-  kShift,            ///< a shift beyond its bounds
-  kContactRatio,     ///< of any mesh: from the tip circles, and what undercut and root form leave
-  kFillet,           ///< a tip corner cuts into the mate's root (search_corner.h)
-  kTipClearance,
-  kTrochoid,         ///< tips of planet and ring collide outside the line of action
-  kTipThickness,
-  kPlanetSpacing,
-  kRingTip,          ///< ring tip inside its base circle
-};
-[[nodiscard]] const char* to_text(Limit limit);
-
-struct LimitEntry {
-  Limit limit;
-  int layer;
-  const char* where;
-};
-inline constexpr std::size_t kLayer1Limits = 24;
-inline constexpr std::size_t kLayer2Limits = 14;
-inline constexpr std::size_t kLimits = kLayer1Limits + kLayer2Limits;
-/// What each margin is of; order of SetEvaluation::margins.
-[[nodiscard]] const std::array<LimitEntry, kLimits>& limit_entries();
 
 /// Loss of one mesh, as the torque balance takes it.
 struct MeshLoss {
   double driving1 = kNaN, driving2 = kNaN;  ///< efficiency where gear 1, gear 2 drives
 };
-struct Layer1Evaluation {
-  MeshLoss sun_planet, planet_ring;
-  std::array<double, kLayer1Limits> margins{};
-  double least_margin = -1e9;
-};
-struct Layer2Evaluation {
-  MeshLoss planet_ring;
-  std::array<double, kLayer2Limits> margins{};
+struct LayerEvaluation {
+  MeshLoss sun_planet, planet_ring;            ///< NaN where there is no such mesh
+  std::array<double, kLayerLimits> margins{};  ///< in the order of SearchTrain::limits
   double least_margin = -1e9;
 };
 
@@ -69,25 +42,35 @@ class SearchModel {
   SearchModel(const SearchRequirements& requirements, const ToothSet& set);
 
   /// Cheap margins come first. Evaluation ends as soon as a margin is below `stop_below`, or where
-  /// `worth`, asked with the losses before profiles are made (by the path between the tips, where no undercut
-  /// can shorten it), says no; what was not computed is -1e9.
-  [[nodiscard]] Layer1Evaluation layer1(
-      double centre_distance, double ring1_shift, double stop_below = -1e300,
-      const std::function<bool(const Layer1Evaluation&)>& worth = {}) const;
-  [[nodiscard]] Layer2Evaluation layer2(
-      double centre_distance, double ring2_shift, double stop_below = -1e300,
-      const std::function<bool(const Layer2Evaluation&)>& worth = {}) const;
+  /// `worth`, asked with the losses before profiles are made (by the path between the tips, where
+  /// no undercut can shorten it), says no; what was not computed is -1e9.
+  [[nodiscard]] LayerEvaluation layer1(
+      double centre_distance, double shift, double stop_below = -1e300,
+      const std::function<bool(const LayerEvaluation&)>& worth = {}) const {
+    return layer(0, centre_distance, shift, stop_below, worth);
+  }
+  /// Of a train with one layer: no limit, no mesh.
+  [[nodiscard]] LayerEvaluation layer2(
+      double centre_distance, double shift, double stop_below = -1e300,
+      const std::function<bool(const LayerEvaluation&)>& worth = {}) const {
+    return layer(1, centre_distance, shift, stop_below, worth);
+  }
+
+  /// The margins that need no profiles, and losses no greater than the true ones: where undercut or
+  /// a fillet may shorten the path, those of its best part.
+  [[nodiscard]] LayerEvaluation outline(int layer, double centre_distance, double shift,
+                                        double stop_below) const;
 
   /// Efficiency from mesh losses; 0 where the train locks. Equal to solve_balance (tested), without
   /// trying every assignment each time.
-  [[nodiscard]] double efficiency(const MeshLoss& a, const MeshLoss& b, const MeshLoss& c,
+  [[nodiscard]] double efficiency(const LayerEvaluation& layer1, const LayerEvaluation& layer2,
                                   DriveDirection direction) const;
 
-  /// Interval of ring1's shift within which sun, planet1 and ring1 keep their shift bounds.
-  [[nodiscard]] std::array<double, 2> ring1_shift_range(double centre_distance) const;
-  [[nodiscard]] std::array<double, 2> ring2_shift_range(double centre_distance) const;
+  /// Interval of a layer's free shift within which all gears of it keep their shift bounds.
+  [[nodiscard]] std::array<double, 2> shift_range(int layer, double centre_distance) const;
 
-  /// Larger of both rings' outer diameters over the module of layer 1.
+  /// Diameter of the smallest circle around all gears, over the module of layer 1: of rings outside
+  /// their rims, of planets on their way round, of both gears of a pair.
   [[nodiscard]] double outer_diameter(const FreeShifts& free) const;
   /// Module of layer 1 [mm].
   [[nodiscard]] double module_mm(const FreeShifts& free) const;
@@ -101,20 +84,53 @@ class SearchModel {
 
   [[nodiscard]] const ToothSet& set() const { return set_; }
 
+  [[nodiscard]] const SearchTrain& train() const { return *set_.train; }
+  [[nodiscard]] bool has_layer2() const { return set_.train->layers.size() > 1; }
+  [[nodiscard]] std::size_t limits() const { return set_.train->limits.size(); }
+
  private:
-  struct Shifts {
-    double sun, planet1, ring1, planet2, ring2;
+  /// Shifts at their places; 0 where there is no gear.
+  using Shifts = std::array<double, kTrainPlaces>;
+  /// One layer with its tooth numbers; 0: no such gear.
+  struct Layer {
+    int sun = 0, planet = 0, ring = 0;
+    MeshTeeth sun_planet, planet_ring;
+    double module = 1.0;  ///< over that of layer 1
+    TrainPlace sun_at = TrainPlace::kSun, planet_at = TrainPlace::kPlanet1,
+               ring_at = TrainPlace::kRing1;
   };
+  enum class Profiles { kMade, kLeftOut };
+  /// A mesh in the torque balance.
+  struct BalanceMesh {
+    int layer = 0;
+    bool internal = false;
+    double teeth_ratio = kNaN;  ///< of gear 2 to gear 1, negative where internal
+    bool gear1_drives_forward = true;
+    int member1 = 0, member2 = 0;
+  };
+
+  [[nodiscard]] LayerEvaluation layer(
+      int number, double centre_distance, double shift, double stop_below,
+      const std::function<bool(const LayerEvaluation&)>& worth,
+      Profiles profiles = Profiles::kMade) const;
   [[nodiscard]] Shifts shifts(const FreeShifts& free) const;
+  void add_shifts(int number, double centre_distance, double shift, Shifts& x) const;
+  void set_up_layers();
+  void set_up_balance();
+  [[nodiscard]] double greatest_outer_diameter() const;
+  /// External torque on the output per unit of torque at the input: the negative ratio where
+  /// nothing is lost.
+  [[nodiscard]] double output_torque(const std::array<double, 3>& torque_ratios) const;
   [[nodiscard]] MeshLoss formula_loss(const MeshTeeth& mesh, double approach, double recess) const;
   [[nodiscard]] MeshLoss path_loss(ContactPath path) const;
 
   const SearchRequirements* requirements_;
   ToothSet set_;
-  MeshTeeth mesh_a_, mesh_b_, mesh_c_;
-  std::array<bool, 3> gear1_drives_forward_{}, gear1_drives_backward_{};
-  double sun_speed_over_output_ = kNaN;
-  double least_module_mm_ = kNaN;  ///< clearances in mm are kept with this: cautious where it varies
+  std::vector<Layer> layers_;
+  std::vector<BalanceMesh> balance_;
+  double ratio_ = kNaN;  ///< input speed over output speed
+  double least_module_mm_ =
+      kNaN;  ///< clearances in mm are kept with this: cautious where it varies
 };
 
 }  // namespace trueflank

@@ -7,7 +7,7 @@
 #include <nlopt.hpp>
 #include <optional>
 
-#include "trueflank/search/search_starts.h"
+#include "trueflank/search/search_sweep.h"
 #include "trueflank/search/search_values.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/strength.h"
@@ -15,10 +15,8 @@
 namespace trueflank {
 namespace {
 
-constexpr int kCoarse = 7;  ///< places a variable of the grid for a set of which no start is known
 constexpr int kSlsqpSteps = 60;
 constexpr int kSimplexSteps = 150;
-constexpr int kRestoreSteps = 200;
 /// Price of a breach (modules, or shares of a bound) against the merit, for the simplex method.
 constexpr double kSimplexPrice = 5.0;
 /// Step of the one-sided differences, in modules; profiles are solved to 1e-12.
@@ -26,6 +24,13 @@ constexpr double kDifference = 1e-6;
 /// Compromises between two objectives: shares of the way from one optimum to the other.
 constexpr std::array<double, 3> kCompromises{0.25, 0.5, 0.75};
 
+bool is_efficiency(SearchObjective objective) {
+  return objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
+}
+DriveDirection direction_of(SearchObjective objective) {
+  return objective == SearchObjective::kForward ? DriveDirection::kForward
+                                                : DriveDirection::kBackward;
+}
 bool needs_strength(SearchObjective objective) { return objective == SearchObjective::kTorque; }
 
 class SetOptimiser {
@@ -35,10 +40,11 @@ class SetOptimiser {
       : values_(requirements, set, reserve) {}
 
   SetResult run() {
-    const std::vector<FreeShifts> starts = grid_starts(values_);
-    if (!starts.empty()) collect(starts);
-    if (result_.candidates.empty() && result_.failed_limit < 0)
-      if (const auto restored = restore()) collect({*restored});
+    const SweepResult& found = swept(values_.guide());
+    if (found.peaks.empty())
+      name_failed_limit(found.nearest.free);
+    else
+      collect();
     result_.evaluations = values_.evaluations();
     return std::move(result_);
   }
@@ -46,8 +52,10 @@ class SetOptimiser {
  private:
   using State = SetValues::State;
 
-  void collect(const std::vector<FreeShifts>& starts);
-  std::optional<FreeShifts> restore();
+  void collect();
+  void name_failed_limit(const FreeShifts& nearest);
+  /// Of an objective that is an efficiency, without bounds.
+  const SweepResult& swept(DriveDirection direction);
   std::optional<FreeShifts> climb(const std::vector<FreeShifts>& starts, SearchObjective objective,
                                   const std::vector<MeritBound>& bounds);
   void slsqp(FreeShifts start, SearchObjective objective, const std::vector<MeritBound>& bounds);
@@ -56,15 +64,12 @@ class SetOptimiser {
   void remember(const FreeShifts& free, const State& s, double merit_value,
                 const std::vector<double>& bound_margins);
   void set_box(nlopt::opt& opt) const;
-  [[nodiscard]] SearchObjective guide() const {
-    return values_.guide() == DriveDirection::kForward ? SearchObjective::kForward
-                                                         : SearchObjective::kBackward;
-  }
 
   SetValues values_;
   SetResult result_;
   std::optional<FreeShifts> best_;
   double best_merit_ = 0.0;
+  std::array<std::optional<SweepResult>, 2> swept_;
 };
 
 FreeShifts free_of(const double* v) { return {v[0], v[1], v[2]}; }
@@ -94,54 +99,23 @@ void run_quietly(nlopt::opt& opt, std::vector<double>& x) {
 void SetOptimiser::set_box(nlopt::opt& opt) const {
   const ToothSet& set = values_.model().set();
   const SearchRequirements& r = values_.requirements();
-  opt.set_lower_bounds({set.centre_distance_min, r.shift_min, r.shift_min});
-  opt.set_upper_bounds({set.centre_distance_max, r.shift_max, r.shift_max});
+  const bool two = values_.model().has_layer2();
+  opt.set_lower_bounds({set.centre_distance_min, r.shift_min, two ? r.shift_min : 0.0});
+  opt.set_upper_bounds({set.centre_distance_max, r.shift_max, two ? r.shift_max : 0.0});
 }
 
-/// Nothing on the grid keeps all limits: goes to where the breaches are least.
-std::optional<FreeShifts> SetOptimiser::restore() {
-  const ToothSet& set = values_.model().set();
-  FreeShifts best;
-  double best_margin = -1e300;
-  for (int i = 0; i < kCoarse; ++i) {
-    const double a = at_grid(set.centre_distance_min, set.centre_distance_max, i, kCoarse);
-    const auto range1 = values_.model().ring1_shift_range(a);
-    const auto range2 = values_.model().ring2_shift_range(a);
-    double margin1 = -1e300, margin2 = -1e300, x1 = 0.0, x2 = 0.0;
-    for (int k = 0; k < kCoarse; ++k) {
-      const double at1 = at_grid(range1[0], range1[1], k, kCoarse);
-      const double at2 = at_grid(range2[0], range2[1], k, kCoarse);
-      const double m1 = values_.layer1(a, at1).least_margin;
-      const double m2 = values_.layer2(a, at2).least_margin;
-      if (m1 > margin1) margin1 = m1, x1 = at1;
-      if (m2 > margin2) margin2 = m2, x2 = at2;
-    }
-    if (std::min(margin1, margin2) > best_margin)
-      best_margin = std::min(margin1, margin2), best = {a, x1, x2};
-  }
-  double least = best_margin;
-  const auto value = [&](const double* v, double*) {
-    const State st = values_.state(free_of(v));
-    const double now = values_.least_margin(st);
-    if (now > least) least = now, best = free_of(v);
-    return values_.breach(st);
-  };
-  auto value_copy = value;
-  nlopt::opt opt(nlopt::LN_SBPLX, 3);
-  set_box(opt);
-  opt.set_min_objective(call_objective<decltype(value_copy)>, &value_copy);
-  opt.set_maxeval(kRestoreSteps);
-  opt.set_stopval(0.0);
-  opt.set_xtol_abs(1e-6);
-  opt.set_initial_step(std::vector<double>{0.05, 0.1, 0.1});
-  std::vector<double> x{best.centre_distance, best.ring1_shift, best.ring2_shift};
-  run_quietly(opt, x);
-  if (least >= 0.0) return best;
-  std::array<double, kLimits> at_best;
-  values_.margins(values_.state(best), at_best.data());
-  result_.failed_limit = static_cast<int>(
-      std::min_element(at_best.begin(), at_best.end()) - at_best.begin());
-  return std::nullopt;
+const SweepResult& SetOptimiser::swept(DriveDirection direction) {
+  auto& result = swept_[direction == DriveDirection::kForward ? 0 : 1];
+  if (!result) result = sweep(values_, direction);
+  return *result;
+}
+
+void SetOptimiser::name_failed_limit(const FreeShifts& nearest) {
+  std::vector<double> margins(kLimits);
+  values_.margins(values_.state(nearest), margins.data());
+  margins.resize(values_.model().limits());
+  result_.failed_limit =
+      static_cast<int>(std::min_element(margins.begin(), margins.end()) - margins.begin());
 }
 
 void SetOptimiser::remember(const FreeShifts& free, const State& s, double merit_value,
@@ -156,7 +130,7 @@ void SetOptimiser::remember(const FreeShifts& free, const State& s, double merit
 
 void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
                          const std::vector<MeritBound>& bounds) {
-  const std::size_t count = kLimits + bounds.size();
+  const std::size_t limits = values_.model().limits(), count = limits + bounds.size();
   const double at_start = values_.merit(values_.state(start), start, objective);
   const double scale = std::isfinite(at_start) ? std::max(1.0, std::abs(at_start)) : 1.0;
   // one point's value and differences serve objective and constraints
@@ -169,7 +143,7 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
     if (!std::isfinite(point.value)) point.value = -1.0;
     values_.margins(s, point.margin.data());
     for (std::size_t b = 0; b < bounds.size(); ++b)
-      point.margin[kLimits + b] = values_.bound_margin(s, free, bounds[b]);
+      point.margin[limits + b] = values_.bound_margin(s, free, bounds[b]);
     return point;
   };
   std::array<double, 3> at{kNaN, kNaN, kNaN};
@@ -181,14 +155,15 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
     const FreeShifts free = free_of(v);
     const State s = values_.state(free);
     here = point_of(s, free);
-    remember(free, s, here.value * scale, {here.margin.begin() + kLimits, here.margin.end()});
+    remember(free, s, here.value * scale,
+             {here.margin.begin() + static_cast<std::ptrdiff_t>(limits), here.margin.end()});
     for (std::size_t d = 0; d < 3; ++d) {
       std::array<double, 3> w = at;
       w[d] += kDifference;
       const FreeShifts beside = free_of(w.data());
       State t = s;  // a ring's shift moves its own layer only
-      if (d != 2) t.layer1 = values_.layer1(beside.centre_distance, beside.ring1_shift);
-      if (d != 1) t.layer2 = values_.layer2(beside.centre_distance, beside.ring2_shift);
+      if (d != 2) t.layer1 = values_.layer1(beside.centre_distance, beside.layer1_shift);
+      if (d != 1) t.layer2 = values_.layer2(beside.centre_distance, beside.layer2_shift);
       moved[d] = point_of(t, beside);
     }
   };
@@ -214,7 +189,7 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
   opt.set_maxeval(kSlsqpSteps);
   opt.set_xtol_abs(1e-7);
   opt.set_ftol_rel(1e-9);
-  std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
+  std::vector<double> x{start.centre_distance, start.layer1_shift, start.layer2_shift};
   run_quietly(opt, x);
 }
 
@@ -241,7 +216,7 @@ void SetOptimiser::simplex(FreeShifts start, SearchObjective objective,
   opt.set_maxeval(kSimplexSteps);
   opt.set_xtol_abs(1e-6);
   opt.set_initial_step(step);
-  std::vector<double> x{start.centre_distance, start.ring1_shift, start.ring2_shift};
+  std::vector<double> x{start.centre_distance, start.layer1_shift, start.layer2_shift};
   run_quietly(opt, x);
 }
 
@@ -263,19 +238,16 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
   if (best_ && !smooth) slsqp(FreeShifts(*best_), objective, bounds);
   // the limits have kinks (tip shortening, undercut) at which a line search may stop early
   if (best_) simplex(*best_, objective, bounds, smooth ? 0.005 : 0.01);
-  if (best_ && smooth && objective == guide()) {
-    const SearchStart finest = zoomed(values_, {*best_, best_merit_, 0.0}, 0.05, 0.1, 0.0);
-    remember(finest.free, values_.state(finest.free), finest.merit, {});
-  }
   return best_;
 }
 
-void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
+void SetOptimiser::collect() {
   const SearchRequirements& r = values_.requirements();
   std::vector<MeritBound> asked;
-  std::vector<FreeShifts> from = starts;
+  std::vector<FreeShifts> from;
+  for (const SweepPoint& peak : swept(values_.guide()).peaks) from.push_back(peak.free);
   if (r.output_torque_nm) {
-    const auto strongest = climb(starts, SearchObjective::kTorque, {});
+    const auto strongest = climb(from, SearchObjective::kTorque, {});
     if (!strongest) return;
     if (values_.allowable_torque(*strongest) < *r.output_torque_nm) {
       result_.failed_limit = static_cast<int>(kLimits);
@@ -284,18 +256,39 @@ void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
     asked.push_back({SearchObjective::kTorque, *r.output_torque_nm});
     from.insert(from.begin(), *strongest);
   }
-  const auto keep = [&](const std::optional<FreeShifts>& free) {
-    if (free) result_.candidates.push_back(evaluate_candidate(r, values_.model(), *free, values_.reserve()));
+  const auto keep = [&](const std::optional<FreeShifts>& free, double gap = kNaN) {
+    if (!free) return;
+    result_.candidates.push_back(evaluate_candidate(r, values_.model(), *free, values_.reserve()));
+    result_.candidates.back().gap = gap;
+  };
+  const auto carries = [&](const FreeShifts& free) {
+    return asked.empty() || values_.allowable_torque(free) >= *r.output_torque_nm;
   };
   for (const SearchObjective objective : r.objectives) {
     std::optional<FreeShifts> free;
-    if (!asked.empty() && !needs_strength(objective)) {
-      // mostly the torque asked for binds nowhere, and the smooth way is the better one
-      free = climb(starts, objective, {});
-      if (free && values_.allowable_torque(*free) < *r.output_torque_nm) free.reset();
+    if (is_efficiency(objective)) {
+      // mostly the torque asked for binds nowhere, and the sweep is the better way
+      const SweepResult& found = swept(direction_of(objective));
+      if (!found.peaks.empty() && carries(found.peaks.front().free)) {
+        // a discontinuity of the swept function may have stopped a bracket short: climb on from the
+        // peaks
+        const SweepPoint& best = found.peaks.front();
+        std::vector<FreeShifts> peaks;
+        for (const SweepPoint& peak : found.peaks)
+          if (peaks.size() < 2) peaks.push_back(peak.free);
+        free = climb(peaks, objective, {});
+        const bool better = free && carries(*free) && best_merit_ > best.merit;
+        if (!better) free = best.free;
+        keep(free, found.gap + (better ? best_merit_ - best.merit : 0.0));
+        from.push_back(*free);
+        continue;
+      }
+    } else if (!needs_strength(objective) && !asked.empty()) {
+      free = climb(from, objective, {});
+      if (free && !carries(*free)) free.reset();
     }
-    if (!free) free = climb(from, objective, needs_strength(objective) ? std::vector<MeritBound>{}
-                                                                      : asked);
+    if (!free)
+      free = climb(from, objective, needs_strength(objective) ? std::vector<MeritBound>{} : asked);
     keep(free);
     if (free) from.push_back(*free);
   }
@@ -315,10 +308,14 @@ void SetOptimiser::collect(const std::vector<FreeShifts>& starts) {
 
 double SearchCandidate::merit(SearchObjective objective) const {
   switch (objective) {
-    case SearchObjective::kForward: return forward;
-    case SearchObjective::kBackward: return backward;
-    case SearchObjective::kTorque: return torque_nm;
-    case SearchObjective::kSize: return -size_mm;
+    case SearchObjective::kForward:
+      return forward;
+    case SearchObjective::kBackward:
+      return backward;
+    case SearchObjective::kTorque:
+      return torque_nm;
+    case SearchObjective::kSize:
+      return -size_mm;
   }
   return kNaN;
 }
@@ -330,15 +327,14 @@ SetResult optimise_set(const SearchRequirements& requirements, const ToothSet& s
 
 SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const SearchModel& model,
                                    const FreeShifts& free, const LimitReserve& reserve) {
-  const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
-  const Layer2Evaluation layer2 = model.layer2(free.centre_distance, free.ring2_shift);
+  const LayerEvaluation layer1 = model.layer1(free.centre_distance, free.layer1_shift);
+  const LayerEvaluation layer2 = model.layer2(free.centre_distance, free.layer2_shift);
   SearchCandidate candidate{.free = free};
-  candidate.forward = model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
-                                       DriveDirection::kForward);
-  candidate.backward = model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring,
-                                        DriveDirection::kBackward);
+  candidate.forward = model.efficiency(layer1, layer2, DriveDirection::kForward);
+  candidate.backward = model.efficiency(layer1, layer2, DriveDirection::kBackward);
   if (requirements.losses) {
-    // A mesh's loss is in proportion to its friction; the best shifts are those of the meshes alone.
+    // A mesh's loss is in proportion to its friction; the best shifts are those of the meshes
+    // alone.
     const double forward = 1.0 - candidate.forward, backward = 1.0 - candidate.backward;
     const MeshEfficiencies meshes = [&](double mu_forward, double mu_backward) {
       const double friction = std::max(requirements.friction, 1e-9);
@@ -352,11 +348,12 @@ SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const
   }
   candidate.size_mm = model.outer_diameter(free) * model.module_mm(free);
   candidate.least_margin = 1e300;
-  for (std::size_t i = 0; i < kLimits; ++i) {
-    const double margin = i < kLayer1Limits ? layer1.margins[i] : layer2.margins[i - kLayer1Limits];
+  const std::size_t first2 = model.train().layer1_limits;
+  for (std::size_t i = 0; i < model.limits(); ++i) {
+    const double margin = i < first2 ? layer1.margins[i] : layer2.margins[i - first2];
     candidate.least_margin =
         std::min(candidate.least_margin,
-                 margin - reserve[static_cast<std::size_t>(limit_entries()[i].limit)]);
+                 margin - reserve[static_cast<std::size_t>(model.train().limits[i].limit)]);
   }
   if (auto train = lay_out(model.design(free)))
     if (auto result = strength(*train, requirements.strength))

@@ -17,6 +17,8 @@ struct SearchCandidate {
   double torque_nm = kNaN;  ///< allowable at the output
   double size_mm = kNaN;    ///< outer diameter of the larger ring
   double least_margin = kNaN;
+  /// Of the objective an efficiency was swept for: what may be lacking, as measured (search_sweep.h); NaN: not measured.
+  double gap = kNaN;
 
   /// Larger is better, whatever the objective.
   [[nodiscard]] double merit(SearchObjective objective) const;
@@ -25,8 +27,8 @@ struct SearchCandidate {
 /// What the continuous optimisation of one tooth set found.
 struct SetResult {
   std::vector<SearchCandidate> candidates;  ///< empty: nothing keeps all limits
-  /// Index into limit_entries() of the limit that could be kept least; kLimits: the torque asked for;
-  /// -1 where there is a candidate, or a start that led to none.
+  /// Index into SearchTrain::limits of the limit that could be kept least; kLimits: the torque
+  /// asked for; -1 where there is a candidate, or a start that led to none.
   int failed_limit = -1;
   int evaluations = 0;  ///< of a layer
 };
@@ -34,13 +36,13 @@ struct SetResult {
 /// Extra distance kept from each kind of limit, where an exact check found a design too close.
 using LimitReserve = std::array<double, 8>;  // index = Limit
 
-/// Best shifts and centre distance of a tooth set. The starts come from grids that use how the layers
-/// decouple at a fixed centre distance; from the best of them SLSQP, then Subplex with a price on
-/// breaches (both NLopt) go to the optimum. One objective gives one candidate; several give the
-/// optimum of each and, between the first and each other, compromises.
+/// Best shifts and centre distance of a tooth set. An efficiency is swept for (search_sweep.h); torque, size and
+/// compromises climb from the sweep's peaks by SLSQP, then Subplex with a price on breaches (both NLopt). One
+/// objective gives one candidate; several give the optimum of each and, between the first and each other,
+/// compromises.
 /// Guarantees: candidates keep every limit; the same input gives the same candidates; it ends (COBYLA
 /// would not always: docs/decisions/0060-search-optimiser.md).
-/// Accuracy: within 2e-4 of the best of a dense grid, tested in tests/train/search_optimise_test.cpp.
+/// Accuracy: efficiencies within 1e-5 of dense grids with refinement, tested in tests/search/search_sweep_test.cpp.
 [[nodiscard]] SetResult optimise_set(const SearchRequirements& requirements, const ToothSet& set,
                                      const LimitReserve& reserve = {});
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/search/search_requirements.h"
 
+#include <algorithm>
 #include <charconv>
+
+#include "trueflank/search/search_enumerate.h"
 
 namespace trueflank {
 namespace {
@@ -30,51 +33,95 @@ void add_strength(const StrengthOptions& s, Text& text) {
   for (const auto& [gear, material] : s.material_of) text.add("material_of", gear + ":" + material);
   for (const Material& m : s.materials.all()) {
     text.add("table", m.name);
-    for (const double v : {m.bending_limit_mpa, m.contact_limit_mpa, m.elastic_modulus_mpa,
-                           m.poisson_ratio})
+    for (const double v :
+         {m.bending_limit_mpa, m.contact_limit_mpa, m.elastic_modulus_mpa, m.poisson_ratio})
       text.add("value", v);
   }
-  for (const double v : {s.reversing ? 1.0 : 0.0, s.overload_factor, s.dynamic_factor,
-                         s.face_load_factor, s.planet_load_factor, s.bending_life_factor,
-                         s.contact_life_factor, s.lubrication_factor, s.bending_safety,
-                         s.contact_safety})
+  for (const double v :
+       {s.reversing ? 1.0 : 0.0, s.overload_factor, s.dynamic_factor, s.face_load_factor,
+        s.planet_load_factor, s.bending_life_factor, s.contact_life_factor, s.lubrication_factor,
+        s.bending_safety, s.contact_safety})
     text.add("factor", v);
 }
 
-void check_range(const char* key, const ToothRange& range, int least, Errors& errors) {
-  if (range.min < least || range.max < range.min || range.max > 1000)
+void check_range(const std::string& name, const ToothRange& range, int least, Errors& errors) {
+  if (range.min >= least && range.max >= range.min && range.max <= 1000) return;
+  const bool low = range.min < least;
+  errors.push_back({.code = ErrorCode::kOutOfRange,
+                    .message = "no tooth numbers in this range",
+                    .key = "teeth." + name + (low ? "_min" : "_max"),
+                    .value = std::to_string(range.min) + " to " + std::to_string(range.max),
+                    .remedy = "least " + std::to_string(least) + ", most 1000, in this order"});
+}
+
+/// The names of a key that is a list: each known, none twice.
+void check_names(const char* key, const std::vector<std::string>& names,
+                 const std::vector<std::string>& known, Errors& errors) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool twice = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
+                                 names[i]) != names.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool unknown = std::find(known.begin(), known.end(), names[i]) == known.end();
+    if (!twice && !unknown) continue;
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     errors.push_back({.code = ErrorCode::kOutOfRange,
-                      .message = "no tooth numbers in this range",
-                      .key = std::string("teeth.") + key,
-                      .value = std::to_string(range.min) + " to " + std::to_string(range.max),
-                      .remedy = "least " + std::to_string(least) + ", most 1000, in this order"});
+                      .message = twice ? "named twice" : "not one of those the kinds have",
+                      .key = key,
+                      .value = '"' + names[i] + '"',
+                      .remedy = "one of " + list + ", or several by commas"});
+    return;
+  }
+}
+
+void check_trains(const SearchRequirements& r, Errors& errors) {
+  std::vector<std::string> kinds, outputs, inputs;
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const SearchTrain& train : search_trains()) {
+    add(kinds, train.kind());
+    if (std::find(r.kinds.begin(), r.kinds.end(), train.kind()) == r.kinds.end()) continue;
+    add(outputs, train.output);
+    add(inputs, train.input);
+  }
+  const std::size_t before = errors.size();
+  check_names("gearbox.kind", r.kinds, kinds, errors);
+  if (errors.size() > before) return;  // what else there is depends on the kinds
+  outputs.emplace_back("any");
+  inputs.emplace_back("any");
+  check_names("gearbox.output", r.outputs, outputs, errors);
+  check_names("gearbox.input", r.inputs, inputs, errors);
+  for (const SearchTrain* train : searched_trains(r))
+    for (const TrainPlace place : train->places()) {
+      const std::string& name = train->name_at(place);
+      const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
+      const bool own = name == "planet" || name == "ring" || name == "pinion" || name == "wheel";
+      if (own) check_range(name, tooth_range(r, *train, place), ring ? 6 : 4, errors);
+    }
 }
 
 void require(bool good, const char* key, double value, const char* message, const char* remedy,
              Errors& errors) {
   if (!good)
-    errors.push_back({.code = ErrorCode::kOutOfRange, .message = message, .key = key,
-                      .value = std::to_string(value), .remedy = remedy});
+    errors.push_back({.code = ErrorCode::kOutOfRange,
+                      .message = message,
+                      .key = key,
+                      .value = std::to_string(value),
+                      .remedy = remedy});
 }
 
 }  // namespace
 
-const char* to_text(OutputMember output) {
-  switch (output) {
-    case OutputMember::kRing2: return "ring2";
-    case OutputMember::kRing1: return "ring1";
-    case OutputMember::kCarrier: return "carrier";
-    case OutputMember::kRing: return "ring";
-  }
-  return "";
-}
-
 const char* to_text(SearchObjective objective) {
   switch (objective) {
-    case SearchObjective::kForward: return "forward";
-    case SearchObjective::kBackward: return "backward";
-    case SearchObjective::kTorque: return "torque";
-    case SearchObjective::kSize: return "size";
+    case SearchObjective::kForward:
+      return "forward";
+    case SearchObjective::kBackward:
+      return "backward";
+    case SearchObjective::kTorque:
+      return "torque";
+    case SearchObjective::kSize:
+      return "size";
   }
   return "";
 }
@@ -85,8 +132,17 @@ Errors validate(const SearchRequirements& r) {
           "input speed over output speed, above 1", errors);
   require(r.ratio_max >= r.ratio_min, "ratio.max", r.ratio_max, "the ratio range is empty",
           "not below ratio.min", errors);
-  require(r.planets >= 1 && r.planets <= 20, "gearbox.planets", r.planets, "no such planet carrier",
-          "1 to 20", errors);
+  check_trains(r, errors);
+  for (auto it = r.planets.begin(); it != r.planets.end(); ++it) {
+    if (*it >= 1 && *it <= 20 && std::find(r.planets.begin(), it, *it) == it) continue;
+    const bool twice = std::find(r.planets.begin(), it, *it) != it;
+    errors.push_back({.code = ErrorCode::kOutOfRange,
+                      .message = twice ? "named twice" : "no such planet carrier",
+                      .key = "gearbox.planets",
+                      .value = std::to_string(*it),
+                      .remedy = "1 to 20, each number once"});
+    break;
+  }
   check_range("sun", r.sun, 4, errors);
   check_range("planet1", r.planet1, 4, errors);
   check_range("ring1", r.ring1, 6, errors);
@@ -94,10 +150,11 @@ Errors validate(const SearchRequirements& r) {
   check_range("ring2", r.ring2, 6, errors);
   require(r.shift_max > r.shift_min, "shift.max", r.shift_max, "the shift range is empty",
           "above shift.min", errors);
-  require(r.contact_ratio_min >= 1.0, "contact_ratio.min", r.contact_ratio_min,
+  require(r.contact_ratio_min >= 1.0, "limits.contact_ratio_min", r.contact_ratio_min,
           "contact would be interrupted", "1 or more", errors);
-  require(r.contact_ratio_max > r.contact_ratio_min, "contact_ratio.max", r.contact_ratio_max,
-          "the contact ratio range is empty", "above contact_ratio.min", errors);
+  require(r.contact_ratio_max > r.contact_ratio_min, "limits.contact_ratio_max",
+          r.contact_ratio_max, "the contact ratio range is empty", "above limits.contact_ratio_min",
+          errors);
   if (r.output_torque_nm)
     require(*r.output_torque_nm > 0.0, "strength.output_torque_nm", *r.output_torque_nm,
             "no torque to carry", "above 0, or leave it out", errors);
@@ -112,8 +169,15 @@ Errors validate(const SearchRequirements& r) {
 
 std::string fingerprint(const SearchRequirements& r) {
   Text text;
-  for (const OutputMember output : r.outputs) text.add("output", to_text(output));
-  text.add("planets", r.planets);
+  for (const SearchTrain* train : searched_trains(r)) {
+    text.add("output", train->output);
+    if (train == &usual_search_train() || (train->kind() == "3k" && train->input == "sun"))
+      continue;
+    text.add("kind", train->kind() + (train->internal_wheel ? "-internal" : ""));
+    text.add("input", train->input);
+    for (const TrainPlace place : train->places()) text.add("teeth", tooth_range(r, *train, place));
+  }
+  for (const int planets : r.planets) text.add("planets", planets);
   text.add("friction", r.friction);
   text.add("face_width_mm", r.face_width_mm);
   text.add("backlash_mm", r.backlash_mm.value_or(kNaN));
@@ -147,14 +211,16 @@ std::string fingerprint(const SearchRequirements& r) {
   if (r.losses) {
     const LossesDesign& l = *r.losses;
     for (const double value :
-         {l.load_nm, l.input_speed_rpm, l.temperature_c.value_or(kNaN), l.reference_c, l.drag_torque_nm,
-          l.drag_per_c, l.viscous_nm_per_rpm, l.viscous_per_c, l.bearing_nm_at_1000_rpm,
-          l.bearing_load_share, l.stribeck_torque_nm, l.stribeck_speed_rpm,
-          l.backward_friction.value_or(kNaN), l.load_friction, l.load_friction_exponent,
-          l.load_friction_reference_nm, l.mixed_friction, l.mixed_friction_speed_rpm})
+         {l.load_nm, l.input_speed_rpm, l.temperature_c.value_or(kNaN), l.reference_c,
+          l.drag_torque_nm, l.drag_per_c, l.viscous_nm_per_rpm, l.viscous_per_c,
+          l.bearing_nm_at_1000_rpm, l.bearing_load_share, l.stribeck_torque_nm,
+          l.stribeck_speed_rpm, l.backward_friction.value_or(kNaN), l.load_friction,
+          l.load_friction_exponent, l.load_friction_reference_nm, l.mixed_friction,
+          l.mixed_friction_speed_rpm})
       text.add("loss", value);
   }
   for (const SearchObjective objective : r.objectives) text.add("objective", to_text(objective));
+  text.add("listed", static_cast<double>(std::max(r.listed, r.listed > 0 ? r.results : 0)));
   add_strength(r.strength, text);
   return text.take();
 }

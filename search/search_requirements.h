@@ -12,17 +12,21 @@
 #include "trueflank/train/gearbox_design.h"
 #include "trueflank/train/strength.h"
 
-// What a search for 3k designs is asked for (docs/search.md); the file is read by design/.
+// What a search for designs is asked for (docs/search.md); the file is read by design/.
 namespace trueflank {
-
-/// The member that drives out of the sets searched for. 3k: ring2 (type I) or ring1 (type II).
-enum class OutputMember { kRing2, kRing1, kCarrier, kRing };
-[[nodiscard]] const char* to_text(OutputMember output);
 
 /// Inclusive range of tooth numbers.
 struct ToothRange {
   int min = 0, max = 0;
   [[nodiscard]] long long count() const { return max < min ? 0 : max - min + 1LL; }
+};
+
+/// A range of which either end may be left open.
+struct OpenToothRange {
+  std::optional<int> min = {}, max = {};
+  [[nodiscard]] ToothRange over(const ToothRange& usual) const {
+    return {min.value_or(usual.min), max.value_or(usual.max)};
+  }
 };
 
 enum class SearchObjective {
@@ -35,14 +39,18 @@ enum class SearchObjective {
 
 enum class OutputDirection { kAny, kSame, kOpposite };
 
-/// Circumferential backlash of designs for which none is asked, in modules: what textbooks give gears of ordinary
-/// accuracy (0.03 to 0.05).
+/// Circumferential backlash of designs for which none is asked, in modules: what textbooks give
+/// gears of ordinary accuracy (0.03 to 0.05).
 inline constexpr double kUsualBacklash = 0.04;
 
 struct SearchRequirements {
   std::string name = "search";
-  std::vector<OutputMember> outputs{OutputMember::kRing2};  ///< kRing2: type I, kRing1: type II
-  int planets = 3;
+  std::vector<std::string> kinds{"3k"};  ///< all ranked together
+  /// Members that drive out and in; empty: the usual one of each kind; "any": every one. A kind
+  /// that has none of those named takes its usual one.
+  std::vector<std::string> outputs, inputs;
+  std::vector<int> planets{3};                           ///< numbers of planet bodies
+  bool external_wheels = true, internal_wheels = false;  ///< of pairs
   double friction = 0.1;
   double face_width_mm = 10.0;
   std::optional<double> backlash_mm;  ///< of every mesh of the designs; omitted: kUsualBacklash
@@ -57,14 +65,17 @@ struct SearchRequirements {
   double ratio_min = kNaN, ratio_max = kNaN;  ///< of |input speed / output speed|
   OutputDirection direction = OutputDirection::kAny;
   ToothRange sun{6, 60}, planet1{6, 60}, ring1{12, 120}, planet2{6, 60}, ring2{12, 120};
+  /// Gears of kinds with other names; what is open is as planet1, ring1 (stepped: ring2), sun, and
+  /// planet1 (internal: ring1).
+  OpenToothRange planet, ring, pinion, wheel;
   bool identical_planets = true;  ///< bodies must all be alike at equal spacing
 
   double shift_min = -2.0, shift_max = 2.0;
   double contact_ratio_min = 1.0, contact_ratio_max = 2.0;
-  double clearance_um = 2.0;         ///< least, of tip corners to the mate's profile
-  double tip_clearance = 0.1;        ///< least, coefficient of the module
-  double tip_thickness = 0.2;        ///< least, coefficient of the module
-  double planet_clearance_mm = 0.5;  ///< least, between tip circles of neighbouring planets
+  double clearance_um = 2.0;               ///< least, of tip corners to the mate's profile
+  double tip_clearance = 0.1;              ///< least, coefficient of the module
+  double tip_thickness = 0.2;              ///< least, coefficient of the module
+  double planet_clearance_mm = 0.5;        ///< least, between tip circles of neighbouring planets
   std::optional<double> output_torque_nm;  ///< to be carried
   std::optional<LossesDesign> losses;      ///< measured on a like drive; written into the designs
   StrengthOptions strength;
@@ -73,6 +84,9 @@ struct SearchRequirements {
   /// One: designs are ranked by it. Several: the Pareto front of them, ranked by the first.
   std::vector<SearchObjective> objectives{SearchObjective::kForward};
   int results = 20;  ///< design files written
+  /// Tooth sets in the ranking, the best: what cannot be among them need not be optimised. Never
+  /// fewer than results; 0: all.
+  int listed = 200;
 };
 
 /// Everything that contradicts itself or cannot be, all at once; empty where nothing does.

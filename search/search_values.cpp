@@ -12,9 +12,10 @@ namespace {
 
 /// A margin beyond this is as good or bad as can be: far values would spoil an optimiser's models.
 constexpr double kFarMargin = 2.0;
-/// Corners in roots are approached to this where no clearance is asked for: more than sampling hides. Near its
-/// fillet a tip keeps a nearly constant distance over a wide range of shifts, and 1e-3 costs half a percent.
-constexpr double kCornerReserve = 5e-6;
+/// Corners in roots are approached to this where no clearance is asked for: more than sampling
+/// hides. Near its fillet a tip keeps a nearly constant distance over a wide range of shifts, and
+/// 1e-3 costs half a percent.
+constexpr double kCornerReserve = 1e-6;
 
 }  // namespace
 
@@ -22,28 +23,28 @@ SetValues::SetValues(const SearchRequirements& requirements, const ToothSet& set
                      const LimitReserve& reserve)
     : r_(requirements), model_(requirements, set), reserve_(reserve) {
   const double clearance = mm_from_um(requirements.clearance_um) / model_.least_module_mm();
-  for (std::size_t i = 0; i < kLimits; ++i) {
-    const auto [limit, layer, where] = limit_entries()[i];
+  for (std::size_t i = 0; i < model_.limits(); ++i) {
+    const auto& [limit, layer, where] = model_.train().limits[i];
     const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
-    const double kept = std::max(kCornerReserve, layer == 2 ? clearance / set.layer2_module_ratio : clearance);
+    const double kept =
+        std::max(kCornerReserve, layer == 2 ? clearance / set.layer2_module_ratio : clearance);
     offset_[i] = reserve_[static_cast<std::size_t>(limit)] + (corner ? kept : 0.0) + kLimitReserve;
-    grid_margin_ = std::max(grid_margin_, offset_[i]);
   }
   if (requirements.objectives.front() == SearchObjective::kBackward)
     guide_ = DriveDirection::kBackward;
 }
 
 SetValues::State SetValues::state(const FreeShifts& free) {
-  return {layer1(free.centre_distance, free.ring1_shift),
-          layer2(free.centre_distance, free.ring2_shift)};
+  return {layer1(free.centre_distance, free.layer1_shift),
+          layer2(free.centre_distance, free.layer2_shift)};
 }
 
 void SetValues::margins(const State& s, double* out) const {
-  for (std::size_t i = 0; i < kLimits; ++i) {
-    const double margin =
-        i < kLayer1Limits ? s.layer1.margins[i] : s.layer2.margins[i - kLayer1Limits];
-    out[i] = margin == margin ? std::clamp(margin - offset_[i], -kFarMargin, kFarMargin)
-                              : -kFarMargin;
+  const std::size_t first2 = model_.train().layer1_limits;
+  for (std::size_t i = 0; i < model_.limits(); ++i) {
+    const double margin = i < first2 ? s.layer1.margins[i] : s.layer2.margins[i - first2];
+    out[i] =
+        margin == margin ? std::clamp(margin - offset_[i], -kFarMargin, kFarMargin) : -kFarMargin;
   }
 }
 
@@ -51,7 +52,7 @@ double SetValues::breach(const State& s) const {
   std::array<double, kLimits> m;
   margins(s, m.data());
   double sum = 0.0;
-  for (const double margin : m) sum += std::max(0.0, -margin);
+  for (std::size_t i = 0; i < model_.limits(); ++i) sum += std::max(0.0, -m[i]);
   return sum;
 }
 
@@ -59,13 +60,49 @@ double SetValues::least_margin(const State& s) const {
   std::array<double, kLimits> m;
   margins(s, m.data());
   // what the offset keeps back is no breach of the limit
-  return *std::min_element(m.begin(), m.end()) + kLimitReserve;
+  return *std::min_element(m.begin(), m.begin() + static_cast<std::ptrdiff_t>(model_.limits())) +
+         kLimitReserve;
+}
+
+double SetValues::layer_margin(int layer, const LayerEvaluation& evaluation,
+                               bool without_profiles) const {
+  const std::size_t first = layer == 0 ? 0 : model_.train().layer1_limits;
+  const std::size_t last = layer == 0 ? model_.train().layer1_limits : model_.limits();
+  double least = 1e9;
+  for (std::size_t i = first; i < last; ++i) {
+    if (without_profiles && evaluation.margins[i - first] < -1e8) continue;
+    const double margin = evaluation.margins[i - first] - offset_[i];
+    least = margin < least ? margin : least;
+  }
+  return least + kLimitReserve;
+}
+
+std::uint64_t SetValues::broken_limits(int layer, const LayerEvaluation& evaluation) const {
+  const std::size_t first = layer == 0 ? 0 : model_.train().layer1_limits;
+  const std::size_t last = layer == 0 ? model_.train().layer1_limits : model_.limits();
+  std::uint64_t broken = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const double margin = evaluation.margins[i - first];
+    if (margin > -1e8 && margin - offset_[i] + kLimitReserve < 0.0)
+      broken |= std::uint64_t{1} << (i - first);
+  }
+  return broken;
+}
+
+double SetValues::margin_of_limits(int layer, const LayerEvaluation& evaluation,
+                                   std::uint64_t limits) const {
+  const std::size_t first = layer == 0 ? 0 : model_.train().layer1_limits;
+  double least = 1e9;
+  for (std::size_t i = 0; limits != 0; ++i, limits >>= 1)
+    if (limits & 1)
+      least = std::min(least, evaluation.margins[i] - offset_[first + i] + kLimitReserve);
+  return least;
 }
 
 double SetValues::bound_margin(const State& s, const FreeShifts& free,
                                const MeritBound& bound) const {
-  const double margin = (merit(s, free, bound.objective) - bound.merit) /
-                        std::max(1e-9, std::abs(bound.merit));
+  const double margin =
+      (merit(s, free, bound.objective) - bound.merit) / std::max(1e-9, std::abs(bound.merit));
   return std::isfinite(margin) ? std::clamp(margin, -kFarMargin, kFarMargin) : -kFarMargin;
 }
 
@@ -79,21 +116,15 @@ double SetValues::allowable_torque(const FreeShifts& free) const {
 double SetValues::merit(const State& s, const FreeShifts& free, SearchObjective objective) const {
   switch (objective) {
     case SearchObjective::kForward:
-      return model_.efficiency(s.layer1.sun_planet, s.layer1.planet_ring, s.layer2.planet_ring,
-                               DriveDirection::kForward);
+      return model_.efficiency(s.layer1, s.layer2, DriveDirection::kForward);
     case SearchObjective::kBackward:
-      return model_.efficiency(s.layer1.sun_planet, s.layer1.planet_ring, s.layer2.planet_ring,
-                               DriveDirection::kBackward);
-    case SearchObjective::kTorque: return allowable_torque(free);
-    case SearchObjective::kSize: return -model_.outer_diameter(free) * model_.module_mm(free);
+      return model_.efficiency(s.layer1, s.layer2, DriveDirection::kBackward);
+    case SearchObjective::kTorque:
+      return allowable_torque(free);
+    case SearchObjective::kSize:
+      return -model_.outer_diameter(free) * model_.module_mm(free);
   }
   return kNaN;
-}
-
-double at_grid(double low, double high, int i, int count) {
-  if (i == 0) return low + 1e-6 * (high - low);
-  if (i == count - 1) return high - 1e-6 * (high - low);
-  return low + (high - low) * i / (count - 1);
 }
 
 }  // namespace trueflank

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "trueflank/search/search_optimise.h"
 
@@ -21,31 +22,39 @@ inline constexpr double kLimitReserve = 1e-7;
 class SetValues {
  public:
   /// The requirements must outlive the values.
-  SetValues(const SearchRequirements& requirements, const ToothSet& set, const LimitReserve& reserve);
+  SetValues(const SearchRequirements& requirements, const ToothSet& set,
+            const LimitReserve& reserve);
 
   struct State {
-    Layer1Evaluation layer1;
-    Layer2Evaluation layer2;
+    LayerEvaluation layer1;
+    LayerEvaluation layer2;
   };
   [[nodiscard]] State state(const FreeShifts& free);
   /// One layer alone; evaluations whose merit `better` denies may be cut short.
   template <class... Arguments>
-  [[nodiscard]] Layer1Evaluation layer1(const Arguments&... arguments) {
+  [[nodiscard]] LayerEvaluation layer1(const Arguments&... arguments) {
     ++evaluations_;
     return model_.layer1(arguments...);
   }
   template <class... Arguments>
-  [[nodiscard]] Layer2Evaluation layer2(const Arguments&... arguments) {
+  [[nodiscard]] LayerEvaluation layer2(const Arguments&... arguments) {
     ++evaluations_;
     return model_.layer2(arguments...);
   }
 
-  /// Distances to all limits, kLimits of them, [modules]; less what is kept in reserve, and no farther
-  /// than an optimiser's model can use.
+  /// Distances to all limits, as many as the model has, [modules]; less what is kept in reserve,
+  /// and no farther than an optimiser's model can use.
   void margins(const State& state, double* out) const;
   /// Sum of all breaches; 0 where every limit is kept.
   [[nodiscard]] double breach(const State& state) const;
   [[nodiscard]] double least_margin(const State& state) const;
+  /// Of one layer alone, 0 or 1; of what was computed before the profiles, where there are none.
+  [[nodiscard]] double layer_margin(int layer, const LayerEvaluation& evaluation,
+                                    bool without_profiles) const;
+  /// Limits of a layer that are known to be broken, a bit each.
+  [[nodiscard]] std::uint64_t broken_limits(int layer, const LayerEvaluation& evaluation) const;
+  /// The least margin among some limits of a layer.
+  [[nodiscard]] double margin_of_limits(int layer, const LayerEvaluation& evaluation, std::uint64_t limits) const;
   /// Relative, so that newton metres and efficiencies weigh alike.
   [[nodiscard]] double bound_margin(const State& state, const FreeShifts& free,
                                     const MeritBound& bound) const;
@@ -56,9 +65,7 @@ class SetValues {
   [[nodiscard]] const SearchRequirements& requirements() const { return r_; }
   [[nodiscard]] const SearchModel& model() const { return model_; }
   [[nodiscard]] const LimitReserve& reserve() const { return reserve_; }
-  /// Enough distance for every limit.
-  [[nodiscard]] double grid_margin() const { return grid_margin_; }
-  /// The efficiency that the grids look at.
+  /// The efficiency that is swept for first.
   [[nodiscard]] DriveDirection guide() const { return guide_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
@@ -67,12 +74,8 @@ class SetValues {
   SearchModel model_;
   LimitReserve reserve_;
   std::array<double, kLimits> offset_{};
-  double grid_margin_ = 0.0;
   DriveDirection guide_ = DriveDirection::kForward;
   int evaluations_ = 0;
 };
-
-/// Place i of `count` from low to high; the ends lie a hair inside, since optima often lie at a bound.
-[[nodiscard]] double at_grid(double low, double high, int i, int count);
 
 }  // namespace trueflank

@@ -75,13 +75,14 @@ io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_opti
   const GearTrain& train = gearbox.train();
   io::Report report;
   report.train = gearbox.shared_train();
+  report.inches = gearbox.speaks_inches();
   auto turning = begun_beside([&train] { return mesh_states(train); });
   add_drive(gearbox, strength_options, report);
   const std::vector<MeshState> states = turning.get();
   report.findings = check_gearbox(train, states);
+  add_machine(gearbox, strength_options, report);
   if (verdict(report.findings) == CheckStatus::kFail && !train.meshes.empty())
     report.cure = take_joint_cure(train, report.findings);
-  add_machine(gearbox, strength_options, report);
   for (std::size_t i = 0; i < states.size(); ++i)
     report.sweeps.push_back(
         {.mesh = train.meshes[i].name,

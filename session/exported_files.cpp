@@ -63,9 +63,13 @@ ResultAll<std::vector<io::ReportedFile>> exported_files(const io::ExportModel& m
                                                         io::ExportOptions options, bool compensate,
                                                         std::string& told) {
   const auto& formats = options.formats;
-  if (options.kerf_mm > 0.0 &&
-      std::find(formats.begin(), formats.end(), io::FileFormat::kDxf) == formats.end())
+  const auto written = [&](io::FileFormat format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  };
+  if (options.kerf_mm > 0.0 && !written(io::FileFormat::kDxf))
     told += "the kerf concerns DXF files, and none was written\n";
+  if (options.step_schema != io::StepSchema::kAp214 && !written(io::FileFormat::kStep))
+    told += "the schema concerns STEP files, and none was written\n";
   const auto& process = model.train->design.made.process;
   if (!compensate || !process) return io::export_parts(model, options);
   auto moved = compensated(*model.shapes, *process);

@@ -15,6 +15,12 @@ struct FixedDesign {
 };
 
 /// Errors: of the file, with line and key.
-[[nodiscard]] ResultAll<FixedDesign> fixed_design(const std::string& path);
+struct FixOptions {
+  bool warnings = false;  ///< also change a design that passes, where that ends warnings about the contact
+};
+
+/// The smallest change after which every check passes, those of the parts around the gears too; they judge the
+/// text that is returned. A design that passes is left to the byte. Errors: the file's; parts that cannot be made.
+[[nodiscard]] ResultAll<FixedDesign> fixed_design(const std::string& path, const FixOptions& options = {});
 
 }  // namespace trueflank

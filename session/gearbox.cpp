@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/session/gearbox.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "trueflank/design/design_file.h"
@@ -92,6 +93,12 @@ const ResultAll<PartShapes>& Gearbox::parts() const {
     if (!*parts_->shapes) parts_->shapes = fail_all(located(parts_->shapes->error()));
   });
   return *parts_->shapes;
+}
+
+bool Gearbox::speaks_inches() const {
+  return std::any_of(file_->lines.begin(), file_->lines.end(), [](const auto& line) {
+    return line.first.ends_with("_in") || line.first.ends_with(".diametral_pitch");
+  });
 }
 
 Errors Gearbox::located(Errors errors) const {

@@ -44,6 +44,8 @@ class Gearbox {
   /// The parts, made when first asked for; they keep what they refer to. Errors: part_shapes()'s, with
   /// file and line.
   [[nodiscard]] const ResultAll<PartShapes>& parts() const;
+  /// The file has lengths in inches, or a diametral pitch.
+  [[nodiscard]] bool speaks_inches() const;
   /// Errors of later stations with file and line of their keys.
   [[nodiscard]] Errors located(Errors errors) const;
 

@@ -7,6 +7,8 @@
 #include "trueflank/export/file_formats.h"
 #include "trueflank/export/scene.h"
 #include "trueflank/export/threemf_writer.h"
+#include "trueflank/report/build_html.h"
+#include "trueflank/solid/measure/assembly_order.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/machine/print_plates.h"
 #include "trueflank/solid/shape/process_compensation.h"
@@ -101,6 +103,18 @@ Result<io::ReportedFile> write_bill(const BillOfMaterials& bill,
                                     const std::filesystem::path& folder) {
   if (auto ok = io::write_file(folder / "bom.csv", bill_csv(bill)); !ok) return fail(ok.error());
   return reported(folder, "bom.csv", "csv");
+}
+
+Result<std::optional<io::ReportedFile>> write_build_guide(const GearTrain& train,
+                                                          const PartShapes& shapes,
+                                                          const BillOfMaterials& bill,
+                                                          const std::filesystem::path& folder) {
+  const AssemblyOrder order = assembly_order(train, shapes);
+  if (!order.exists()) return std::nullopt;
+  const std::string page =
+      io::build_html(train, shapes, io::build_guide(train, shapes, order), bill);
+  if (auto ok = io::write_file(folder / "build.html", page); !ok) return fail(ok.error());
+  return reported(folder, "build.html", "html");
 }
 
 }  // namespace trueflank

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueflank/export/reported_file.h"
 #include "trueflank/solid/measure/bill_of_materials.h"
 #include "trueflank/solid/shape/part_shape.h"
+#include "trueflank/train/gear_train.h"
 
 namespace trueflank {
 
@@ -27,5 +29,11 @@ struct PlateOptions {
 /// Writes `bom.csv`.
 [[nodiscard]] Result<io::ReportedFile> write_bill(const BillOfMaterials& bill,
                                                   const std::filesystem::path& folder);
+
+/// `build.html`: how the gearbox is put together, step by step with pictures. Nothing where no
+/// order of assembly exists: the check tells.
+[[nodiscard]] Result<std::optional<io::ReportedFile>> write_build_guide(
+    const GearTrain& train, const PartShapes& shapes, const BillOfMaterials& bill,
+    const std::filesystem::path& folder);
 
 }  // namespace trueflank

@@ -13,10 +13,9 @@ constexpr double kFlushEvery_s = 1.0;
 
 }  // namespace
 
-Result<std::vector<SearchRecord>> JournalFile::open(const SearchTask& task,
-                                                const std::filesystem::path& path, bool resume,
-                                                JournalFile& journal) {
-  std::vector<SearchRecord> records;
+Result<SearchJournal> JournalFile::open(const SearchTask& task, const std::filesystem::path& path,
+                                        bool resume, JournalFile& journal) {
+  SearchJournal found;
   std::error_code ignored;
   if (resume && std::filesystem::exists(path, ignored)) {
     const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
@@ -27,16 +26,16 @@ Result<std::vector<SearchRecord>> JournalFile::open(const SearchTask& task,
       error.file = path.string();
       return fail(std::move(error));
     }
-    records = std::move(*read);
+    found = std::move(*read);
   }
   journal.path_ = path;
   // whole first, so that a line cut short is gone; then it only grows
-  if (auto ok = journal.close(task, records); !ok) return fail(ok.error());
+  if (auto ok = journal.close(task, found); !ok) return fail(ok.error());
   journal.stream_.open(path, std::ios::app | std::ios::binary);
   if (!journal.stream_)
     return fail({.code = ErrorCode::kDisk, .message = "cannot write the journal",
                  .file = path.string()});
-  return records;
+  return found;
 }
 
 void JournalFile::append(const SearchRecord& record) {
@@ -47,10 +46,11 @@ void JournalFile::append(const SearchRecord& record) {
   flushed_ = now;
 }
 
-Status JournalFile::close(const SearchTask& task, const std::vector<SearchRecord>& records) {
+Status JournalFile::close(const SearchTask& task, const SearchJournal& written) {
   if (stream_.is_open()) stream_.close();
   std::string text = journal_header(task.requirements, task.enumeration) + "\n";
-  for (const SearchRecord& record : records) text += journal_line(record) + "\n";
+  for (const SearchRecord& record : written.records) text += journal_line(record) + "\n";
+  for (const SearchPart& part : written.ended) text += journal_end(part) + "\n";
   return io::write_file(path_, text);
 }
 

@@ -13,14 +13,14 @@ namespace trueflank {
 /// The journal of a part: appended while a search runs, so that nothing found is lost.
 class JournalFile {
  public:
-  /// Records of the journal where `resume` is asked; none otherwise. The file then starts with them.
+  /// What is in the journal where `resume` is asked; none otherwise. The file then starts with them.
   /// Errors: kInconsistent (a journal of other requirements), kDisk, ...
-  [[nodiscard]] static Result<std::vector<SearchRecord>> open(const SearchTask& task,
-                                                              const std::filesystem::path& path,
-                                                              bool resume, JournalFile& journal);
+  [[nodiscard]] static Result<SearchJournal> open(const SearchTask& task,
+                                                  const std::filesystem::path& path, bool resume,
+                                                  JournalFile& journal);
   void append(const SearchRecord& record);
-  /// Puts all records in their order: equal searches leave equal bytes.
-  [[nodiscard]] Status close(const SearchTask& task, const std::vector<SearchRecord>& records);
+  /// Writes it whole, in its order: equal searches leave equal bytes.
+  [[nodiscard]] Status close(const SearchTask& task, const SearchJournal& written);
 
  private:
   std::filesystem::path path_;

@@ -13,13 +13,14 @@
 #include "trueflank/export/number_text.h"
 #include "trueflank/export/scad_templates.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
+#include "trueflank/report/render/gearbox_pictures.h"
 #include "trueflank/report/report_html.h"
 #include "trueflank/session/corrected_parts.h"
 #include "trueflank/session/earlier_files.h"
 #include "trueflank/session/evaluate.h"
 #include "trueflank/session/exported_files.h"
-#include "trueflank/session/job_size.h"
 #include "trueflank/session/gearbox_files.h"
+#include "trueflank/session/job_size.h"
 #include "trueflank/session/report_page.h"
 
 namespace trueflank {
@@ -83,6 +84,7 @@ class Maker {
                         .formats = formats,
                         .tolerance_mm = mm_from_um(options_.tolerance_um),
                         .kerf_mm = gearbox_.design().made.kerf_mm.value_or(0.0),
+                        .step_schema = *io::step_schema_of(options_.step_schema),
                         .part = options_.part,
                         .on_written = options_.on_written},
                        options_.compensate && !correct, notes_);
@@ -97,7 +99,8 @@ class Maker {
       return fail_all(of_design ? gearbox_.located(files.error()) : files.error());
     }
     if (correct && options_.compensate)
-      for (io::ReportedFile& file : *files) file.compensated_for = gearbox_.design().made.process->name;
+      for (io::ReportedFile& file : *files)
+        file.compensated_for = gearbox_.design().made.process->name;
     return files;
   }
 
@@ -122,8 +125,10 @@ class Maker {
 };
 
 /// Sheets of the parts as designed: what a correction adds for its process is not on paper.
-Result<std::vector<io::ReportedFile>> write_drawings(const Gearbox& gearbox, const PartShapes& shapes,
-                                                     const io::Report& report, const StrengthOptions& materials,
+Result<std::vector<io::ReportedFile>> write_drawings(const Gearbox& gearbox,
+                                                     const PartShapes& shapes,
+                                                     const io::Report& report,
+                                                     const StrengthOptions& materials,
                                                      const MakeOptions& options) {
   const auto json = nlohmann::ordered_json::parse(io::report_json(report));
   return io::write_workshop_drawings(
@@ -153,18 +158,25 @@ void judge_accuracy(const MakeOptions& options, MakeResult& result) {
 }
 
 /// Bill of materials of a gearbox, print plates for a bed.
-ResultAll<bool> write_gearbox_files(const Gearbox& gearbox, const PartShapes& shapes, const MakeOptions& options,
-                                    const std::vector<io::FileFormat>& formats, MakeResult& result) {
+ResultAll<bool> write_gearbox_files(const Gearbox& gearbox, const PartShapes& shapes,
+                                    const MakeOptions& options,
+                                    const std::vector<io::FileFormat>& formats,
+                                    MakeResult& result) {
   std::vector<io::ReportedFile>& files = result.report.files;
   if (!result.report.bill.empty()) {
     auto bill = write_bill(result.report.bill, options.folder);
     if (!bill) return fail_all({bill.error()});
     files.push_back(std::move(*bill));
+    auto guide = write_build_guide(gearbox.train(), shapes, result.report.bill, options.folder);
+    if (!guide) return fail_all({guide.error()});
+    if (*guide) files.push_back(std::move(**guide));
   }
   const MadeDesign& made = gearbox.design().made;
-  if (made.bed.empty() || std::count(formats.begin(), formats.end(), io::FileFormat::k3mf) == 0) return true;
+  if (made.bed.empty() || std::count(formats.begin(), formats.end(), io::FileFormat::k3mf) == 0)
+    return true;
   if (!options.correct.empty()) {
-    result.notes += "print plates hold the parts as designed: none was written beside corrected parts\n";
+    result.notes +=
+        "print plates hold the parts as designed: none was written beside corrected parts\n";
     return true;
   }
   auto plates = write_plates(gearbox.design().name, shapes,
@@ -195,6 +207,16 @@ Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
     if (!sheets) return {sheets.error()};
     result.report.files.insert(result.report.files.end(), sheets->begin(), sheets->end());
   }
+  const io::PictureOptions wanted{
+      .folder = options.folder, .part = options.part, .on_written = options.on_written};
+  for (const auto& [format, write] :
+       {std::pair{io::FileFormat::kPng, &io::write_pictures},
+        std::pair{io::FileFormat::kApng, &io::write_turning_picture}}) {
+    if (std::count(formats.begin(), formats.end(), format) == 0) continue;
+    const auto pictures = write(gearbox.train(), shapes, wanted);
+    if (!pictures) return {pictures.error()};
+    result.report.files.insert(result.report.files.end(), pictures->begin(), pictures->end());
+  }
   if (options.part.empty())
     if (auto ok = write_gearbox_files(gearbox, shapes, options, formats, result); !ok)
       return std::move(ok.error());
@@ -209,7 +231,10 @@ Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
 Errors errors_of(const MakeOptions& options) {
   Errors errors;
   if (auto formats = io::parse_formats(options.formats); !formats) errors = formats.error();
-  if (!(options.tolerance_um >= kFinestTolerance_um && options.tolerance_um <= kCoarsestTolerance_um))
+  if (auto schema = io::step_schema_of(options.step_schema); !schema)
+    errors.push_back(std::move(schema.error()));
+  if (!(options.tolerance_um >= kFinestTolerance_um &&
+        options.tolerance_um <= kCoarsestTolerance_um))
     errors.push_back({.code = ErrorCode::kUsage,
                       .message = "no tolerance for a part",
                       .key = "--tolerance-um",
@@ -222,7 +247,8 @@ ResultAll<MakeResult> make_parts(const Gearbox& gearbox, const MakeOptions& opti
   if (Errors errors = errors_of(options); !errors.empty()) return fail_all(std::move(errors));
   const auto& shapes = gearbox.parts();
   if (!shapes) return fail_all(shapes.error());
-  if (Errors errors = part_errors(options, *shapes); !errors.empty()) return fail_all(std::move(errors));
+  if (Errors errors = part_errors(options, *shapes); !errors.empty())
+    return fail_all(std::move(errors));
   if (options.compensate && !gearbox.design().made.process)
     return fail_all({{.code = ErrorCode::kUsage,
                       .message = "compensation needs a process",

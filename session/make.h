@@ -14,8 +14,9 @@ namespace trueflank {
 
 struct MakeOptions {
   std::filesystem::path folder;      ///< created where it is missing
-  std::vector<std::string> formats;  ///< names of file_formats.h; empty: all
+  std::vector<std::string> formats;  ///< names of file_formats.h; empty: those written unasked
   double tolerance_um = 1.0;         ///< largest distance of a facet from the true surface
+  std::string step_schema = "ap214"; ///< of STEP files; "ap242": with sizes, limits, datum and runouts
   std::string part;                  ///< this part alone; empty: all
   std::string correct;               ///< loop.json whose effects the parts cancel; empty: none
   bool compensate = false;           ///< meshes with walls moved against what the process does to them

@@ -2,8 +2,12 @@
 #include "trueflank/session/reported_cure_of.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "trueflank/check/machine/check_machine.h"
+#include "trueflank/check/modified_clearance.h"
 #include "trueflank/design/design_edit.h"
+#include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/train/efficiency.h"
 
 namespace trueflank {
@@ -36,8 +40,18 @@ io::ReportedCure reported_cure_of(const GearTrain& before, const JointCure& cure
   return reported;
 }
 
+std::optional<Findings> findings_around(const GearTrain& gears) {
+  const auto train = std::make_shared<const GearTrain>(gears);  // shapes refer to it
+  const auto shapes = part_shapes(train);
+  if (!shapes) return std::nullopt;
+  return train->design.machine ? check_machine(*train, *shapes) : Findings{};
+}
+
 io::ReportedCure take_joint_cure(const GearTrain& train, Findings& findings) {
-  const JointCure cure = joint_cure(train, findings, kCheckSearch);
+  const bool modified = std::any_of(train.meshes.begin(), train.meshes.end(), [&](const auto& mesh) {
+    return is_modified(train, mesh);
+  });
+  const JointCure cure = joint_cure(train, findings, modified ? kCheckSearchOfModified : kCheckSearch, findings_around);
   io::ReportedCure reported = reported_cure_of(train, cure);
   for (Finding& f : findings)
     if (!stands_after(f, cure.findings)) f.cure.clear();

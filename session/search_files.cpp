@@ -34,16 +34,18 @@ std::string classes_json(const std::vector<SetClass>& classes) {
 std::string design_json(const FoundDesign& found, std::size_t rank) {
   const ToothSet& set = found.set;
   std::string text = "{\"file\": " + json_string(design_stem(rank) + ".toml");
-  text += ", \"teeth\": {\"sun\": " + std::to_string(set.sun) +
-          ", \"planet1\": " + std::to_string(set.planet1) +
-          ", \"ring1\": " + std::to_string(set.ring1) +
-          ", \"planet2\": " + std::to_string(set.planet2) +
-          ", \"ring2\": " + std::to_string(set.ring2) + "}";
-  text += ", \"output\": " + json_string(to_text(set.output));
+  text += ", \"kind\": " + json_string(set.train->kind()) + ", \"teeth\": {";
+  for (std::size_t g = 0; g < found.design.gears.size(); ++g)
+    text += (g ? ", " : "") + json_string(found.design.gears[g].name) + ": " +
+            std::to_string(found.design.gears[g].teeth);
+  text += "}, \"planets\": " + std::to_string(set.planets);
+  text += ", \"input\": " + json_string(set.train->input) +
+          ", \"output\": " + json_string(set.train->output);
   text += ", \"ratio\": " + json_number(std::abs(signed_ratio(set)));
   text += std::string(", \"direction\": ") + (signed_ratio(set) > 0 ? "\"same\"" : "\"opposite\"");
-  text += ", \"centre_distance_mm\": " +
-          json_number(found.design.centre_distance_mm.value_or(kNaN)) + ", \"shifts\": {";
+  text +=
+      ", \"centre_distance_mm\": " + json_number(found.design.centre_distance_mm.value_or(kNaN)) +
+      ", \"shifts\": {";
   for (std::size_t i = 0; i < found.design.gears.size(); ++i)
     text += (i ? ", " : "") + json_string(found.design.gears[i].name) + ": " +
             json_number(found.design.gears[i].shift.value_or(kNaN));
@@ -56,6 +58,7 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
           ", \"formula_applies\": " + (found.by_formula.applies ? "true" : "false") +
           ", \"output_torque_nm\": " + json_number(found.candidate.torque_nm) +
           ", \"outer_diameter_mm\": " + json_number(found.candidate.size_mm) +
+          ", \"gap\": " + json_number(found.candidate.gap) +
           ", \"tightened\": " + json_number(found.tightened) + ", \"warnings\": [";
   for (std::size_t i = 0; i < found.verdict.warned.size(); ++i)
     text += (i ? ", " : "") + json_string(found.verdict.warned[i]);
@@ -64,17 +67,26 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
 
 }  // namespace
 
+std::string teeth_text(const ToothSet& set) {
+  std::string text;
+  for (const TrainPlace place : set.train->places())
+    text += (text.empty() ? "" : "/") + std::to_string(set.teeth_at(place));
+  return text;
+}
+
 std::string design_stem(std::size_t rank) { return printed("design-%03zu", rank + 1); }
 
 std::string search_csv(const SearchTask& task, const SearchReport& report) {
   std::string text =
       "rank,sun,planet1,ring1,planet2,ring2,output,layer2_module_ratio,ratio,forward,backward,"
-      "output_torque_nm,outer_diameter_mm,centre_distance_modules,ring1_shift,ring2_shift,on_front,"
-      "file\n";
+      "output_torque_nm,outer_diameter_mm,centre_distance_modules,ring1_shift,ring2_shift,kind,"
+      "input,"
+      "planets,teeth,gap,on_front,file\n";
   std::map<std::pair<std::size_t, double>, std::string> files;
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& found = report.designs[i];
-    const auto it = std::find(task.enumeration.sets.begin(), task.enumeration.sets.end(), found.set);
+    const auto it =
+        std::find(task.enumeration.sets.begin(), task.enumeration.sets.end(), found.set);
     files[{static_cast<std::size_t>(it - task.enumeration.sets.begin()),
            found.candidate.free.centre_distance}] = design_stem(i) + ".toml";
   }
@@ -83,13 +95,16 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
     const ToothSet& set = task.enumeration.sets[ranked.set_index];
     const SearchCandidate& c = ranked.candidate;
     text += std::to_string(i + 1);
-    for (const int teeth : {set.sun, set.planet1, set.ring1, set.planet2, set.ring2})
-      text += "," + std::to_string(teeth);
-    text += "," + std::string(to_text(set.output));
-    for (const double value : {set.layer2_module_ratio, signed_ratio(set), c.forward, c.backward,
-                               c.torque_nm, c.size_mm, c.free.centre_distance, c.free.ring1_shift,
-                               c.free.ring2_shift})
+    for (const int teeth : set.teeth())
+      text += "," + (teeth ? std::to_string(teeth) : std::string());
+    text += "," + set.train->output;
+    for (const double value :
+         {set.layer2_module_ratio, signed_ratio(set), c.forward, c.backward, c.torque_nm, c.size_mm,
+          c.free.centre_distance, set.ring1 ? c.free.layer1_shift : kNaN,
+          set.ring2 ? c.free.layer2_shift : kNaN})
       text += "," + (value == value ? decimal(value) : std::string());
+    text += "," + set.train->kind() + "," + set.train->input + "," + std::to_string(set.planets) +
+            "," + teeth_text(set) + "," + (c.gap == c.gap ? decimal(c.gap) : std::string());
     const auto file = files.find({ranked.set_index, c.free.centre_distance});
     text += std::string(ranked.on_front ? ",1," : ",0,") +
             (file == files.end() ? std::string() : file->second) + "\n";
@@ -103,7 +118,8 @@ std::string search_json(const SearchTask& task, const SearchReport& report) {
                      ", \"material\": " + json_string(task.requirements.strength.material);
   text += ",\n  \"considered\": " + std::to_string(report.considered);
   text += ",\n  \"rejected\": " + classes_json(report.classes);
-  text += ",\n  \"optimised\": " + std::to_string(report.optimised) +
+  text += ",\n  \"optimised\": " + std::to_string(report.optimised - report.passed_over) +
+          ", \"passed_over\": " + std::to_string(report.passed_over) +
           ", \"to_optimise\": " + std::to_string(report.sets) +
           ", \"feasible\": " + std::to_string(report.feasible) +
           ", \"evaluations\": " + std::to_string(report.evaluations) +
@@ -119,25 +135,42 @@ std::string search_json(const SearchTask& task, const SearchReport& report) {
 std::string search_summary(const SearchReport& report) {
   std::string text = printed("%lld tooth sets considered\n", report.considered);
   for (const SetClass& c : report.classes)
-    if (c.count > 0) text += printed("  %14lld  %s: %s\n", c.count, c.id.c_str(),
-                                       c.description.c_str());
-  text += printed("%zu of %zu sets optimised, %zu with shifts that keep every limit; %zu judged by "
-                    "the checks\n",
-                    report.optimised, report.sets, report.feasible, report.judged);
+    if (c.count > 0)
+      text += printed("  %14lld  %s: %s\n", c.count, c.id.c_str(), c.description.c_str());
+  if (report.passed_over > 0)
+    text += printed("the best %zu of %zu sets listed; %zu judged by the checks\n", report.feasible,
+                    report.sets, report.judged);
+  else
+    text += printed(
+      "%zu of %zu sets optimised, %zu with shifts that keep every limit; %zu judged by "
+      "the checks\n",
+      report.optimised, report.sets, report.feasible, report.judged);
   for (const SetClass& c : report.fell_in_checks)
     text += printed("  %14lld  fell: %s\n", c.count, c.id.c_str());
   if (report.designs.empty()) return text + "no design found\n";
-  text += "\nfile             s  p1  r1  p2  r2     ratio  forward backward  torque   size\n";
+  const bool one_kind = std::all_of(
+      report.designs.begin(), report.designs.end(),
+      [](const FoundDesign& f) { return f.set.train->places().size() == kTrainPlaces; });
+  text += one_kind
+              ? "\nfile             s  p1  r1  p2  r2     ratio  forward backward  torque   size\n"
+              : "\nfile            kind    N  teeth              ratio  forward backward  torque   "
+                "size\n";
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& f = report.designs[i];
-    text += printed("%s.toml %3d %3d %3d %3d %3d %9.3f %7.2f%% %7.2f%% %7.4g %6.4g%s\n",
-                      design_stem(i).c_str(), f.set.sun, f.set.planet1, f.set.ring1, f.set.planet2,
-                      f.set.ring2, signed_ratio(f.set), 100 * f.candidate.forward,
-                      100 * f.candidate.backward, f.candidate.torque_nm, f.candidate.size_mm,
-                      f.verdict.warned.empty() ? "" : ("  warns: " + joined(f.verdict.warned, " ")).c_str());
+    const std::string teeth = one_kind ? printed("%3d %3d %3d %3d %3d", f.set.sun, f.set.planet1,
+                                                 f.set.ring1, f.set.planet2, f.set.ring2)
+                                       : printed("%-7s %d  %-15s", f.set.train->kind().c_str(),
+                                                 f.set.planets, teeth_text(f.set).c_str());
+    text += printed(
+        "%s.toml %s %9.3f %7.2f%% %7.2f%% %7.4g %6.4g%s\n", design_stem(i).c_str(), teeth.c_str(),
+        signed_ratio(f.set), 100 * f.candidate.forward, 100 * f.candidate.backward,
+        f.candidate.torque_nm, f.candidate.size_mm,
+        f.verdict.warned.empty() ? "" : ("  warns: " + joined(f.verdict.warned, " ")).c_str());
   }
-  text += "torque: allowable at the output [N m]; size: outer diameter [mm]; ratio < 0: output turns "
-          "against the input\n";
+  if (!one_kind) text += "teeth: in the order of the design file's gears\n";
+  text +=
+      "torque: allowable at the output [N m]; size: outer diameter [mm]; ratio < 0: output turns "
+      "against the input\n";
   return text;
 }
 

@@ -11,6 +11,9 @@ namespace trueflank {
 /// "design-001" of the rank 0; both the file's stem and, behind the search's name, the design's.
 [[nodiscard]] std::string design_stem(std::size_t rank);
 
+/// "12/39/90/32/81", in the order of the design file's gears.
+[[nodiscard]] std::string teeth_text(const ToothSet& set);
+
 /// One line a candidate, best first; the designs that were written have their file's name.
 [[nodiscard]] std::string search_csv(const SearchTask& task, const SearchReport& report);
 /// Counts of every class, and the designs: format "trueflank-search", version 1.

@@ -26,31 +26,40 @@ void round_outwards(Axis& axis) {
   if (!(axis.high > axis.low)) axis.high = axis.low + 1.0, axis.low -= 1.0;
   const double raw = (axis.high - axis.low) / 6.0;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  axis.step = power * (raw / power > 5.0 ? 10.0 : raw / power > 2.0 ? 5.0 : raw / power > 1.0 ? 2.0 : 1.0);
+  axis.step = power * (raw / power > 5.0   ? 10.0
+                       : raw / power > 2.0 ? 5.0
+                       : raw / power > 1.0 ? 2.0
+                                           : 1.0);
   axis.low = axis.step * std::floor(axis.low / axis.step);
   axis.high = axis.step * std::ceil(axis.high / axis.step);
 }
 
-std::string number(double value, int digits = 2) {
-  return fixed_text(value, digits);
-}
+std::string number(double value, int digits = 2) { return fixed_text(value, digits); }
 
 double shown(SearchObjective objective, const SearchCandidate& c) {
   switch (objective) {
-    case SearchObjective::kForward: return 100.0 * c.forward;
-    case SearchObjective::kBackward: return 100.0 * c.backward;
-    case SearchObjective::kTorque: return c.torque_nm;
-    case SearchObjective::kSize: return c.size_mm;
+    case SearchObjective::kForward:
+      return 100.0 * c.forward;
+    case SearchObjective::kBackward:
+      return 100.0 * c.backward;
+    case SearchObjective::kTorque:
+      return c.torque_nm;
+    case SearchObjective::kSize:
+      return c.size_mm;
   }
   return kNaN;
 }
 
 const char* title_of(SearchObjective objective) {
   switch (objective) {
-    case SearchObjective::kForward: return "forward efficiency [%]";
-    case SearchObjective::kBackward: return "backward efficiency [%]";
-    case SearchObjective::kTorque: return "allowable output torque [N m]";
-    case SearchObjective::kSize: return "outer diameter [mm]";
+    case SearchObjective::kForward:
+      return "forward efficiency [%]";
+    case SearchObjective::kBackward:
+      return "backward efficiency [%]";
+    case SearchObjective::kTorque:
+      return "allowable output torque [N m]";
+    case SearchObjective::kSize:
+      return "outer diameter [mm]";
   }
   return "";
 }
@@ -60,13 +69,6 @@ struct Dot {
   bool chosen;
   std::string label;
 };
-
-std::string teeth_text(const ToothSet& set) {
-  std::string text;
-  for (const int teeth : {set.sun, set.planet1, set.ring1, set.planet2, set.ring2})
-    text += (text.empty() ? "" : "/") + std::to_string(teeth);
-  return text;
-}
 
 std::vector<Dot> dots_of(const SearchTask& task, const SearchReport& report) {
   const auto& objectives = task.requirements.objectives;
@@ -79,8 +81,9 @@ std::vector<Dot> dots_of(const SearchTask& task, const SearchReport& report) {
     dots.push_back({place(set, r.candidate), shown(objectives[0], r.candidate), false, ""});
   }
   for (const FoundDesign& f : report.designs)
-    dots.push_back({place(f.set, f.candidate), shown(objectives[0], f.candidate), true,
-                    teeth_text(f.set)});
+    dots.push_back(
+        {place(f.set, f.candidate), shown(objectives[0], f.candidate), true,
+         (f.set.train->kind() == "3k" ? "" : f.set.train->kind() + " ") + teeth_text(f.set)});
   std::erase_if(dots, [](const Dot& d) { return !std::isfinite(d.x) || !std::isfinite(d.y); });
   return dots;
 }
@@ -119,8 +122,10 @@ std::string axes(const Axis& x, const Axis& y) {
 std::string search_svg(const SearchTask& task, const SearchReport& report) {
   const auto& objectives = task.requirements.objectives;
   const std::vector<Dot> dots = dots_of(task, report);
-  Axis x{.title = objectives.size() > 1 ? title_of(objectives[1]) : "ratio, input over output speed",
-         .from = kLeft, .to = kWidth - kRight};
+  Axis x{
+      .title = objectives.size() > 1 ? title_of(objectives[1]) : "ratio, input over output speed",
+      .from = kLeft,
+      .to = kWidth - kRight};
   Axis y{.title = title_of(objectives[0]), .from = kHeight - kBottom, .to = kTop};
   if (!dots.empty()) {
     const auto [x0, x1] = std::minmax_element(dots.begin(), dots.end(),
@@ -131,9 +136,10 @@ std::string search_svg(const SearchTask& task, const SearchReport& report) {
   }
   round_outwards(x);
   round_outwards(y);
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"900\" height=\"600\" "
-                     "viewBox=\"0 0 900 600\" font-family=\"sans-serif\" font-size=\"13\">\n"
-                     "<rect width=\"900\" height=\"600\" fill=\"#ffffff\"/>\n";
+  std::string text =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"900\" height=\"600\" "
+      "viewBox=\"0 0 900 600\" font-family=\"sans-serif\" font-size=\"13\">\n"
+      "<rect width=\"900\" height=\"600\" fill=\"#ffffff\"/>\n";
   text += "<text x=\"" + number(kLeft) + "\" y=\"28\" font-size=\"16\">" +
           io::xml_escaped(task.requirements.name) + ": " + std::to_string(report.feasible) +
           " tooth sets with shifts that keep every limit, of " + std::to_string(report.considered) +

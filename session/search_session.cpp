@@ -43,6 +43,12 @@ Status write_designs(const SearchReport& report, const std::filesystem::path& fo
   return {};
 }
 
+std::size_t sets_of(const SearchTask& task, const SearchPart& part) {
+  std::size_t sets = 0;
+  for (std::size_t i = 0; i < task.enumeration.sets.size(); ++i) sets += part.holds(i);
+  return sets;
+}
+
 }  // namespace
 
 ResultAll<SearchTask> prepare_search(const std::string& requirements_file,
@@ -78,25 +84,31 @@ std::filesystem::path journal_path(const std::filesystem::path& folder, const Se
                    ".journal");
 }
 
-ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task,
+ResultAll<SearchRecords> run_search_part(const SearchTask& task,
                                                      const SearchPartOptions& options) {
   JournalFile journal;
   auto done = JournalFile::open(task, journal_path(options.folder, options.part), options.resume, journal);
   if (!done) return fail_all({done.error()});
-  SearchRunOptions run{.threads = options.threads, .part = options.part, .done = std::move(*done)};
+  const std::size_t sets = sets_of(task, options.part);
+  if (std::find(done->ended.begin(), done->ended.end(), options.part) != done->ended.end())
+    return listed_records(task.requirements, std::move(done->records), sets);
+  SearchRunOptions run{
+      .threads = options.threads, .part = options.part, .done = std::move(done->records)};
   run.stop = options.stop;
   run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
     journal.append(record);
     if (options.on_record) options.on_record(record, finished, total);
   };
-  const std::vector<SearchRecord> records = run_search(task.requirements, task.enumeration, run);
-  if (auto ok = journal.close(task, records); !ok) return fail_all({ok.error()});
+  SearchRecords records = run_search(task.requirements, task.enumeration, run);
+  SearchJournal written{.records = records.optimised};
+  if (records.sets() == sets) written.ended.push_back(options.part);
+  if (auto ok = journal.close(task, written); !ok) return fail_all({ok.error()});
   return records;
 }
 
-ResultAll<std::vector<SearchRecord>> merge_search(const SearchTask& task,
+ResultAll<SearchRecords> merge_search(const SearchTask& task,
                                             const std::vector<std::string>& folders) {
-  std::map<std::size_t, SearchRecord> records;
+  SearchJournal all;
   Errors errors;
   for (const std::string& folder : folders) {
     std::error_code error;
@@ -112,9 +124,10 @@ ResultAll<std::vector<SearchRecord>> merge_search(const SearchTask& task,
     for (const auto& path : journals) {
       const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
       auto read = text ? read_journal(*text, task.requirements, task.enumeration)
-                       : Result<std::vector<SearchRecord>>(fail(text.error()));
+                       : Result<SearchJournal>(fail(text.error()));
       if (read) {
-        for (SearchRecord& record : *read) records.try_emplace(record.index, std::move(record));
+        all.records.insert(all.records.end(), read->records.begin(), read->records.end());
+        all.ended.insert(all.ended.end(), read->ended.begin(), read->ended.end());
       } else {
         Error wrong = read.error();
         wrong.file = path.string();
@@ -122,20 +135,32 @@ ResultAll<std::vector<SearchRecord>> merge_search(const SearchTask& task,
       }
     }
   }
+  SearchRecords result = gathered_records(task, std::move(all));
   const std::size_t total = task.enumeration.sets.size();
-  if (errors.empty() && records.size() < total)
+  if (errors.empty() && result.sets() < total)
     errors.push_back({.code = ErrorCode::kInconsistent,
-                      .message = "the journals hold " + std::to_string(records.size()) + " of " +
+                      .message = "the journals cover " + std::to_string(result.sets()) + " of " +
                                  std::to_string(total) + " tooth sets",
                       .key = "--merge",
                       .remedy = "the folders of all shards, each finished"});
   if (!errors.empty()) return fail_all(std::move(errors));
-  std::vector<SearchRecord> result;
-  for (auto& [index, record] : records) result.push_back(std::move(record));
   return result;
 }
 
-SearchReport finish_search(const SearchTask& task, const std::vector<SearchRecord>& records) {
+SearchRecords gathered_records(const SearchTask& task, SearchJournal journal) {
+  std::map<std::size_t, SearchRecord> records;
+  for (SearchRecord& record : journal.records) records.try_emplace(record.index, std::move(record));
+  const std::size_t total = task.enumeration.sets.size();
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < total; ++i) covered += journal.covers(i) || records.contains(i);
+  SearchRecords result;
+  for (auto& [index, record] : records) result.optimised.push_back(std::move(record));
+  if (covered == total) return listed_records(task.requirements, std::move(result.optimised), total);
+  result.passed_over = covered - result.optimised.size();
+  return result;
+}
+
+SearchReport finish_search(const SearchTask& task, const SearchRecords& records) {
   return conclude_search(task.requirements, task.enumeration, records, judged_by_checks);
 }
 

@@ -37,18 +37,22 @@ struct SearchPartOptions {
 /// search.journal, or search-i-of-n.journal of a part.
 [[nodiscard]] std::filesystem::path journal_path(const std::filesystem::path& folder,
                                                  const SearchPart& part);
-/// Runs a part with its journal in the folder. Returns its records, old and new, by index; fewer than
-/// the part has where it was stopped.
+/// Runs a part with its journal in the folder. Returns its records, old and new; of fewer sets than the
+/// part has where it was stopped.
 /// Errors: kInconsistent (a journal of other requirements), kDisk, ...
-[[nodiscard]] ResultAll<std::vector<SearchRecord>> run_search_part(const SearchTask& task,
+[[nodiscard]] ResultAll<SearchRecords> run_search_part(const SearchTask& task,
                                                                    const SearchPartOptions& options);
 /// All records of the journals in some folders, by index. Errors: kInconsistent where they are not all
 /// of the task's.
-[[nodiscard]] ResultAll<std::vector<SearchRecord>> merge_search(const SearchTask& task,
+[[nodiscard]] ResultAll<SearchRecords> merge_search(const SearchTask& task,
                                                                 const std::vector<std::string>& folders);
 
+/// What journals, read one after the other, hold together; of fewer sets than the task has where some
+/// are missing.
+[[nodiscard]] SearchRecords gathered_records(const SearchTask& task, SearchJournal journal);
+
 /// Ranks records and lets the checks judge.
-[[nodiscard]] SearchReport finish_search(const SearchTask& task, const std::vector<SearchRecord>& records);
+[[nodiscard]] SearchReport finish_search(const SearchTask& task, const SearchRecords& records);
 /// Writes design files, search.csv, search.json, search.svg and search.html into a folder; design files
 /// of an earlier search go.
 [[nodiscard]] Status write_search(const SearchTask& task, const SearchReport& report,

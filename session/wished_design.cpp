@@ -2,25 +2,35 @@
 #include "trueflank/session/wished_design.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/machine/check_machine.h"
 #include "trueflank/design/design_file_writer.h"
 #include "trueflank/design/design_name.h"
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/design/tools_file.h"
 #include "trueflank/search/search.h"
 #include "trueflank/session/fixed_text.h"
+#include "trueflank/session/wished_machine.h"
+#include "trueflank/session/wished_sets.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
 
 /// How far the ratio may be off.
 constexpr double kRatioTolerance = 0.02;
-/// What is searched: small suns, rings of which the teeth can still be printed.
-constexpr ToothRange kSun{12, 18}, kPlanet{20, 46}, kRing{60, 96};
-constexpr double kLeastContactRatio = 1.2, kPrintedFriction = 0.15, kFace_mm = 10.0;
-/// Of the rack: teeth a little short, whose tips a printer still makes; the narrow gaps of rings take no
-/// rounder tool, and the sun's involute stays whole.
+/// Tooth sets are searched in lots, those nearest to the ratio first: one lot takes some seconds.
+constexpr std::size_t kLot = 48, kMostSets = 240;
+/// So many are judged of a lot at most; what as many warn of alike is put up with.
+constexpr std::size_t kMostJudged = 32, kMany = 8;
+constexpr double kLeastContactRatio = 1.2, kPrintedFriction = 0.15;
+
+/// Of the rack: teeth a little short, whose tips a printer still makes; the narrow gaps of rings
+/// take no rounder tool, and the sun's involute stays whole.
 constexpr double kRootRadius = 0.2, kAddendum = 0.9, kDedendum = 1.15;
 
 Error unknown(const char* key, const std::string& value, std::string known) {
@@ -41,8 +51,8 @@ std::string names_of_all(const std::vector<Element>& elements) {
 /// Warnings that a design may have.
 enum class Allowed { kNone, kUndercut, kEveryWarning };
 
-/// The material of a name, or the only one whose name goes on after it: "pla" for "pla-printed". Empty:
-/// none, or several.
+/// The material of a name, or the only one whose name goes on after it: "pla" for "pla-printed".
+/// Empty: none, or several.
 std::string material_named(const std::string& text) {
   const MaterialTable table;
   if (table.find(text)) return text;
@@ -61,18 +71,15 @@ class Wish {
 
   Errors check() {
     Errors errors;
-    if (wishes_.kind != "3k")
+    check_kind(errors);
+    if (sets_ && !(wishes_.ratio >= sets_->ratio_min && wishes_.ratio <= sets_->ratio_max))
       errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "only 3k sets are searched for a ratio",
-                        .key = "--kind",
-                        .value = wishes_.kind,
-                        .remedy = "3k, or no --ratio"});
-    if (!(wishes_.ratio >= 10.0 && wishes_.ratio <= 1000.0))
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no ratio of a 3k set",
+                        .message = "no ratio of a " + sets_->kind + " set driven at the " +
+                                   sets_->input + " with the " + sets_->output + " as output",
                         .key = "--ratio",
                         .value = fixed_text(wishes_.ratio, 3),
-                        .remedy = "10 to 1000"});
+                        .remedy = printed_number(sets_->ratio_min, "%g") + " to " +
+                                  printed_number(sets_->ratio_max, "%g") + other_kinds()});
     if (!(wishes_.outer_diameter_mm >= 40.0 && wishes_.outer_diameter_mm <= 500.0))
       errors.push_back({.code = ErrorCode::kUsage,
                         .message = "no diameter of a gearbox",
@@ -96,25 +103,16 @@ class Wish {
   ResultAll<WishedDesign> find(const std::string& name) {
     const SearchRequirements asked = requirements();
     if (Errors errors = validate(asked); !errors.empty()) return fail_all(std::move(errors));
-    const SetEnumeration sets = enumerate_sets(asked);
-    const std::vector<SearchRecord> records = run_search(asked, sets);
-    const auto judge = [this](const GearTrain& train) { return judged(train); };
-    SearchReport report = conclude_search(asked, sets, records, judge);
-    // none without a warning: then those whose sun is undercut, then those that only warn
-    for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
-      if (!report.designs.empty()) break;
-      allowed_ = allowed;
-      report = conclude_search(asked, sets, records, judge);
-    }
+    const SearchReport report = searched(asked);
     if (report.designs.empty())
-      return fail_all({{.code = ErrorCode::kInfeasible,
-                        .message = "no set of this ratio and size passes every check: of " +
-                                   std::to_string(sets.sets.size()) + " sets " +
-                                   std::to_string(report.feasible) +
-                                   " have shifts that keep the limits" + most_fell(report),
-                        .key = "--ratio",
-                        .value = fixed_text(wishes_.ratio, 3),
-                        .remedy = "another ratio, or a larger --outer-diameter"}});
+      return fail_all(
+          {{.code = ErrorCode::kInfeasible,
+            .message = "no set of this ratio and size passes every check: of " +
+                       std::to_string(report.sets) + " sets " + std::to_string(report.feasible) +
+                       " have shifts that keep the limits" + most_fell(report),
+            .key = "--ratio",
+            .value = fixed_text(wishes_.ratio, 3),
+            .remedy = another_wish() + other_kinds()}});
     const FoundDesign& found = report.designs.front();
     GearboxDesign design = whole(found.design);
     design.name = design_name_from(name);
@@ -126,39 +124,123 @@ class Wish {
   }
 
  private:
+  void check_kind(Errors& errors) {
+    const auto named = [&](const char* option, const std::string& value, std::string known) {
+      errors.push_back({.code = ErrorCode::kUsage,
+                        .message = "no such set is searched for a ratio",
+                        .key = option,
+                        .value = value,
+                        .remedy = std::move(known) + ", or no --ratio"});
+    };
+    std::string kinds, members;
+    for (const WishedSets& sets : all_wished_sets()) {
+      if (kinds.find(sets.kind) == std::string::npos)
+        kinds += (kinds.empty() ? "" : ", ") + sets.kind;
+      if (sets.kind == wishes_.kind)
+        members +=
+            (members.empty() ? "--input " : "; --input ") + sets.input + " --output " + sets.output;
+    }
+    sets_ = find_wished_sets(wishes_.kind, wishes_.input, wishes_.output);
+    if (sets_) return;
+    if (members.empty()) return named("--kind", wishes_.kind, kinds);
+    if (!find_wished_sets(wishes_.kind, wishes_.input, ""))
+      return named("--input", wishes_.input, members);
+    named("--output", wishes_.output, members);
+  }
+
+  /// The kinds that have the ratio, as the end of a remedy.
+  [[nodiscard]] std::string other_kinds() const {
+    std::string names;
+    for (const WishedSets& sets : all_wished_sets())
+      if (sets.kind != wishes_.kind && wishes_.ratio >= sets.ratio_min &&
+          wishes_.ratio <= sets.ratio_max && names.find(sets.kind) == std::string::npos)
+        names += (names.empty() ? "" : " or ") + sets.kind;
+    return names.empty() ? "" : ", or --kind " + names;
+  }
+
+  [[nodiscard]] std::string another_wish() const {
+    return std::string("another ratio, a larger --outer-diameter") +
+           (motor_ ? ", another --motor" : "");
+  }
+
+  /// Lot by lot, until one holds a design without a warning; where none does, one that warns least.
+  SearchReport searched(const SearchRequirements& asked) {
+    SetEnumeration all = enumerate_sets(asked);
+    const auto off = [this](const ToothSet& set) {
+      return std::abs(std::abs(signed_ratio(set)) - wishes_.ratio);
+    };
+    std::stable_sort(all.sets.begin(), all.sets.end(),
+                     [&](const ToothSet& a, const ToothSet& b) { return off(a) < off(b); });
+    const auto judge = [this](const GearTrain& train) { return judged(train); };
+    SetEnumeration tried;
+    SearchRecords records;
+    for (std::size_t from = 0; from < all.sets.size() && tried.sets.size() < kMostSets;
+         from += kLot) {
+      SetEnumeration lot;
+      lot.sets.assign(
+          all.sets.begin() + static_cast<std::ptrdiff_t>(from),
+          all.sets.begin() + static_cast<std::ptrdiff_t>(std::min(from + kLot, all.sets.size())));
+      const SearchRecords own = run_search(asked, lot);
+      do {
+        begin_judging();
+        SearchReport report = conclude_search(asked, lot, own, judge);
+        if (!report.designs.empty()) return report;
+      } while (tolerate_what_all_warn());
+      for (SearchRecord record : own.optimised) {
+        record.index += tried.sets.size();
+        records.optimised.push_back(std::move(record));
+      }
+      tried.sets.insert(tried.sets.end(), lot.sets.begin(), lot.sets.end());
+    }
+    // those whose sun is undercut, then those that only warn
+    SearchReport report;
+    for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
+      allowed_ = allowed;
+      begin_judging();
+      report = conclude_search(asked, tried, records, judge);
+      if (!report.designs.empty()) break;
+    }
+    return report;
+  }
+
   [[nodiscard]] double wall_mm() const { return std::max(1.2, 1.5 * process_->least_wall_mm); }
 
   [[nodiscard]] SearchRequirements requirements() const {
     // around the larger ring's roots: seat, screws and three walls of the housing
-    const Screw screw = screw_of("M3");
-    const double around = motor_ ? HousingDesign{}.clearance_mm + 3.0 * wall_mm() +
+    const Screw screw = *find_element(standard_elements().screws, "M3");
+    const bool housed =
+        motor_ && has_housing(train_topology(sets_->kind, sets_->output, sets_->input));
+    const double around = housed ? HousingDesign{}.clearance_mm + 3.0 * wall_mm() +
                                        0.5 * (screw.insert_hole_mm + screw.hole_mm) + 0.15
                                  : 0.0;
     SearchRequirements r;
+    r.kinds = {sets_->kind};
+    r.inputs = {sets_->input};
+    r.outputs = {sets_->output};
+    r.objectives = {sets_->objective};
     r.friction = kPrintedFriction;
-    r.face_width_mm = kFace_mm;
+    r.face_width_mm = sets_->face_width_mm;
     r.backlash_mm = process_->backlash_mm;
     r.rack.root_radius = kRootRadius;
     r.rack.addendum = kAddendum;
     r.rack.dedendum = kDedendum;
-    if (motor_) r.rim = 0.0;
+    if (housed) r.rim = 0.0;
     r.outer_diameter_mm = wishes_.outer_diameter_mm - 2.0 * around;
     r.ratio_min = wishes_.ratio * (1.0 - kRatioTolerance);
     r.ratio_max = wishes_.ratio * (1.0 + kRatioTolerance);
-    r.sun = kSun;
-    r.planet1 = r.planet2 = kPlanet;
-    r.ring1 = r.ring2 = kRing;
+    r.sun = sets_->sun;
+    r.planet1 = sets_->planet1;
+    if (sets_->planet2.max > 0) r.planet2 = sets_->planet2;
+    if (sets_->ring.max > 0) r.ring1 = r.ring2 = sets_->ring;
     r.shift_min = -0.5;
     r.shift_max = 1.5;
     r.contact_ratio_min = kLeastContactRatio;
-    r.tip_thickness = std::max(0.2, process_->least_tip_mm * (kRing.max + 5) / *r.outer_diameter_mm);
+    r.tip_thickness =
+        std::max(0.2, process_->least_tip_mm * (sets_->most_teeth() + 5) / *r.outer_diameter_mm);
     r.strength.material = material_;
     r.results = 1;
+    r.listed = 0;  // the first that passes may rank anywhere
     return r;
-  }
-
-  [[nodiscard]] static Screw screw_of(const std::string& name) {
-    return *find_element(standard_elements().screws, name);
   }
 
   /// The gears with what is asked for around them.
@@ -166,64 +248,59 @@ class Wish {
     design.material = material_;
     design.made.process = *process_;
     if (!motor_) return design;
-    design.machine = MachineDesign{.motor = *motor_};
-    MachineDesign& machine = *design.machine;
-    machine.fasteners = {.housing = screw_of("M3"),
-                         .carrier = screw_of("M3-short"),
-                         .output = screw_of("M3"),
-                         .motor = screw_of(motor_->screw)};
-    for (GearDesign& gear : design.gears) gear.outer_diameter_mm.reset();  // the housing's
-    machine.bearings = {.output = *find_element(standard_elements().bearings, "6804")};
-    for (GearDesign& gear : design.gears)
-      if (gear.name == "sun") gear.bore = shaft_bore(machine);
-    choose_bearings(design);
-    return design;
-  }
-
-  /// The largest bearings that the planets' roots and the lid have room for.
-  void choose_bearings(GearboxDesign& design) const {
-    MachineDesign& machine = *design.machine;
-    const auto train = lay_out(design);
-    if (!train) return;
-    double root = 1e300;
-    for (std::size_t i = 0; i < train->gears.size(); ++i)
-      if (train->topology().is_planet_gear(i))
-        root = std::min(root, train->gears[i].profile.root_radius_mm());
-    for (const char* name : {"608", "626", "625", "624", "623"}) {
-      const Bearing& bearing = *find_element(standard_elements().bearings, name);
-      if (0.5 * (bearing.outer_mm + machine.housing.fit_mm) + wall_mm() > root) continue;
-      machine.bearings.planet = bearing;
-      break;
-    }
-    if (!machine.bearings.planet) return;
-    design.gears[static_cast<std::size_t>(planet_with_bore(design) - design.gears.data())]
-        .bore.diameter_mm = bore_between(*machine.bearings.planet);
-    for (const char* name : {"6810", "6808", "6806", "6804"}) {
-      machine.bearings.output = *find_element(standard_elements().bearings, name);
-      const auto again = lay_out(design);
-      const auto layout = again ? machine_layout(*again) : std::nullopt;
-      if (layout && layout->retainer_radius_mm <= layout->cup_radius_mm) return;
-    }
+    return with_machine(std::move(design), *motor_, wishes_.outer_diameter_mm, wall_mm());
   }
 
   /// Of gears and everything around them; a warning counts as a failure.
-  [[nodiscard]] DesignVerdict judged(const GearTrain& gears) const {
+  DesignVerdict judged(const GearTrain& gears) {
+    // what fell so often falls for a reason that other teeth do not mend
+    if (++judged_ > kMostJudged) return {.failed = {last_failed_}, .warned = {}};
+    std::vector<std::string> warns;
+    DesignVerdict verdict = judged(gears, warns);
+    if (!verdict.failed.empty()) last_failed_ = verdict.failed.front();
+    if (judged_ == 1) common_ = warns;
+    std::erase_if(common_, [&](const std::string& id) {
+      return std::find(warns.begin(), warns.end(), id) == warns.end();
+    });
+    return verdict;
+  }
+
+  void begin_judging() {
+    judged_ = 0;
+    common_.clear();
+  }
+
+  /// What every design of many warns of comes of the wishes, not of the teeth.
+  bool tolerate_what_all_warn() {
+    if (judged_ < kMany || common_.empty()) return false;
+    tolerated_.insert(tolerated_.end(), common_.begin(), common_.end());
+    return true;
+  }
+
+  [[nodiscard]] bool is_allowed(const Finding& finding) const {
+    return allowed_ == Allowed::kEveryWarning ||
+           (allowed_ == Allowed::kUndercut && finding.id == "undercut") ||
+           std::find(tolerated_.begin(), tolerated_.end(), finding.id) != tolerated_.end();
+  }
+
+  /// `warns` gets the ids of the warnings that are not allowed.
+  [[nodiscard]] DesignVerdict judged(const GearTrain& gears, std::vector<std::string>& warns) {
     DesignVerdict verdict;
     const auto take = [&](const Findings& findings) {
       for (const Finding& finding : findings) {
-        const bool allowed = allowed_ == Allowed::kEveryWarning ||
-                             (allowed_ == Allowed::kUndercut && finding.id == "undercut");
-        const bool fails = finding.status == CheckStatus::kFail ||
-                           (finding.status == CheckStatus::kWarn && !allowed);
-        if (fails)
-          verdict.failed.push_back(finding.id);
-        else if (finding.status == CheckStatus::kWarn)
+        const bool warning = finding.status == CheckStatus::kWarn;
+        if (warning && is_allowed(finding)) {
           verdict.warned.push_back(finding.id + " " + finding.where);
+        } else if (warning || finding.status == CheckStatus::kFail) {
+          verdict.failed.push_back(finding.id);
+          examples_.insert({finding.id, finding.message});
+          if (warning) warns.push_back(finding.id);
+        }
       }
     };
     const auto train = lay_out(whole(gears.design));
     if (!train) return {.failed = {"assembly"}, .warned = {}};
-    if (motor_) {
+    if (train->design.machine) {
       const auto shapes = part_shapes(*train);
       if (!shapes) return {.failed = {"wall"}, .warned = {}};
       take(check_machine(*train, *shapes));
@@ -236,12 +313,30 @@ class Wish {
   }
 
   /// What most of those fell in that were judged.
-  static std::string most_fell(const SearchReport& report) {
+  [[nodiscard]] std::string most_fell(const SearchReport& report) const {
     const auto& classes = report.fell_in_checks;
     const auto most =
         std::max_element(classes.begin(), classes.end(),
                          [](const SetClass& a, const SetClass& b) { return a.count < b.count; });
-    return most == classes.end() ? "" : "; most of them fall in " + most->id;
+    if (most == classes.end()) return "";
+    const auto example = examples_.find(most->id);
+    return "; most of them fall in " + most->id +
+           (example == examples_.end() ? "" : " (one: " + example->second + ")");
+  }
+
+  [[nodiscard]] static std::string teeth_text(const ToothSet& set) {
+    std::string text;
+    for (const TrainPlace place : set.train->places())
+      text += (text.empty() ? "" : ", ") + set.train->name_at(place) + " " +
+              std::to_string(set.teeth_at(place));
+    return text + " teeth, driven at the " + set.train->input + ", output " + set.train->output;
+  }
+
+  [[nodiscard]] std::string best_text(const FoundDesign& found) const {
+    const std::string forward = fixed_text(100.0 * found.exact_forward, 1) + " %";
+    if (sets_->objective == SearchObjective::kForward)
+      return "the best forward efficiency (" + forward + ")";
+    return "the largest allowable torque at the output (forward efficiency " + forward + ")";
   }
 
   [[nodiscard]] std::vector<std::string> sentences(const FoundDesign& found,
@@ -250,34 +345,49 @@ class Wish {
     const ToothSet& set = found.set;
     std::vector<std::string> told{
         "ratio " + fixed_text(std::abs(signed_ratio(set)), 3) + " for " +
-            fixed_text(wishes_.ratio, 3) + " asked: sun " + std::to_string(set.sun) + ", planet1 " +
-            std::to_string(set.planet1) + ", ring1 " + std::to_string(set.ring1) + ", planet2 " +
-            std::to_string(set.planet2) + ", ring2 " + std::to_string(set.ring2) + " teeth",
-        "the best forward efficiency (" + fixed_text(100.0 * found.exact_forward, 1) + " %) of " +
-            std::to_string(report.feasible) +
+            fixed_text(wishes_.ratio, 3) + " asked: " + teeth_text(set),
+        best_text(found) + " of " + std::to_string(report.feasible) +
             " sets with shifts that keep every limit, of which no check fails" +
-            (allowed_ == Allowed::kNone ? " or warns" : "") + "; " + std::to_string(report.judged) +
-            " were judged",
+            (found.verdict.warned.empty() ? " or warns" : "") + "; " +
+            std::to_string(report.judged) + " were judged",
         "module " + fixed_text(design.module_mm, 4) +
             " mm: the largest that the outer diameter of " +
             fixed_text(wishes_.outer_diameter_mm, 1) + " mm leaves"};
     if (!found.verdict.warned.empty()) {
       std::string list;
       for (const std::string& id : found.verdict.warned) list += (list.empty() ? "" : ", ") + id;
-      told.push_back("no set is without a warning; this one warns: " + list);
+      told.push_back("of the sets judged none is without a warning; this one warns: " + list);
     }
     if (!motor_) return told;
+    const int input = design.topology.input;
+    const std::string driven = design.topology.name_of(input);
+    told.push_back("motor " + motor_->name + ": the bore of the " + driven +
+                   " is that of its shaft");
+    if (!design.machine) {
+      told.push_back(
+          "no housing is made for this kind with this output: these are the gears alone");
+      return told;
+    }
     const BearingsDesign& bearings = design.machine->bearings;
-    told.push_back("bearings " + (bearings.planet ? bearings.planet->name : std::string("none")) +
-                   " in the planets and " + bearings.output.name +
-                   " at the output: the largest that leave the walls that " + process_->name +
-                   " makes");
-    told.push_back("motor " + motor_->name + ": the sun's bore is that of its shaft");
+    told.push_back(bearings.planet
+                       ? "bearings " + bearings.planet->name + " in the planets and " +
+                             bearings.output.name +
+                             " at the output: the largest that leave the walls that " +
+                             process_->name + " makes"
+                       : "no bearings in the planets, which have no room for them: they turn "
+                         "on pins; bearing " +
+                             bearings.output.name + " at the output");
     return told;
   }
 
   const DesignWishes& wishes_;
   Allowed allowed_ = Allowed::kNone;
+  std::vector<std::string> tolerated_;  ///< ids of warnings
+  std::size_t judged_ = 0;              ///< since judging began
+  std::vector<std::string> common_;     ///< what all of those warn of
+  std::string last_failed_;
+  std::map<std::string, std::string> examples_;  ///< what the first said that fell, by check
+  const WishedSets* sets_ = nullptr;
   const Process* process_ = nullptr;
   std::string material_;
   const Motor* motor_ = nullptr;

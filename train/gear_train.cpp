@@ -291,9 +291,15 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
       Error error = profile.error();
       const bool unwritten = error.key == "shift" || error.key == "teeth" ||
                              (error.key == "tip_diameter_mm" && !d.tip_diameter_mm);
-      if (error.code == ErrorCode::kInfeasible && unwritten && !d.shift && design.centre_distance_mm) {
+      const bool of_the_teeth = error.code == ErrorCode::kInfeasible || error.key == "tip_diameter_mm";
+      if (of_the_teeth && unwritten && !d.shift && design.centre_distance_mm) {
         impossible.push_back(i);
         continue;
+      }
+      if (error.key == "tip_diameter_mm" && !d.tip_diameter_mm && d.cutter) {
+        error.message += ", and its tip circle of diameter " + error.value + " mm lies inside that";
+        error.key = "cutter.teeth";
+        error.value = std::to_string(d.cutter->teeth);
       }
       const bool of_rack = error.key.starts_with("rack.");
       if (!of_rack) error.key = d.name + "." + error.key;

@@ -43,4 +43,14 @@ double module_of(const GearboxDesign& design, const GearDesign& gear) {
   return gear.module_mm.value_or(design.module_mm);
 }
 
+/// In a housing the ring that drives out is one part with its cup.
+bool is_made_in_halves(const GearboxDesign& design, const GearDesign& gear) {
+  if (!design.herringbone || gear.kind != GearKind::kInternal) return false;
+  if (!design.machine) return gear.halves.value_or(false);
+  const int index = design.topology.find_gear(gear.name);
+  const bool drives_out = index >= 0 && design.topology.gears[static_cast<std::size_t>(index)].member ==
+                                            design.topology.output;
+  return !drives_out && gear.halves.value_or(true);
+}
+
 }  // namespace trueflank

@@ -87,6 +87,7 @@ struct GearDesign {
   BoreDesign bore = {};
   std::optional<double> outer_diameter_mm = {};  ///< rings
   BoltCircleDesign bolt_circle = {};             ///< rings
+  std::optional<bool> halves = {};  ///< herringbone rings, split at the apex; omitted: with a housing
   RingRoot root = RingRoot::kFillet;
   std::optional<ShaperCutter> cutter = {};
   ModificationsDesign modifications = {};
@@ -212,5 +213,7 @@ struct GearboxDesign {
 /// The bore that the motor's shaft goes into: a D where the shaft has a flat.
 [[nodiscard]] BoreDesign shaft_bore(const MachineDesign& machine);
 [[nodiscard]] double module_of(const GearboxDesign& design, const GearDesign& gear);
+/// Whether a herringbone ring is made as two parts that meet at the apex: asked for, or in a housing.
+[[nodiscard]] bool is_made_in_halves(const GearboxDesign& design, const GearDesign& gear);
 
 }  // namespace trueflank

@@ -74,7 +74,7 @@ struct ToothSide {
   bool both_ways;
 };
 
-void rate_root(const GearTrain& train, const MeshGeometry& g, const ToothSide& side, const StrengthOptions& options,
+void rate_root(const GearTrain& train, const MeshGeometry& g, const ToothSide& side,
                Iso6336Mesh::Tooth& tooth) {
   const Gear& gear = side.gear->profile.gear();
   const CriticalSection section = normal_section(side.gear->profile);
@@ -201,9 +201,11 @@ Result<Iso6336Result> strength_iso6336(const GearTrain& train, const StrengthOpt
     Iso6336Mesh entry{.name = mesh.name};
     entry.tooth1.cycles = cycles_of(train, options, k, mesh.gear1, g.count);
     entry.tooth2.cycles = cycles_of(train, options, k, mesh.gear2, g.count);
-    rate_root(train, g, {&gear1, *m1, options.reversing || passes_power_on(train, drive, mesh.gear1)}, options,
+    rate_root(train, g,
+              {&gear1, *m1, options.reversing || passes_power_on(train, drive, mesh.gear1)},
               entry.tooth1);
-    rate_root(train, g, {&gear2, *m2, options.reversing || passes_power_on(train, drive, mesh.gear2)}, options,
+    rate_root(train, g,
+              {&gear2, *m2, options.reversing || passes_power_on(train, drive, mesh.gear2)},
               entry.tooth2);
     rate_flanks(g, **m1, **m2, options, entry);
     if (drive.meshes[k].torque1 != 0.0) {  // else it idles

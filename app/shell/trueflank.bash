@@ -4,7 +4,7 @@ _trueflank() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "check fix make new search loop compare help --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check fix make new search shifts loop compare help --help --version" -- "$word")
     return
   fi
   case $before in
@@ -16,19 +16,21 @@ _trueflank() {
       # a list with commas: the last of it is completed
       local head=""
       [[ $word == *,* ]] && head="${word%,*},"
-      mapfile -t COMPREPLY < <(compgen -P "$head" -W "stl 3mf obj ply glb step dxf svg scad pdf" -- "${word##*,}")
+      mapfile -t COMPREPLY < <(compgen -P "$head" -W "stl 3mf obj ply glb step dxf svg scad pdf png apng" -- "${word##*,}")
       return ;;
-    help) mapfile -t COMPREPLY < <(compgen -W "check fix make new search loop compare" -- "$word"); return ;;
+    --step-schema) mapfile -t COMPREPLY < <(compgen -W "ap214 ap242" -- "$word"); return ;;
+    help) mapfile -t COMPREPLY < <(compgen -W "check fix make new search shifts loop compare" -- "$word"); return ;;
     -o | --output) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
   esac
   if [[ $word == -* ]]; then
     local options="--help --quiet"
     case $command in
       check) options+=" --json --html --tolerance --material --materials --process --pictures --verbose" ;;
-      make) options+=" -o --output --formats --tolerance-um --part --correct --materials --process --compensate --kerf-mm --allow-failing --verbose" ;;
-      fix) options+=" -o --output" ;;
-      new) options="--help --kind --ratio --motor --process --material --outer-diameter" ;;
+      make) options+=" -o --output --formats --tolerance-um --step-schema --part --correct --materials --process --compensate --kerf-mm --allow-failing --verbose" ;;
+      fix) options+=" -o --output --warnings" ;;
+      new) options="--help --kind --ratio --input --output --motor --process --material --outer-diameter" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
+      shifts) options+=" --teeth -o --output --points" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;
       compare) options+=" --tolerance-um --json --picture" ;;
     esac

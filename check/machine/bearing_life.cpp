@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trueflank/train/machine/crossed_rollers.h"
+
 namespace trueflank {
 namespace {
 
@@ -34,9 +36,21 @@ Row row_at(double ratio) {
   return kTable.back();
 }
 
-}  // namespace
+/// Rollers touch along lines.
+constexpr double kBallExponent = 3.0, kRollerExponent = 10.0 / 3.0;
 
-BearingLife bearing_life(const Bearing& bearing, const BearingLoad& load) {
+BearingLife crossed_roller_loads(const Bearing& bearing, const BearingLoad& load) {
+  const double pitch_mm = 0.5 * (bearing.bore_mm + bearing.outer_mm);
+  const double across = load.radial_n + 2.0 * load.tilting_nmm / pitch_mm;
+  const bool mostly_across = load.axial_n <= 1.5 * across;
+  BearingLife life{.equivalent_n = mostly_across ? across + 0.45 * load.axial_n
+                                                 : 0.67 * across + 0.67 * load.axial_n,
+                   .static_equivalent_n = across + 0.44 * load.axial_n};
+  if (bearing.static_n > 0.0) life.static_safety = bearing.static_n / life.static_equivalent_n;
+  return life;
+}
+
+BearingLife ball_bearing_loads(const Bearing& bearing, const BearingLoad& load) {
   BearingLife life{.equivalent_n = load.radial_n};
   life.static_equivalent_n = std::max(load.radial_n, 0.6 * load.radial_n + 0.5 * load.axial_n);
   if (bearing.static_n > 0.0) {
@@ -45,8 +59,18 @@ BearingLife bearing_life(const Bearing& bearing, const BearingLoad& load) {
       life.equivalent_n = std::max(load.radial_n, kX * load.radial_n + row.y * load.axial_n);
     life.static_safety = bearing.static_n / life.static_equivalent_n;
   }
+  return life;
+}
+
+}  // namespace
+
+BearingLife bearing_life(const Bearing& bearing, const BearingLoad& load) {
+  const bool rollers = is_crossed_roller(bearing);
+  BearingLife life =
+      rollers ? crossed_roller_loads(bearing, load) : ball_bearing_loads(bearing, load);
   if (!(bearing.dynamic_n > 0.0)) return life;
-  const double turns = 1e6 * std::pow(bearing.dynamic_n / life.equivalent_n, 3);
+  const double turns = 1e6 * std::pow(bearing.dynamic_n / life.equivalent_n,
+                                      rollers ? kRollerExponent : kBallExponent);
   life.life_h = load.speed_rpm > 0.0 && life.equivalent_n > 0.0
                     ? turns / (60.0 * load.speed_rpm)
                     : std::numeric_limits<double>::infinity();

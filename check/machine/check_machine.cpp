@@ -8,7 +8,9 @@
 #include "trueflank/check/machine/bearing_life.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/assembly_clearance.h"
+#include "trueflank/solid/measure/assembly_order.h"
 #include "trueflank/train/efficiency_balance.h"
+#include "trueflank/train/machine/crossed_rollers.h"
 
 namespace trueflank {
 namespace {
@@ -63,6 +65,9 @@ Findings walls(const GearTrain& train, const MachineLayout& m, const PartShapes&
                            mm_text(wall.height_mm) + " above its lower face",
                 .cure = "a larger outer_diameter_mm, smaller fasteners, or another bearing"},
                1e-3);
+    if (finding.status != CheckStatus::kPass && m.idle_gear >= 0 &&
+        part.name == train.topology().gears[static_cast<std::size_t>(m.idle_gear)].name)
+      finding.cure = "no [" + part.name + "]: it idles; or a motor whose shaft ends below it";
     if (finding.status == CheckStatus::kFail)
       finding.message = part.name + ": two surfaces run into each other by " +
                         mm_text(-wall.width_mm) + ", " + mm_text(wall.height_mm) +
@@ -205,8 +210,11 @@ BearingLoad output_load(const MachineDesign& machine, const MachineLayout& m) {
   BearingLoad load{.radial_n = machine.output.radial_load_n,
                    .axial_n = machine.output.axial_load_n,
                    .speed_rpm = machine.output.speed_rpm};
-  if (n > 1) {
-    const double span = (n - 1) * width, arm = m.plate.upper_mm - m.bearings.upper_mm + 0.5 * width;
+  const double arm = m.plate.upper_mm - m.bearings.upper_mm + 0.5 * width;
+  if (n == 1) {
+    load.tilting_nmm = load.radial_n * arm;
+  } else {
+    const double span = (n - 1) * width;
     load.radial_n *= (arm + span) / span;
   }
   return load;
@@ -216,9 +224,12 @@ Findings bearing_loads(const GearTrain& train, const MachineLayout& m) {
   const MachineDesign& machine = *train.design.machine;
   const double wanted = machine.bearings.life_h;
   Findings findings{judge_life("output", machine.bearings.output, output_load(machine, m), wanted)};
-  if (machine.output.radial_load_n > 0.0 && machine.bearings.outputs == 1) {
+  if (machine.output.radial_load_n > 0.0 && machine.bearings.outputs == 1 &&
+      !is_crossed_roller(machine.bearings.output)) {
     findings.back().status = std::max(findings.back().status, CheckStatus::kWarn);
-    findings.back().cure = "outputs = 2 in [bearings]: one bearing alone holds no tilting load";
+    findings.back().cure =
+        "outputs = 2 in [bearings], or crossed rollers: one ball bearing alone holds no tilting "
+        "load";
   }
   if (!machine.bearings.planet) return findings;
   const MachineLoads loads = machine_loads(train);
@@ -265,6 +276,61 @@ Finding collision(const GearTrain& train, const PartShapes& shapes) {
   if (clearance.collisions.size() > 4)
     finding.message += "; and " + std::to_string(clearance.collisions.size() - 4) + " more";
   finding.cure = "other sizes of the two: see their tables";
+  return finding;
+}
+
+std::string body_text(const PartShapes& shapes, std::size_t body) {
+  return shapes.assembly[body].name;
+}
+
+/// Two of the bodies that hold each other: made ones with teeth say most.
+std::pair<std::size_t, std::size_t> held_pair(const PartShapes& shapes,
+                                              const std::vector<std::size_t>& stuck) {
+  std::vector<std::size_t> gears;
+  for (const std::size_t body : stuck)
+    if (const PartRole role =
+            shapes.parts[static_cast<std::size_t>(shapes.assembly[body].part)].role;
+        role == PartRole::kSun || role == PartRole::kPlanet || role == PartRole::kRing ||
+        role == PartRole::kUpperRing)
+      gears.push_back(body);
+  const std::vector<std::size_t>& from = gears.size() > 1 ? gears : stuck;
+  return {from.front(), from[1]};
+}
+
+Finding order_of_assembly(const GearTrain& train, const PartShapes& shapes, bool collides) {
+  const AssemblyOrder order = assembly_order(train, shapes);
+  Finding finding{.id = "assembly_order",
+                  .where = "train",
+                  .value = static_cast<double>(order.stuck.size()),
+                  .limit = 0.0,
+                  .margin = -static_cast<double>(order.stuck.size())};
+  if (order.exists()) {
+    finding.margin = 0.0;
+    finding.message = "all " + std::to_string(shapes.assembly.size()) +
+                      " bodies go in along the axis one after the other, none meets another";
+    return finding;
+  }
+  finding.status = CheckStatus::kFail;
+  const auto [one, other] = held_pair(shapes, order.stuck);
+  finding.message = std::to_string(order.stuck.size()) +
+                    " bodies hold each other and cannot be put together along the axis, " +
+                    body_text(shapes, one) + " and " + body_text(shapes, other) + " among them";
+  const auto any_gear = [&](const auto& is) {
+    return std::any_of(train.gears.begin(), train.gears.end(), is);
+  };
+  const double plate_mm = 0.5 * carrier_layout(train)->outer_diameter_mm;
+  if (any_gear([](const TrainGear& gear) { return gear.twist.herringbone; }))
+    finding.cure =
+        "herringbone = false in [gearbox]: such teeth go in only where every ring is made in halves";
+  else if (any_gear([&](const TrainGear& gear) {
+             return gear.profile.gear().kind == GearKind::kInternal &&
+                    gear.profile.tip_radius_mm() < plate_mm;
+           }))
+    finding.cure = "a smaller outer_diameter_mm in [carrier], or none: it follows from the rings";
+  else if (collides)
+    finding.cure = "see collision: what runs into each other holds each other";
+  else
+    finding.cure = "other sizes of the two: see their tables";
   return finding;
 }
 
@@ -324,6 +390,8 @@ Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
   append(bearing_seats(train));
   append(bearing_loads(train, m));
   all.push_back(collision(train, shapes));
+  const bool collides = all.back().status == CheckStatus::kFail;
+  all.push_back(order_of_assembly(train, shapes, collides));
   return all;
 }
 

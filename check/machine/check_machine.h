@@ -17,8 +17,8 @@ struct MachineLoads {
 [[nodiscard]] MachineLoads machine_loads(const GearTrain& train);
 
 /// Findings about the parts around the gears of a design with [housing] (docs/gearbox.md):
-/// housing_size, wall, screws, shaft_grip, bearing_seat, bearing_load, collision. None of another
-/// design.
+/// housing_size, wall, screws, shaft_grip, bearing_seat, bearing_load, collision, assembly_order. None of
+/// another design.
 [[nodiscard]] Findings check_machine(const GearTrain& train, const PartShapes& shapes);
 
 }  // namespace trueflank

@@ -2,9 +2,11 @@
 #include "trueflank/loop/discovery/ring_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/units.h"
@@ -19,16 +21,65 @@ using Eigen::VectorXd;
 
 constexpr int kOrders = 3999, kEnough = 12;
 
-/// Squares that the best arc and the best wave take out of a series of unit variance.
-struct Best {
-  double arc = 0.0, wave = 0.0;
-  int arc_series = -1, first = 0, count = 0, wave_series = -1, order = 0;
+constexpr int kKinds = 4;
+constexpr int kMostEvery = 8;
+
+/// Square that the best form of a kind takes out of a series of unit variance.
+struct BestOfKind {
+  double square = 0.0;
+  int series = -1, first = 0, count = 0, order = 0;
 };
+using Best = std::array<BestOfKind, kKinds>;
+
+using Kind = RingFinding::Kind;
+constexpr std::size_t at(Kind kind) { return static_cast<std::size_t>(kind); }
 
 class RingScan {
  public:
   RingScan(MatrixXd series, const std::vector<int>& place, int ring)
       : series_(std::move(series)), n_(series_.rows()), orders_(std::min<Index>(ring / 2, n_ / 2)) {
+    make_waves(place, ring);
+    make_ramps_and_combs(place, ring);
+    for (Index s = 0; s < series_.cols(); ++s) {
+      auto column = series_.col(s);
+      column.array() -= column.mean();
+      scale_.push_back(std::sqrt(column.squaredNorm() / static_cast<double>(n_)));
+      if (scale_.back() > 0.0) column /= scale_.back();
+    }
+  }
+
+  RingFinding run() {
+    std::vector<Index> order(static_cast<std::size_t>(n_));
+    std::iota(order.begin(), order.end(), 0);
+    const Best seen = best_of(order);
+    std::mt19937_64 random(20260122);
+    std::array<int, kKinds> larger{};
+    std::array<double, kKinds> by_size{};
+    for (std::size_t k = 0; k < kKinds; ++k) by_size[k] = p_by_size(seen[k].square, k);
+    constexpr double kBeyondDoubt = 1e-4;
+    const bool ask = *std::min_element(by_size.begin(), by_size.end()) > kBeyondDoubt;
+    int tried = 0;
+    while (ask && tried < kOrders && *std::min_element(larger.begin(), larger.end()) < kEnough) {
+      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+      const Best shuffled = best_of(order);
+      for (std::size_t k = 0; k < kKinds; ++k)
+        larger[k] += shuffled[k].square >= seen[k].square ? 1 : 0;
+      ++tried;
+    }
+    std::size_t best = 0;
+    double least = 2.0;
+    for (std::size_t k = 0; k < kKinds; ++k) {
+      const double p = std::min((1.0 + larger[k]) / (1.0 + tried), by_size[k]);
+      if (p > least || (p == least && seen[k].square <= seen[best].square)) continue;
+      least = p;
+      best = k;
+    }
+    // Two tests of every kind.
+    return finding(seen[best], best, std::min(1.0, 2.0 * kKinds * least));
+  }
+
+ private:
+  void make_waves(const std::vector<int>& place, int ring) {
     waves_.setZero(2 * orders_, n_);
     for (Index k = 0; k < orders_; ++k) {
       for (Index i = 0; i < n_; ++i) {
@@ -43,107 +94,148 @@ class RingScan {
         waves_.row(row) *= square > 1e-6 * static_cast<double>(n_) ? 1.0 / std::sqrt(square) : 0.0;
       }
     }
-    for (Index s = 0; s < series_.cols(); ++s) {
-      auto column = series_.col(s);
-      column.array() -= column.mean();
-      scale_.push_back(std::sqrt(column.squaredNorm() / static_cast<double>(n_)));
-      if (scale_.back() > 0.0) column /= scale_.back();
-    }
   }
 
-  RingFinding run() {
-    std::vector<Index> order(static_cast<std::size_t>(n_));
-    std::iota(order.begin(), order.end(), 0);
-    const Best seen = best_of(order);
-    std::mt19937_64 random(20260122);
-    int arcs = 0, waves = 0, tried = 0;
-    const double arc_by_size = by_size(seen.arc, 1, arcs_looked_at());
-    const double wave_by_size = by_size(seen.wave, 2, static_cast<double>(orders_));
-    constexpr double kBeyondDoubt = 1e-4;
-    const bool ask = std::min(arc_by_size, wave_by_size) > kBeyondDoubt;
-    while (ask && tried < kOrders && std::min(arcs, waves) < kEnough) {
-      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-      const Best shuffled = best_of(order);
-      arcs += shuffled.arc >= seen.arc ? 1 : 0;
-      waves += shuffled.wave >= seen.wave ? 1 : 0;
-      ++tried;
+  void make_ramps_and_combs(const std::vector<int>& place, int ring) {
+    const auto add = [&](MatrixXd& forms, VectorXd form) {
+      form.array() -= form.mean();
+      const double norm = form.norm();
+      if (!(norm * norm > 0.5)) return false;
+      forms.conservativeResize(forms.rows() + 1, n_);
+      forms.row(forms.rows() - 1) = form.transpose() / norm;
+      return true;
+    };
+    for (const int first : place) {
+      VectorXd ramp(n_);
+      for (Index i = 0; i < n_; ++i)
+        ramp[i] =
+            static_cast<double>((place[static_cast<std::size_t>(i)] - first + ring) % ring) / ring;
+      if (add(ramps_, ramp)) ramp_at_.push_back(first);
     }
-    // Two tests of two kinds.
-    constexpr double kTests = 4.0;
-    const double of_arc = std::min((1.0 + arcs) / (1.0 + tried), arc_by_size);
-    const double of_wave = std::min((1.0 + waves) / (1.0 + tried), wave_by_size);
-    RingFinding result;
-    result.p_value = std::min(1.0, kTests * std::min(of_arc, of_wave));
-    if (of_arc < of_wave || (of_arc == of_wave && seen.arc >= seen.wave)) {
-      result.series = seen.arc_series;
-      result.first = seen.first;
-      result.count = seen.count;
-      result.amount = amount_of_arc(seen);
-    } else {
-      result.series = seen.wave_series;
-      result.order = seen.order;
-      result.amount = scale_[static_cast<std::size_t>(seen.wave_series)] *
-                      std::sqrt(2.0 * seen.wave / static_cast<double>(n_));
-    }
-    return result;
+    for (int every = 2; every <= kMostEvery && 3 * every <= n_; ++every)
+      for (int first = 0; first < every; ++first) {
+        VectorXd comb(n_);
+        for (Index i = 0; i < n_; ++i)
+          comb[i] = place[static_cast<std::size_t>(i)] % every == first ? 1.0 : 0.0;
+        // Of every other place one half says what the other does.
+        if ((every > 2 || first == 0) && comb.sum() >= 2.0 && add(combs_, comb))
+          comb_at_.emplace_back(every, first);
+      }
   }
 
- private:
-  [[nodiscard]] double arcs_looked_at() const {
-    return static_cast<double>(n_) * static_cast<double>(n_ / 2 - 1);
+  [[nodiscard]] double looked_at(std::size_t kind) const {
+    const auto n = static_cast<double>(n_);
+    return kind == at(Kind::kArc)    ? n * static_cast<double>(n_ / 2 - 1)
+           : kind == at(Kind::kWave) ? static_cast<double>(orders_)
+           : kind == at(Kind::kRamp) ? static_cast<double>(ramps_.rows())
+                                     : static_cast<double>(combs_.rows());
   }
   /// F test of what the best of so many takes out of a series, whose squares sum to n.
-  [[nodiscard]] double by_size(double square, double degrees, double looked_at) const {
+  [[nodiscard]] double p_by_size(double square, std::size_t kind) const {
+    const double degrees = kind == at(Kind::kWave) ? 2.0 : 1.0;
     const double left = static_cast<double>(n_) - 1.0 - degrees;
     const double f = square / degrees / (std::max(static_cast<double>(n_) - square, 1e-12) / left);
-    return std::min(1.0,
-                    f_tail(f, degrees, left) * looked_at * static_cast<double>(series_.cols()));
+    return std::min(
+        1.0, f_tail(f, degrees, left) * looked_at(kind) * static_cast<double>(series_.cols()));
   }
 
   [[nodiscard]] Best best_of(const std::vector<Index>& order) const {
     Best best;
-    std::vector<double> sums(static_cast<std::size_t>(2 * n_) + 1);
     VectorXd placed(n_);
     for (Index s = 0; s < series_.cols(); ++s) {
       if (!(scale_[static_cast<std::size_t>(s)] > 0.0)) continue;
       for (Index i = 0; i < n_; ++i) placed[i] = series_(order[static_cast<std::size_t>(i)], s);
-      for (Index i = 0; i < 2 * n_; ++i)
-        sums[static_cast<std::size_t>(i) + 1] = sums[static_cast<std::size_t>(i)] + placed[i % n_];
-      for (Index count = 2; count <= n_ / 2; ++count) {
-        const double weight = static_cast<double>(n_) /
-                              (static_cast<double>(count) * static_cast<double>(n_ - count));
-        for (Index first = 0; first < n_; ++first) {
-          const double sum =
-              sums[static_cast<std::size_t>(first + count)] - sums[static_cast<std::size_t>(first)];
-          if (sum * sum * weight <= best.arc) continue;
-          best.arc = sum * sum * weight;
-          best.arc_series = static_cast<int>(s);
-          best.first = static_cast<int>(first);
-          best.count = static_cast<int>(count);
-        }
-      }
+      best_arc(placed, static_cast<int>(s), best[at(Kind::kArc)]);
       const VectorXd parts = waves_ * placed;
-      for (Index k = 0; k < orders_; ++k) {
-        const double square = parts.segment(2 * k, 2).squaredNorm();
-        if (square <= best.wave) continue;
-        best.wave = square;
-        best.wave_series = static_cast<int>(s);
-        best.order = static_cast<int>(k + 1);
+      for (Index k = 0; k < orders_; ++k)
+        improve(best[at(Kind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
+                                        .series = static_cast<int>(s),
+                                        .order = static_cast<int>(k + 1)});
+      const VectorXd ramps = ramps_ * placed, combs = combs_ * placed;
+      for (Index k = 0; k < ramps.size(); ++k)
+        improve(best[at(Kind::kRamp)], {.square = ramps[k] * ramps[k],
+                                        .series = static_cast<int>(s),
+                                        .first = ramp_at_[static_cast<std::size_t>(k)]});
+      for (Index k = 0; k < combs.size(); ++k) {
+        const auto [every, first] = comb_at_[static_cast<std::size_t>(k)];
+        improve(best[at(Kind::kComb)], {.square = combs[k] * combs[k],
+                                        .series = static_cast<int>(s),
+                                        .first = first,
+                                        .count = every});
       }
     }
     return best;
   }
 
-  [[nodiscard]] double amount_of_arc(const Best& best) const {
+  static void improve(BestOfKind& best, const BestOfKind& other) {
+    if (other.square > best.square) best = other;
+  }
+
+  void best_arc(const VectorXd& placed, int series, BestOfKind& best) const {
+    std::vector<double> sums(static_cast<std::size_t>(2 * n_) + 1);
+    for (Index i = 0; i < 2 * n_; ++i)
+      sums[static_cast<std::size_t>(i) + 1] = sums[static_cast<std::size_t>(i)] + placed[i % n_];
+    for (Index count = 2; count <= n_ / 2; ++count) {
+      const double weight =
+          static_cast<double>(n_) / (static_cast<double>(count) * static_cast<double>(n_ - count));
+      for (Index first = 0; first < n_; ++first) {
+        const double sum =
+            sums[static_cast<std::size_t>(first + count)] - sums[static_cast<std::size_t>(first)];
+        if (sum * sum * weight <= best.square) continue;
+        best = {sum * sum * weight, series, static_cast<int>(first), static_cast<int>(count), 0};
+      }
+    }
+  }
+
+  [[nodiscard]] RingFinding finding(const BestOfKind& best, std::size_t kind, double p) const {
+    RingFinding result{.kind = static_cast<Kind>(kind),
+                       .p_value = p,
+                       .series = best.series,
+                       .first = best.first,
+                       .count = best.count,
+                       .order = best.order};
+    if (best.series < 0) return result;
+    const double scale = scale_[static_cast<std::size_t>(best.series)];
+    const auto rows_of = [&](const MatrixXd& forms, auto is_it) {
+      Index row = 0;
+      while (!is_it(static_cast<std::size_t>(row))) ++row;
+      return VectorXd(forms.row(row));
+    };
+    // Forms of unit norm, back to their own height.
+    const auto height = [&](const VectorXd& form) {
+      return scale * form.dot(series_.col(best.series)) * (form.maxCoeff() - form.minCoeff());
+    };
+    switch (result.kind) {
+      case Kind::kArc:
+        result.amount = amount_of_arc(best);
+        break;
+      case Kind::kWave:
+        result.amount = scale * std::sqrt(2.0 * best.square / static_cast<double>(n_));
+        break;
+      case Kind::kRamp:
+        result.amount =
+            height(rows_of(ramps_, [&](std::size_t i) { return ramp_at_[i] == best.first; }));
+        break;
+      case Kind::kComb:
+        result.amount = height(rows_of(combs_, [&](std::size_t i) {
+          return comb_at_[i] == std::pair(best.count, best.first);
+        }));
+    }
+    return result;
+  }
+
+  [[nodiscard]] double amount_of_arc(const BestOfKind& best) const {
     double sum = 0.0;
-    for (int i = 0; i < best.count; ++i) sum += series_((best.first + i) % n_, best.arc_series);
-    return scale_[static_cast<std::size_t>(best.arc_series)] * sum * static_cast<double>(n_) /
+    for (int i = 0; i < best.count; ++i) sum += series_((best.first + i) % n_, best.series);
+    return scale_[static_cast<std::size_t>(best.series)] * sum * static_cast<double>(n_) /
            (static_cast<double>(best.count) * static_cast<double>(n_ - best.count));
   }
 
   MatrixXd series_;
   Index n_, orders_;
-  MatrixXd waves_;
+  MatrixXd waves_, ramps_, combs_;  ///< of unit norm, a form (of waves two) a row
+  std::vector<int> ramp_at_;
+  std::vector<std::pair<int, int>> comb_at_;
   std::vector<double> scale_;
 };
 

@@ -8,23 +8,27 @@
 namespace trueflank::loop {
 
 struct RingFinding {
-  double p_value = 1.0;  ///< corrected for all series, arcs and orders
+  enum class Kind {
+    kArc,   ///< `count` rows from row `first` on stand out
+    kWave,  ///< of `order`
+    kRamp,  ///< rises evenly once around, from the place `first` on
+    kComb   ///< every `count`-th place stands out, the first of them `first`
+  };
+  Kind kind = Kind::kWave;
+  double p_value = 1.0;  ///< corrected for all series and forms
   int series = -1;
-  /// @name An arc that stands out; count 0: a wave
-  /// @{
-  int first = 0, count = 0;
-  /// @}
-  int order = 0;
-  double amount = 0.0;  ///< of the arc above the rest; amplitude
+  int first = 0, count = 0, order = 0;
+  double amount = 0.0;  ///< of arc and comb above the rest; amplitude; whole rise
 };
 
-/// Arcs of neighbours that stand out, and waves, in any of the series (one a column). Rows are
-/// places of the ring in order, `place` 0 ... ring - 1 of each; of some places there may be no
-/// value. Two tests of one question, each at half the level: against the same values in shuffled
-/// order, whole rows together, so that series that hang together are no finding; and an F test with
-/// Bonferroni's correction, because few values in any order often make an arc. Sequential: shuffles
-/// end once the answer is no. Waves up to half the values. Source of the stopping rule: Besag,
-/// Clifford 1991, doi 10.1093/biomet/78.2.301.
+/// Arcs of neighbours that stand out, waves, ramps that begin anew at one place (a tool that wears,
+/// a machine that warms up), and combs (a cutter with few teeth), in any of the series (one a
+/// column). Rows are places of the ring in order, `place` 0 ... ring - 1 of each; of some places
+/// there may be no value. Two tests of one question, each at half the level: against the same
+/// values in shuffled order, whole rows together, so that series that hang together are no finding;
+/// and an F test with Bonferroni's correction, because few values in any order often make an arc.
+/// Sequential: shuffles end once the answer is no. Waves up to half the values. Source of the
+/// stopping rule: Besag, Clifford 1991, doi 10.1093/biomet/78.2.301.
 [[nodiscard]] RingFinding scan_ring(const Eigen::MatrixXd& series, const std::vector<int>& place,
                                     int ring);
 

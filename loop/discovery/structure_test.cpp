@@ -129,7 +129,9 @@ void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
     const Eigen::LDLT<Eigen::MatrixXd> under_flips(flipped_[g]);
     if (under_flips.info() != Eigen::Success || !under_flips.isPositive()) continue;
     const Eigen::MatrixXd s = scores(seq, Eigen::all).cast<double>();
-    statistic = (s.array() * under_flips.solve(s).array()).colwise().sum();
+    const Eigen::MatrixXd inverse =
+        under_flips.solve(Eigen::MatrixXd::Identity(group.columns, group.columns));
+    statistic = s.cwiseProduct(inverse * s).colwise().sum().transpose();
     const Eigen::VectorXd o = observed(seq);
     const double t = o.dot(projected_[g].ldlt().solve(o));
     // The group's own scale: correlation within units widens low modes more than high ones.

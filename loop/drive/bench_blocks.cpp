@@ -5,6 +5,7 @@
 #include <random>
 
 #include "trueflank/loop/drive/bench_table.h"
+#include "trueflank/loop/drive/bench_visits.h"
 
 // Which rows may share their error, and which are locked away before anything is looked at.
 namespace trueflank::loop {
@@ -47,21 +48,51 @@ void cut_into_set_points(BenchTable& table) {
   table.units = unit + 1;
 }
 
-/// Correlation of neighbouring units' mean residuals, in their noise's units.
-double correlation(const BenchTable& table, const SmoothFit& fit) {
-  std::vector<double> sum(table.units, 0.0), count(table.units, 0.0);
+/// Correlation of neighbouring units' mean residuals, in their noise's units, of the errors alone.
+double correlation(const BenchTable& table, const SmoothFit& fit, const std::vector<int>& set_point) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.units), count = sum;
+  // Units of the same set points in the same order come again.
+  std::vector<int> of_unit(static_cast<std::size_t>(table.units), 0);
   for (std::size_t i = 0; i < table.points.size(); ++i) {
     const BenchPoint& p = table.points[i];
     sum[p.unit] += fit.residual_nm[i] / p.sigma_nm;
     count[p.unit] += 1.0;
+    int& here = of_unit[static_cast<std::size_t>(p.unit)];
+    if (i == 0 || p.unit != table.points[i - 1].unit) here = set_point[i];
+    else if (set_point[i] != set_point[i - 1])
+      here = static_cast<int>(static_cast<unsigned>(here) * 1009U + static_cast<unsigned>(set_point[i]));
   }
-  double product = 0.0, square = 0.0;
-  for (int u = 0; u < table.units; ++u) {
-    const double here = sum[u] / std::sqrt(std::max(1.0, count[u]));
-    square += here * here;
-    if (u > 0) product += here * sum[u - 1] / std::sqrt(std::max(1.0, count[u - 1]));
+  return correlation_of_visits(sum.cwiseQuotient(count.cwiseMax(1.0).cwiseSqrt()), of_unit);
+}
+
+/// Correlation of the means of neighbouring dwells from that of the rows inside them; NaN where set points
+/// come again, which tell more, or dwells are short.
+double correlation_from_dwells(const BenchTable& table, const SmoothFit& fit, const std::vector<int>& set_point) {
+  constexpr double kLong = 5.0;
+  const double n = static_cast<double>(table.points.size()), dwells = table.units;
+  if (n < kLong * dwells || *std::max_element(set_point.begin(), set_point.end()) + 1 < 0.75 * dwells) return kNaN;
+  std::vector<double> mean(table.units, 0.0), rows(table.units, 0.0);
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    mean[table.points[i].unit] += fit.residual_nm[i];
+    rows[table.points[i].unit] += 1.0;
   }
-  return square > 0.0 ? product / square : 0.0;
+  double product = 0.0, square = 0.0, between = 0.0;
+  const auto off = [&](std::size_t i) {
+    const BenchPoint& p = table.points[i];
+    return (fit.residual_nm[i] - mean[p.unit] / rows[p.unit]) / p.sigma_nm;
+  };
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    square += off(i) * off(i);
+    if (i == 0 || table.points[i].unit != table.points[i - 1].unit) continue;
+    product += off(i) * off(i - 1);
+    between += 1.0;
+  }
+  if (!(square > 0.0) || between < 1.0) return kNaN;
+  // The mean that was taken off makes neighbours look opposite: by about (1 + r) / (rows - 1).
+  const double m = n / dwells, seen = product / between / (square / (n - dwells));
+  const double r = std::clamp((seen + 1.0 / m) / (1.0 - 1.0 / m), 0.0, 0.95), rest = 1.0 - std::pow(r, m);
+  const double own = m * (1.0 + r) / (1.0 - r) - 2.0 * r * rest / ((1.0 - r) * (1.0 - r));
+  return r * rest * rest / ((1.0 - r) * (1.0 - r)) / own;
 }
 
 /// Neighbouring units of one file and direction become one; true where that changed anything.
@@ -143,9 +174,11 @@ void lock_hold_out(BenchTable& table, bool log) {
 
 void assign_blocks(BenchTable& table, const SmoothFit& fit) {
   cut_into_set_points(table);
+  const std::vector<int> set_point = set_points_of(table.points);
   bool log = false;
-  while (table.units > 2 * kFewUnits &&
-         correlation(table, fit) >
+  const double of_dwells = correlation_from_dwells(table, fit, set_point);
+  while (!(of_dwells <= kLeastCorrelation) && table.units > 2 * kFewUnits &&
+         correlation(table, fit, set_point) >
              std::max(kLeastCorrelation,
                       kCorrelationErrors / std::sqrt(static_cast<double>(table.units)))) {
     if (!merge_neighbours(table)) break;

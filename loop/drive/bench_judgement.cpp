@@ -12,6 +12,8 @@ namespace {
 
 /// Torques below this share of their column's largest may have any sign: they are noise about zero.
 constexpr double kNearZero = 0.05;
+/// Rows of the other sign up to this share of a direction are slips: left out and named.
+constexpr double kMostSlips = 0.1;
 /// An apparent efficiency beyond these is no loss but another unit.
 constexpr double kUnitHigh = 30.0, kUnitLow = 0.003;
 
@@ -67,6 +69,22 @@ Error unit_error(const BenchData& data, const BenchRow& row, const std::string& 
           .line = row.line};
 }
 
+/// Leaves rows out whose torque has the other sign, and says so.
+void leave_out_slips(const std::vector<const BenchRow*>& slips, const Side& side, BenchData& data,
+                     std::vector<std::string>& notes) {
+  std::vector<int> lines;
+  for (const BenchRow* row : slips) {
+    lines.push_back(row->line);
+    notes.push_back(data.files[static_cast<std::size_t>(row->file)] + ":" +
+                    std::to_string(row->line) + ": left out: " + side.column + " of " +
+                    text(row->*side.torque) + " has the other sign than the rows around it");
+  }
+  const int file = slips.front()->file;
+  std::erase_if(data.rows, [&](const BenchRow& row) {
+    return row.file == file && std::find(lines.begin(), lines.end(), row.line) != lines.end();
+  });
+}
+
 }  // namespace
 
 Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
@@ -95,10 +113,16 @@ Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
         }
         if (minus == 0) continue;
         const bool odd_is_minus = minus <= plus;
-        const auto odd = std::find_if(rows.begin(), rows.end(), [&](const BenchRow* row) {
-          return odd_is_minus ? row->*side.torque < -kNearZero * most
-                              : row->*side.torque > kNearZero * most;
-        });
+        std::vector<const BenchRow*> odd;
+        for (const BenchRow* row : rows)
+          if (odd_is_minus ? row->*side.torque < -kNearZero * most
+                           : row->*side.torque > kNearZero * most)
+            odd.push_back(row);
+        if (odd_is_minus &&
+            static_cast<double>(odd.size()) <= kMostSlips * static_cast<double>(rows.size())) {
+          leave_out_slips(odd, side, data, notes);
+          continue;
+        }
         errors.push_back({.code = ErrorCode::kInconsistent,
                           .message = std::string(side.column) + " changes its sign among the " +
                                      (forward ? "forward" : "backward") + " rows (" +
@@ -106,10 +130,10 @@ Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
                                      std::to_string(rows.size()) +
                                      "): the power flows the other way there, or a sensor is swapped",
                           .key = side.column,
-                          .value = text((*odd)->*side.torque),
+                          .value = text(odd.front()->*side.torque),
                           .remedy = "magnitudes, each row under the direction in which its power flows",
                           .file = data.files[file],
-                          .line = (*odd)->line});
+                          .line = odd.front()->line});
       }
   return errors;
 }

@@ -109,6 +109,13 @@ class TableMaker {
                         .remedy = "at least " + std::to_string(kFewestRows) +
                                   "; for a few numbers the quantity,value form",
                         .file = data_.files.empty() ? "" : data_.files.front()}});
+    if (std::none_of(table_.points.begin(), table_.points.end(),
+                     [](const BenchPoint& p) { return p.load_nm > 0.0; }))
+      return fail_all(
+          {{.code = ErrorCode::kOutOfRange,
+            .message = "every row of the bench data says a torque of 0: nothing is lost at no load",
+            .remedy = "rows under load",
+            .file = data_.files.empty() ? "" : data_.files.front()}});
     SmoothFit fit = smooth_fit(table_.points);
     if (leave_out_outliers(fit)) fit = smooth_fit(table_.points);
     for (BenchPoint& p : table_.points)
@@ -164,9 +171,9 @@ class TableMaker {
     std::map<int, std::pair<double, double>> seen;  // file: rows so far, rows
     for (const BenchPoint& p : table_.points) seen[p.file].second += 1.0;
     for (BenchPoint& p : table_.points) {
-      auto& [before, rows] = seen[p.file];
-      p.taken = before / std::max(1.0, rows - 1.0);
-      before += 1.0;
+      auto& [so_far, rows] = seen[p.file];
+      p.taken = so_far / std::max(1.0, rows - 1.0);
+      so_far += 1.0;
     }
     turns = most > least ? (most - least) / 360.0 : 0.0;
     const auto known = [&](double BenchPoint::*value) {
@@ -190,8 +197,14 @@ class TableMaker {
           table_.points[i].forward ? fit.sigma_forward_nm : fit.sigma_backward_nm;
       if (std::abs(fit.residual_nm[i]) > kOutlier * sigma) far.push_back(i);
     }
+    // Neighbours that lie off to the same side, about as far, are no slips.
+    const auto alike = [&](std::size_t k, std::size_t other) {
+      if (far[k] + 1 != far[other] && far[other] + 1 != far[k]) return false;
+      const double share = fit.residual_nm[far[k]] / fit.residual_nm[far[other]];
+      return share > 0.25 && share < 4.0;
+    };
     const auto alone = [&](std::size_t k) {
-      return (k == 0 || far[k - 1] + 1 != far[k]) && (k + 1 == far.size() || far[k] + 1 != far[k + 1]);
+      return (k == 0 || !alike(k, k - 1)) && (k + 1 == far.size() || !alike(k, k + 1));
     };
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < far.size(); ++k)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
 #include "trueflank/loop/result/describe.h"
@@ -59,7 +60,7 @@ class Loop {
       ban([](const DriveEffect& e) { return e.family->is_loss; });
     Outcome outcome = settle();
     for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
-    if (!outcome.effects.empty()) outcome = simplest(std::move(outcome));
+    if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
     drop_what_is_nothing(outcome);
     return report(outcome);
   }
@@ -90,6 +91,7 @@ class Loop {
     DiscoveryOptions options;
     options.banned = banned;
     options.first_level = share_of_level() * options_.level;
+    options.next_level *= share_of_level();
     Outcome outcome;
     outcome.discovery = discover(drive_problem(here, value_, candidates_), options);
     for (const ChosenGroup& chosen : outcome.discovery.chosen)
@@ -234,6 +236,32 @@ class Loop {
     return outcome;
   }
 
+  /// The simplest, but for one that leaves structure of which the fuller set leaves none.
+  Outcome simplest_that_is_enough(Outcome whole) {
+    Outcome plain = simplest(whole);
+    if (!leaves_structure(plain)) return plain;
+    settle_state(whole);
+    if (!leaves_structure(whole)) return whole;
+    settle_state(plain);
+    return plain;
+  }
+  /// Asked of the training rows alone.
+  [[nodiscard]] bool leaves_structure(const Outcome& outcome) const {
+    const DriveContext here = context();
+    const Eigen::VectorXd left =
+        value_ - DriveFit(here, value_, outcome.effects, FitRows::kTraining).explained_nm();
+    BenchTable seen = table_;
+    seen.points.clear();
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < table_.points.size(); ++i) {
+      if (table_.points[i].fold == 0) continue;
+      seen.points.push_back(table_.points[i]);
+      rows.push_back(static_cast<Eigen::Index>(i));
+    }
+    const Eigen::VectorXd left_of_seen = left(rows);
+    return !ask_remainder(seen, model_.ratio, left_of_seen).follows.empty();
+  }
+
   /// A selection among fewer candidates, about its own state; wrong signs are banned in it alone.
   Outcome settled(std::vector<bool> banned) {
     const std::vector<bool> kept_banned = banned_;
@@ -314,14 +342,16 @@ class Loop {
     r.before = drive_errors(here, value_, value_);
     r.after = drive_errors(here, left, left_training);
     const double n = static_cast<double>(table_.points.size());
-    r.noise = r.after.rms * std::sqrt(n / std::max(1.0, n - outcome.size()));
+    const BenchRemainder remainder = ask_remainder(table_, model_.ratio, left);
+    r.noise = remainder.follows.empty() ? r.after.rms * std::sqrt(n / std::max(1.0, n - outcome.size()))
+                                        : remainder.noise_nm;
     r.structure_p_value = outcome.discovery.first_p_value;
     r.structure_left_p_value = outcome.discovery.p_left;
     r.effects = describe_drive_effects(
-        {here, all, training, value_, outcome.discovery.chosen, candidates_, exchangeable_});
+        {here, all, training, value_, remainder, outcome.discovery.chosen, candidates_, exchangeable_});
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(table_, r.effects);
-    judge(outcome, r);
+    judge(outcome, remainder, r);
     done.before_nm.assign(value_.data(), value_.data() + value_.size());
     done.after_nm.assign(left.data(), left.data() + left.size());
     done.effects = effects;
@@ -344,7 +374,7 @@ class Loop {
         r.not_observable.push_back(family.id);
   }
 
-  void judge(const Outcome& outcome, LoopResult& r) {
+  void judge(const Outcome& outcome, const BenchRemainder& remainder, LoopResult& r) {
     constexpr double kLeft = 0.01;
     const DiscoveryResult& d = outcome.discovery;
     const bool left = d.p_left <= kLeft && d.likest_left >= 0;
@@ -356,6 +386,11 @@ class Loop {
       r.structure_left = "what is left looks most like " + words_for(model_, candidates_[d.likest_left]);
     else
       r.structure_left = "nothing beyond the measurement's own noise was found";
+    if (!remainder.follows.empty()) {
+      r.verdict = Verdict::kPartlyExplained;
+      r.structure_left_p_value = std::min(r.structure_left_p_value, remainder.p_value);
+      r.structure_left = remainder.follows;
+    }
     judge_impossible(r);
   }
 

@@ -206,7 +206,8 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
 }
 
 LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorXd& left) {
-  constexpr double kHighest = 14.0;     // above the meshes of common trains
+  constexpr double kHighest = 14.0;     // of all orders
+  constexpr double kHighestWhole = 96.0;
   constexpr double kMostLines = 3e5;
   const BenchTable& table = context.table;
   LikeliestOrder best;
@@ -234,6 +235,15 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
     phase.push_back(std::polar(1.0, first * a));
     turn.push_back(std::polar(1.0, step * a));
   }
+  const auto judge = [&](double order, double c, double s, double cc, double cs) {
+    ++lines;
+    const double ss = n - cc, determinant = cc * ss - cs * cs;
+    if (!(determinant > 1e-3 * n * n)) return;
+    const double power = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
+    if (power <= highest) return;
+    highest = power;
+    best.order = order;
+  };
   for (double order = first; order <= kHighest; order = first + step * lines) {
     double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
     for (std::size_t i = 0; i < angle.size(); ++i) {
@@ -245,13 +255,19 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
       const double u = turn[i].real(), v = turn[i].imag();
       phase[i] = {x * u - y * v, x * v + y * u};
     }
-    ++lines;
-    const double ss = n - cc, determinant = cc * ss - cs * cs;
-    if (!(determinant > 1e-3 * n * n)) continue;
-    const double power = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
-    if (power <= highest) continue;
-    highest = power;
-    best.order = order;
+    judge(order, c, s, cc, cs);
+  }
+  // Poles, slots and teeth of the input's shaft: whole orders beyond.
+  for (double order = std::floor(kHighest) + 1.0; order <= kHighestWhole; order += 1.0) {
+    double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
+    for (std::size_t i = 0; i < angle.size(); ++i) {
+      const double x = std::cos(order * angle[i]), y = std::sin(order * angle[i]);
+      c += size[i] * x;
+      s += size[i] * y;
+      cc += x * x;
+      cs += x * y;
+    }
+    judge(order, c, s, cc, cs);
   }
   // Every line tried could have been the highest.
   const double single = std::pow(std::max(0.0, 1.0 - highest / sum), 0.5 * (n - 3.0));

@@ -45,7 +45,12 @@ class Describer {
       if (effect.family->named) {
         found_.push_back(common(e));
         add_parameters(found_.back(), e);
-        if (is_a_guess(found_.back())) take_the_name(found_.back(), e);
+        if (is_a_guess(found_.back()))
+          take_the_name(found_.back(), e,
+                        "a loss at the input of which these data do not say whether it follows load, speed or "
+                        "neither");
+        else if (leaves_too_much(e))
+          take_the_name(found_.back(), e, "a change of the torque beside which more of its size is left unexplained");
         members_.push_back({e});
         continue;
       }
@@ -113,8 +118,24 @@ class Describer {
     return follows.size() >= kTooMany;
   }
 
-  /// A loss of a size, without a name: the names it could have stay in confounded_with.
-  void take_the_name(FoundEffect& found, int e) const {
+  /// True where what is left holds structure of a good part of the effect's own size: a form that does not
+  /// follow the data is no ground for a name.
+  [[nodiscard]] bool leaves_too_much(int e) const {
+    constexpr double kPart = 0.25;
+    const Eigen::VectorXd& structure = s_.remainder.structure_nm;
+    if (structure.size() == 0) return false;
+    const Eigen::VectorXd moved = s_.all.explained_nm(e);
+    double left = 0.0, own = 0.0;
+    for (Eigen::Index i = 0; i < moved.size(); ++i) {
+      const double sigma = s_.context.table.points[static_cast<std::size_t>(i)].sigma_nm;
+      left += structure[i] * structure[i] / (sigma * sigma);
+      own += moved[i] * moved[i] / (sigma * sigma);
+    }
+    return left > kPart * kPart * own;
+  }
+
+  /// Of a size, without a name: the names it could have stay in confounded_with.
+  void take_the_name(FoundEffect& found, int e, const std::string& why) const {
     const Eigen::VectorXd moved = s_.all.explained_nm(e);
     double sum = 0.0;
     for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
@@ -126,7 +147,7 @@ class Describer {
     const double share = main.value != 0.0 ? 0.5 * (main.high - main.low) / std::abs(main.value) : 0.0;
     Term term{.shape = {0.0, 0.0, 0.0, 0.0, 0.0}, .cos = size, .half_width = size * share};
     term.keys.emplace_back("like", found.id);
-    term.text = "a loss at the input of which these data do not say whether it follows load, speed or neither";
+    term.text = why;
     found.description = term.text + "; it looks like " + found.id;
     found.confounded_with.insert(found.confounded_with.begin(), found.id);
     found.id = "unnamed";

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/result/loop_result.h"
 
@@ -17,6 +18,7 @@ struct DriveSources {
   const DriveFit& all;                ///< fitted to all rows
   const DriveFit& training;           ///< the same effects fitted without the hold-out
   const Eigen::VectorXd& value;
+  const BenchRemainder& remainder;    ///< what the fit to all rows leaves
   const std::vector<ChosenGroup>& chosen;  ///< of the engine, in the order of the effects
   const std::vector<DriveEffect>& candidates;
   /// id -> ids that predict as well in its place.

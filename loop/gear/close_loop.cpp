@@ -9,6 +9,7 @@
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/iso_1328.h"
 #include "trueflank/loop/gear/part_frame.h"
+#include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/several_parts.h"
@@ -90,8 +91,15 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
       shape_uncertainty(geometry, loop.table(), loop.patches(), fit);
   result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
                                      result.not_observable, makings, loop.unseen(),
-                                     explained_by(result.before, result.after)});
+                                     explained_by(result.before, result.after), {}, &loop.table()});
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
+  for (int e = 0; e < static_cast<int>(loop.effects().size()); ++e)
+    if (!orders_alike(geometry, loop.table(), fit, e).empty()) {
+      result.measure_next.push_back(
+          "trace more teeth, best all of them: those traced cannot tell whether what is found is "
+          "alike on all teeth or comes in waves around the gear");
+      break;
+    }
   if (loop.structure_is_left())
     result.verdict = Verdict::kPartlyExplained;
   else
@@ -116,7 +124,7 @@ GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, 
   std::vector<float> unused;
   PointFit(geometry, loop.measured(), loop.patches(), {}).residuals(done.before_um, unused);
   fit.residuals(unused, done.after_um);
-  done.table = loop.table();
+  done.table = std::move(loop).take_table();
   find_largest_errors(done);
   const Iso1328 iso = iso_1328(done);
   done.result.iso_1328 = inspection_figures(iso);

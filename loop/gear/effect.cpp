@@ -93,9 +93,9 @@ std::vector<Effect> candidate_effects(const FlankGeometry& geometry,
 }
 
 double normal_part(const FlankGeometry& geometry, const Place& place, double ux, double uy) {
-  const double nt =
-      place.surface == Surface::kFlank ? std::cos(geometry.base_helix_rad()) : 1.0;
-  return nt * (ux * std::cos(place.normal_rad) + uy * std::sin(place.normal_rad));
+  const double nt = place.surface == Surface::kFlank ? geometry.cos_base_helix() : 1.0;
+  const auto& [nx, ny] = place.normal_direction;
+  return nt * (ux * nx + uy * ny);
 }
 
 }  // namespace trueflank::loop

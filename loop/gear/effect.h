@@ -52,6 +52,10 @@ struct EffectFamily : EffectFacts {
   std::function<void(const FlankGeometry&, const Place&, const EffectShape&, double* columns)> evaluate;
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
+  /// Varies within a patch: its mean there is taken over single values. Empty: it does not.
+  std::function<bool(const FlankGeometry&, const EffectShape&)> is_fine = {};
+  /// Shapes beside one, tried on the single values once it is chosen.
+  std::function<std::vector<EffectShape>(const FlankGeometry&, const EffectShape&)> nearby = {};
   /// Where the k-th shape value still means what its name says.
   std::function<std::pair<double, double>(const FlankGeometry&, std::size_t k)> shape_limits = {};
   /// @}
@@ -65,6 +69,8 @@ struct EffectFamily : EffectFacts {
   /// never is. From the second order on.
   double doubt_share = 0.0;
   bool doubted_by_any_order = false;
+  bool of_traces_only = false;  ///< scans cannot have it
+  bool tells_order_along_profile = false;  ///< few teeth tell its orders apart
   bool shows_in_sizes = false;    ///< span, over pins, diameters tell it
   int penalty_of_traces = 0;      ///< on top of the preference where only traces were measured
   std::function<double(const EffectShape&)> complexity = {};  ///< among equals the simplest wins
@@ -99,6 +105,7 @@ struct Effect {
   FlankChoice flank = FlankChoice::kBoth;
   EffectShape shape;
 
+  [[nodiscard]] bool operator==(const Effect&) const = default;
   [[nodiscard]] int columns() const { return family->columns(shape); }
   /// Columns at a place; zero where the effect does not act on that flank.
   void evaluate(const FlankGeometry& geometry, const Place& place, double* values) const;

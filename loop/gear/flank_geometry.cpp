@@ -9,6 +9,15 @@
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank::loop {
+namespace {
+
+Place directed(Place place) {
+  place.polar_direction = {std::cos(place.polar_rad), std::sin(place.polar_rad)};
+  place.normal_direction = {std::cos(place.normal_rad), std::sin(place.normal_rad)};
+  return place;
+}
+
+}  // namespace
 
 FlankGeometry::FlankGeometry(const ToothProfile& profile, double face_width_mm,
                              double bore_radius_mm, bool herringbone)
@@ -26,6 +35,11 @@ FlankGeometry::FlankGeometry(const ToothProfile& profile, double face_width_mm,
       root_roll_(profile.root_form_roll_length_mm()),
       tip_roll_(profile.tip_form_roll_length_mm()),
       twist_per_mm_(std::tan(base_helix_) / base_radius_),
+      cos_base_helix_(std::cos(base_helix_)),
+      sin_base_helix_(std::sin(base_helix_)),
+      tip_half_rad_(tooth_half_angle_rad(gear_, std::max(tip_radius_, base_radius_))),
+      root_half_rad_(kPi / gear_.teeth -
+                     tooth_half_angle_rad(gear_, std::max(root_radius_, base_radius_))),
       herringbone_(herringbone) {
   TRUEFLANK_EXPECTS(face_width_mm > 0.0);
 }
@@ -57,7 +71,7 @@ double FlankGeometry::twist_rad(double z_mm) const {
 double FlankGeometry::normal_z(const Place& place) const {
   if (place.surface != Surface::kFlank) return 0.0;
   const double hand = herringbone_ && place.z_mm > 0.5 * face_width_ ? -1.0 : 1.0;
-  return -hand * place.side * std::sin(base_helix_);
+  return -hand * place.side * sin_base_helix_;
 }
 
 double FlankGeometry::roll_at_radius_mm(double radius_mm) const {
@@ -65,6 +79,10 @@ double FlankGeometry::roll_at_radius_mm(double radius_mm) const {
 }
 
 Place FlankGeometry::on_flank(int tooth, int side, double roll_mm, double z_mm) const {
+  return directed(flank_place(tooth, side, roll_mm, z_mm));
+}
+
+Place FlankGeometry::flank_place(int tooth, int side, double roll_mm, double z_mm) const {
   Place place;
   place.surface = Surface::kFlank;
   place.tooth = tooth;
@@ -83,6 +101,11 @@ Place FlankGeometry::on_flank(int tooth, int side, double roll_mm, double z_mm) 
 
 Place FlankGeometry::on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
                                double z_mm) const {
+  return directed(circle_place(surface, tooth, polar_rad, radius_mm, z_mm));
+}
+
+Place FlankGeometry::circle_place(Surface surface, int tooth, double polar_rad, double radius_mm,
+                                  double z_mm) const {
   Place place;
   place.surface = surface;
   place.tooth = tooth;
@@ -97,6 +120,23 @@ Place FlankGeometry::on_circle(Surface surface, int tooth, double polar_rad, dou
 }
 
 PlacedPoint FlankGeometry::nearest_flank(const std::array<double, 3>& p, double margin) const {
+  PlacedPoint placed = undirected_flank(p, margin);
+  placed.place = directed(placed.place);
+  return placed;
+}
+
+PlacedPoint FlankGeometry::nearest(const std::array<double, 3>& p, double reach_mm) const {
+  PlacedPoint placed = undirected(p, reach_mm);
+  placed.place = directed(placed.place);
+  return placed;
+}
+
+double FlankGeometry::nearest_distance_mm(const std::array<double, 3>& p, double reach_mm) const {
+  const PlacedPoint placed = undirected(p, reach_mm);
+  return placed.place.surface == Surface::kNone ? kNaN : std::abs(placed.distance_mm);
+}
+
+PlacedPoint FlankGeometry::undirected_flank(const std::array<double, 3>& p, double margin) const {
   PlacedPoint result;
   const double radius = std::hypot(p[0], p[1]);
   const double polar = std::atan2(p[1], p[0]);
@@ -116,16 +156,15 @@ PlacedPoint FlankGeometry::nearest_flank(const std::array<double, 3>& p, double 
   const double involute = roll - base_radius_ * std::atan2(roll, base_radius_);
   const double transverse =
       base_radius_ * (side * offset - half_angle_) + sense_ * involute;
-  result.place = on_flank(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
-  result.distance_mm =
-      transverse * std::cos(base_helix_) - designed_deviation_mm(result.place);
+  result.place = flank_place(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
+  result.distance_mm = transverse * cos_base_helix_ - designed_deviation_mm(result.place);
   const double u = profile_coordinate(result.place.roll_mm);
   if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;
   return result;
 }
 
-PlacedPoint FlankGeometry::nearest(const std::array<double, 3>& p, double reach_mm) const {
-  PlacedPoint flank = nearest_flank(p, 0.03);
+PlacedPoint FlankGeometry::undirected(const std::array<double, 3>& p, double reach_mm) const {
+  PlacedPoint flank = undirected_flank(p, 0.03);
   if (flank.place.surface == Surface::kFlank && std::abs(flank.distance_mm) < reach_mm)
     return flank;
   const double radius = std::hypot(p[0], p[1]);
@@ -134,18 +173,15 @@ PlacedPoint FlankGeometry::nearest(const std::array<double, 3>& p, double reach_
   const double from_tooth = std::abs(centred_rad(polar - twist_rad(p[2]), pitch));
   PlacedPoint result;
   result.place.surface = Surface::kNone;
-  const double tip_half = tooth_half_angle_rad(gear_, std::max(tip_radius_, base_radius_));
-  const double root_half =
-      0.5 * pitch - tooth_half_angle_rad(gear_, std::max(root_radius_, base_radius_));
   const auto place_on = [&](Surface surface, double nominal) {
-    result.place = on_circle(surface, flank.place.tooth, polar, nominal, p[2]);
+    result.place = circle_place(surface, flank.place.tooth, polar, nominal, p[2]);
     const double outward = surface == Surface::kBore ? -1.0 : sense_;
     result.distance_mm = outward * (radius - nominal);
   };
-  if (std::abs(radius - tip_radius_) < reach_mm && from_tooth < 0.7 * tip_half)
+  if (std::abs(radius - tip_radius_) < reach_mm && from_tooth < 0.7 * tip_half_rad_)
     place_on(Surface::kTip, tip_radius_);
   else if (std::abs(radius - root_radius_) < reach_mm &&
-           0.5 * pitch - from_tooth < std::min(0.25 * root_half, 0.05 * pitch))
+           0.5 * pitch - from_tooth < std::min(0.25 * root_half_rad_, 0.05 * pitch))
     place_on(Surface::kRoot, root_radius_);
   else if (bore_radius_ > 0.0 && std::abs(radius - bore_radius_) < reach_mm)
     place_on(Surface::kBore, bore_radius_);

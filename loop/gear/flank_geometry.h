@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "trueflank/geometry/tooth_profile.h"
 #include "trueflank/train/gear_train.h"
@@ -10,7 +11,7 @@
 // exact signed distance. Frame: the gear's own; tooth 1 on +x at z = 0, face from 0 to face width.
 namespace trueflank::loop {
 
-enum class Surface { kFlank, kTip, kRoot, kBore, kNone };
+enum class Surface : std::uint8_t { kFlank, kTip, kRoot, kBore, kNone };
 
 /// A place on the surface as designed, with its outward normal.
 struct Place {
@@ -23,6 +24,8 @@ struct Place {
   double polar_rad = 0.0;      ///< of the point
   double normal_rad = 0.0;     ///< direction of the transverse part of the outward normal
   double centre_rad = 0.0;     ///< 2 pi (tooth - 1) / z: the tooth's angle at z = 0
+  /// Cosine and sine of polar_rad and of normal_rad: every fit asks every place for them.
+  std::array<double, 2> polar_direction{1.0, 0.0}, normal_direction{1.0, 0.0};
 };
 
 /// Place nearest to a measured point, and how far the point lies outside the material there.
@@ -52,6 +55,7 @@ class FlankGeometry {
   [[nodiscard]] double bore_radius_mm() const { return bore_radius_; }
   [[nodiscard]] double face_width_mm() const { return face_width_; }
   [[nodiscard]] double base_helix_rad() const { return base_helix_; }
+  [[nodiscard]] double cos_base_helix() const { return cos_base_helix_; }
   [[nodiscard]] double base_half_angle() const { return half_angle_; }
   [[nodiscard]] double pressure_angle_rad() const { return pressure_angle_; }
   [[nodiscard]] double root_form_roll_mm() const { return root_roll_; }
@@ -81,6 +85,9 @@ class FlankGeometry {
                                           double margin = 0.0) const;
   /// Nearest surface within `reach_mm`: flank, else tip, root or bore, else kNone.
   [[nodiscard]] PlacedPoint nearest(const std::array<double, 3>& point_mm, double reach_mm) const;
+  /// Size of the distance that `nearest` tells; NaN where it finds no surface.
+  [[nodiscard]] double nearest_distance_mm(const std::array<double, 3>& point_mm,
+                                           double reach_mm) const;
   /// Roll length at which a ball or pin in a gap touches, and the pressure angle at its centre.
   struct BallContact {
     double roll_mm = 0.0, centre_angle_rad = 0.0;
@@ -88,10 +95,18 @@ class FlankGeometry {
   [[nodiscard]] BallContact ball_contact(double diameter_mm) const;
 
  private:
+  [[nodiscard]] Place flank_place(int tooth, int side, double roll_mm, double z_mm) const;
+  [[nodiscard]] Place circle_place(Surface surface, int tooth, double polar_rad, double radius_mm,
+                                   double z_mm) const;
+  [[nodiscard]] PlacedPoint undirected_flank(const std::array<double, 3>& point_mm,
+                                             double margin) const;
+  [[nodiscard]] PlacedPoint undirected(const std::array<double, 3>& point_mm,
+                                       double reach_mm) const;
   Gear gear_;
   double sense_, base_radius_, reference_radius_, tip_radius_, root_radius_, bore_radius_;
   double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;
-  double twist_per_mm_;
+  double twist_per_mm_, cos_base_helix_, sin_base_helix_;
+  double tip_half_rad_, root_half_rad_;  ///< of the tooth at the tip, of the gap at the root
   bool herringbone_;
   FlankDeviation designed_ = {};
   double edge_chamfer_ = 0.0;

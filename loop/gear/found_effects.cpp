@@ -9,6 +9,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
@@ -148,11 +149,21 @@ class Describer {
     for (const int e : members) with[e] = false;
     found.held_out_gain =
         sources_.fit.errors(with).held_out_rms_um - full.held_out_rms_um;
+    if (sources_.table != nullptr)
+      found.orders_alike =
+          orders_alike(sources_.geometry, *sources_.table, sources_.fit, members.front());
     found.sentence = sentence(found, members.front());
     found.sure = sure_words(found.p_value, found.confounded_with);
   }
 
   std::string sentence(const FoundEffect& found, int effect) const {
+    std::string text = plain_sentence(found, effect);
+    if (found.orders_alike.empty()) return text;
+    return text + "; the " + std::to_string(traced_teeth(*sources_.table).size()) +
+           " teeth traced would show " + waves_in_words(found.orders_alike) + " alike: the simplest is told";
+  }
+
+  std::string plain_sentence(const FoundEffect& found, int effect) const {
     const EffectFamily& family = *sources_.fit.effects()[effect].family;
     if (found.named && family.sentence)
       return family.sentence(sources_.geometry, found) + first_action(family.correction);
@@ -227,7 +238,7 @@ std::string with_shape(std::string text, const Effect& effect) {
 
 std::string words_for(const Effect& effect) {
   if (effect.family->words) return effect.family->words(effect.shape, effect.flank);
-  const bool form = effect.is_term() && !effect.family->form_word.empty();
+  const bool form = !effect.family->named && !effect.family->form_word.empty();
   return with_shape(form ? effect.family->description : effect.family->id, effect);
 }
 

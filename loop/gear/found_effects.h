@@ -22,6 +22,8 @@ struct EffectSources {
   double explained = kNaN;       ///< share of the variance that shares add up to; NaN: of this fit
   /// Which of the fit's effects to describe; empty: all.
   std::vector<bool> only = {};
+  /// What was measured: which waves the traced teeth cannot tell apart; nullptr: is not asked.
+  const Observations* table = nullptr;
 };
 
 /// Value of every parameter for the coefficients of an effect.

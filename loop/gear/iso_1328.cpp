@@ -214,9 +214,12 @@ Iso1328 iso_1328(const GearLoop& closed) {
 
 std::vector<InspectionFigure> inspection_figures(const Iso1328& evaluated) {
   std::vector<InspectionFigure> figures;
-  for (const Iso1328Row& row : evaluated.rows)
-    if (!std::isnan(row.value_um))
-      figures.push_back({row.symbol, row.flank, row.what, row.value_um, row.accuracy_class});
+  for (const Iso1328Row& row : evaluated.rows) {
+    if (std::isnan(row.value_um)) continue;
+    figures.push_back({row.symbol, row.flank, row.what, row.value_um, row.accuracy_class, {}});
+    for (int k = 1; k <= 11 && evaluated.in_scope && !std::isnan(row.bracket_um); ++k)
+      figures.back().limits_um.push_back(iso_1328_tolerance_um(row.bracket_um, k));
+  }
   return figures;
 }
 

@@ -162,6 +162,10 @@ class TableBuilder {
     const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1) + chamfer;
     const double b = geometry_.face_width_mm();
     const MeasuredLands lands(geometry_, scan, pose, reach);
+    const std::size_t most = table.rows.size() + scan.points_mm.size();
+    table.rows.reserve(most);  // growing would leave up to as much again unused
+    table.places.reserve(table.places.size() + scan.points_mm.size());
+    table.points_mm.reserve(most);
     std::size_t unused = 0;
     for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
       const auto p = pose(scan.points_mm[i]);
@@ -194,8 +198,9 @@ class TableBuilder {
     const Eigen::Vector3d m = pose.rotation * Eigen::Vector3d(n[0], n[1], n[2]);
     const double nz = geometry_.normal_z(place);
     const double nt = std::sqrt(1.0 - nz * nz);
-    return nt * (m.x() * std::cos(place.normal_rad) + m.y() * std::sin(place.normal_rad)) +
-               nz * m.z() > 0.7;
+    return nt * (m.x() * place.normal_direction[0] + m.y() * place.normal_direction[1]) +
+               nz * m.z() >
+           0.7;
   }
 
   static ObservationKind kind_of(Surface surface) {

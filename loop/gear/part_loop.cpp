@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/part_loop.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <set>
 
 #include "trueflank/loop/discovery/distributions.h"
@@ -28,11 +25,19 @@ PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options op
       measured_(std::move(table)),
       table_(measured_),
       candidates_(candidate_effects(geometry, options_.declared, options_.makings)) {
+  const bool scanned = !measured_.points_mm.empty();
+  std::erase_if(candidates_,
+                [&](const Effect& effect) { return scanned && effect.family->of_traces_only; });
   banned_.assign(candidates_.size(), false);
 }
 
-void PartLoop::run() {
+void PartLoop::divide_into_patches() {
   patches_ = make_patches(geometry_, table_);
+  problem_ = {};
+}
+
+void PartLoop::run() {
+  divide_into_patches();
   ban_what_cannot_be_seen();
   unseen_ = banned_;
   ban_given();
@@ -49,6 +54,7 @@ void PartLoop::run() {
   drop_impossible();
   drop_what_mends_a_shape();
   join_flanks();
+  if (scan_for_more) tell_parts_of_a_form();
   if (!is_rounding() && !options_.joined) look_at_neighbours();
   veto();
   if (scan_for_more) remainder_ = remainder_of(effects_, RemainderOf::kAll);
@@ -63,224 +69,6 @@ void PartLoop::explain() {
     again = ban_misnamed() || again;
     again = linearise() || again;
     if (!again) break;
-  }
-}
-
-/// Asked for the same effects again, the answer is kept.
-const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Effect>& effects,
-                                                            RemainderOf which) {
-  const auto same = [](const Effect& a, const Effect& b) {
-    return a.family == b.family && a.flank == b.flank && a.shape == b.shape;
-  };
-  if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
-                                  kept_.effects.end(), same)) {
-    kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
-    std::vector<float> before_um;
-    PointFit(geometry_, table_, patches_, effects).residuals(before_um, kept_.row_um);
-  }
-  auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
-  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, kept_.row_um, which);
-  return *findings;
-}
-
-/// Forms that the data as they are show, so that a sector or a step stands beside the waves that
-/// would otherwise imitate it: candidates like all others.
-void PartLoop::nominate() {
-  for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
-    if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
-      continue;
-    if (name_like(*finding.effect) != nullptr) continue;
-    candidates_.push_back(*finding.effect);
-    banned_.push_back(false);
-    unseen_.push_back(false);
-  }
-}
-
-/// The effect with a name that does nearly the same on these data, the simplest of several; none: nullptr.
-const Effect* PartLoop::name_like(const Effect& form) const {
-  constexpr double kNearly = 0.9;
-  std::vector<Effect> effects{form};
-  std::vector<std::size_t> group;
-  for (std::size_t g = 0; g < candidates_.size(); ++g)
-    if (candidates_[g].family->named && !candidates_[g].family->local && !banned_[g] &&
-        candidates_[g].columns() == form.columns() && (form.columns() == 1 || candidates_[g].order() == form.order())) {
-      effects.push_back(candidates_[g]);
-      group.push_back(g);
-    }
-  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
-  Eigen::MatrixXd columns = problem.candidates.cast<double>();
-  std::map<int, std::pair<Eigen::VectorXd, double>> zeros;
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    auto& [sum, weight] = zeros[problem.zero[i]];
-    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns.cols());
-    sum += problem.weight[i] * columns.row(i).transpose();
-    weight += problem.weight[i];
-  }
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    const auto& [sum, weight] = zeros[problem.zero[i]];
-    columns.row(i) -= (sum / weight).transpose();
-    columns.row(i) *= std::sqrt(problem.weight[i]);
-  }
-  const Eigen::VectorXd norms = columns.colwise().norm();
-  const auto is_alike = [&](std::size_t effect) {
-    for (Eigen::Index k = 0; k < form.columns(); ++k) {
-      const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
-      if (!(std::abs(columns.col(k).dot(columns.col(other))) > kNearly * norms[k] * norms[other])) return false;
-    }
-    return true;
-  };
-  const Effect* name = nullptr;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const Effect& candidate = candidates_[group[i]];
-    if (is_alike(i + 1) && (name == nullptr || candidate.order() < name->order())) name = &candidate;
-  }
-  return name;
-}
-
-/// The finding enters the model, and all else is chosen anew beside it.
-void PartLoop::take_up(const RemainderFinding& finding) {
-  options_.given.push_back(*finding.effect);
-  given_p_values_.push_back(finding.p_value);
-  ban_given();
-}
-
-bool PartLoop::take_up_remainder() {
-  constexpr int kAtOnce = 4;
-  std::vector<Effect> effects = effects_;
-  const auto known = [&](const Effect& found) {
-    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) {
-      return e.family == found.family && e.flank == found.flank && e.shape == found.shape;
-    });
-  };
-  const auto take_first = [&](RemainderOf which, bool local) {
-    const std::vector<RemainderFinding> findings = remainder_of(effects, which);
-    for (RemainderFinding finding : findings) {
-      if (!finding.effect || finding.local != local) continue;
-      // what a name says is told by its name
-      if (const Effect* name = local ? nullptr : name_like(*finding.effect)) finding.effect = *name;
-      if (known(*finding.effect)) continue;
-      take_up(finding);
-      effects.push_back(*finding.effect);
-      return true;
-    }
-    return false;
-  };
-  int taken = 0;
-  while (taken < kAtOnce && take_first(RemainderOf::kTraining, false)) ++taken;
-  // What stands on one tooth cannot be learnt from others: from all the data.
-  while (taken < kAtOnce && take_first(RemainderOf::kAll, true)) ++taken;
-  return taken > 0;
-}
-
-/// Forms that a better one, taken up later, made idle. True where there were any.
-bool PartLoop::drop_idle_forms() {
-  constexpr double kIdle = 25.0;  // chi-square: five standard errors
-  bool any = false;
-  while (!given_p_values_.empty()) {
-    const double full = PointFit(geometry_, table_, patches_, effects_).residual_square();
-    const std::size_t first = options_.given.size() - given_p_values_.size();
-    std::size_t idle = 0;
-    double least = 1e300;
-    for (std::size_t e = first; e < options_.given.size(); ++e) {
-      std::vector<Effect> without = effects_;
-      without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
-      const double loss = PointFit(geometry_, table_, patches_, without).residual_square() - full;
-      if (loss >= least) continue;
-      least = loss;
-      idle = e;
-    }
-    if (least > kIdle) return any;
-    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(idle));
-    options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(idle));
-    given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(idle - first));
-    any = true;
-  }
-  return any;
-}
-
-/// Bans a family on these flanks; true where that is new.
-bool PartLoop::ban_alike(const Effect& effect) {
-  bool any = false;
-  for (std::size_t g = 0; g < candidates_.size(); ++g)
-    if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank &&
-        !banned_[g])
-      banned_[g] = any = true;
-  return any;
-}
-
-/// A name must hold whether or not forms without a name stand beside it: where its size hangs on
-/// them it is a part of the description, no cause. True where any was banned.
-bool PartLoop::ban_what_forms_explain() {
-  constexpr double kHangs = 0.25;
-  const auto is_form = [&](const Effect& e) {
-    return e.is_term() && e.family->shapes && e.family->shapes(geometry_).empty();
-  };
-  std::vector<Effect> without;
-  std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),
-               [&](const Effect& e) { return !is_form(e); });
-  if (without.size() == effects_.size()) return false;
-  const PointFit full(geometry_, table_, patches_, effects_);
-  const PointFit bare(geometry_, table_, patches_, without);
-  bool any = false;
-  int at = 0;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const Effect& effect = effects_[e];
-    if (is_form(effect)) continue;
-    const int own = at++;
-    if (!effect.family->named || effect.family->local) continue;
-    const auto b =
-        full.coefficients().segment(full.first_column(static_cast<int>(e)), effect.columns());
-    const auto b0 = bare.coefficients().segment(bare.first_column(own), effect.columns());
-    if ((b - b0).norm() <= kHangs * std::max(b.norm(), b0.norm())) continue;
-    any = ban_alike(effect) || any;
-    // What could not be told from it is no better.
-    for (const int group : discovery_.chosen[e].confounded)
-      if (candidates_[group].family->named) any = ban_alike(candidates_[group]) || any;
-  }
-  return any;
-}
-
-/// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
-/// one that harms most first. A weak effect that is true may cost a little there by its own error; and of
-/// what stands on one tooth the hold-out knows nothing: these go only where the error would rise.
-void PartLoop::veto() {
-  constexpr double kClearly = 0.98;
-  const std::size_t told = options_.given.size() - given_p_values_.size();
-  while (effects_.size() > told) {
-    const PointFit fit(geometry_, table_, patches_, effects_);
-    if (fit.held_out() == 0) return;
-    std::vector<bool> with(effects_.size(), true);
-    const double full = fit.errors(with).held_out_rms_um;
-    // Together they may harm where none does alone.
-    const double none = PointFit(geometry_, measured_, patches_, {}).errors({}).held_out_rms_um;
-    const bool rises = full > none;
-    double least = rises ? 1e300 : kClearly * full;
-    std::size_t worst = effects_.size();
-    for (std::size_t e = told; e < effects_.size(); ++e) {
-      if (effects_[e].family->local && !rises) continue;
-      with[e] = false;
-      const double error = fit.errors(with).held_out_rms_um;
-      with[e] = true;
-      if (error >= least) continue;
-      least = error;
-      worst = e;
-    }
-    if (worst == effects_.size()) return;
-    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(worst));
-    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(worst));
-    if (worst < options_.given.size()) {
-      options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(worst));
-      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(worst - told));
-    }
-    vetoed_ = true;
-    const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
-      return static_cast<bool>(effect.family->displacement_mm);
-    });
-    if (!body && !measured_.points_mm.empty()) {  // deviations about a displacement that is taken back
-      table_ = measured_;
-      patches_ = make_patches(geometry_, table_);
-      leave_out_across_steps();
-    }
   }
 }
 
@@ -322,8 +110,8 @@ void PartLoop::ban_what_cannot_be_seen() {
     along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
     along_face = along_face || scan || row.kind == ObservationKind::kHelix;
   }
-  // Between few teeth a wave of a higher order looks like one of a lower, or like what all share;
-  // those that are held out tell nothing.
+  // Between few teeth a wave of a higher order looks like one of a lower, or like what all share,
+  // with a name or without; those that are held out tell nothing.
   for (const Patches::Patch& patch : patches_.patches)
     if (patch.fold != 0 &&
         (patch.kind == ObservationKind::kHelix || patch.kind == ObservationKind::kProfile))
@@ -332,14 +120,16 @@ void PartLoop::ban_what_cannot_be_seen() {
   const auto aliases = [&](const Effect& effect) {
     const NeedsToBeSeen needs = effect.needs();
     const bool in_traces_only = needs.along_profile || needs.along_face || !whole_ring;
-    return !scanned && effect.is_term() && in_traces_only && traced > 0 &&
+    // A wave over the generating rotation differs along the profile.
+    return !scanned && !effect.family->tells_order_along_profile && in_traces_only && traced > 0 &&
            2.0 * effect.order() >= traced;
   };
   const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const NeedsToBeSeen needs = candidates_[g].needs();
     if ((needs.along_profile && !along_profile) || (needs.along_face && !along_face) ||
-        (needs.several_heights && !(highest > lowest + kSeveral)) || (needs.crossed && !crossed))
+        (needs.several_heights && !(highest > lowest + kSeveral)) || (needs.crossed && !crossed) ||
+        aliases(candidates_[g]))
       banned_[g] = true;
   }
 }
@@ -361,8 +151,21 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
   problem.nuisance.rightCols(fitted.candidates.cols()) = fitted.candidates.cast<double>();
 }
 
+/// Columns of candidates that stayed as they were are kept.
+const DiscoveryProblem& PartLoop::candidates_problem() {
+  if (problem_.groups.empty()) {
+    problem_ = make_problem(geometry_, table_, patches_, candidates_);
+  } else {
+    set_candidates(geometry_, patches_, problem_of_, candidates_, problem_);
+    for (std::size_t i = 0; i < patches_.patches.size(); ++i)
+      problem_.weight[static_cast<Eigen::Index>(i)] = patches_.patches[i].weight;
+  }
+  problem_of_ = candidates_;
+  return problem_;
+}
+
 void PartLoop::select() {
-  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, candidates_);
+  DiscoveryProblem problem = candidates_problem();
   if (!options_.given.empty())
     add_nuisance(problem, make_problem(geometry_, table_, patches_, options_.given));
   DiscoveryOptions options;
@@ -397,8 +200,13 @@ void PartLoop::leave_out_across_steps() {
 /// True where a shape moved noticeably.
 bool PartLoop::put_refined_shapes_on_the_grid() {
   const std::vector<Effect> chosen = effects_;
-  refine_shapes(geometry_, table_, patches_, effects_);
-  std::copy(options_.given.begin(), options_.given.end(), effects_.begin());
+  // What one moves to another makes room for: both in turn until neither moves.
+  constexpr int kMostTurns = 8;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    refine_shapes(geometry_, table_, patches_, effects_, options_.given.size());
+    if (!refine_nearby(geometry_, table_, patches_, effects_)) break;
+  }
+  std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
   leave_out_across_steps();
   bool moved = false;
   for (std::size_t i = options_.given.size(); i < effects_.size(); ++i) {
@@ -419,7 +227,7 @@ bool PartLoop::linearise() {
   const PointFit fit(geometry_, table_, patches_, effects_);
   const double change = linearise_at(geometry_, fit, measured_, table_);
   if (!(change > 0.02 * fit.noise_um())) return false;
-  patches_ = make_patches(geometry_, table_);
+  divide_into_patches();
   leave_out_across_steps();
   return true;
 }
@@ -484,103 +292,6 @@ bool PartLoop::ban_impossible() {
         banned_[g] = any = true;
   }
   return any;
-}
-
-/// What is still impossible in the end is not told.
-void PartLoop::drop_impossible() {
-  for (bool again = true; again;) {
-    again = false;
-    const PointFit fit(geometry_, table_, patches_, effects_);
-    for (std::size_t e = options_.given.size(); e < effects_.size() && !again; ++e) {
-      if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
-      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
-      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
-      again = true;
-    }
-  }
-}
-
-/// Beside an effect with a shape (where a relief starts, how wide a hollow is) a small one may have been chosen
-/// for what the shape's first value left. With the shape free it is nothing, and is not told.
-void PartLoop::drop_what_mends_a_shape() {
-  constexpr double kStandsOut = 3.5;  // standard errors: less is never found alone among so many candidates
-  const auto shaped = [](const Effect& e) { return e.family->shape_is_continuous && !e.family->shape_is_step; };
-  while (effects_.size() > 1 && std::any_of(effects_.begin(), effects_.end(), shaped)) {
-    const PointFit fit(geometry_, table_, patches_, effects_);
-    const Eigen::MatrixXd covariance = shape_uncertainty(geometry_, table_, patches_, fit).covariance;
-    std::size_t least = effects_.size();
-    double least_square = kStandsOut * kStandsOut;
-    for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
-      if (effects_[e].family->local) continue;
-      const int first = fit.first_column(static_cast<int>(e)), columns = effects_[e].columns();
-      const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
-      const Eigen::MatrixXd spread = covariance.block(first, first, columns, columns);
-      const double square = b.dot(spread.ldlt().solve(b)) / columns;
-      if (square >= least_square) continue;
-      least_square = square;
-      least = e;
-    }
-    if (least == effects_.size()) return;
-    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(least));
-    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least));
-    const std::vector<Effect> given(effects_.begin(),
-                                    effects_.begin() + static_cast<std::ptrdiff_t>(options_.given.size()));
-    refine_shapes(geometry_, table_, patches_, effects_);
-    std::copy(given.begin(), given.end(), effects_.begin());
-  }
-}
-
-namespace {
-
-/// The family that says on both flanks what this one says on one; nullptr: none does.
-const EffectFamily* on_both_flanks(const EffectFamily& family) {
-  if (!family.flank_only) return &family;
-  for (const EffectFamily& other : effect_library())
-    if (other.local && !other.flank_only && other.shape_names == family.shape_names) return &other;
-  return nullptr;
-}
-
-bool are_two_flanks_of_one(const Effect& a, const Effect& b) {
-  if (a.family != b.family || a.flank == b.flank || a.flank == FlankChoice::kBoth || b.flank == FlankChoice::kBoth)
-    return false;
-  constexpr double kSameShape = 0.03;
-  for (std::size_t k = 0; k < a.shape.size(); ++k)
-    if (a.family->shape_is_continuous ? std::abs(a.shape[k] - b.shape[k]) > kSameShape * std::abs(a.shape[k])
-                                      : a.shape[k] != b.shape[k])
-      return false;
-  return true;
-}
-
-}  // namespace
-
-/// An effect found on the left flanks and on the right ones, of one size, is one effect: of a tooth, too.
-void PartLoop::join_flanks() {
-  constexpr double kErrors = 3.0, kSameSize = 0.1;
-  const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b) {
-    for (int k = 0; k < effects_[a].columns(); ++k) {
-      const int at_a = fit.first_column(static_cast<int>(a)) + k, at_b = fit.first_column(static_cast<int>(b)) + k;
-      const double left = fit.coefficients()[at_a], right = fit.coefficients()[at_b];
-      const double spread = std::sqrt(fit.covariance()(at_a, at_a) + fit.covariance()(at_b, at_b));
-      if (std::abs(left - right) > std::max(kErrors * spread, 0.5 * kSameSize * std::abs(left + right))) return false;
-    }
-    return true;
-  };
-  for (std::size_t a = options_.given.size(); a < effects_.size(); ++a)
-    for (std::size_t b = a + 1; b < effects_.size(); ++b) {
-      const EffectFamily* both = on_both_flanks(*effects_[a].family);
-      if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b]) ||
-          !same_size(PointFit(geometry_, table_, patches_, effects_), a, b))
-        continue;
-      for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
-        effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
-      effects_[a].family = both;
-      effects_[a].flank = FlankChoice::kBoth;
-      discovery_.chosen[a].p_value = std::min(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
-      discovery_.chosen[a].group = -1;
-      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(b));
-      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(b));
-      b = a;
-    }
 }
 
 /// Single teeth once more with the hold-out: what stands in one tooth cannot be learnt from others.

@@ -35,6 +35,8 @@ class PartLoop {
   [[nodiscard]] const std::vector<bool>& unseen() const { return unseen_; }
   /// About the effects found: exact for finite displacements.
   [[nodiscard]] const Observations& table() const { return table_; }
+  /// The same at the end, without a copy.
+  [[nodiscard]] Observations take_table() && { return std::move(table_); }
   [[nodiscard]] const Observations& measured() const { return measured_; }
   [[nodiscard]] const Patches& patches() const { return patches_; }
   [[nodiscard]] std::vector<std::string> not_observable() const;
@@ -50,7 +52,10 @@ class PartLoop {
   void explain();
   void select();
   void nominate();
-  [[nodiscard]] const Effect* name_like(const Effect& form) const;
+  [[nodiscard]] bool is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const;
+  [[nodiscard]] std::optional<Effect> name_like(const RemainderFinding& finding,
+                                                const std::vector<Effect>& beside) const;
+  [[nodiscard]] std::vector<Effect> names_alike(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
   [[nodiscard]] bool ban_what_forms_explain();
@@ -66,11 +71,15 @@ class PartLoop {
   void drop_impossible();
   void drop_what_mends_a_shape();
   void join_flanks();
+  void tell_parts_of_a_form();
+  void tell_level_of_forms();
   void look_at_single_teeth();
   void look_at_sizes();
   void look_at_neighbours();
   [[nodiscard]] bool neighbours_share() const;
   void leave_out_across_steps();
+  void divide_into_patches();
+  [[nodiscard]] const DiscoveryProblem& candidates_problem();
 
   const FlankGeometry& geometry_;
   Options options_;
@@ -79,6 +88,8 @@ class PartLoop {
   Patches patches_;
   std::vector<Effect> candidates_;
   std::vector<bool> banned_, unseen_;
+  DiscoveryProblem problem_;         ///< of the candidates on the patches; without groups: not yet
+  std::vector<Effect> problem_of_;  ///< candidates as they stand in it
   DiscoveryResult
       discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;

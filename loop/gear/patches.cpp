@@ -7,6 +7,9 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <unordered_map>
+
+#include "trueflank/export/parallel_jobs.h"
 
 namespace trueflank::loop {
 namespace {
@@ -101,8 +104,17 @@ class PatchMaker {
   void gather() {
     struct Sum {
       double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
+      double z_low_mm = 1e300, z_high_mm = -1e300;
     };
-    std::map<Key, int> numbers;
+    struct HashOfKey {
+      std::size_t operator()(const Key& key) const {
+        std::size_t hash = 0;
+        for (const int part : key)
+          hash = (hash ^ static_cast<std::size_t>(part)) * 0x9E3779B97F4A7C15U;
+        return hash ^ (hash >> 32U);
+      }
+    };
+    std::unordered_map<Key, int, HashOfKey> numbers;
     std::vector<Sum> sums;
     result_.patch_of_row.assign(table_.rows.size(), -1);
     const double b = geometry_.face_width_mm();
@@ -133,18 +145,20 @@ class PatchMaker {
       sum.value += w * row.deviation_um;
       sum.roll += w * place.roll_mm;
       sum.z += w * place.z_mm;
-      sum.x += w * std::cos(place.polar_rad);
-      sum.y += w * std::sin(place.polar_rad);
+      sum.x += w * place.polar_direction[0];
+      sum.y += w * place.polar_direction[1];
       sum.count += 1.0;
-      Patches::Patch& patch = result_.patches[found->second];
-      patch.z_low_mm = std::min(patch.z_low_mm, place.z_mm);
-      patch.z_high_mm = std::max(patch.z_high_mm, place.z_mm);
+      if (!is_single(row.kind)) keep_sample(found->second, place, sum.count);
+      sum.z_low_mm = std::min(sum.z_low_mm, place.z_mm);
+      sum.z_high_mm = std::max(sum.z_high_mm, place.z_mm);
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
       Patches::Patch& patch = result_.patches[i];
       const Sum& s = sums[i];
       patch.mean_um = s.value / s.weight;
       patch.count = s.count;
+      patch.z_low_mm = s.z_low_mm;
+      patch.z_high_mm = s.z_high_mm;
       if (is_single(patch.kind)) continue;
       Place& place = patch.places.front().place;
       if (place.surface == Surface::kFlank)
@@ -153,6 +167,20 @@ class PatchMaker {
         place = geometry_.on_circle(place.surface, place.tooth, std::atan2(s.y, s.x),
                                     place.radius_mm, s.z / s.weight);
     }
+  }
+
+  /// Every value is as likely to be among those kept; `count` of them were there, this one
+  /// included.
+  void keep_sample(int patch, const Place& place, double count) {
+    constexpr std::size_t kMost = 8;
+    auto at = static_cast<std::size_t>(count) - 1;
+    if (at >= kMost) at = static_cast<std::size_t>(random_() % static_cast<std::uint64_t>(count));
+    if (at >= kMost) return;
+    std::vector<Place>& sample = result_.patches[static_cast<std::size_t>(patch)].sample;
+    if (at < sample.size())
+      sample[at] = place;
+    else
+      sample.push_back(place);
   }
 
   /// What may share its random error: a flank of a scan, a trace, a single value. Where there are few,
@@ -265,7 +293,8 @@ class PatchMaker {
     return robust_variance(squares);
   }
 
-  /// Of values one a tooth: second differences around the gear, each flank apart.
+  /// Of values one a tooth: second differences around the gear, each flank apart, but no more than the
+  /// values scatter: where every other tooth differs, neighbours are no neighbourhood.
   [[nodiscard]] double variance_around(const std::vector<int>& members) const {
     std::map<std::pair<int, int>, int> at;
     for (const int i : members) at[{keys_[i][4], keys_[i][3]}] = i;
@@ -277,7 +306,22 @@ class PatchMaker {
                        result_.patches[r->second].mean_um;
       squares.push_back(d * d / 6.0);
     }
-    return robust_variance(squares);
+    std::map<int, std::array<double, 3>> sums;  // of a flank: count, sum, squares
+    for (const auto& [key, i] : at) {
+      const double um = result_.patches[i].mean_um;
+      auto& [count, sum, square] = sums[key.first];
+      count += 1.0;
+      sum += um;
+      square += um * um;
+    }
+    double scatter = 0.0, degrees = 0.0;
+    for (const auto& [flank, s] : sums) {
+      scatter += s[2] - s[1] * s[1] / s[0];
+      degrees += s[0] - 1.0;
+    }
+    const double by_differences = robust_variance(squares);
+    constexpr double kEnough = 8.0;
+    return degrees < kEnough ? by_differences : std::min(by_differences, scatter / degrees);
   }
 
   void weigh() {
@@ -319,6 +363,7 @@ class PatchMaker {
   const Observations& table_;
   int face_parts_ = 8;
   std::vector<Key> keys_;
+  std::mt19937_64 random_{20260103};
   Patches result_;
 };
 
@@ -329,7 +374,7 @@ Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
 }
 
 NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observations& table)
-    : geometry_(geometry) {
+    : geometry_(geometry), cos_base_helix_(geometry.cos_base_helix()) {
   // Scans come first among the sources (make_observations).
   for (const bool free : table.pose_is_free) {
     first_of_source_.push_back(count_);
@@ -343,10 +388,11 @@ void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, 
   if (source >= static_cast<int>(first_of_source_.size())) return;
   if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot) return;
   double* c = values + first_of_source_[source];
-  const double x = place.radius_mm * std::cos(place.polar_rad);
-  const double y = place.radius_mm * std::sin(place.polar_rad);
-  const double nx = normal_part(geometry_, place, 1.0, 0.0);
-  const double ny = normal_part(geometry_, place, 0.0, 1.0);
+  const double x = place.radius_mm * place.polar_direction[0];
+  const double y = place.radius_mm * place.polar_direction[1];
+  const double transverse = place.surface == Surface::kFlank ? cos_base_helix_ : 1.0;
+  const double nx = transverse * place.normal_direction[0];
+  const double ny = transverse * place.normal_direction[1];
   c[0] += weight * (x * ny - y * nx);  // turn about the axis
   if (!free_of_source_[source]) return;
   const double nz = geometry_.normal_z(place);
@@ -357,16 +403,41 @@ void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, 
   c[4] += weight * (z * nx - x * nz);
 }
 
-DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
-                              const Patches& patches, const std::vector<Effect>& effects) {
-  const NuisanceColumns nuisance(geometry, table);
+namespace {
+
+constexpr std::size_t kCandidatesOfWork = 64;
+
+/// Writes the columns of one effect: its mean over every patch.
+void write_columns(const FlankGeometry& geometry, const Patches& patches, const Effect& effect,
+                   const CandidateGroup& group, DiscoveryProblem& problem) {
+  const bool fine = effect.family->is_fine && effect.family->is_fine(geometry, effect.shape);
+  double one[8], sum[8];
+  for (std::size_t i = 0; i < patches.patches.size(); ++i) {
+    const Patches::Patch& patch = patches.patches[i];
+    std::fill_n(sum, group.columns, 0.0);
+    const auto add = [&](const Place& place, double weight) {
+      effect.evaluate(geometry, place, one);
+      for (int k = 0; k < group.columns; ++k) sum[k] += weight * one[k];
+    };
+    if (fine && !patch.sample.empty())
+      for (const Place& place : patch.sample)
+        add(place, 1.0 / static_cast<double>(patch.sample.size()));
+    else
+      for (const WeightedPlace& place : patch.places) add(place.place, place.weight);
+    for (int k = 0; k < group.columns; ++k)
+      problem.candidates(static_cast<Eigen::Index>(i), group.first_column + k) =
+          static_cast<float>(sum[k]);
+  }
+}
+
+/// Groups of the effects, in order.
+std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<Effect>& effects) {
   const bool traces_only =
       std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
         return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kHelix ||
                patch.kind == ObservationKind::kIndex;
       });
-  DiscoveryProblem problem;
-  const auto n = static_cast<Eigen::Index>(patches.patches.size());
+  std::vector<CandidateGroup> groups;
   int columns = 0, kin = 0;
   const EffectFamily* before = nullptr;
   std::map<const EffectFamily*, int> local_families;
@@ -385,39 +456,70 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
       group.local_family =
           local_families.emplace(effect.family, static_cast<int>(local_families.size())).first->second;
     if (effect.family->shape_is_continuous) group.kin = 3 * kin + static_cast<int>(effect.flank);
-    problem.groups.push_back(group);
+    groups.push_back(group);
     columns += group.columns;
   }
+  return groups;
+}
+
+}  // namespace
+
+DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
+                              const Patches& patches, const std::vector<Effect>& effects) {
+  const NuisanceColumns nuisance(geometry, table);
+  DiscoveryProblem problem;
+  const auto n = static_cast<Eigen::Index>(patches.patches.size());
   if (std::any_of(patches.patches.begin(), patches.patches.end(),
                   [](const auto& patch) { return patch.fold == kAnchorFold; }))
     problem.anchor_fold = kAnchorFold;
   problem.value.resize(n);
   problem.weight.resize(n);
   problem.nuisance.setZero(n, nuisance.count());
-  problem.candidates.setZero(n, columns);
-  Eigen::VectorXd row(columns), one(8), pose(nuisance.count());
+  Eigen::VectorXd pose(nuisance.count());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Patches::Patch& patch = patches.patches[i];
+    const Patches::Patch& patch = patches.patches[static_cast<std::size_t>(i)];
     problem.value[i] = patch.mean_um;
     problem.weight[i] = patch.weight;
     problem.unit.push_back(patch.unit);
     problem.fold.push_back(patch.fold);
     problem.zero.push_back(patch.zero);
     problem.whole.push_back(patch.whole);
-    row.setZero();
     pose.setZero();
-    for (const WeightedPlace& place : patch.places) {
+    for (const WeightedPlace& place : patch.places)
       nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
-      for (std::size_t g = 0; g < effects.size(); ++g) {
-        effects[g].evaluate(geometry, place.place, one.data());
-        for (int k = 0; k < problem.groups[g].columns; ++k)
-          row[problem.groups[g].first_column + k] += place.weight * one[k];
-      }
-    }
-    problem.candidates.row(i) = row.transpose().cast<float>();
     problem.nuisance.row(i) = pose.transpose();
   }
+  set_candidates(geometry, patches, {}, effects, problem);
   return problem;
+}
+
+void set_candidates(const FlankGeometry& geometry, const Patches& patches,
+                    const std::vector<Effect>& before, const std::vector<Effect>& effects,
+                    DiscoveryProblem& problem) {
+  const std::vector<CandidateGroup> stood = std::move(problem.groups);
+  problem.groups = groups_of(patches, effects);
+  const auto n = static_cast<Eigen::Index>(patches.patches.size());
+  const Eigen::Index columns =
+      problem.groups.empty() ? 0
+                             : problem.groups.back().first_column + problem.groups.back().columns;
+  problem.candidates.conservativeResize(n, columns);
+  std::vector<std::size_t> changed;
+  for (std::size_t g = 0; g < effects.size(); ++g)
+    if (g >= before.size() || g >= stood.size() || !(before[g] == effects[g]) ||
+        stood[g].first_column != problem.groups[g].first_column)
+      changed.push_back(g);
+  // Candidates do not ask each other: the same columns on any number of processors.
+  std::vector<io::QueuedJob> jobs;
+  for (std::size_t first = 0; first < changed.size(); first += kCandidatesOfWork)
+    jobs.push_back({[&, first] {
+                      const std::size_t end = std::min(changed.size(), first + kCandidatesOfWork);
+                      for (std::size_t i = first; i < end; ++i)
+                        write_columns(geometry, patches, effects[changed[i]],
+                                      problem.groups[changed[i]], problem);
+                      return true;
+                    },
+                    {}});
+  io::run_jobs(jobs);
 }
 
 }  // namespace trueflank::loop

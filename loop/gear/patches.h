@@ -10,11 +10,12 @@
 
 namespace trueflank::loop {
 
-/// Observations gathered into small patches of a flank (or pieces of a trace): their means carry all
-/// the effects at a fraction of the rows, and random error that hangs together stays inside.
+/// Observations gathered into small patches of a flank (or pieces of a trace): their means carry
+/// all the effects at a fraction of the rows, and random error that hangs together stays inside.
 struct Patches {
   struct Patch {
     std::vector<WeightedPlace> places;  ///< at the patch's mean roll and height
+    std::vector<Place> sample;  ///< of its values, up to eight: what varies inside is seen by these
     double mean_um = 0.0;
     double count = 0.0;
     double weight = 0.0;
@@ -34,9 +35,9 @@ struct Patches {
   }
 };
 
-/// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and one
-/// of five height bands, so that every tooth and every height is also seen; traces, index and radial
-/// values by whole teeth, or by whole traces where fewer than five teeth were measured.
+/// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and
+/// one of five height bands, so that every tooth and every height is also seen; traces, index and
+/// radial values by whole teeth, or by whole traces where fewer than five teeth were measured.
 /// Weights: inverse variance of the patch means of each kind, from differences of neighbours.
 [[nodiscard]] Patches make_patches(const FlankGeometry& geometry, const Observations& table);
 
@@ -51,14 +52,20 @@ class NuisanceColumns {
 
  private:
   const FlankGeometry& geometry_;
+  double cos_base_helix_ = 1.0;
   std::vector<int> first_of_source_;
   std::vector<bool> free_of_source_;
   int count_ = 0;
 };
 
 /// The discovery problem of a table: one row a patch.
-[[nodiscard]] DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
-                                            const Patches& patches,
+[[nodiscard]] DiscoveryProblem make_problem(const FlankGeometry& geometry,
+                                            const Observations& table, const Patches& patches,
                                             const std::vector<Effect>& effects);
+/// Other candidates for a problem of the same patches; those that stand where they stood before are
+/// kept.
+void set_candidates(const FlankGeometry& geometry, const Patches& patches,
+                    const std::vector<Effect>& before, const std::vector<Effect>& effects,
+                    DiscoveryProblem& problem);
 
 }  // namespace trueflank::loop

@@ -4,7 +4,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <set>
+#include <utility>
+
+#include "trueflank/export/parallel_jobs.h"
 
 namespace trueflank::loop {
 
@@ -14,8 +19,8 @@ bool counts_as_error(ObservationKind kind) {
          kind == ObservationKind::kRadial || kind == ObservationKind::kSize;
 }
 
-PointFit::PointFit(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect> effects, std::size_t stride)
+PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect> effects, std::size_t stride)
     : geometry_(geometry),
       table_(table),
       patches_(patches),
@@ -74,47 +79,171 @@ void PointFit::average_zeros() {
     if (weights[s] > 0.0) zero_means_[s] /= weights[s];
 }
 
+namespace {
+
+/// Rows that are summed at once.
+constexpr Eigen::Index kPanel = 32;
+/// Rows of one piece of work, and most pieces: they depend on the data alone, so sums are the same
+/// on any number of processors.
+constexpr std::size_t kRowsOfWork = 16384, kMostPieces = 8;
+
+/// Sums of squares and products of rows, gathered in panels; the lower triangle.
+class Gram {
+ public:
+  explicit Gram(Eigen::Index columns)
+      : sum_(Eigen::MatrixXd::Zero(columns, columns)), panel_(columns, kPanel) {}
+  template <class Row>
+  void add(const Row& row) {
+    panel_.col(filled_) = row;
+    if (++filled_ == kPanel) flush();
+  }
+  [[nodiscard]] const Eigen::MatrixXd& sum() {
+    flush();
+    return sum_;
+  }
+
+ private:
+  void flush() {
+    if (filled_ > 0) sum_.selfadjointView<Eigen::Lower>().rankUpdate(panel_.leftCols(filled_));
+    filled_ = 0;
+  }
+  Eigen::MatrixXd sum_, panel_;
+  Eigen::Index filled_ = 0;
+};
+
+void fill_upper(Eigen::MatrixXd& m) {
+  if (m.size() > 0) m.triangularView<Eigen::StrictlyUpper>() = m.transpose();
+}
+
+/// The first row of each piece of work, and the end.
+std::vector<std::size_t> pieces_of(std::size_t rows) {
+  const std::size_t pieces = std::clamp<std::size_t>(rows / kRowsOfWork, 1, kMostPieces);
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k <= pieces; ++k) starts.push_back(rows * k / pieces);
+  return starts;
+}
+
+void run_pieces(const std::vector<std::size_t>& starts,
+                const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
+  std::vector<io::QueuedJob> jobs;
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k)
+    jobs.push_back({[&work, &starts, k] {
+                      work(k, starts[k], starts[k + 1]);
+                      return true;
+                    },
+                    {}});
+  io::run_jobs(jobs);
+}
+
+}  // namespace
+
+/// Of a patch, what each of its rows asks for: patches are met in any order.
+struct PointFit::PatchOfRow {
+  double weight = 0.0, root = 0.0;  ///< of a row
+  int unit = 0;
+  bool held = false;
+};
+
+/// Sums over some of the rows.
+struct PointFit::Sums {
+  Eigen::MatrixXd train, plain_held, plain_all;
+  std::vector<Eigen::MatrixXd> unit_grams;
+  std::vector<Eigen::VectorXd> unit_sums;
+  int observations = 0, held_out = 0;
+};
+
+PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::size_t begin,
+                                 std::size_t end) const {
+  const int n = columns_ + 1;
+  Sums sums;
+  sums.train = sums.plain_held = Eigen::MatrixXd::Zero(n, n);
+  sums.unit_grams.resize(patches_.units);
+  sums.unit_sums.resize(patches_.units);
+  // Rows of scans are the same for all sums. Those of traces, few, have the hold-out's own zeros in
+  // what is learnt and what is held out.
+  std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
+  Gram plain_held(n), plain_other(n);
+  Eigen::VectorXd row(n);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (patches_.patch_of_row[i * stride_] < 0) continue;
+    const Observation& observation = table_.rows[i * stride_];
+    const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[i * stride_])];
+    const double w = patch.weight;
+    const bool held = patch.held, in_trace = observation.trace >= 0;
+    const bool counts = counts_as_error(observation.kind);
+    features(observation, row.data());
+    if (in_trace) {
+      const Eigen::VectorXd part = row - zero_means_[2 * observation.trace + (held ? 1 : 0)];
+      if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
+      if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
+      row -= whole_zero_means_[observation.trace];
+    }
+    auto& unit = (held || in_trace ? other : learnt)[patch.unit];
+    if (!unit) unit.emplace(n);
+    unit->add(patch.root * row);
+    Eigen::VectorXd& unit_sum = sums.unit_sums[patch.unit];
+    if (unit_sum.size() == 0) unit_sum = Eigen::VectorXd::Zero(n + 1);
+    unit_sum.head(n) += w * row;
+    unit_sum[n] += w;
+    if (!counts) continue;
+    (held && !in_trace ? plain_held : plain_other).add(row);
+    ++sums.observations;
+    sums.held_out += held ? 1 : 0;
+  }
+  for (int u = 0; u < patches_.units; ++u) {
+    if (!learnt[u] && !other[u]) continue;
+    Eigen::MatrixXd& gram = sums.unit_grams[u];
+    gram = Eigen::MatrixXd::Zero(n, n);
+    if (other[u]) gram += other[u]->sum();
+    if (!learnt[u]) continue;
+    gram += learnt[u]->sum();
+    sums.train += learnt[u]->sum();
+  }
+  sums.plain_all = plain_held.sum() + plain_other.sum();
+  sums.plain_held += plain_held.sum();
+  return sums;
+}
+
 void PointFit::accumulate() {
   const int n = columns_ + 1;
   unit_grams_.assign(patches_.units, Eigen::MatrixXd());
   unit_kind_.assign(patches_.units, -1);
   unit_sums_.assign(patches_.units, Eigen::VectorXd::Zero(n + 1));
   train_ = all_ = plain_held_ = plain_all_ = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd row(n), part(n);
-  for (std::size_t i = 0; i < table_.rows.size(); i += stride_) {
-    if (patches_.patch_of_row[i] < 0) continue;
-    const Observation& observation = table_.rows[i];
-    const auto& patch = patches_.patches[patches_.patch_of_row[i]];
-    const double w = patch.weight / patch.count;
-    features(observation, row.data());
-    const bool held = patch.fold == 0;
-    part = row;
-    if (observation.trace >= 0) {
-      part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
-      row -= whole_zero_means_[observation.trace];
-    }
-    Eigen::MatrixXd& unit = unit_grams_[patch.unit];
-    if (unit.size() == 0) unit = Eigen::MatrixXd::Zero(n, n);
-    unit.selfadjointView<Eigen::Lower>().rankUpdate(row, w);
+  std::vector<PatchOfRow> patches;
+  for (const auto& patch : patches_.patches) {
+    const double weight = patch.weight / patch.count;
+    patches.push_back({weight, std::sqrt(weight), patch.unit, patch.fold == 0});
     unit_kind_[patch.unit] = static_cast<int>(patch.kind);
-    unit_sums_[patch.unit].head(n) += w * row;
-    unit_sums_[patch.unit][n] += w;
-    if (!held) train_.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
-    if (!counts_as_error(observation.kind)) continue;
-    ++observations_;
-    plain_all_.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    if (!held) continue;
-    ++held_out_;
-    plain_held_.selfadjointView<Eigen::Lower>().rankUpdate(part);
   }
-  const auto fill = [](Eigen::MatrixXd& m) {
-    if (m.size() > 0) m.triangularView<Eigen::StrictlyUpper>() = m.transpose();
-  };
-  for (Eigen::MatrixXd& unit : unit_grams_) {
-    fill(unit);
-    if (unit.size() > 0) all_ += unit;
+  const std::vector<std::size_t> starts = pieces_of((table_.rows.size() + stride_ - 1) / stride_);
+  std::vector<Sums> sums(starts.size() - 1);
+  run_pieces(starts, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    sums[k] = sums_of(patches, begin, end);
+  });
+  for (Sums& part : sums) {
+    train_ += part.train;
+    plain_held_ += part.plain_held;
+    plain_all_ += part.plain_all;
+    observations_ += part.observations;
+    held_out_ += part.held_out;
+    for (int u = 0; u < patches_.units; ++u) {
+      if (part.unit_grams[u].size() == 0) continue;
+      unit_sums_[u] += part.unit_sums[u];
+      if (unit_grams_[u].size() == 0)
+        unit_grams_[u] = std::move(part.unit_grams[u]);
+      else
+        unit_grams_[u] += part.unit_grams[u];
+    }
   }
-  for (Eigen::MatrixXd* m : {&train_, &plain_held_, &plain_all_}) fill(*m);
+  for (int u = 0; u < patches_.units; ++u) {
+    fill_upper(unit_grams_[u]);
+    if (unit_grams_[u].size() > 0)
+      all_ += unit_grams_[u];
+    else
+      unit_kind_[u] = -1;
+  }
+  for (Eigen::MatrixXd* m : {&train_, &plain_held_, &plain_all_}) fill_upper(*m);
 }
 
 Eigen::VectorXd PointFit::solution(const Eigen::MatrixXd& gram,
@@ -165,8 +294,8 @@ double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
     Eigen::MatrixXd normal = all_.topLeftCorner(pose, pose);
     normal.diagonal() *= 1.0 + 1e-12;
     normal.diagonal().array() += 1e-30;
-    const Eigen::VectorXd right =
-        all_.col(columns_).head(pose) - all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
+    const Eigen::VectorXd right = all_.col(columns_).head(pose) -
+                                  all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
     b.head(pose) = normal.ldlt().solve(right);
   }
   return observations_ > 0 ? std::sqrt(std::max(0.0, square_error(plain_all_, b)) / observations_)
@@ -271,14 +400,16 @@ void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& afte
   after_um.assign(table_.rows.size(), 0.0f);
   const Eigen::VectorXd none =
       solution(all_, columns_with(std::vector<bool>(effects_.size(), false)));
-  Eigen::VectorXd row(columns_ + 1);
-  for (std::size_t i = 0; i < table_.rows.size(); ++i) {
-    if (patches_.patch_of_row[i] < 0) continue;
-    features(table_.rows[i], row.data());
-    if (table_.rows[i].trace >= 0) row -= whole_zero_means_[table_.rows[i].trace];
-    before_um[i] = static_cast<float>(row[columns_] - none.dot(row.head(columns_)));
-    after_um[i] = static_cast<float>(row[columns_] - coefficients_.dot(row.head(columns_)));
-  }
+  run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
+    Eigen::VectorXd row(columns_ + 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (patches_.patch_of_row[i] < 0) continue;
+      features(table_.rows[i], row.data());
+      if (table_.rows[i].trace >= 0) row -= whole_zero_means_[table_.rows[i].trace];
+      before_um[i] = static_cast<float>(row[columns_] - none.dot(row.head(columns_)));
+      after_um[i] = static_cast<float>(row[columns_] - coefficients_.dot(row.head(columns_)));
+    }
+  });
 }
 
 }  // namespace trueflank::loop

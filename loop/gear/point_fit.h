@@ -2,19 +2,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "trueflank/loop/gear/patches.h"
 
 namespace trueflank::loop {
 
-/// True for values that error figures are made of: flank points, traces, index, radial, sizes; not tips and
-/// bores of scans, which only help to tell effects apart.
+/// True for values that error figures are made of: flank points, traces, index, radial, sizes; not
+/// tips and bores of scans, which only help to tell effects apart.
 [[nodiscard]] bool counts_as_error(ObservationKind kind);
 
 /// Joint least squares of effects and nuisance on the single values, with the patches' weights.
-/// Linear in the values: one pass gathers normal equations per unit. With a stride only every n-th
-/// value is used.
+/// Linear in the values: one pass on all processors gathers normal equations per unit, the same
+/// ones on any number of them. With a stride only every n-th value is used.
 class PointFit {
  public:
   PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
@@ -29,8 +30,8 @@ class PointFit {
   /// Errors with some effects left out (and all else refitted): held-out ones from a fit to the
   /// training part, the others from a fit to all.
   [[nodiscard]] Errors errors(const std::vector<bool>& with_effect) const;
-  /// Error [um] with the effects' coefficients given (in the order of columns, the nuisance left out) and
-  /// only the nuisance fitted: what a model learnt elsewhere leaves here.
+  /// Error [um] with the effects' coefficients given (in the order of columns, the nuisance left
+  /// out) and only the nuisance fitted: what a model learnt elsewhere leaves here.
   [[nodiscard]] double rms_with_um(const Eigen::VectorXd& effect_coefficients) const;
   /// Share of a column that is left beside all others: 0 where these data cannot show it.
   [[nodiscard]] double retained(int column) const { return retained_[column]; }
@@ -41,8 +42,8 @@ class PointFit {
 
   /// Coefficients of the fit to all data, effects' columns in order after the nuisance.
   [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }
-  /// Covariance by leaving out one unit after the other; of columns that live in one or two units by
-  /// the spread of the other units' means.
+  /// Covariance by leaving out one unit after the other; of columns that live in one or two units
+  /// by the spread of the other units' means.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   /// Units that bear on a column, as degrees of freedom.
   [[nodiscard]] double degrees(int column) const { return degrees_[column]; }
@@ -60,6 +61,10 @@ class PointFit {
  private:
   void features(const Observation& row, double* values) const;
   void average_zeros();
+  struct PatchOfRow;
+  struct Sums;
+  [[nodiscard]] Sums sums_of(const std::vector<PatchOfRow>& patches, std::size_t begin,
+                             std::size_t end) const;
   void accumulate();
   void solve();
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
@@ -78,7 +83,7 @@ class PointFit {
   std::vector<Eigen::VectorXd> whole_zero_means_;
   std::vector<Eigen::MatrixXd> unit_grams_;  ///< last row and column: the values
   std::vector<int> unit_kind_;
-  std::vector<Eigen::VectorXd> unit_sums_;   ///< weighted sums of all columns, the weight last
+  std::vector<Eigen::VectorXd> unit_sums_;  ///< weighted sums of all columns, the weight last
   Eigen::MatrixXd train_, all_, plain_held_, plain_all_;
   Eigen::VectorXd coefficients_;
   Eigen::MatrixXd covariance_;

@@ -72,7 +72,10 @@ Eigen::Matrix3d turn_onto_z(Eigen::Vector3d axis) {
 class PoseSearch {
  public:
   PoseSearch(const FlankGeometry& geometry, const Points& points)
-      : geometry_(geometry), coarse_(thinned(points, 1500)), fine_(thinned(points, 6000)) {}
+      : geometry_(geometry),
+        few_(thinned(points, 300)),
+        coarse_(thinned(points, 1500)),
+        fine_(thinned(points, 6000)) {}
 
   Pose best() {
     const Eigen::Matrix3d directions = principal_directions(fine_);
@@ -166,12 +169,12 @@ class PoseSearch {
     return normal.ldlt().solve(right);
   }
 
-  [[nodiscard]] double cost(const Pose& pose) const {
+  [[nodiscard]] double cost(const Pose& pose, const Points& points) const {
     const double reach = 0.2 * geometry_.gear().normal_module_mm;
     double sum = 0.0;
-    for (const auto& p : coarse_) {
-      const PlacedPoint placed = geometry_.nearest(pose(p), reach);
-      sum += placed.place.surface == Surface::kNone ? reach : std::abs(placed.distance_mm);
+    for (const auto& p : points) {
+      const double distance = geometry_.nearest_distance_mm(pose(p), reach);
+      sum += std::isnan(distance) ? reach : distance;
     }
     return sum;
   }
@@ -192,15 +195,20 @@ class PoseSearch {
         for (int dy = -1; dy <= 1; ++dy) {
           Pose moved = turned;
           moved.translation_mm += Eigen::Vector3d(dx * step, dy * step, 0.0);
-          tried.emplace_back(cost(moved), moved);
+          tried.emplace_back(cost(moved, few_), moved);
         }
     }
-    std::sort(tried.begin(), tried.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Few points tell most trials from the good ones, more of them the good ones from each other.
+    constexpr std::size_t kGood = 40;
+    const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::sort(tried.begin(), tried.end(), cheaper);
+    if (tried.size() > kGood) tried.resize(kGood);
+    for (auto& [value, trial] : tried) value = cost(trial, coarse_);
+    std::sort(tried.begin(), tried.end(), cheaper);
     double best = 1e300;
     for (std::size_t i = 0; i < std::min<std::size_t>(4, tried.size()); ++i) {
       const Pose refined_pose = refined(tried[i].second, coarse_, 8);
-      const double value = cost(refined_pose);
+      const double value = cost(refined_pose, coarse_);
       if (value < best) {
         best = value;
         pose = refined_pose;
@@ -217,13 +225,13 @@ class PoseSearch {
     };
     std::vector<Row> rows;
     std::vector<double> sizes;
-    const double cos_helix = std::cos(geometry_.base_helix_rad());
+    const double cos_helix = geometry_.cos_base_helix();
     for (const auto& p : points) {
       const auto q = pose(p);
       const PlacedPoint placed = geometry_.nearest_flank(q, 0.03);
       if (placed.place.surface != Surface::kFlank || std::abs(placed.distance_mm) > width) continue;
-      const double nx = cos_helix * std::cos(placed.place.normal_rad);
-      const double ny = cos_helix * std::sin(placed.place.normal_rad);
+      const double nx = cos_helix * placed.place.normal_direction[0];
+      const double ny = cos_helix * placed.place.normal_direction[1];
       const double nz = geometry_.normal_z(placed.place);
       Vector5 g;
       g << nx, ny, q[1] * nz - q[2] * ny, q[2] * nx - q[0] * nz, q[0] * ny - q[1] * nx;
@@ -246,7 +254,7 @@ class PoseSearch {
   }
 
   const FlankGeometry& geometry_;
-  Points coarse_, fine_;
+  Points few_, coarse_, fine_;
 };
 
 /// Of the equal poses (turned by whole pitches) the one that turns the scan least about z.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/course_scan.h"
@@ -343,75 +344,104 @@ class RemainderSearch {
           spot.p_value, spot.amount_um, true);
   }
 
-  /// Height, slope and bow of every tooth, in a ring.
+  /// Height, slope and bow of every tooth, in a ring: both flanks together, or the one measured.
   void look_around() {
-    struct Series {
-      int form;
-      bool opposite;
-    };
     for (const auto& [key, of_teeth] : moments_) {
-      std::vector<int> teeth;
-      for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth)
-        if (of_teeth[moment_at(0, tooth)].count > 0 && of_teeth[moment_at(1, tooth)].count > 0)
-          teeth.push_back(tooth);
-      if (static_cast<int>(teeth.size()) < kFewestTeeth) continue;
-      const auto n = static_cast<Eigen::Index>(teeth.size());
-      std::vector<Series> what;
-      Eigen::MatrixXd series(n, 0);
-      for (int form = 0; form < 5; ++form)
-        for (const bool opposite : {false, true}) {
-          Eigen::VectorXd values(n);
-          bool known = true;
-          for (Eigen::Index i = 0; i < n; ++i) {
-            const Moments& right = of_teeth[moment_at(0, teeth[static_cast<std::size_t>(i)])];
-            const Moments& left = of_teeth[moment_at(1, teeth[static_cast<std::size_t>(i)])];
-            const auto k = static_cast<std::size_t>(form);
-            known = known && right.square[k] > 0.0 && left.square[k] > 0.0;
-            if (known)
-              values[i] = 0.5 * (left.sum[k] / left.square[k] +
-                                 (opposite ? -1.0 : 1.0) * right.sum[k] / right.square[k]);
-          }
-          if (!known) continue;
-          series.conservativeResize(Eigen::NoChange, series.cols() + 1);
-          series.col(series.cols() - 1) = values;
-          what.push_back({form, opposite});
-        }
-      if (what.empty()) continue;
-      std::vector<int> place = teeth;
-      for (int& at : place) --at;
-      RingFinding found = scan_ring(series, place, geometry_.teeth());
-      if (found.series < 0) continue;
-      found.p_value = std::min(1.0, found.p_value * static_cast<double>(moments_.size()));
-      if (found.p_value > kLevel) continue;
-      const Series& s = what[static_cast<std::size_t>(found.series)];
-      add_ring(found, teeth, s.form, s.opposite, key.first == kScans);
+      std::array<std::vector<int>, 3> teeth;  // with right flanks, left flanks, both
+      for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth) {
+        const bool right = of_teeth[moment_at(0, tooth)].count > 0,
+                   left = of_teeth[moment_at(1, tooth)].count > 0;
+        if (right) teeth[0].push_back(tooth);
+        if (left) teeth[1].push_back(tooth);
+        if (right && left) teeth[2].push_back(tooth);
+      }
+      if (static_cast<int>(teeth[2].size()) >= kFewestTeeth)
+        look_around(key, of_teeth, teeth[2], -1);
+      else
+        for (const int side : {0, 1})
+          if (static_cast<int>(teeth[static_cast<std::size_t>(side)].size()) >= kFewestTeeth)
+            look_around(key, of_teeth, teeth[static_cast<std::size_t>(side)], side);
     }
   }
 
-  void add_ring(const RingFinding& found, const std::vector<int>& teeth, int form, bool opposite,
+  /// One form of all teeth: a column of the ring.
+  struct Series {
+    int form = 0;
+    bool opposite = false;
+    FlankChoice flank = FlankChoice::kBoth;
+  };
+
+  /// The form of a tooth on one side (0 right, 1 left), or of both together.
+  static std::optional<double> value_of(const std::vector<Moments>& of_teeth, int tooth, int side,
+                                        const Series& series) {
+    const auto k = static_cast<std::size_t>(series.form);
+    const Moments& right = of_teeth[moment_at(0, tooth)];
+    const Moments& left = of_teeth[moment_at(1, tooth)];
+    if ((side != 1 && !(right.square[k] > 0.0)) || (side != 0 && !(left.square[k] > 0.0)))
+      return {};
+    if (side == 0) return right.sum[k] / right.square[k];
+    if (side == 1) return left.sum[k] / left.square[k];
+    return 0.5 * (left.sum[k] / left.square[k] +
+                  (series.opposite ? -1.0 : 1.0) * right.sum[k] / right.square[k]);
+  }
+
+  void look_around(const std::pair<int, int>& key, const std::vector<Moments>& of_teeth,
+                   const std::vector<int>& teeth, int side) {
+    const auto n = static_cast<Eigen::Index>(teeth.size());
+    std::vector<Series> what;
+    Eigen::MatrixXd series(n, 0);
+    for (int form = 0; form < 5; ++form)
+      for (const bool opposite : {false, true}) {
+        if (opposite && side >= 0) continue;
+        const Series one{form, opposite, flank_choice(geometry_, side)};
+        Eigen::VectorXd values(n);
+        bool known = true;
+        for (Eigen::Index i = 0; i < n && known; ++i) {
+          const auto value = value_of(of_teeth, teeth[static_cast<std::size_t>(i)], side, one);
+          known = value.has_value();
+          if (known) values[i] = *value;
+        }
+        if (!known) continue;
+        series.conservativeResize(Eigen::NoChange, series.cols() + 1);
+        series.col(series.cols() - 1) = values;
+        what.push_back(one);
+      }
+    if (what.empty()) return;
+    std::vector<int> place = teeth;
+    for (int& at : place) --at;
+    RingFinding found = scan_ring(series, place, geometry_.teeth());
+    if (found.series < 0) return;
+    found.p_value = std::min(1.0, found.p_value * static_cast<double>(moments_.size()));
+    if (found.p_value > kLevel) return;
+    add_ring(found, teeth, what[static_cast<std::size_t>(found.series)], key.first == kScans);
+  }
+
+  void add_ring(const RingFinding& found, const std::vector<int>& teeth, const Series& series,
                 bool scan) {
-    const double u = form == 1   ? 1.0
-                     : form == 3 ? 2.0
-                                 : 0.0,
-                 v = form == 2   ? 1.0
-                     : form == 4 ? 2.0
-                                 : 0.0;
-    const double turned = opposite ? 1.0 : 0.0;
+    const double u = series.form == 1 ? 1.0 : series.form == 3 ? 2.0 : 0.0;
+    const double v = series.form == 2 ? 1.0 : series.form == 4 ? 2.0 : 0.0;
+    const double turned = series.opposite ? 1.0 : 0.0;
     const auto n = static_cast<int>(teeth.size());
-    if (found.count > 0) {
+    const auto add_here = [&](const char* family, EffectShape shape) {
+      add(family, series.flank, std::move(shape), found.p_value, found.amount, false);
+    };
+    using Kind = RingFinding::Kind;
+    if (found.kind == Kind::kRamp) {
+      add_here("unnamed_ramp", {found.first + 1.0, u, v, turned});
+    } else if (found.kind == Kind::kComb && found.count > 2) {
+      add_here("unnamed_comb", {double(found.count), found.first + 1.0, u, v, turned});
+    } else if (found.kind == Kind::kArc) {
       const int first = teeth[static_cast<std::size_t>(found.first)];
       const int last = teeth[static_cast<std::size_t>((found.first + found.count - 1) % n)];
       const int z = geometry_.teeth();
       const int count = ((last - first) % z + z) % z + 1;
-      if (scan && add_dent(found, Sector{first, count, v, opposite})) return;
-      add("unnamed_sector", FlankChoice::kBoth, {double(first), double(count), u, v, turned},
-          found.p_value, found.amount, false);
-    } else if (3 * n >= 2 * geometry_.teeth() && 2 * found.order >= geometry_.teeth() - 1) {
-      add("unnamed_alternation", FlankChoice::kBoth, {u, v, turned}, found.p_value, found.amount,
-          false);
-    } else if (u < 2.0 && v < 2.0) {
-      add("unnamed", FlankChoice::kBoth, {u, v, double(found.order), turned}, found.p_value,
-          found.amount, false);
+      if (scan && add_dent(found, Sector{first, count, v, series.opposite})) return;
+      add_here("unnamed_sector", {double(first), double(count), u, v, turned});
+    } else if (found.kind == Kind::kComb ||
+               (3 * n >= 2 * geometry_.teeth() && 2 * found.order >= geometry_.teeth() - 1)) {
+      add_here("unnamed_alternation", {u, v, turned});
+    } else if (u < 2.0 && v < 2.0 && series.flank == FlankChoice::kBoth) {
+      add_here("unnamed", {u, v, double(found.order), turned});
     } else {
       add_text(found.p_value,
                printed("a wave %d times around the %d teeth measured, %.3g um", found.order, n,

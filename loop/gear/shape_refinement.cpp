@@ -5,10 +5,13 @@
 #include <cmath>
 #include <deque>
 
+#include "trueflank/loop/gear/trial_fit.h"
+
 namespace trueflank::loop {
 namespace {
 
 constexpr std::size_t kMostRows = 40000;  // of the search; the final fit takes all
+constexpr double kStep = 1e-4;            // of a shape value, for its derivative
 
 bool is_step(const Effect& effect) { return effect.family->shape_is_step; }
 
@@ -42,7 +45,7 @@ Extended with_derivatives(const FlankGeometry& geometry, const std::vector<Effec
                                        const std::vector<double>&, double* c) {
         double up[8], down[8];
         Effect moved = effect;
-        const double h = 1e-4 * effect.shape[k];
+        const double h = kStep * effect.shape[k];
         moved.shape[k] = effect.shape[k] + h;
         moved.evaluate(g, p, up);
         moved.shape[k] = effect.shape[k] - h;
@@ -51,8 +54,8 @@ Extended with_derivatives(const FlankGeometry& geometry, const std::vector<Effec
         for (int i = 0; i < b.size(); ++i) c[0] += b[i] * (up[i] - down[i]) / (2.0 * h);
       };
       result.families.push_back(std::move(family));
-      result.slots.push_back({static_cast<int>(e), static_cast<int>(k),
-                              static_cast<int>(result.effects.size())});
+      result.slots.push_back(
+          {static_cast<int>(e), static_cast<int>(k), static_cast<int>(result.effects.size())});
       result.effects.push_back({&result.families.back(), FlankChoice::kBoth, {}});
     }
   }
@@ -67,73 +70,125 @@ double limited(const FlankGeometry& g, const Effect& effect, std::size_t k, doub
   return std::clamp(value, least, most);
 }
 
-void refine_steps(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                  std::vector<Effect>& effects) {
-  for (Effect& effect : effects) {
-    if (!is_step(effect)) continue;
+/// Tries heights of steps about where they are, twice, the second time finer.
+void refine_steps(const FlankGeometry& geometry, std::size_t first, TrialFit& fit) {
+  for (std::size_t e = first; e < fit.effects().size(); ++e) {
+    if (!is_step(fit.effects()[e])) continue;
+    std::vector<Effect> best = fit.effects();
     double reach = 0.065 * geometry.face_width_mm();
     for (int round = 0; round < 2; ++round, reach /= 8.0) {
-      const double middle = effect.shape[0];
-      double best = 1e300, at = middle;
+      const EffectShape middle = best[e].shape;
+      double least = 1e300;
       for (int i = -8; i <= 8; ++i) {
-        effect.shape[0] = limited(geometry, effect, 0, middle + reach * i / 8.0);
-        const double square =
-            PointFit(geometry, table, patches, effects, stride_for(table)).residual_square();
-        if (square < best) {
-          best = square;
-          at = effect.shape[0];
-        }
+        EffectShape shape = middle;
+        shape[0] = limited(geometry, best[e], 0, middle[0] + reach * i / 8.0);
+        const double square = fit.with_shape(e, shape).square;
+        if (square >= least) continue;
+        least = square;
+        best[e].shape = shape;
       }
-      effect.shape[0] = at;
+    }
+    fit.set_shapes(best);
+  }
+}
+
+/// One step of Gauss and Newton over all continuous shapes from the first effect on, damped.
+std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, std::size_t first,
+                            double damping) {
+  struct Slot {
+    std::size_t effect, value;
+  };
+  std::vector<Slot> slots;
+  std::vector<Eigen::VectorXd> derivatives;
+  for (std::size_t e = first; e < fit.effects().size(); ++e) {
+    const Effect& effect = fit.effects()[e];
+    if (!effect.family->shape_is_continuous || is_step(effect)) continue;
+    const Eigen::VectorXd b = fit.coefficients(e);
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      Effect up = effect, down = effect;
+      const double h = kStep * effect.shape[k];
+      up.shape[k] += h;
+      down.shape[k] -= h;
+      derivatives.push_back((fit.columns_of(up) * b - fit.columns_of(down) * b) / (2.0 * h));
+      slots.push_back({e, k});
     }
   }
+  Eigen::MatrixXd more(derivatives.empty() ? 0 : derivatives.front().size(),
+                       static_cast<Eigen::Index>(derivatives.size()));
+  for (std::size_t i = 0; i < derivatives.size(); ++i)
+    more.col(static_cast<Eigen::Index>(i)) = derivatives[i];
+  const Eigen::VectorXd change = fit.joint_coefficients(more);
+  std::vector<Effect> effects = fit.effects();
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Effect& effect = effects[slots[i].effect];
+    double& value = effect.shape[slots[i].value];
+    value = limited(geometry, effect, slots[i].value,
+                    value + damping * change[static_cast<Eigen::Index>(i)]);
+  }
+  return effects;
 }
 
 }  // namespace
 
-void refine_shapes(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect>& effects) {
-  refine_steps(geometry, table, patches, effects);
-  const bool smooth = std::any_of(effects.begin(), effects.end(), [](const Effect& effect) {
-    return effect.family->shape_is_continuous && !is_step(effect);
+bool refine_nearby(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect>& effects) {
+  constexpr double kWorthIt = 4.0;  // chi-square
+  constexpr int kMostSteps = 8;
+  const bool any = std::any_of(effects.begin(), effects.end(), [](const Effect& effect) {
+    return static_cast<bool>(effect.family->nearby);
   });
-  if (!smooth) return;
-  const std::size_t stride = stride_for(table);
-  double last = 1e300;
-  double damping = 1.0;
-  std::vector<Effect> best = effects;
-  for (int round = 0; round < 12; ++round) {
-    const PointFit fit(geometry, table, patches, effects, stride);
-    if (fit.residual_square() < last) {
-      if (last - fit.residual_square() < 1e-6 * last && round > 0) {
-        best = effects;
-        break;
+  if (!any) return false;
+  bool moved = false;
+  TrialFit fit(geometry, table, patches, effects, stride_for(table));
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (!effects[e].family->nearby) continue;
+    TrialFit::Trial now = fit.as_is(e);
+    for (int step = 0; step < kMostSteps; ++step) {
+      TrialFit::Trial best{now.square - kWorthIt, 0.0};
+      EffectShape shape;
+      for (const EffectShape& tried : effects[e].family->nearby(geometry, effects[e].shape)) {
+        const TrialFit::Trial trial = fit.with_shape(e, tried);
+        if (!(trial.square < best.square) || trial.retained < std::min(now.retained, kToldApart))
+          continue;
+        best = trial;
+        shape = tried;
       }
-      last = fit.residual_square();
-      best = effects;
-    } else {
-      damping *= 0.4;
-      effects = best;
-      if (damping < 0.05) break;
-      const PointFit back(geometry, table, patches, effects, stride);
-      const Extended extended = with_derivatives(geometry, effects, back.coefficients(), back);
-      const PointFit joint(geometry, table, patches, extended.effects, stride);
-      for (const auto& slot : extended.slots)
-        effects[slot.effect].shape[slot.value] =
-            limited(geometry, effects[slot.effect], slot.value,
-                    effects[slot.effect].shape[slot.value] +
-                        damping * joint.coefficients()[joint.first_column(slot.column_effect)]);
+      if (shape.empty()) break;
+      effects[e].shape = shape;
+      fit.set_shapes(effects);
+      now = best;
+      moved = true;
+    }
+  }
+  return moved;
+}
+
+void refine_shapes(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect>& effects, std::size_t first) {
+  bool smooth = false, steps = false;
+  for (std::size_t e = first; e < effects.size(); ++e) {
+    steps = steps || is_step(effects[e]);
+    smooth = smooth || (effects[e].family->shape_is_continuous && !is_step(effects[e]));
+  }
+  if (!smooth && !steps) return;
+  TrialFit fit(geometry, table, patches, effects, stride_for(table));
+  refine_steps(geometry, first, fit);
+  effects = fit.effects();
+  double least = fit.residual_square(), damping = 1.0;
+  for (int round = 0; smooth && round < 12; ++round) {
+    fit.set_shapes(stepped(geometry, fit, first, damping));
+    const double square = fit.residual_square();
+    if (square < least) {
+      const bool done = least - square < 1e-6 * least;
+      least = square;
+      effects = fit.effects();
+      if (done) return;
       continue;
     }
-    const Extended extended = with_derivatives(geometry, effects, fit.coefficients(), fit);
-    const PointFit joint(geometry, table, patches, extended.effects, stride);
-    for (const auto& slot : extended.slots)
-      effects[slot.effect].shape[slot.value] =
-          limited(geometry, effects[slot.effect], slot.value,
-                  effects[slot.effect].shape[slot.value] +
-                      damping * joint.coefficients()[joint.first_column(slot.column_effect)]);
+    damping *= 0.4;
+    if (damping < 0.05) return;
+    fit.set_shapes(effects);
   }
-  effects = best;
 }
 
 ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry, const Observations& table,
@@ -143,8 +198,10 @@ ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry, const Observat
   bool smooth = false;
   for (const Effect& effect : fit.effects()) {
     result.errors.emplace_back(effect.shape.size(), kNaN);
-    if (is_step(effect)) result.errors.back()[0] = 0.005 * geometry.face_width_mm();
-    else smooth = smooth || effect.family->shape_is_continuous;
+    if (is_step(effect))
+      result.errors.back()[0] = 0.005 * geometry.face_width_mm();
+    else
+      smooth = smooth || effect.family->shape_is_continuous;
   }
   if (!smooth) return result;
   const Extended extended = with_derivatives(geometry, fit.effects(), fit.coefficients(), fit);

@@ -95,6 +95,7 @@ Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
     for (const auto& [process, cause] : e.by_process) by_process[process] = cause;
     json["by_process"] = by_process;
   }
+  if (!e.orders_alike.empty()) json["orders_alike"] = e.orders_alike;
   if (!e.side.empty()) json["side"] = e.side;
   if (e.repeatable) {
     json["repeatable"] = *e.repeatable;
@@ -120,6 +121,8 @@ Json iso_json(const LoopResult& r) {
     Json figure = {{"symbol", f.symbol}, {"flank", f.flank}, {"what", f.what}, {"value_um", number(f.value_um)}};
     if (f.accuracy_class > 0)
       figure["class"] = f.accuracy_class > 11 ? Json("over 11") : Json(f.accuracy_class);
+    for (std::size_t k = 0; k < f.limits_um.size(); ++k)
+      figure["limits_um"][std::to_string(k + 1)] = number(f.limits_um[k]);
     figures.push_back(std::move(figure));
   }
   return {{"note", r.iso_1328_note}, {"figures", std::move(figures)}};

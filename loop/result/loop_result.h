@@ -61,6 +61,8 @@ struct FoundEffect {
   double p_value = kNaN;
   double bic_gain = kNaN;
   std::vector<std::string> confounded_with;
+  /// Waves per turn that the teeth that were traced would show alike; empty: none.
+  std::vector<int> orders_alike;
   bool correctable = true;
   /// @name Where several parts were measured
   /// @{
@@ -101,6 +103,7 @@ struct InspectionFigure {
   std::string what;          ///< in words
   double value_um = kNaN;
   int accuracy_class = 0;    ///< 1 ... 11 that it just meets, 12: none of them, 0: the quantity has none
+  std::vector<double> limits_um;  ///< of the classes 1 ... 11 for this gear; empty: the quantity has none
 };
 
 struct LoopResult {

@@ -7,22 +7,6 @@
 
 namespace trueflank::io {
 
-std::vector<const TrainGear*> gears_of(const GearTrain& train, const PartShape& part) {
-  std::vector<const TrainGear*> gears;
-  const auto add = [&](const Outline& outline) {
-    const auto* teeth = std::get_if<ToothedOutline>(&outline);
-    if (!teeth) return;
-    for (const TrainGear& gear : train.gears)
-      if (&gear.profile == teeth->profile && std::find(gears.begin(), gears.end(), &gear) == gears.end())
-        gears.push_back(&gear);
-  };
-  for (const Slab& slab : part.slabs) {
-    add(slab.outer);
-    for (const Outline& hole : slab.holes) add(hole);
-  }
-  return gears;
-}
-
 DrawnMaterial material_of(const DrawingModel& model, const PartShape& part) {
   const StrengthOptions& options = *model.materials;
   DrawnMaterial drawn{.name = options.material};
@@ -45,10 +29,6 @@ std::string proper_name(const std::string& part) {
   if (const std::size_t digit = name.find_first_of("0123456789"); digit != std::string::npos && digit > 0 && name[digit - 1] != ' ')
     name.insert(digit, " ");
   return name;
-}
-
-bool additive(const GearTrain& train) {
-  return train.design.made.process && train.design.made.process->layer_mm > 0.0;
 }
 
 std::string modification_text(const GearTrain& train, const std::string& gear) {

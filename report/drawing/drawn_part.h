@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/export/part_dimensions.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
 
 // What a drawing says of a part besides its shape.
 namespace trueflank::io {
-
-/// The train's gears that a part carries, bottom to top.
-[[nodiscard]] std::vector<const TrainGear*> gears_of(const GearTrain& train, const PartShape& part);
 
 struct DrawnMaterial {
   std::string name;
@@ -22,8 +20,6 @@ struct DrawnMaterial {
 
 /// "planet_2" as a person writes it: "Planet 2".
 [[nodiscard]] std::string proper_name(const std::string& part);
-/// Whether the parts are printed: fits and machined surfaces are then none of their drawing.
-[[nodiscard]] bool additive(const GearTrain& train);
 /// The flank modifications of a gear in a sentence; empty: none.
 [[nodiscard]] std::string modification_text(const GearTrain& train, const std::string& gear);
 

@@ -78,14 +78,6 @@ std::string mate_text(const GearTrain& train, const TrainMesh& mesh, const Train
 
 }  // namespace
 
-std::string drawing_number(double value, int decimals) {
-  if (std::isnan(value)) return "-";
-  const double unit = std::pow(10.0, decimals);
-  std::string text;
-  append_decimal(text, std::round(value * unit) / unit);
-  return text;
-}
-
 std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<const TrainGear*>& gears,
                                      const Json& report, int tolerance_class) {
   std::vector<GearTableRow> rows;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/train/gear_train.h"
+#include "trueflank/export/part_dimensions.h"
 
 // The table of gear data on a workshop drawing, in the order of DIN 3966 and ISO 1340.
 namespace trueflank::io {
@@ -16,17 +16,11 @@ struct GearTableRow {
   std::vector<std::string> values;  ///< one a gear of the part
 };
 
-/// Flank tolerance class of ISO 1328-1 that a drawing asks for where the design says none.
-inline constexpr int kDrawingToleranceClass = 7;
-
 /// Rows of the gears of one part. Every number is that of report.json (`report`: the whole document),
 /// rounded to what a workshop reads; tolerances are those of ISO 1328-1:2013 in `tolerance_class`.
 [[nodiscard]] std::vector<GearTableRow> gear_table(const GearTrain& train,
                                                    const std::vector<const TrainGear*>& gears,
                                                    const nlohmann::ordered_json& report,
                                                    int tolerance_class = kDrawingToleranceClass);
-
-/// A number with at most `decimals` places, trailing zeros dropped; "-" for what does not exist.
-[[nodiscard]] std::string drawing_number(double value, int decimals);
 
 }  // namespace trueflank::io

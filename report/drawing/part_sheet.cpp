@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "trueflank/base/units.h"
-#include "trueflank/geometry/flank_tolerance.h"
+#include "trueflank/export/part_dimensions.h"
 #include "trueflank/report/drawing/axial_section.h"
 #include "trueflank/report/drawing/drawn_part.h"
 #include "trueflank/report/drawing/sheet_frame.h"
@@ -15,33 +14,16 @@ namespace trueflank::io {
 namespace {
 
 constexpr double kDimensionStep_mm = 8.0;
+constexpr double kFrameStep_mm = 6.0;
 constexpr double kGap_mm = 12.0;  // between views, and of the first dimension line from its view
-
-/// A diameter to be dimensioned in the section, at the slab where it is met first.
-struct Diameter {
-  double diameter_mm = 0.0;
-  double z_mm = 0.0;
-  std::string text;
-  bool datum = false;
-  bool tip = false;
-};
-
-/// Limits of the tolerance class H7 up to 500 mm [um]. Source: ISO 286-1, IT7.
-double h7_um(double diameter_mm) {
-  static const std::vector<std::pair<double, double>> kIt7 = {
-      {3, 10}, {6, 12}, {10, 15}, {18, 18}, {30, 21}, {50, 25}, {80, 30}, {120, 35}, {180, 40}, {250, 46}, {315, 52}, {400, 57}, {500, 63}};
-  for (const auto& [upto, um] : kIt7)
-    if (diameter_mm <= upto) return um;
-  return kNaN;
-}
 
 class PartSheet {
  public:
   PartSheet(const DrawingModel& model, const PartShape& part)
-      : model_(model), part_(part), section_(axial_section(part)), gears_(gears_of(*model.train, part)) {
+      : model_(model), part_(part), section_(axial_section(part)), gears_(gears_of(*model.train, part)),
+        dimensions_(part_dimensions(*model.train, part, model.tolerance_class)) {
     length_ = part.slabs.back().z_upper_mm;
     for (const Slab& slab : part.slabs) outer_ = std::max(outer_, outermost_mm(slab.outer));
-    collect_diameters();
     table_ = gear_table(*model.train, gears_, *model.report, model.tolerance_class);
   }
 
@@ -63,66 +45,18 @@ class PartSheet {
   }
 
  private:
-  void collect_diameters() {
-    std::map<long, std::size_t> seen;
-    const auto add = [&](double diameter, double z, std::string text, bool datum, bool tip) {
-      const long key = std::lround(diameter * 1e4);
-      if (seen.count(key)) return;
-      seen[key] = diameters_.size();
-      diameters_.push_back({diameter, z, std::move(text), datum, tip});
-    };
-    for (const Slab& slab : part_.slabs) {
-      add_outline(slab.outer, slab.z_lower_mm, false, add);
-      for (const Outline& hole : slab.holes) add_outline(hole, slab.z_lower_mm, true, add);
-    }
-    std::stable_sort(diameters_.begin(), diameters_.end(),
-                     [](const Diameter& a, const Diameter& b) { return a.diameter_mm < b.diameter_mm; });
-    // the datum: the bore that carries the part, or the outer cylinder of a ring
-    for (Diameter& d : diameters_)
-      if (!d.tip) {
-        const bool ring = is_ring();
-        if (ring && &d != &*std::max_element(diameters_.begin(), diameters_.end(), [](const auto& a, const auto& b) {
-              return a.diameter_mm < b.diameter_mm; }))
-          continue;
-        d.datum = true;
-        break;
-      }
-  }
-
-  template <class Add>
-  void add_outline(const Outline& outline, double z, bool hole, const Add& add) const {
-    if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
-      const double d = 2.0 * teeth->profile->tip_radius_mm();
-      add(d, z, "Ø" + drawing_number(d, 3), false, true);
-    } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
-      if (circle->centre.norm() > 1e-9) return;
-      const double d = 2.0 * circle->radius_mm;
-      add(d, z, "Ø" + drawing_number(d, 3), false, false);
-    } else if (hole) {
-      const BoreDesign& bore = std::get<BoreOutline>(outline).bore;
-      add(bore.diameter_mm, z, bore_text(bore), false, false);
-    }
-  }
-
-  std::string bore_text(const BoreDesign& bore) const {
-    std::string text = bore.kind == BoreKind::kHex ? "AF " : "Ø";
-    text += drawing_number(bore.diameter_mm, 3);
-    const double limit = h7_um(bore.diameter_mm);
-    if (!additive(*model_.train) && bore.kind != BoreKind::kHex && !std::isnan(limit))
-      text += " H7 (+" + drawing_number(1e-3 * limit, 3) + " / 0)";
-    if (bore.kind == BoreKind::kDFlat) text += ", flat " + drawing_number(bore.d_flat_mm, 3);
-    if (bore.kind == BoreKind::kKeyway)
-      text += ", keyway " + drawing_number(bore.keyway_width_mm, 3) + " x " + drawing_number(bore.keyway_depth_mm, 3);
+  static std::string diameter_text(const PartDiameter& d) {
+    std::string text = d.bore && d.bore->kind == BoreKind::kHex ? "AF " : "Ø";
+    text += drawing_number(d.diameter_mm, 3);
+    if (!d.limits.fit.empty())
+      text += " " + d.limits.fit + " (+" + drawing_number(d.limits.upper_mm, 3) + " / " + drawing_number(d.limits.lower_mm, 3) + ")";
+    if (const std::string shape = d.bore ? bore_shape_text(*d.bore) : std::string(); !shape.empty()) text += ", " + shape;
     return text;
   }
 
-  [[nodiscard]] bool is_ring() const {
-    return !gears_.empty() && gears_.front()->profile.gear().kind == GearKind::kInternal;
-  }
-
   [[nodiscard]] double table_width() const { return gears_.empty() ? 0.0 : 66.0 + 26.0 * static_cast<double>(gears_.size()); }
-  [[nodiscard]] double left_room() const { return kGap_mm + kDimensionStep_mm * static_cast<double>(diameters_.size()); }
-  [[nodiscard]] double below_room() const { return kGap_mm + kDimensionStep_mm * (part_.slabs.size() > 1 ? 2.0 : 1.0) + 6.0; }
+  [[nodiscard]] double left_room() const { return kGap_mm + kDimensionStep_mm * static_cast<double>(dimensions_.diameters.size()); }
+  [[nodiscard]] double below_room() const { return kGap_mm + kDimensionStep_mm * (dimensions_.widths.size() > 1 ? 2.0 : 1.0) + 6.0; }
 
   /// A4 where the views come out at half size at least and 50 mm high or more, else A3; the largest scale that fits.
   void choose_size() {
@@ -171,7 +105,7 @@ class PartSheet {
       for (const Outline& hole : slab.holes) draw_reference_lines(slab, hole);
     }
     sheet_.line(in_section(0.0, 0.0) - Point2(4.0, 0.0), in_section(length_, 0.0) + Point2(4.0, 0.0), Pen::kChain);
-    sheet_.text(in_section(0.5 * length_, outer_) + Point2(0.0, 12.0), "A-A", 3.5, TextAnchor::kMiddle);
+    sheet_.text(in_section(0.5 * length_, outer_) + Point2(0.0, 13.0), "A-A", 3.5, TextAnchor::kMiddle);
   }
 
   void draw_reference_lines(const Slab& slab, const Outline& outline) {
@@ -242,15 +176,11 @@ class PartSheet {
   }
 
   void draw_bolt_circles() {
-    std::map<std::pair<long, long>, int> groups;  // diameter and circle, in 1e-4 mm
-    for (const Outline& hole : part_.slabs.front().holes)
-      if (const auto* circle = std::get_if<CircleOutline>(&hole); circle && circle->centre.norm() > 1e-9)
-        ++groups[{std::lround(2e4 * circle->radius_mm), std::lround(2e4 * circle->centre.norm())}];
     double y = face_centre_.y() - outer_ * scale_ - 14.0;
-    for (const auto& [size, count] : groups) {
-      sheet_.circle(face_centre_, 0.5 * scale_ * 1e-4 * static_cast<double>(size.second), Pen::kChain);
-      sheet_.text({face_centre_.x(), y}, std::to_string(count) + " x Ø" + drawing_number(1e-4 * static_cast<double>(size.first), 3) +
-                      " through, equally spaced on Ø" + drawing_number(1e-4 * static_cast<double>(size.second), 3),
+    for (const BoltCircle& bolts : dimensions_.bolt_circles) {
+      sheet_.circle(face_centre_, 0.5 * scale_ * bolts.circle_diameter_mm, Pen::kChain);
+      sheet_.text({face_centre_.x(), y}, std::to_string(bolts.count) + " x Ø" + drawing_number(bolts.hole_diameter_mm, 3) +
+                      " through, equally spaced on Ø" + drawing_number(bolts.circle_diameter_mm, 3),
                   2.5, TextAnchor::kMiddle);
       y -= 5.0;
     }
@@ -258,33 +188,21 @@ class PartSheet {
 
   void dimension_section() {
     double x = section_origin_.x() - kGap_mm;
-    for (const Diameter& d : diameters_) {
+    for (const PartDiameter& d : dimensions_.diameters) {
       const double r = 0.5 * d.diameter_mm;
-      vertical_dimension(sheet_, {.from = in_section(d.z_mm, -r), .to = in_section(d.z_mm, r), .line_at_mm = x, .text = d.text});
+      vertical_dimension(sheet_, {.from = in_section(d.z_mm, -r), .to = in_section(d.z_mm, r), .line_at_mm = x, .text = diameter_text(d)});
       if (d.datum) draw_datum({x, section_origin_.y() - r * scale_});
       x -= kDimensionStep_mm;
     }
     double y = section_origin_.y() - outer_ * scale_ - kGap_mm;
-    const auto width = [&](double z1, double z2) {
-      const double low = -outer_;
-      horizontal_dimension(sheet_, {.from = in_section(z1, low), .to = in_section(z2, low), .line_at_mm = y, .text = drawing_number(z2 - z1, 3)});
-    };
-    if (part_.slabs.size() > 1) {
-      double z = 0.0;
-      for (std::size_t i = 0; i < part_.slabs.size(); ++i) {
-        // slabs of one outer outline are one width
-        if (i + 1 < part_.slabs.size() && same_outer(part_.slabs[i].outer, part_.slabs[i + 1].outer)) continue;
-        width(z, part_.slabs[i].z_upper_mm);
-        z = part_.slabs[i].z_upper_mm;
-      }
-      y -= kDimensionStep_mm;
+    for (std::size_t i = 0; i < dimensions_.widths.size(); ++i) {
+      const PartWidth& width = dimensions_.widths[i];
+      if (i > 0 && i + 1 == dimensions_.widths.size()) y -= kDimensionStep_mm;  // the whole, below its parts
+      horizontal_dimension(sheet_, {.from = in_section(width.z_lower_mm, -outer_), .to = in_section(width.z_upper_mm, -outer_),
+                                    .line_at_mm = y, .text = drawing_number(width.width_mm(), 3)});
     }
-    width(0.0, length_);
-    if (!gears_.empty()) draw_runout();
-  }
-
-  static bool same_outer(const Outline& a, const Outline& b) {
-    return a.index() == b.index() && std::abs(outermost_mm(a) - outermost_mm(b)) < 1e-9;
+    draw_tip_runouts();
+    draw_face_runout();
   }
 
   void draw_datum(const Point2& at) {
@@ -295,18 +213,35 @@ class PartSheet {
     sheet_.text(tip + Point2(0.0, -8.8), "A", 3.0, TextAnchor::kMiddle);
   }
 
-  /// Circular runout of the first gear's tips: that of its teeth, F_rT, which is all the tips need to show.
-  void draw_runout() {
-    const TrainGear& gear = *gears_.front();
-    const auto limits = flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), model_.tolerance_class);
-    if (!limits) return;
-    const double r = gear.profile.tip_radius_mm();
-    const Point2 feature = in_section(0.5 * gear.face_width_mm, r);
-    const Point2 corner(section_origin_.x() + length_ * scale_ + 3.0, section_origin_.y() + outer_ * scale_ + 2.0);
-    frame_of_tolerance(corner, drawing_number(1e-3 * limits->runout_um, 3));
-    sheet_.line(corner + Point2(0.0, 3.0), {feature.x(), corner.y() + 3.0}, Pen::kThin);
-    sheet_.line({feature.x(), corner.y() + 3.0}, feature, Pen::kThin);
-    sheet_.arrow(feature, {0.0, -1.0});
+  /// The frames stand above each other, that of the rightmost gear lowest: no leader crosses another.
+  void draw_tip_runouts() {
+    Point2 corner(section_origin_.x() + length_ * scale_ + 3.0, section_origin_.y() + outer_ * scale_ + 2.0);
+    for (auto runout = dimensions_.tip_runouts.rbegin(); runout != dimensions_.tip_runouts.rend(); ++runout) {
+      const Point2 feature = in_section(0.5 * (runout->z_lower_mm + runout->z_upper_mm), runout->gear->profile.tip_radius_mm());
+      frame_of_tolerance(corner, drawing_number(runout->value_mm, 3));
+      sheet_.line(corner + Point2(0.0, 3.0), {feature.x(), corner.y() + 3.0}, Pen::kThin);
+      sheet_.line({feature.x(), corner.y() + 3.0}, feature, Pen::kThin);
+      sheet_.arrow(feature, {0.0, -1.0});
+      corner.y() += kFrameStep_mm;
+    }
+  }
+
+  /// Between the views, where the upper face has material.
+  void draw_face_runout() {
+    if (!dimensions_.face_runout) return;
+    double from = 0.0, to = 0.0;
+    for (const SectionBand& band : section_.bands)
+      if (!band.teeth && band.z_upper_mm == length_ && band.to_mm > to) {
+        from = std::max(0.0, band.from_mm);
+        to = band.to_mm;
+      }
+    const Point2 feature = in_section(length_, 0.5 * (from + to)), bend = feature + Point2(3.0, 0.0);
+    const Point2 frame(bend.x(), std::min(bend.y(), section_origin_.y() + outer_ * scale_ - 3.0));  // below those of the tips
+    sheet_.line(feature, bend, Pen::kThin);
+    sheet_.line(bend, frame, Pen::kThin);
+    sheet_.line(frame, frame + Point2(2.0, 0.0), Pen::kThin);
+    sheet_.arrow(feature, {-1.0, 0.0});
+    frame_of_tolerance(frame + Point2(2.0, -3.0), drawing_number(dimensions_.face_runout->value_mm, 3));
   }
 
   void frame_of_tolerance(const Point2& corner, const std::string& value) {
@@ -349,7 +284,7 @@ class PartSheet {
   AxialSection section_;
   std::vector<const TrainGear*> gears_;
   std::vector<GearTableRow> table_;
-  std::vector<Diameter> diameters_;
+  PartDimensions dimensions_;
   Sheet sheet_;
   double length_ = 0.0, outer_ = 0.0, scale_ = 1.0;
   std::string scale_name_, sheet_size_;

@@ -113,8 +113,9 @@ void vertical_dimension(Sheet& sheet, const Dimension& d) {
   const bool inside = y2 - y1 > 2.0 * kArrowLength_mm + 1.0;
   const bool text_inside = y2 - y1 > width + 1.0;
   const double reach = inside ? 0.0 : 6.0;
-  const double middle = 0.5 * (y1 + y2), beside = text_inside ? 0.0 : 0.5 * width;
-  sheet.line({x, std::min(y1 - reach, middle - beside)}, {x, std::max(y2 + reach, middle + beside)}, Pen::kThin);
+  // a text that is longer than the distance goes on upwards: below there may be a datum
+  const double middle = text_inside ? 0.5 * (y1 + y2) : y1 + 1.0 + 0.5 * width;
+  sheet.line({x, y1 - reach}, {x, std::max(y2 + reach, middle + 0.5 * (text_inside ? 0.0 : width))}, Pen::kThin);
   sheet.arrow({x, y1}, inside ? Point2(0.0, -1.0) : Point2(0.0, 1.0));
   sheet.arrow({x, y2}, inside ? Point2(0.0, 1.0) : Point2(0.0, -1.0));
   sheet.text({x - kTextGap_mm, middle}, d.text, kDimensionText_mm, TextAnchor::kMiddle, 0.5 * kPi);

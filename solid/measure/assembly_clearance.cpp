@@ -5,31 +5,19 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
+#include "trueflank/solid/measure/body_layers.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/train/carrier.h"
 
 namespace trueflank {
 namespace {
 
-struct Disc {
-  Point2 centre = Point2::Zero();
-  double radius_mm = 0.0;
-};
-
-/// One slab of a body where it stands, all outlines as circles on the safe side.
-struct Layer {
-  HeightRange z;
-  Disc outer;
-  std::vector<Disc> holes;
-  bool toothed = false;
-};
-
 struct Body {
   const Placement* placement = nullptr;
   const PartShape* part = nullptr;
   int frame =
       kNoMember;  ///< bodies of one frame do not turn against each other about the train's axis
-  std::vector<Layer> layers;
+  std::vector<BodyLayer> layers;
 };
 
 /// What a layer sweeps about the train's axis.
@@ -37,7 +25,7 @@ struct Sweep {
   double inner_mm = 0.0, outer_mm = 0.0;
 };
 
-Sweep sweep_of(const Layer& layer) {
+Sweep sweep_of(const BodyLayer& layer) {
   const double off = layer.outer.centre.norm(), r = layer.outer.radius_mm;
   Sweep sweep{std::max(0.0, off - r), off + r};
   if (off >= r) return sweep;
@@ -46,21 +34,7 @@ Sweep sweep_of(const Layer& layer) {
   return sweep;
 }
 
-/// How far two layers that stand still against each other are apart, across the axis; negative: how
-/// deep one is in the other.
-double gap_at_rest_mm(const Layer& a, const Layer& b) {
-  double gap = (a.outer.centre - b.outer.centre).norm() - a.outer.radius_mm - b.outer.radius_mm;
-  const auto inside = [&](const Layer& in, const Layer& out) {
-    for (const Disc& hole : out.holes)
-      gap = std::max(gap,
-                     hole.radius_mm - in.outer.radius_mm - (in.outer.centre - hole.centre).norm());
-  };
-  inside(a, b);
-  inside(b, a);
-  return gap;
-}
-
-double gap_in_turning_mm(const Layer& a, const Layer& b) {
+double gap_in_turning_mm(const BodyLayer& a, const BodyLayer& b) {
   const Sweep s = sweep_of(a), t = sweep_of(b);
   return std::max(s.inner_mm - t.outer_mm, t.inner_mm - s.outer_mm);
 }
@@ -70,28 +44,11 @@ Body body_of(const GearTrain& train, const PartShapes& shapes, const Placement& 
   const Topology& topology = train.topology();
   Body body{.placement = &placement, .part = &part, .frame = part.member};
   if (part.member != kNoMember) {
-    const auto& fixed = topology.fixed;
-    if (std::find(fixed.begin(), fixed.end(), part.member) != fixed.end()) body.frame = kNoMember;
     if (topology.is_planet(part.member)) body.frame = topology.carrier_of(part.member);
+    const auto& fixed = topology.fixed;
+    if (std::find(fixed.begin(), fixed.end(), body.frame) != fixed.end()) body.frame = kNoMember;
   }
-  const Point2 move(placement.translation_mm[0], placement.translation_mm[1]);
-  const auto disc = [&](const OutlineExtent& e, double radius_mm) {
-    return Disc{rotated(e.centre, placement.rotation_rad) + move, radius_mm};
-  };
-  for (const Slab& slab : part.slabs) {
-    const OutlineExtent outer = extent(slab.outer);
-    Layer layer{{slab.z_lower_mm + placement.translation_mm[2],
-                 slab.z_upper_mm + placement.translation_mm[2]},
-                disc(outer, outer.outer_radius_mm),
-                {},
-                std::holds_alternative<ToothedOutline>(slab.outer)};
-    for (const Outline& hole : slab.holes) {
-      const OutlineExtent e = extent(hole);
-      layer.holes.push_back(disc(e, e.inner_radius_mm));
-      layer.toothed = layer.toothed || std::holds_alternative<ToothedOutline>(hole);
-    }
-    body.layers.push_back(std::move(layer));
-  }
+  body.layers = body_layers(part, placement);
   return body;
 }
 
@@ -109,9 +66,9 @@ class Judge {
     if (is_shaft_in_bore(train_, a, b) || is_shaft_in_bore(train_, b, a)) return;
     const bool turning = a.frame != b.frame;
     double least = 1e300;
-    for (const Layer& s : a.layers)
-      for (const Layer& t : b.layers) {
-        if (s.toothed && t.toothed) continue;
+    for (const BodyLayer& s : a.layers)
+      for (const BodyLayer& t : b.layers) {
+        if (s.teeth && t.teeth) continue;
         const double along = std::max(s.z.lower_mm - t.z.upper_mm, t.z.lower_mm - s.z.upper_mm);
         const double across = turning ? gap_in_turning_mm(s, t) : gap_at_rest_mm(s, t);
         least = std::min(least, std::max(along, across));

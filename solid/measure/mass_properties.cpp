@@ -170,20 +170,28 @@ BodyInertias body_inertias(const GearTrain& train, const PartShapes& shapes,
                            const std::function<double(const PartShape&)>& density_of) {
   const Topology& topology = train.topology();
   BodyInertias bodies(topology.members.size());
-  std::vector<int> parts(bodies.size(), 0);
-  for (const PartShape& part : shapes.parts) {
-    if (part.member == kNoMember) continue;
-    const auto m = static_cast<std::size_t>(part.member);
-    if (parts[m] > 0 && !topology.is_planet(part.member)) continue;  // of a carrier its lower plate
-    const MassProperties p = mass_properties(part, density_of(part));
-    ++parts[m];
-    bodies[m].axial_kg_m2 += p.axial_inertia_kg_m2;
-    bodies[m].mass_kg += p.mass_kg;
+  std::vector<int> places(bodies.size(), 0);
+  std::vector<MassProperties> own;
+  for (const PartShape& part : shapes.parts)
+    own.push_back(part.member == kNoMember || !part.bought.empty()
+                      ? MassProperties{}
+                      : mass_properties(part, density_of(part)));
+  for (const Placement& placement : shapes.assembly) {
+    const auto part = static_cast<std::size_t>(placement.part);
+    const int member = shapes.parts[part].member;
+    if (member == kNoMember || !(own[part].mass_kg > 0.0)) continue;
+    const auto m = static_cast<std::size_t>(member);
+    ++places[m];
+    bodies[m].axial_kg_m2 += own[part].axial_inertia_kg_m2;
+    bodies[m].mass_kg += own[part].mass_kg;
+    if (topology.is_planet(member)) continue;  // about its own axis; it is carried round elsewhere
+    const double off_axis_m = 1e-3 * std::hypot(placement.translation_mm[0], placement.translation_mm[1]);
+    if (topology.has_planets()) bodies[m].axial_kg_m2 += own[part].mass_kg * off_axis_m * off_axis_m;
   }
   for (std::size_t m = 0; m < bodies.size(); ++m)
-    if (parts[m] > 1) {
-      bodies[m].axial_kg_m2 /= parts[m];
-      bodies[m].mass_kg /= parts[m];
+    if (topology.is_planet(static_cast<int>(m)) && places[m] > 1) {
+      bodies[m].axial_kg_m2 /= places[m];
+      bodies[m].mass_kg /= places[m];
     }
   return bodies;
 }

@@ -21,8 +21,9 @@ struct MassProperties {
 /// Accuracy: relative 1e-5, tested against closed forms and the integral over the part's mesh.
 [[nodiscard]] MassProperties mass_properties(const PartShape& shape, double density_kg_m3);
 
-/// Inertias of a train's bodies from its parts; the mean where planets differ. Of a carrier its lower
-/// plate counts, where the parts have one. `density_of` tells a part's density [kg/m3].
+/// Inertias of a train's bodies: of all made parts that turn with a member, in their places; of a
+/// planet the mean of the bodies, about its own axis. What is bought (screws, bearings, pins) is left
+/// out. `density_of` gives a part's density [kg/m3].
 [[nodiscard]] BodyInertias body_inertias(const GearTrain& train, const PartShapes& shapes,
                                          const std::function<double(const PartShape&)>& density_of);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "trueflank/base/contract.h"
@@ -33,20 +34,21 @@ constexpr std::size_t kLeastEffort = 3'000'000;
 constexpr double kNearEnough = 1e-2;
 
 using Polygon = std::vector<Point3>;
+using Corners = std::span<const Point3>;  ///< of a polygon
 
-Point3 centroid(const Polygon& polygon) {
+Point3 centroid(Corners polygon) {
   Point3 sum = Point3::Zero();
   for (const Point3& p : polygon) sum += p;
   return sum / static_cast<double>(polygon.size());
 }
 
-double radius_about(const Polygon& polygon, const Point3& centre) {
+double radius_about(Corners polygon, const Point3& centre) {
   double radius2 = 0.0;
   for (const Point3& p : polygon) radius2 = std::max(radius2, (p - centre).squaredNorm());
   return std::sqrt(radius2);
 }
 
-double area_of(const Polygon& polygon) {
+double area_of(Corners polygon) {
   Point3 twice = Point3::Zero();
   for (std::size_t i = 2; i < polygon.size(); ++i)
     twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
@@ -83,16 +85,10 @@ class Directed {
   }
 
   SurfaceDistance run() {
-    std::uint32_t hint = 0;
-    std::vector<bool> used(mesh_.vertices.size(), false);
-    for (const auto& t : mesh_.triangles)
-      for (std::uint32_t v : t) used[v] = true;
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-      if (used[v]) hint = look(Point3(mesh_.vertices[v].data()), hint).triangle;
+    std::uint32_t hint = look_from_corners();
     looks_left_ = kLooksPerFacet * mesh_.triangles.size() + 100000;
     for (const auto& t : mesh_.triangles) {
-      pending_.push_back({Point3(mesh_.vertices[t[0]].data()), Point3(mesh_.vertices[t[1]].data()),
-                          Point3(mesh_.vertices[t[2]].data())});
+      hint = settle(corners_of(t), hint);
       while (!pending_.empty()) {
         const Polygon polygon = std::move(pending_.back());
         pending_.pop_back();
@@ -107,9 +103,33 @@ class Directed {
   }
 
  private:
-  /// Distance of one point, exactly.
-  TriangleTree::Nearest look(const Point3& p, std::uint32_t hint) {
-    const TriangleTree::Nearest nearest = other_.nearest(p, hint, effort_);
+  [[nodiscard]] std::array<Point3, 3> corners_of(const std::array<std::uint32_t, 3>& t) const {
+    return {Point3(mesh_.vertices[t[0]].data()), Point3(mesh_.vertices[t[1]].data()),
+            Point3(mesh_.vertices[t[2]].data())};
+  }
+
+  /// A corner matters where it is farther away than all before it. Where the other mesh is another
+  /// copy of this one the facet in the same place of the list says that it is not.
+  std::uint32_t look_from_corners() {
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> facet_of(mesh_.vertices.size(), kNone);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (std::uint32_t v : mesh_.triangles[t]) facet_of[v] = std::min(facet_of[v], t);
+    std::uint32_t hint = 0;
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      if (facet_of[v] == kNone) continue;
+      const Point3 p(mesh_.vertices[v].data());
+      if (facet_of[v] < other_.size() &&
+          (nearest_on_triangle(p, other_.corners(facet_of[v])) - p).norm() <= result_.largest_mm)
+        continue;
+      hint = look(p, hint, result_.largest_mm).triangle;
+    }
+    return hint;
+  }
+
+  /// Distance of one point, exactly where it is above `known_mm`.
+  TriangleTree::Nearest look(const Point3& p, std::uint32_t hint, double known_mm = 0.0) {
+    const TriangleTree::Nearest nearest = other_.nearest(p, hint, effort_, known_mm);
     if (nearest.distance_mm > result_.largest_mm) {
       result_.largest_mm = nearest.distance_mm;
       result_.worst_place_mm = {p.x(), p.y(), p.z()};
@@ -121,7 +141,7 @@ class Directed {
     return std::max(tolerance_mm_, kSharpness * result_.largest_mm);
   }
   /// Largest distance of a convex polygon from one triangle: that of a corner.
-  [[nodiscard]] double reach_mm(const Polygon& polygon, std::uint32_t triangle) const {
+  [[nodiscard]] double reach_mm(Corners polygon, std::uint32_t triangle) const {
     double reach2 = 0.0;
     const auto& corners = other_.corners(triangle);
     for (const Point3& p : polygon)
@@ -129,7 +149,7 @@ class Directed {
     return std::sqrt(reach2);
   }
 
-  void done(const Polygon& polygon, double bound_mm, double distance_mm) {
+  void done(Corners polygon, double bound_mm, double distance_mm) {
     const double area = area_of(polygon);
     area_ += area;
     weighted_squares_ += area * distance_mm * distance_mm;
@@ -138,7 +158,7 @@ class Directed {
   }
 
   /// Bounds a piece, or cuts it into pieces that will be; returns the triangle it lies over.
-  std::uint32_t settle(const Polygon& polygon, std::uint32_t hint) {
+  std::uint32_t settle(Corners polygon, std::uint32_t hint) {
     const Point3 centre = centroid(polygon);
     const TriangleTree::Nearest nearest = look(centre, hint);
     const double radius = radius_about(polygon, centre);
@@ -150,7 +170,8 @@ class Directed {
       return nearest.triangle;
     }
     --looks_left_;
-    if (!cut_along(polygon, nearest.triangle, nearest.distance_mm)) halve(polygon);
+    const Polygon pieces(polygon.begin(), polygon.end());
+    if (!cut_along(pieces, nearest.triangle, nearest.distance_mm)) halve(pieces);
     return nearest.triangle;
   }
 
@@ -227,10 +248,10 @@ MeshSummary summary_of(const TriangleMesh& mesh, const MeshValidity& validity) {
                    validity.coordinates_finite;
   bool first = true;
   for (const auto& t : mesh.triangles) {
-    Polygon corners;
-    for (std::uint32_t v : t) {
-      const auto& p = mesh.vertices[v];
-      corners.emplace_back(p.data());
+    std::array<Point3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& p = mesh.vertices[t[c]];
+      corners[c] = Point3(p.data());
       for (std::size_t i = 0; i < 3; ++i) {
         summary.lower_mm[i] = first ? p[i] : std::min(summary.lower_mm[i], p[i]);
         summary.upper_mm[i] = first ? p[i] : std::max(summary.upper_mm[i], p[i]);

@@ -34,6 +34,10 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
       unchamfered_(toothing_),
       section_(design_section(outline)) {
   unchamfered_.edge_chamfer_mm = 0.0;
+  base_radius_mm_ = base_radius_mm(outline.profile->gear());
+  const double slope =
+      toothing_.twist.turn_rad_per_mm * std::max(base_radius_mm_, outline.profile->root_radius_mm());
+  steepest_ = std::sqrt(1.0 + slope * slope);
   deviates_ = toothing_.has_deviation() || toothing_.edge_chamfer_mm > 0.0;
   const auto& pieces = outline.profile->pieces();
   while (pieces[flank_].kind != PieceKind::kInvolute) ++flank_;
@@ -88,10 +92,7 @@ double ToothingDistance::lower_bound_mm(const Point3& point) const {
   // a deviation turns points about the axis: their radii stay
   const double bound = section_.lower_bound_mm(point.head<2>()) - toothing_.edge_chamfer_mm -
                        toothing_.bed_depth_mm(0.0) - 2.0 * largest_displacement_mm_;
-  const Gear& gear = outline_.profile->gear();
-  const double slope = toothing_.twist.turn_rad_per_mm *
-                       std::max(base_radius_mm(gear), outline_.profile->root_radius_mm());
-  return std::max(0.0, bound) / std::sqrt(1.0 + slope * slope);
+  return std::max(0.0, bound) / steepest_;
 }
 
 double ToothingDistance::chamfer_depth_mm(double z_mm) const {
@@ -102,7 +103,7 @@ double ToothingDistance::chamfer_depth_mm(double z_mm) const {
 ToothingDistance::CircleTurn ToothingDistance::turn_of_circle(int tooth, int side,
                                                               double radius_mm,
                                                               double z_mm) const {
-  const double r_b = base_radius_mm(outline_.profile->gear());
+  const double r_b = base_radius_mm_;
   const double roll = std::clamp(roll_length_mm(radius_mm, r_b) / r_b, low_roll_, high_roll_);
   double fade = 1.0, fade_rise = 0.0;
   const double to_root = fillet_radii_mm_.empty() ? 0.0 : fillet_radii_mm_.back() - fillet_radii_mm_.front();

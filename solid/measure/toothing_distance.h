@@ -13,11 +13,11 @@ using Point3 = Eigen::Vector3d;
 /// Distances in space from a toothing's true surface, twist, deviation, chamfers and displacement
 /// included; nothing of any tessellation is used.
 /// How: a point is moved back by the displacement, turned back by the twist, and turned back by the
-/// deviation that its circle has at its height; then it is as far from the design's section as it was
-/// from the true one at its height; a bed chamfer is so much less material all round. The distance square
-/// to the surface follows from the slope.
-/// Accuracy: 1 % of the distance for slopes of the deviation up to 1 % on the flank, any on the fillet;
-/// distances within a tenth of the module.
+/// deviation that its circle has at its height; then it is as far from the design's section as it
+/// was from the true one at its height; a bed chamfer is so much less material all round. The
+/// distance square to the surface follows from the slope. Accuracy: 1 % of the distance for slopes
+/// of the deviation up to 1 % on the flank, any on the fillet; distances within a tenth of the
+/// module.
 class ToothingDistance {
  public:
   explicit ToothingDistance(const ToothedOutline& outline);
@@ -52,7 +52,8 @@ class ToothingDistance {
   };
   [[nodiscard]] SectionFoot section_foot(const Point2& turned_back, double z_mm) const;
   [[nodiscard]] CircleTurn turn_of_circle(int tooth, int side, double radius_mm, double z_mm) const;
-  /// The side-signed turn that takes a place near the true section back to the design's, and its rise.
+  /// The side-signed turn that takes a place near the true section back to the design's, and its
+  /// rise.
   [[nodiscard]] CircleTurn turn_back(const Point2& place, double z_mm) const;
   [[nodiscard]] double chamfer_depth_mm(double z_mm) const;
 
@@ -64,6 +65,8 @@ class ToothingDistance {
   double tip_half_angle_rad_ = 0.0;
   double root_half_angle_rad_ = 0.0;  ///< of a root that meets the flank without a fillet
   bool deviates_ = false;
+  double base_radius_mm_ = 0.0;
+  double steepest_ = 1.0;  ///< way along the wall a way across it, at most
   double largest_displacement_mm_ = 0.0;
   std::vector<double> fillet_radii_mm_, fillet_fades_;  ///< from the root form circle on
 };

@@ -14,7 +14,6 @@
 #include "trueflank/base/units.h"
 #include "trueflank/solid/mesh/bed_rows.h"
 #include "trueflank/solid/mesh/cap_triangulation.h"
-#include "trueflank/solid/shape/flank_strips.h"
 #include "trueflank/solid/shape/toothing_grid.h"
 
 namespace trueflank {
@@ -129,23 +128,19 @@ class StackMesher {
     if (first == kNone) {
       first = static_cast<int>(result_.mesh.vertices.size());
       if (grids_[at(loop)])
-        add_row(*grids_[at(loop)], height_in_gear(loop, z_of(level)), {});
+        add_row(*grids_[at(loop)], height_in_gear(loop, z_of(level)));
       else
         add_row(beds_[at(loop)] ? bed_row(loop, z_of(level)) : loops_[at(loop)].points, z_of(level));
     }
     return static_cast<std::uint32_t>(first);
   }
-  /// All columns of a row, or where some are left out, those that are not.
-  std::uint32_t add_row(const ToothingGrid& grid, double z_mm, const std::vector<int>& kept) {
+  std::uint32_t add_row(const ToothingGrid& grid, double z_mm) {
+    return add_vertices(grid.row(z_mm));
+  }
+  std::uint32_t add_vertices(const std::vector<std::array<double, 3>>& points) {
     auto& vertices = result_.mesh.vertices;
     const auto first = static_cast<std::uint32_t>(vertices.size());
-    const auto row = grid.row(z_mm);
-    if (kept.empty()) {
-      vertices.insert(vertices.end(), row.begin(), row.end());
-      return first;
-    }
-    for (std::size_t v = 0; v < row.size(); ++v)
-      if (kept[v % kept.size()] != kNone) vertices.push_back(row[v]);
+    vertices.insert(vertices.end(), points.begin(), points.end());
     return first;
   }
   std::uint32_t add_row(const std::vector<Point2>& points, double z_mm) {
@@ -192,65 +187,27 @@ class StackMesher {
     add_strip(bed.rows.back().size(), lower, row(loop, last_level), hole);
   }
 
-  /// A row of a grid in the mesh. Between whole rows the columns within flank strips have no vertex.
-  struct GridRow {
-    std::uint32_t first = 0;
-    bool whole = true;
-  };
-  /// The grid's columns that every row has, numbered; kNone within flank strips.
-  struct KeptColumns {
-    std::vector<int> numbers;
-    std::uint32_t count = 0;
-  };
-  static KeptColumns kept_columns(const ToothingGrid& grid) {
-    KeptColumns kept{std::vector<int>(at(grid.points_per_tooth()), 0), 0};
-    for (const ToothingGrid::Strip& strip : grid.flank_strips())
-      for (int i = strip.first + 1; i < strip.last; ++i) kept.numbers[at(i)] = kNone;
-    for (int& i : kept.numbers)
-      if (i != kNone) i = static_cast<int>(kept.count++);
-    return kept;
-  }
-
   /// The wall of a toothing that is no prism, from one interface to another.
   void add_grid(int loop, std::size_t first_level, std::size_t last_level, bool hole) {
     const ToothingGrid& grid = *grids_[at(loop)];
     const auto& heights = grid.heights_mm();
-    const KeptColumns kept = kept_columns(grid);
     std::size_t level = first_level;
     const auto row_at = [&](std::size_t j) {
       // interfaces are rows of the grid: their vertices are those of the faces
-      if (std::abs(heights[j] - height_in_gear(loop, z_of(level))) < 1e-9)
-        return GridRow{row(loop, level++), true};
-      const bool whole = grid.is_whole(j);
-      return GridRow{add_row(grid, heights[j], whole ? std::vector<int>{} : kept.numbers), whole};
-    };
-    const auto from_start = [&](std::size_t j) {
-      return heights[j] - height_in_gear(loop, z_of(first_level));
+      if (std::abs(heights[j] - height_in_gear(loop, z_of(level))) < 1e-9) return row(loop, level++);
+      return add_row(grid, heights[j]);
     };
     std::size_t j = 0;
-    while (from_start(j) < -1e-9) ++j;
-    std::vector<GridRow> patch{row_at(j)};
-    while (level <= last_level) {
-      patch.push_back(row_at(j + 1));
-      add_layer(grid, kept, j, patch[patch.size() - 2], patch.back(), hole);
-      ++j;
-      if (!patch.back().whole) continue;
-      add_flank_strips(grid, kept, j + 1 - patch.size(), patch, hole);
-      patch = {patch.back()};
+    while (heights[j] - height_in_gear(loop, z_of(first_level)) < -1e-9) ++j;
+    std::uint32_t lower = row_at(j);
+    for (; level <= last_level; ++j) {
+      const std::uint32_t upper = row_at(j + 1);
+      if (grid.patches().empty())
+        add_layer(grid, j, lower, upper, hole);
+      else
+        add_patch(grid, j, lower, upper, hole);
+      lower = upper;
     }
-  }
-
-  /// Number of a grid's vertex in a row.
-  static std::uint32_t vertex_of(const ToothingGrid& grid, const KeptColumns& kept,
-                                 const GridRow& row, std::uint32_t tooth, int column) {
-    if (column == grid.points_per_tooth()) {
-      column = 0;
-      tooth = (tooth + 1) % static_cast<std::uint32_t>(grid.teeth());
-    }
-    if (row.whole)
-      return row.first + tooth * static_cast<std::uint32_t>(grid.points_per_tooth()) +
-             static_cast<std::uint32_t>(column);
-    return row.first + tooth * kept.count + static_cast<std::uint32_t>(kept.numbers[at(column)]);
   }
 
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool hole) {
@@ -258,44 +215,45 @@ class StackMesher {
     result_.mesh.triangles.push_back({a, b, c});
   }
 
-  /// The flanks between two whole rows, `first_layer` above the lower one.
-  void add_flank_strips(const ToothingGrid& grid, const KeptColumns& kept,
-                        std::size_t first_layer, const std::vector<GridRow>& rows, bool hole) {
-    for (const ToothingGrid::Strip& strip : grid.flank_strips()) {
-      const auto facets = strips(strip.last - strip.first, static_cast<int>(rows.size()) - 1,
-                                 grid.falls(strip, first_layer), grid.column_turn_rad(),
-                                 grid.row_turn_rad(first_layer));
-      for (std::uint32_t tooth = 0; tooth < static_cast<std::uint32_t>(grid.teeth()); ++tooth) {
-        const auto vertex = [&](const PatchNode& node) {
-          return vertex_of(grid, kept, rows[at(node[1])], tooth, strip.first + node[0]);
-        };
-        for (const auto& t : facets) add_triangle(vertex(t[0]), vertex(t[1]), vertex(t[2]), hole);
-      }
+  /// The net between two rows.
+  void add_patch(const ToothingGrid& grid, std::size_t layer, std::uint32_t lower, std::uint32_t upper,
+                 bool hole) {
+    const NetPatch& patch = grid.patches()[layer];
+    const std::uint32_t inner = add_vertices(grid.inner_points(layer));
+    const auto n = static_cast<std::uint32_t>(grid.points_per_tooth());
+    const auto teeth = static_cast<std::uint32_t>(grid.teeth());
+    std::vector<std::uint32_t> before{0};  // inner vertices of a tooth before each column's
+    for (const auto& column : patch.inner)
+      before.push_back(before.back() + static_cast<std::uint32_t>(column.size()));
+    for (std::uint32_t tooth = 0; tooth < teeth; ++tooth) {
+      const auto vertex = [&](const NetNode& node) {
+        const std::uint32_t column = static_cast<std::uint32_t>(node.column) % n;
+        const std::uint32_t k = (tooth + static_cast<std::uint32_t>(node.column) / n) % teeth;
+        const auto row = static_cast<std::uint32_t>(node.row);
+        if (row == 0) return lower + k * n + column;
+        if (row > patch.inner[column].size()) return upper + k * n + column;
+        return inner + k * before.back() + before[column] + row - 1;
+      };
+      for (const auto& [a, b, c] : patch.facets) add_triangle(vertex(a), vertex(b), vertex(c), hole);
     }
   }
 
-  /// The quadrilaterals between two rows, but for those of flank strips.
-  void add_layer(const ToothingGrid& grid, const KeptColumns& kept, std::size_t layer,
-                 const GridRow& lower, const GridRow& upper, bool hole) {
-    const int n = grid.points_per_tooth();
-    std::vector<int> columns;
-    for (int i = 0; i < n; ++i)
-      if (std::none_of(grid.flank_strips().begin(), grid.flank_strips().end(),
-                       [&](const ToothingGrid::Strip& s) { return i >= s.first && i < s.last; }))
-        columns.push_back(i);
-    for (int tooth = 0; tooth < grid.teeth(); ++tooth)
-      for (const int i : columns) {
-        const auto k = static_cast<std::uint32_t>(tooth);
-        const std::uint32_t a = vertex_of(grid, kept, lower, k, i), b = vertex_of(grid, kept, lower, k, i + 1);
-        const std::uint32_t d = vertex_of(grid, kept, upper, k, i), c = vertex_of(grid, kept, upper, k, i + 1);
-        if (grid.rises(layer, tooth, i)) {
-          add_triangle(a, b, c, hole);
-          add_triangle(a, c, d, hole);
-        } else {
-          add_triangle(a, b, d, hole);
-          add_triangle(b, c, d, hole);
-        }
+  /// The quadrilaterals between two rows.
+  void add_layer(const ToothingGrid& grid, std::size_t layer, std::uint32_t lower, std::uint32_t upper,
+                 bool hole) {
+    const auto n = static_cast<std::uint32_t>(grid.points_per_tooth());
+    const auto count = n * static_cast<std::uint32_t>(grid.teeth());
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const std::uint32_t next = v + 1 < count ? v + 1 : 0;
+      const std::uint32_t a = lower + v, b = lower + next, c = upper + next, d = upper + v;
+      if (grid.rises(layer, static_cast<int>(v / n), static_cast<int>(v % n))) {
+        add_triangle(a, b, c, hole);
+        add_triangle(a, c, d, hole);
+      } else {
+        add_triangle(a, b, d, hole);
+        add_triangle(b, c, d, hole);
       }
+    }
   }
 
   /// The wall between two rows of the same loop.

@@ -9,6 +9,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/shape/carrier.h"
 #include "trueflank/solid/shape/machine/machine_parts.h"
+#include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/train/ring_rim.h"
 
@@ -106,9 +107,28 @@ class ShapeBuilder {
     return with_groove(gear, std::move(slab));
   }
 
+  /// A herringbone ring as the two parts that meet at its apex.
+  void add_halves(int member, const TrainGear& gear) {
+    StackedBody whole;
+    whole.add(ring_slabs(gear), 0.0);
+    const double apex = 0.5 * gear.face_width_mm;
+    for (const bool upper : {false, true}) {
+      const std::string name = train_.topology().name_of(member) + (upper ? "_upper" : "_lower");
+      const StackedBody half = whole.between(upper ? HeightRange{apex, gear.face_width_mm}
+                                                   : HeightRange{0.0, apex});
+      shapes_.parts.push_back({.name = name,
+                               .slabs = half.slabs(),
+                               .member = member,
+                               .role = role_of(train_, member)});
+      place(name, train_.phases.rotation_rad(member, 0),
+            axis_centre_mm(train_, train_.phases, member), gear.z_lower_mm + (upper ? apex : 0.0));
+    }
+  }
+
   /// A body that is there once.
   void add_single(int member) {
     const TrainGear& gear = train_.gear(train_.topology().first_gear_of(member));
+    if (is_made_in_halves(train_.design, design_of(gear))) return add_halves(member, gear);
     shapes_.parts.push_back({.name = train_.topology().name_of(member),
                              .slabs = is_ring(gear) ? ring_slabs(gear) : body_slabs(member, 0),
                              .member = member,
@@ -240,7 +260,8 @@ class ShapeBuilder {
                        .member = member,
                        .role = PartRole::kPlanet};
         if (errors_.size() > errors_before) return;  // the other bodies would say the same
-        if (!alike) add_mark(gears, static_cast<int>(i) + 1, part);
+        // in a gearbox compound bodies that are alike have a mark too: they must be turned rightly
+        if (!alike || (layout_ && gears.size() > 1)) add_mark(gears, static_cast<int>(i) + 1, part);
         shapes_.parts.push_back(std::move(part));
       }
       place(name + " " + number, phases.rotation_rad(member, i),
@@ -316,12 +337,22 @@ class ShapeBuilder {
                "a layer gap of at least " + text(kLeastGap_mm) + " mm, 1 mm for a usual neck");
   }
 
-  /// Blind holes in the upper face, as many as the body's number.
+  /// What a mark in the upper face stays outside of: the bore, or the seat of a bearing.
+  [[nodiscard]] double inside_of_mark_mm(const TrainGear& top_gear) const {
+    const double bore = largest_radius_mm(bore_through(top_gear));
+    if (!layout_ || !train_.design.machine->bearings.planet) return bore;
+    return std::max(bore,
+                    0.5 * (train_.design.machine->bearings.planet->outer_mm + layout_->fit_mm));
+  }
+
+  /// Blind holes in the upper face, as many as the body's number; in a gearbox they leave its
+  /// walls.
   void add_mark(const std::vector<int>& gears, int number, PartShape& part) {
     const TrainGear& top_gear = train_.gear(gears.back());
-    const double inner = largest_radius_mm(bore_through(top_gear));
+    const double inner = inside_of_mark_mm(top_gear);
     const double web = top_gear.profile.root_radius_mm() - inner;
-    const double hole = std::min(0.75, 0.15 * web);  // radius
+    double hole = std::min(0.75, 0.15 * web);  // radius
+    if (layout_) hole = std::min(hole, 0.5 * web - layout_->wall_mm);
     const double circle = inner + 0.5 * web;
     const double step = 4.0 * hole / circle;
     Slab& body = part.slabs.back();

@@ -33,18 +33,6 @@ constexpr double kSameVertex = 0.25;
 
 Point3 vector_of(const std::array<double, 3>& p) { return Point3(p.data()); }
 
-/// Largest distance of a paraboloid from the triangle through its points, from its (signed) distances
-/// at the middles of the edges. On saddles and cylinders the largest of these; on a dome the height over
-/// the circumcentre, in the metric of its curvature.
-double triangle_error(double a, double b, double c) {
-  const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
-  if (!((a > 0.0) == (b > 0.0) && (b > 0.0) == (c > 0.0))) return largest;
-  a = std::abs(a), b = std::abs(b), c = std::abs(c);
-  if (2.0 * largest >= a + b + c) return largest;  // obtuse
-  const double squares = a * a + b * b + c * c;
-  return std::max(largest, 4.0 * a * b * c / (2.0 * (a * b + b * c + c * a) - squares));
-}
-
 /// Distance of a surface point from a chord's middle, square to the chord.
 double off_chord(const Point3& from, const Point3& to, const Point3& on_surface, double share) {
   const Point3 along = to - from, away = on_surface - (from + share * along);
@@ -97,9 +85,10 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
     refine_columns(aim);
     refine_layers(aim);
   }
-  for (int round = 0; cut(aim) > aim && round < kRounds; ++round) add_where_charged(aim);
+  if (plain_ && heights_mm_.size() > breaks_mm_.size()) try_net(aim);
+  if (patches_.empty())
+    for (int round = 0; cut(aim) > aim && round < kRounds; ++round) add_where_charged(aim);
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
-  if (plain_ && toothing_.twist.turn_rad_per_mm != 0.0 && heights_mm_.size() > 2) try_strips(aim);
 }
 
 ToothingGrid::Point ToothingGrid::at(const Place& place, int tooth, double z_mm) const {

@@ -6,6 +6,7 @@
 
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/solid/shape/part_shape.h"
+#include "trueflank/solid/shape/screw_net.h"
 
 namespace trueflank {
 
@@ -35,20 +36,11 @@ class ToothingGrid {
   /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its lower
   /// left to its upper right corner (seen from the axis' outside, the axis upwards).
   [[nodiscard]] bool rises(std::size_t layer, int tooth, int point) const;
-  /// Flanks in strips along their generators: the columns [first, last] of a tooth between which only
-  /// the borders of a patch have vertices. A patch lies between two whole rows. None where the surface
-  /// is no helicoid, or strips would be more.
-  struct Strip {
-    int first = 0, last = 0;
-    bool falling = true;  ///< in the lowest patch
-  };
-  [[nodiscard]] const std::vector<Strip>& flank_strips() const { return strips_; }
-  /// Whether its diagonals fall in the patch that has this layer.
-  [[nodiscard]] bool falls(const Strip& strip, std::size_t layer) const;
-  [[nodiscard]] double column_turn_rad() const { return column_turn_rad_; }  ///< of strips
-  [[nodiscard]] double row_turn_rad(std::size_t layer) const;
-  /// Whether every column has a vertex in a row.
-  [[nodiscard]] bool is_whole(std::size_t row) const;
+  /// Plain twisted teeth are nets instead: patches between heights_mm(), inner vertices on each column
+  /// where its own curvature asks for them. Empty where rows and columns are what there is.
+  [[nodiscard]] const std::vector<NetPatch>& patches() const { return patches_; }
+  /// The inner vertices of a patch, tooth by tooth, column by column, upwards; the part's frame.
+  [[nodiscard]] std::vector<std::array<double, 3>> inner_points(std::size_t patch) const;
   /// False where teeth differ by deviation or displacement.
   [[nodiscard]] bool teeth_alike() const { return teeth_alike_; }
   /// Bound on the distance of facets to the surface and of the surface to the facets.
@@ -69,6 +61,10 @@ class ToothingGrid {
     std::size_t piece = 0;
     double parameter = 0.0;
   };
+  /// Places at which a piece is looked at for how it bends.
+  static constexpr std::size_t kSamples = 32;
+  /// What the facets aim at, by piece and sample.
+  using Aims = std::vector<std::array<double, kSamples>>;
   /// Points of one tooth at a height, the next tooth's first one last, and the middles of its edges.
   struct ToothRow {
     std::vector<Point> points, middles, chord_middles;
@@ -91,8 +87,19 @@ class ToothingGrid {
   /// Cuts all quadrilaterals along the better diagonal and returns the largest error left; what is
   /// beyond the tolerance is charged to columns or layers.
   double cut(double tolerance_mm);
-  void try_strips(double tolerance_mm);
-  [[nodiscard]] double strip_error_mm(const Strip& strip) const;
+  void try_net(double tolerance_mm);
+  void spread_columns(const Aims& aims_mm, double widest_rad);
+  [[nodiscard]] double patch_turn_rad(std::size_t patch) const;
+  [[nodiscard]] std::vector<NetEdge> net_edges() const;
+  [[nodiscard]] std::vector<double> column_steps(const std::vector<NetEdge>& edges,
+                                                 const Aims& aims_mm) const;
+  [[nodiscard]] std::vector<std::vector<double>> inner_rows(const std::vector<NetEdge>& edges,
+                                                            const std::vector<double>& steps,
+                                                            double turn_rad) const;
+  void measure_net(const NetPatch& net, const std::vector<NetEdge>& edges, std::size_t patch,
+                   Aims& error_mm) const;
+  [[nodiscard]] std::pair<std::size_t, std::size_t> samples_of(std::size_t edge) const;
+  [[nodiscard]] double aim_of(const Aims& aims_mm, std::size_t edge) const;
   void add_where_charged(double tolerance_mm);
 
   const ToothedOutline& outline_;
@@ -100,8 +107,7 @@ class ToothingGrid {
   int teeth_ = 0;
   bool teeth_alike_ = true, layers_alike_ = true, plain_ = true;
   std::vector<double> levels_mm_, breaks_mm_, heights_mm_;
-  std::vector<Strip> strips_;
-  double column_turn_rad_ = 0.0;
+  std::vector<NetPatch> patches_;
   std::vector<HalfEdge> edges_;
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;

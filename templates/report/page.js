@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page without its picture in 3D: tables of report.json, and the meshes drawn in 2D.
+// The page without its picture in 3D: header, checks, efficiency and files, from report.json.
 'use strict';
 (() => {
 const read = (id) => JSON.parse(document.getElementById(id).textContent);
@@ -9,7 +9,7 @@ const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
 window.trueflank = {report, model, still};
 
 // ------------------------------------------------------------------------------------- building
-const svgNames = new Set(['svg', 'g', 'path', 'line', 'circle', 'use', 'defs']);
+const svgNames = new Set(['svg', 'g', 'path', 'line', 'circle', 'use', 'defs', 'clipPath']);
 /** An element with attributes and children; a child that is null is left out. */
 function h(name, attributes = {}, ...children) {
   const element = svgNames.has(name)
@@ -19,10 +19,10 @@ function h(name, attributes = {}, ...children) {
     if (key.startsWith('on')) element.addEventListener(key.slice(2), value);
     else element.setAttribute(key, value === true ? '' : value);
   }
-  for (const child of children.flat()) if (child !== null && child !== undefined) element.append(child);
+  for (const child of children.flat(Infinity)) if (child !== null && child !== undefined) element.append(child);
   return element;
 }
-window.trueflank.h = h;
+
 const byId = (id) => document.getElementById(id);
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 
@@ -43,7 +43,19 @@ function number(path, digits = null, unit = '') {
   return h('span', {'data-path': path}, text(value, digits),
     unit && isNumber(value) ? h('span', {class: 'unit'}, ' ' + unit) : null);
 }
+/** A length of the report in inches, to 1e-5 in; its element carries path and factor. */
+function inches(path) {
+  const mm = path.split('/').reduce((at, key) => at?.[key], report);
+  return h('span', {'data-path': path, 'data-factor': 1 / 25.4}, isNumber(mm) ? text(mm / 25.4, 5) : '–');
+}
 const words = (id) => { const s = id.replaceAll('_', ' '); return s[0].toUpperCase() + s.slice(1); };
+/** A part as people call it: "carrier_pin" is Carrier pin, "screw_m3x60_housing" Screw M3×60, housing. */
+function properName(name) {
+  const size = (s) => s.replace(/^m(?=\d)/, 'M').replace(/(\d)x(\d)/, '$1×$2').replace(/(\d)_(\d)/g, '$1.$2');
+  const bought = name.match(/^(motor|screw|insert|bearing|pin)_([^_]*\d(?:_\d+)?)(?:_([a-z_]+))?$/);
+  if (bought) return `${words(bought[1])} ${bought[1] === 'motor' ? bought[2].replace(/^nema/, 'NEMA ') : size(bought[2])}${bought[3] ? `, ${bought[3]}` : ''}`;
+  return words(name).replace(/([a-z])(\d)/g, '$1 $2');
+}
 const statusWord = {pass: 'pass', warn: 'warning', fail: 'fail', not_applicable: 'not applicable'};
 const badge = (status) => h('span', {class: `badge ${status}`}, statusWord[status] ?? status);
 function table(caption, columns, rows, className = '') {
@@ -54,6 +66,7 @@ function table(caption, columns, rows, className = '') {
       h('tbody', {}, rows)));
 }
 const column = (title) => ({title, number: true});
+Object.assign(window.trueflank, {h, byId, isNumber, text, number, inches, properName, table, column});
 
 // --------------------------------------------------------------------------------------- header
 const kinds = {'3k': '3K (Wolfrom) planetary gearbox', stepped: 'planetary gearbox with stepped planets', simple: 'planetary gearbox', pair: 'gear pair', gear: 'single gear'};
@@ -90,7 +103,8 @@ function drawHeader() {
       ? h('small', {}, 'none: self-locking') : percent('backward')));
   }
   if (report.train.centre_distance_mm !== null)
-    cards.push(card('Centre distance', number('train/centre_distance_mm', 4), h('small', {}, 'mm')));
+    cards.push(card('Centre distance', number('train/centre_distance_mm', 4), h('small', {}, 'mm'),
+      report.inches ? [' ', inches('train/centre_distance_mm'), h('small', {}, 'in')] : null));
   const strength = model.strength?.output_torque_nm;
   if (isNumber(strength)) cards.push(card('Allowable output torque', text(strength, 2), h('small', {}, `N m, ${report.strength.limiting_material}`)));
   const runs = report.checks.find((c) => c.id === 'tolerance' && c.where === 'train' && isNumber(c.value));
@@ -105,35 +119,43 @@ function drawHeader() {
 }
 
 // --------------------------------------------------------------------------------------- checks
+/** The mesh that a finding is about: by its own name, or the first of a gear. */
+function meshOf(where) {
+  const gear = model.gears.findIndex((g) => g.name === where);
+  return model.meshes.find((m) => m.name === where) ?? model.meshes.find((m) => gear >= 0 && [m.gear1, m.gear2].includes(gear));
+}
 function checkRow(check, index) {
   const path = (key) => `checks/${index}/${key}`;
   const cell = (key, label) => h('td', {class: 'n', 'data-label': label},
     isNumber(check[key]) ? number(path(key), null, check.unit) : '–');
+  const mesh = ['fail', 'warn'].includes(check.status) ? meshOf(check.where) : null;
   return h('tr', {'data-status': check.status}, h('td', {}, badge(check.status)),
     h('th', {scope: 'row'}, words(check.id)), h('td', {}, check.where),
     cell('value', 'value'), cell('limit', 'limit'), cell('margin', 'margin'),
-    h('td', {class: 'message'}, check.message, check.cure ? h('span', {class: 'cure'}, `Cure: ${check.cure}`) : null));
+    h('td', {class: 'message'}, check.message, check.cure ? h('span', {class: 'cure'}, `Cure: ${check.cure}`) : null,
+      mesh ? h('button', {type: 'button', class: 'show', 'aria-label': `Show it: ${mesh.name}, ${words(check.id)}`,
+        onclick: () => window.trueflank.showMesh(mesh.name)}, 'Show it') : null));
 }
+/** What failed and what warns is open to the eye; what passed is one line that opens. */
 function drawChecks() {
   const body = byId('checks-body');
   if (!report.checks.length) { body.append(h('p', {class: 'note'}, 'No checks were run.')); return; }
   const order = ['fail', 'warn', 'pass', 'not_applicable'];
   const rows = report.checks.map((check, index) => ({check, row: checkRow(check, index)}))
     .sort((a, b) => order.indexOf(a.check.status) - order.indexOf(b.check.status));
-  const show = (status) => {
-    for (const {check, row} of rows) row.hidden = status !== 'all' && check.status !== status;
-    for (const button of body.querySelectorAll('.filters button'))
-      button.setAttribute('aria-pressed', button.dataset.status === status);
-  };
-  const filters = ['all', ...order].map((status) => {
-    const n = status === 'all' ? rows.length : rows.filter((r) => r.check.status === status).length;
-    return n ? h('button', {type: 'button', 'data-status': status, 'aria-pressed': status === 'all',
-      onclick: () => show(status)}, `${status === 'all' ? 'All' : words(statusWord[status])} (${n})`) : null;
-  });
+  const told = rows.filter(({check}) => ['fail', 'warn'].includes(check.status)), good = rows.filter((r) => !told.includes(r));
+  const all = (caption, list) => table(caption, ['Status', 'Check', 'Where', column('Value'), column('Limit'), column('Margin'), 'Finding'],
+    list.map((r) => r.row), 'checks-table');
   drawJointCure(body);
-  body.append(h('div', {class: 'filters', role: 'group', 'aria-label': 'Show checks'}, filters),
-    table('Every check with how far it is on the good side of its limit', ['Status', 'Check', 'Where',
-      column('Value'), column('Limit'), column('Margin'), 'Finding'], rows.map((r) => r.row), 'checks-table'));
+  if (told.length) body.append(all('Failures first; the margin is how far a value is on the good side of its limit', told));
+  if (!good.length) return;
+  const passed = good.filter((r) => r.check.status === 'pass').length, other = good.length - passed;
+  const places = new Map();
+  for (const {check} of good) if (check.status === 'pass') places.set(check.id, [...(places.get(check.id) ?? []), check.where]);
+  body.append(h('details', {id: 'passed'},
+    h('summary', {}, `${told.length ? 'What passed' : 'Every check passed'}: ${passed} findings${other ? `, ${other} not applicable` : ''}`),
+    all('What passed, with how far it is on the good side of its limit', good)),
+  h('p', {class: 'print-only note'}, `Passed: ${[...places].map(([id, where]) => `${words(id)} (${where.join(', ')})`).join('; ')}.`));
 }
 
 /** The one change that mends what fails; what it costs; what would still fail. */
@@ -165,91 +187,6 @@ function drawJointCure(body) {
     + (cure.search_ended ? '.' : ', and searches longer, for a smaller change.')
     : 'trueflank fix DESIGN -o FIXED.toml searches longer.'));
   body.append(box);
-}
-
-// ----------------------------------------------------------------------------------- dimensions
-const drawingRows = [
-  ['Teeth', 'teeth', 0], ['Module', 'module_mm', null, 'mm'], ['Profile shift coefficient', 'shift', 5],
-  ['Reference diameter', 'reference_diameter_mm', 4, 'mm'], ['Base diameter', 'base_diameter_mm', 4, 'mm'],
-  ['Tip diameter', 'tip_diameter_mm', 4, 'mm'], ['Tip form diameter', 'tip_form_diameter_mm', 4, 'mm'],
-  ['Start of active profile, diameter', 'start_active_profile_diameter_mm', 4, 'mm'],
-  ['Root form diameter', 'root_form_diameter_mm', 4, 'mm'], ['Root diameter', 'root_diameter_mm', 4, 'mm'],
-  ['Root fillet radius, of the module', 'root_radius_coefficient', 4],
-  ['Transverse module', 'transverse_module_mm', 5, 'mm'],
-  ['Transverse pressure angle', 'transverse_pressure_angle_deg', 4, '°'],
-  ['Base helix angle', 'base_helix_angle_deg', 4, '°'], ['Lead', 'lead_mm', 4, 'mm'],
-  ['Face width', 'face_width_mm', 3, 'mm'], ['Tooth thickness at reference circle', 'reference_thickness_mm', 4, 'mm'],
-  ['Tooth thickness at tip', 'tip_thickness_mm', 4, 'mm'], ['Thinning for backlash', 'thinning_um', 2, 'µm'],
-];
-const workshopRows = [
-  ['Teeth spanned', 'span_teeth', 0], ['Span', 'span_mm', 4, 'mm'], ['Pin or ball diameter', 'pin_diameter_mm', 3, 'mm'],
-  ['Over pins (ring: between pins)', 'over_pins_mm', 4, 'mm'],
-];
-const allowanceRows = [
-  ['Tooth thickness allowance, upper', 'upper_um', 1, 'µm'], ['Tooth thickness allowance, lower', 'lower_um', 1, 'µm'],
-  ['Span, smallest', 'span_min_mm', 4, 'mm'], ['Span, largest', 'span_max_mm', 4, 'mm'],
-  ['Over pins, smallest', 'over_pins_min_mm', 4, 'mm'], ['Over pins, largest', 'over_pins_max_mm', 4, 'mm'],
-];
-function drawAllowances(body) {
-  const names = Object.keys(report.gears).filter((n) => report.gears[n].thickness_allowance);
-  if (!names.length) return;
-  body.append(h('h3', {}, 'Tooth thickness and backlash limits'),
-    table('Sizes at both ends of the tolerance', ['Size', ...names.map(column)], allowanceRows.map(([title, key, digits, unit]) =>
-      h('tr', {}, h('th', {scope: 'row'}, title, h('span', {class: 'unit'}, ` ${unit}`)),
-        names.map((n) => h('td', {class: 'n'}, number(`gears/${n}/thickness_allowance/${key}`, digits))))), 'numbers'));
-  const meshes = Object.keys(report.meshes).filter((n) => isNumber(report.meshes[n].backlash_min_mm));
-  if (meshes.length) body.append(table('Backlash from these allowances, at the exact centre distance',
-    ['Mesh', 'Smallest', 'Largest'], meshes.map((n) => h('tr', {}, h('th', {scope: 'row'}, n, h('span', {class: 'unit'}, ' mm')),
-      h('td', {class: 'n'}, number(`meshes/${n}/backlash_min_mm`, 4)), h('td', {class: 'n'}, number(`meshes/${n}/backlash_max_mm`, 4)))), 'numbers'));
-}
-const noteWords = {undercut: 'undercut', pointed: 'pointed tooth', full_round_root: 'full round root',
-  closed_space: 'space closed before the root', tip_inside_base_circle: 'tip inside the base circle',
-  tip_trimmed_by_cutter: 'tip trimmed by the cutter'};
-function gearRows(names, rows) {
-  return rows.filter(([, key]) => names.some((n) => report.gears[n][key] !== undefined)).map(([title, key, digits, unit]) =>
-    h('tr', {}, h('th', {scope: 'row'}, title, unit ? h('span', {class: 'unit'}, ` ${unit}`) : null),
-      names.map((n) => h('td', {class: 'n'}, number(`gears/${n}/${key}`, digits)))));
-}
-const toleranceRows = [
-  ['Single pitch', 'f_p', '±'], ['Total cumulative pitch', 'F_p', ''], ['Profile slope', 'f_Ha', '±'],
-  ['Profile form', 'f_fa', ''], ['Total profile', 'F_a', ''], ['Helix slope', 'f_Hb', '±'],
-  ['Helix form', 'f_fb', ''], ['Total helix', 'F_b', ''], ['Runout (informative)', 'F_r', ''],
-];
-const toleranceSymbols = {f_p: 'fp', F_p: 'Fp', f_Ha: 'fHα', f_fa: 'ffα', F_a: 'Fα', f_Hb: 'fHβ', f_fb: 'ffβ', F_b: 'Fβ', F_r: 'Fr'};
-function drawTolerances(body) {
-  const inScope = model.gears.filter((g) => Object.keys(g.iso1328.classes).length);
-  const outside = model.gears.filter((g) => g.iso1328.scope);
-  body.append(h('h3', {}, 'Flank tolerances, ISO 1328-1:2013'));
-  if (inScope.length) {
-    const holder = h('div');
-    const fill = (k) => holder.replaceChildren(table(`Allowed deviations in µm, class ${k}`,
-      ['Deviation', ...inScope.map((g) => column(g.name))], toleranceRows.map(([title, key, sign]) =>
-        h('tr', {}, h('th', {scope: 'row'}, `${title} ${toleranceSymbols[key]}`),
-          inScope.map((g) => h('td', {class: 'n'}, sign + g.iso1328.classes[k][key])))), 'numbers'));
-    const select = h('select', {id: 'tolerance-class', onchange: (e) => fill(e.target.value)},
-      Object.keys(inScope[0].iso1328.classes).map((k) => h('option', {value: k, selected: k === '8'}, `class ${k}`)));
-    fill('8');
-    body.append(h('p', {class: 'controls', style: 'border:0;padding:0 0 .6rem'},
-      h('label', {for: 'tolerance-class'}, 'Tolerance class', select)), holder);
-  }
-  for (const gear of outside) body.append(h('p', {class: 'note'}, `${gear.name}: ${gear.iso1328.scope}.`));
-}
-function drawDimensions() {
-  const body = byId('dimensions-body');
-  const names = Object.keys(report.gears);
-  const rows = gearRows(names, drawingRows);
-  rows.splice(2, 0, h('tr', {}, h('th', {scope: 'row'}, 'Pressure angle', h('span', {class: 'unit'}, ' °')),
-    model.gears.map((g) => h('td', {class: 'n'}, text(g.pressure_angle_deg)))),
-    h('tr', {}, h('th', {scope: 'row'}, 'Helix angle, right hand positive', h('span', {class: 'unit'}, ' °')),
-      model.gears.map((g) => h('td', {class: 'n'}, text(g.helix_deg)))));
-  rows.push(h('tr', {}, h('th', {scope: 'row'}, 'Remarks'), names.map((n) => h('td', {class: 'n', style: 'white-space:normal'},
-    Object.entries(noteWords).filter(([key]) => report.gears[n][key]).map(([, word]) => word).join(', ') || '–'))));
-  const columns = ['', ...names.map((n) => column(n + (report.gears[n].internal ? ' (internal)' : '')))];
-  body.append(h('h3', {}, 'For the drawing'), table('Geometry of each gear as it is cut', columns, rows, 'numbers'),
-    h('h3', {}, 'For the workshop'),
-    table('Sizes to measure; thinning for backlash is in them', columns, gearRows(names, workshopRows), 'numbers'));
-  drawAllowances(body);
-  drawTolerances(body);
 }
 
 // ----------------------------------------------------------------------------------- efficiency
@@ -339,16 +276,6 @@ function drawEfficiency() {
   drawOtherRatings(body);
 }
 
-// ---------------------------------------------------------------------------- bill of materials
-function drawBill() {
-  const bill = report.bill_of_materials ?? [];
-  if (!bill.length) return;
-  byId('dimensions-body').append(table('Bill of materials', ['Part', 'To order', column('Count'), 'Material', column('Mass of one, solid, g')],
-    bill.map((line, i) => h('tr', {}, h('th', {scope: 'row'}, line.part ?? '–'), h('td', {}, line.designation ?? '–'),
-      h('td', {class: 'n'}, number(`bill_of_materials/${i}/count`, 0)), h('td', {}, line.material ?? '–'),
-      h('td', {class: 'n'}, isNumber(line.mass_g) ? number(`bill_of_materials/${i}/mass_g`, 1) : '–')))));
-}
-
 // ---------------------------------------------------------------------------------------- files
 function drawFiles() {
   const files = report.files ?? [];
@@ -361,196 +288,25 @@ function drawFiles() {
   byId('files-body').append(
     h('p', {class: 'lead'}, 'Each file was measured again after it was written: the largest distance between its surface and the exact one, both ways',
       isNumber(report.tolerance_um) ? `; ${report.tolerance_um} µm was asked for.` : '.'),
-    table('Files of this design', ['File', 'Part', 'Format', column('Size'), column('Triangles'), column('Accuracy µm'), column('Volume mm³')],
-      files.map((f, i) => h('tr', {}, h('th', {scope: 'row'}, h('a', {href: encodeURI(f.path)}, f.path)), h('td', {}, f.part), h('td', {}, f.format),
-        h('td', {class: 'n'}, size(f.bytes)), h('td', {class: 'n'}, number(`files/${i}/triangles`, 0)),
-        h('td', {class: 'n'}, number(`files/${i}/accuracy_um`, 3)), h('td', {class: 'n'}, number(`files/${i}/volume_mm3`, 3))))));
+    h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Files of this design'},
+      h('table', {class: 'numbers files'}, h('caption', {}, 'Files of this design, part by part'),
+        h('thead', {}, h('tr', {}, ['File', 'Format'].map((c) => h('th', {scope: 'col'}, c)),
+          ['Size', 'Triangles', 'Accuracy µm', 'Volume mm³'].map((c) => h('th', {scope: 'col', class: 'n'}, c)))),
+        [...new Set(files.map((f) => f.part))].map((part) => h('tbody', {},
+          h('tr', {class: 'group'}, h('th', {colspan: '6', scope: 'rowgroup'}, part ? properName(part) : 'All parts')),
+          files.map((f, i) => f.part !== part ? null : h('tr', {'data-file': f.path}, h('th', {scope: 'row'}, h('a', {href: encodeURI(f.path)}, f.path)),
+            h('td', {}, f.format), h('td', {class: 'n'}, size(f.bytes)), h('td', {class: 'n'}, number(`files/${i}/triangles`, 0)),
+            h('td', {class: 'n'}, number(`files/${i}/accuracy_um`, 3)), h('td', {class: 'n'}, number(`files/${i}/volume_mm3`, 3)))))))));
 }
 
-// --------------------------------------------------------------------------------------- meshes
-const rotated = (x, y, angle) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
-/** Points of teeth first .. last, tooth 0 centred on +x. */
-function teethPoints(gear, first, last) {
-  const points = [];
-  for (let k = first; k <= last; ++k)
-    for (let i = 0; i < gear.tooth.length; i += 2)
-      points.push(rotated(gear.tooth[i], gear.tooth[i + 1], 2 * Math.PI * k / gear.teeth));
-  return points;
-}
-/** Teeth around tooth 1 as a filled outline: an external gear closes at its axis, a ring outside. */
-function sectorPath(gear) {
-  const reach = Math.min(6, Math.floor((gear.teeth - 1) / 2));
-  const points = teethPoints(gear, -reach, reach);
-  const path = points.map(([x, y]) => `${x.toFixed(5)} ${y.toFixed(5)}`);
-  if (!gear.internal) return `M0 0L${path.join('L')}Z`;
-  const rim = gear.root_radius + 6 * gear.module;
-  const out = ([x, y]) => { const s = rim / Math.hypot(x, y); return `${(x * s).toFixed(4)} ${(y * s).toFixed(4)}`; };
-  return `M${path.join('L')}L${points.filter((_, i) => i % 8 === 0 || i === points.length - 1).reverse().map(out).join('L')}Z`;
-}
-/** Nearest points of two polylines (vertices of either against segments of the other). */
-function closest(a, b) {
-  let best = {distance: Infinity};
-  const scan = (points, line, swap) => {
-    for (const p of points) for (let i = 0; i + 1 < line.length; ++i) {
-      const [ax, ay] = line[i], dx = line[i + 1][0] - ax, dy = line[i + 1][1] - ay;
-      const t = Math.max(0, Math.min(1, ((p[0] - ax) * dx + (p[1] - ay) * dy) / (dx * dx + dy * dy || 1)));
-      const qx = ax + t * dx, qy = ay + t * dy, d = Math.hypot(p[0] - qx, p[1] - qy);
-      if (d < best.distance) best = {distance: d, p: swap ? [qx, qy] : p, q: swap ? p : [qx, qy]};
-    }
-  };
-  scan(a, b, false);
-  scan(b, a, true);
-  return best;
-}
-
-class MeshDrawing {
-  constructor(mesh, index) {
-    this.mesh = mesh;
-    this.gear1 = model.gears[mesh.gear1];
-    this.gear2 = model.gears[mesh.gear2];
-    this.internal = this.gear2.internal;
-    this.phase = 0;
-    this.playing = false;
-    this.axis2 = this.internal ? -mesh.centre_distance : mesh.centre_distance;
-    // tooth 1 of gear 1 stands on the line of centres, in the middle of a gap of gear 2
-    this.start2 = this.internal ? -Math.PI / this.gear2.teeth : Math.PI + Math.PI / this.gear2.teeth;
-    this.points1 = teethPoints(this.gear1, -2, 2);
-    this.points2 = teethPoints(this.gear2, -2, 2);
-    this.draw(index);
-    this.show();
-  }
-
-  line(className) {
-    const {start, end} = this.mesh.line;
-    const [a, b] = [this.onLine(start), this.onLine(end)];
-    const sign = className.includes('coast') ? -1 : 1;
-    return h('line', {class: className, x1: a[0], y1: sign * a[1], x2: b[0], y2: sign * b[1]});
-  }
-  /** Point of the line of action at a roll length of gear 1. */
-  onLine(length) {
-    const sin = Math.sin(this.mesh.working_angle), cos = Math.cos(this.mesh.working_angle), rb = this.gear1.base_radius;
-    return [rb * cos + length * sin, -rb * sin + length * cos];
-  }
-
-  draw(index) {
-    const {mesh} = this, m = this.gear1.module, w = 11 * m, height = w * 10 / 16;
-    const circle = (x, r) => h('circle', {class: 'thin', cx: x, cy: 0, r});
-    this.shape1 = h('path', {class: 'g1', d: sectorPath(this.gear1)});
-    this.shape2 = h('path', {class: this.internal ? 'g2 ring' : 'g2', d: sectorPath(this.gear2)});
-    this.marks = h('g');
-    const scene = h('g', {id: `mesh-scene-${index}`}, this.shape2, this.shape1);
-    // turned so that gear 1 is below and the line of centres upright
-    const view = 'matrix(0 -1 -1 0 0 0)';
-    this.svg = h('svg', {viewBox: `${-w / 2} ${-mesh.pitch_radius1 - height / 2} ${w} ${height}`, role: 'img',
-      'aria-label': `Teeth of ${this.gear1.name} below and ${this.gear2.name} above, in mesh`},
-      h('g', {transform: view}, scene, circle(0, mesh.pitch_radius1), circle(this.axis2, mesh.pitch_radius2),
-        this.line('action coast'), this.line('action'), this.marks));
-    this.lensView = h('svg', {viewBox: '0 0 1 1', 'aria-hidden': 'true'},
-      h('g', {transform: view}, h('use', {href: `#mesh-scene-${index}`}), this.lensMarks = h('g')));
-    this.slider = h('input', {type: 'range', min: 0, max: 1, step: 'any', value: 0, 'aria-label': 'Position within one pitch',
-      oninput: () => { this.play(false); this.phase = Number(this.slider.value); this.show(); }});
-    this.button = h('button', {type: 'button', 'aria-pressed': 'false', onclick: () => this.play(!this.playing)}, 'Play');
-    this.pairs = h('dd', {class: 'pairs'});
-    this.gapNow = h('dd', {class: 'gap-now'});
-    this.lensCaption = h('figcaption');
-    const fact = (title, value) => h('div', {}, h('dt', {}, title), value);
-    const item = (title, path, digits, unit) => fact(title, h('dd', {}, number(`meshes/${mesh.name}/${path}`, digits, unit)));
-    this.element = h('article', {class: 'mesh', id: `mesh-${mesh.name}`}, h('h3', {}, mesh.name),
-      h('figure', {}, this.svg, h('figure', {class: 'lens'}, this.lensView, this.lensCaption)),
-      h('div', {class: 'key'}, h('span', {}, h('i', {style: 'background:var(--gear1-line)'}), this.gear1.name),
-        h('span', {}, h('i', {style: 'background:var(--gear2-line)'}), this.gear2.name),
-        h('span', {}, h('i', {style: 'background:var(--action);height:3px;vertical-align:.2rem'}), 'path of contact (dashed: other flank)')),
-      h('div', {class: 'controls', style: 'border:0;padding:.6rem 1rem 0'}, this.button, this.slider),
-      h('dl', {}, fact('Pairs in contact now', this.pairs), fact('Closest approach now', this.gapNow),
-        item('Closest in a whole cycle', 'minimum_clearance_um', 3, 'µm'), item('Deepest overlap', 'penetration_um', 3, 'µm'),
-        item('Backlash at pitch circle', 'backlash_mm', 4, 'mm'), item('Contact ratio, effective', 'effective_contact_ratio', 4),
-        item('Working pressure angle', 'working_pressure_angle_deg', 4, '°')));
-  }
-
-  /** Roll lengths at which flanks of one side touch with gear 1 turned by `turn`. */
-  contacts(turn) {
-    const {line} = this.mesh, found = [];
-    if (!(line.effective_start < line.effective_end)) return found;
-    let s = this.gear1.base_radius * (this.gear1.base_half_angle + turn + this.mesh.working_angle);
-    s += line.base_pitch * Math.ceil((line.effective_start - s) / line.base_pitch);
-    for (; s <= line.effective_end; s += line.base_pitch) found.push(s);
-    return found;
-  }
-
-  show() {
-    const {gear1, gear2, mesh} = this, m = gear1.module;
-    const turn1 = (this.phase - 0.5) * 2 * Math.PI / gear1.teeth;
-    const turn2 = (this.internal ? 1 : -1) * turn1 * gear1.teeth / gear2.teeth;
-    const degrees = (a) => a * 180 / Math.PI;
-    this.shape1.setAttribute('transform', `rotate(${degrees(turn1)})`);
-    this.shape2.setAttribute('transform', `translate(${this.axis2} 0) rotate(${degrees(this.start2 + turn2)})`);
-    const drive = this.contacts(turn1), coast = this.contacts(-turn1);
-    const dot = (s, sign) => { const [x, y] = this.onLine(s); return h('circle', {class: 'touch', cx: x, cy: sign * y, r: 0.09 * m, 'fill-opacity': sign > 0 ? 1 : .45}); };
-    const near = ([x, y]) => Math.hypot(x - mesh.pitch_radius1, y) < 3.5 * m;
-    const a = this.points1.map(([x, y]) => rotated(x, y, turn1)).filter(near);
-    const b = this.points2.map(([x, y]) => { const p = rotated(x, y, this.start2 + turn2); return [p[0] + this.axis2, p[1]]; }).filter(near);
-    const gap = closest(a, b);
-    const marks = [...coast.map((s) => dot(s, -1)), ...drive.map((s) => dot(s, 1))];
-    if (gap.p) marks.push(h('circle', {class: 'gapring', cx: gap.p[0], cy: gap.p[1], r: 0.22 * m}));
-    this.marks.replaceChildren(...marks);
-    this.pairs.textContent = String(drive.length);
-    const um = 1000 * gap.distance, fine = 2 * model.mesh_chord_error_um;
-    this.gapNow.textContent = um <= fine ? `under ${fine} µm` : `${um.toFixed(1)} µm`;
-    this.showLens(gap, m);
-    this.slider.value = this.phase;
-  }
-  showLens(gap, m) {
-    if (!gap.p) return;
-    const size = Math.min(2 * m, Math.max(5 * gap.distance, 0.12 * m));
-    const [x, y] = [(gap.p[0] + gap.q[0]) / 2, (gap.p[1] + gap.q[1]) / 2];
-    this.lensView.setAttribute('viewBox', `${-y - size / 2} ${-x - size / 2} ${size} ${size}`);
-    this.lensMarks.replaceChildren(h('line', {class: 'gap', x1: gap.p[0], y1: gap.p[1], x2: gap.q[0], y2: gap.q[1]}));
-    this.lensCaption.textContent = `${(size * 1000).toFixed(0)} µm wide`;
-  }
-
-  play(on) {
-    this.playing = on;
-    this.button.setAttribute('aria-pressed', on);
-    this.button.textContent = on ? 'Pause' : 'Play';
-    if (on) requestAnimationFrame((now) => { this.last = now; this.frame(now); });
-  }
-  frame(now) {
-    if (!this.playing) return;
-    if (this.visible) {
-      this.phase = (this.phase + (now - this.last) / 6000) % 1;
-      this.show();
-    }
-    this.last = now;
-    requestAnimationFrame((next) => this.frame(next));
-  }
-}
-function drawMeshes() {
-  const body = byId('meshes-body');
-  if (!model.meshes.length) {
-    byId('meshes').remove();
-    document.querySelector('#nav a[href="#meshes"]').remove();
-    return;
-  }
-  const drawings = model.meshes.map((mesh, i) => new MeshDrawing(mesh, i));
-  const watch = new IntersectionObserver((entries) => {
-    for (const entry of entries) {
-      const drawing = drawings.find((d) => d.element === entry.target);
-      drawing.visible = entry.isIntersecting;
-      if (entry.isIntersecting && !drawing.met && !still) drawing.play(true);
-      drawing.met ||= entry.isIntersecting;
-    }
-  });
-  for (const drawing of drawings) { body.append(drawing.element); watch.observe(drawing.element); }
-  window.trueflank.meshes = drawings;
-}
-
+if (report.inches) byId('lengths').textContent = 'Lengths in millimetres and, as the design speaks them, in inches';
 drawHeader();
 drawChecks();
-drawMeshes();
-drawDimensions();
 drawEfficiency();
-drawBill();
 drawFiles();
+// the file's own date: the page itself has none, so that the same input gives the same bytes
+if (location.protocol === 'file:')
+  byId('made').append(` This file was written ${new Date(document.lastModified).toLocaleString('sv-SE').slice(0, 16)}.`);
 if (!document.querySelector('#licences pre').textContent.trim()) byId('licences').remove();
 // viewer.js takes this back when it runs
 const notice = byId('viewer-notice');

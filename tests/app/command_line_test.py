@@ -114,6 +114,31 @@ class Check(Case):
         self.assertEqual([g for g in report["gears"]],
                          ["sun", "planet1", "ring1", "planet2", "ring2"])
 
+    def test_a_design_in_inches_is_told_in_both(self):
+        design = self.folder / "inch.toml"
+        gear = lambda name, teeth: f"[{name}]\nteeth = {teeth}\nface_width_in = 0.25\n"
+        design.write_text('format = 1\n[gearbox]\nkind = "pair"\ndiametral_pitch = 24\n' + gear("pinion", 20) + gear("wheel", 30))
+        result = run("check", design, "--json", self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80)
+        self.assertIn("centre distance 1.04167 in", result.stdout)
+        report = json.loads((self.folder / "r.json").read_text())
+        inches = report["inches"]
+        self.assertAlmostEqual(inches["centre_distance_in"] * 25.4, report["train"]["centre_distance_mm"])
+        self.assertAlmostEqual(inches["gears"]["wheel"]["tip_diameter_in"], 32 / 24, places=9)
+        self.assertEqual(inches["gears"]["wheel"]["diametral_pitch"], 24)
+        self.assertNotIn(" in\n", run("check", self.design()).stdout)
+
+    def test_a_mistyped_centre_distance_is_named_not_what_nobody_wrote(self):
+        design = self.folder / "far.toml"
+        gear = lambda name, teeth: f"[{name}]\nteeth = {teeth}\nface_width_mm = 5\n"
+        for typed in (30, 250, 2500):
+            design.write_text('format = 1\n[gearbox]\nkind = "pair"\nmodule_mm = 1\n'
+                              f"centre_distance_mm = {typed}\n" + gear("pinion", 20) + gear("wheel", 30))
+            result = run("check", design)
+            self.expect_error(result, 2, "gearbox.centre_distance_mm", "25 mm")
+            self.assertNotIn("tip_diameter", result.stderr)
+
     def test_helical_sets_tell_hands_overlap_thrust_and_what_cannot_be_measured(self):
         design = SOURCE / "examples/helical_planetary/design.toml"
         result = run("check", design, "--json", self.folder / "r.json")

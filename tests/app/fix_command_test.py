@@ -42,6 +42,57 @@ face_width_mm = 10
 """
 
 
+# its sun's tip stands in the planet's root; the tolerances ask for backlash too
+JAMS = """format = 1
+[gearbox]
+kind = "simple"
+planets = 5
+module_mm = 0.5
+helix_angle_deg = 30
+backlash_mm = 0.01
+centre_distance_mm = 7.0032
+[made]
+tolerance_class = 7
+[sun]
+teeth = 12
+face_width_mm = 4
+tip_diameter_mm = 8.036   # too long
+[planet]
+teeth = 12
+face_width_mm = 4
+[ring]
+teeth = 38
+shift = 0.175
+face_width_mm = 4
+"""
+
+
+# a 3k set whose planets all mesh with one tooth less on its first ring
+ONE_TOOTH = """format = 1
+[gearbox]
+kind = "3k"
+output = "ring1"
+planets = 3
+module_mm = 2
+backlash_mm = 0.06
+[sun]
+teeth = 12
+face_width_mm = 16
+[planet1]
+teeth = 24
+face_width_mm = 16
+[ring1]
+teeth = 61
+face_width_mm = 16
+[planet2]
+teeth = 21
+face_width_mm = 16
+[ring2]
+teeth = 57
+face_width_mm = 16
+"""
+
+
 def run(*arguments, code):
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
@@ -111,21 +162,74 @@ def main():
     run("fix", design, "-o", fixed, "-q", code=0)
     assert fixed.read_text() == PASSING
 
+    # one that only warns too, unless it is asked for
+    warning = PASSING.replace("teeth = 24", "teeth = 12").replace('kind = "pair"', 'kind = "pair"\ntips = "standard"')
+    warns = lambda path: [c["id"] for c in json.loads(path.read_text())["checks"] if c["status"] == "warn"]
+    design.write_text(warning)
+    run("check", design, "-q", "--json", OUTPUT / "warns.json", code=0)
+    assert "fillet_interference" in warns(OUTPUT / "warns.json"), warns(OUTPUT / "warns.json")
+    assert "nothing is changed" in run("fix", design, "-o", fixed, code=0)
+    assert fixed.read_text() == warning
+    run("fix", design, "-o", fixed, "--warnings", "-q", code=0)
+    run("check", fixed, "-q", "--json", OUTPUT / "warns.json", code=0)
+    assert "fillet_interference" not in warns(OUTPUT / "warns.json"), fixed.read_text()
+
+    # backlash is for tolerances: none is added for a tip that stands in a root
+    design.write_text(JAMS)
+    run("fix", design, "-o", fixed, "-q", code=0)
+    run("check", fixed, "-q", code=0)
+    assert tomllib.loads(fixed.read_text())["gearbox"]["backlash_mm"] < 0.15, fixed.read_text()
+
+    # what cannot be made is told as `check` tells it
+    design.write_text(FAILING.replace("# no shift yet", "bore_mm = 40"))
+    run("check", design, "-q", code=2)
+    run("fix", design, "-o", fixed, code=2)
+
     # standard output is the design alone
     design.write_text(FAILING)
     assert tomllib.loads(run("fix", design, "-o", "-", code=0)) == after
 
-    # what no change near it mends: six planets as large as the sun's room
+    # far too many planets: as many as fit
+    crowded = OUTPUT / "crowded.toml"
+    crowded.write_text('format = 1\n[gearbox]\nkind = "simple"\nplanets = 12\nmodule_mm = 1\n'
+                       "[sun]\nteeth = 12\nface_width_mm = 8\n[planet]\nteeth = 60\nface_width_mm = 8\n[ring]\nteeth = 132\nface_width_mm = 8\n")
+    run("fix", crowded, "-o", fixed, "-q", code=0)
+    assert tomllib.loads(fixed.read_text())["gearbox"]["planets"] in (2, 3), fixed.read_text()
+
+    # what no change near it mends: wheels of five teeth, of which no two pairs are ever in contact
     hopeless = OUTPUT / "hopeless.toml"
-    hopeless.write_text('format = 1\n[gearbox]\nkind = "simple"\nplanets = 12\nmodule_mm = 1\n'
-                        "[sun]\nteeth = 12\nface_width_mm = 8\n[planet]\nteeth = 60\nface_width_mm = 8\n[ring]\nteeth = 132\nface_width_mm = 8\n")
+    hopeless.write_text('format = 1\n[gearbox]\nkind = "pair"\nmodule_mm = 1\n'
+                        "[pinion]\nteeth = 5\nface_width_mm = 8\n[wheel]\nteeth = 5\nface_width_mm = 8\n")
     said = run("fix", hopeless, "-o", fixed, code=1)
-    assert "planet_spacing" in said, said
+    assert "contact_ratio" in said and "still fails" in said, said
     told = run("check", hopeless, code=1)
     assert "still fails" in told and "trueflank fix DESIGN" in told, told
     run("fix", OUTPUT / "nothing.toml", "-o", fixed, code=3)
     hopeless.write_text("format = 2\n")
     run("fix", hopeless, "-o", fixed, code=2)
+
+    # a gearbox: its housing as wide as it must be, its gears as far as that holds; `check` tells the same
+    housed = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "examples/printed_actuator/design.toml"
+    narrow = housed.read_text().replace("[housing]", "[housing]\nouter_diameter_mm = 60", 1)
+    for text, changed in ((narrow, ["housing.outer_diameter_mm"]),
+                          (narrow.replace("shift = 0.67", "shift = -0.4"), ["housing.outer_diameter_mm", "ring1.shift"])):
+        design.write_text(text)
+        run("check", design, "-q", "--json", OUTPUT / "housed.json", code=1)
+        told = json.loads((OUTPUT / "housed.json").read_text())["joint_cure"]
+        assert told["cured"] and set(changed) == {c["key"] for c in told["changes"]}, told
+        said = run("fix", design, "-o", fixed, code=0)
+        for change in told["changes"]:
+            assert change["key"] in said and (change["after"] or "-") in said, (change, said)
+        run("check", fixed, "-q", code=0)
+
+    # a tooth too many: one tooth, and nothing that goes with such a change elsewhere
+    design.write_text(ONE_TOOTH)
+    run("check", design, "-q", code=1)
+    run("fix", design, "-o", fixed, "-q", code=0)
+    text = fixed.read_text()
+    was, now = ([tables["teeth"] for tables in tomllib.loads(t).values() if isinstance(tables, dict) and "teeth" in tables]
+                for t in (ONE_TOOTH, text))
+    assert sum(abs(a - b) for a, b in zip(was, now)) == 1 and "centre_distance_mm" not in text, text
 
 
 main()

@@ -32,13 +32,36 @@ class NewWishes(unittest.TestCase):
         again = run("new", "joint", "--ratio", "96")
         self.assertEqual(again.returncode, 2)
 
+    def test_every_kind_is_found_and_passes(self):
+        motor = ("--motor", "nema17")
+        for name, wishes, ratio in (
+                ("simple", ("--kind", "simple", *motor), 5),
+                ("held_simple", ("--kind", "simple", "--output", "ring", *motor), 4),
+                ("stepped", ("--kind", "stepped", *motor), 10),
+                ("held_stepped", ("--kind", "stepped", "--output", "ring", *motor), 9),
+                ("pair", ("--kind", "pair"), 3),
+                ("split_ring", ("--input", "carrier", *motor), 40),
+                ("type_two", ("--output", "ring1", "--motor", "nema14"), 60)):
+            with self.subTest(name):
+                (OUTPUT / f"{name}.toml").unlink(missing_ok=True)
+                made = run("new", name, "--ratio", str(ratio), *wishes)
+                self.assertEqual(made.returncode, 0, made.stderr)
+                report = json.loads(run("check", f"{name}.toml", "--json", "-").stdout)
+                self.assertEqual(report["verdict"], "pass")
+                self.assertAlmostEqual(abs(report["train"]["ratio"]) / ratio, 1, delta=0.02)
+                size = [c["value"] for c in report["checks"] if c["id"] == "housing_size"]
+                self.assertEqual(len(size), 1 if motor[0] in wishes else 0)
+                for value in size:
+                    self.assertLessEqual(value, 90)
+
     def test_what_is_not_known_is_told(self):
         for option, value in (("--motor", "nema18"), ("--process", "fdm-0.5"), ("--material", "cheese"),
-                              ("--kind", "pair"), ("--outer-diameter", "4")):
-            with self.subTest(option):
+                              ("--kind", "gear"), ("--kind", "stepped"), ("--input", "planet"),
+                              ("--output", "carrier"), ("--outer-diameter", "4")):
+            with self.subTest((option, value)):
                 told = run("new", "other", "--ratio", "96", option, value)
                 self.assertEqual(told.returncode, 2)
-                self.assertIn(option, told.stderr)
+                self.assertIn("--ratio" if value == "stepped" else option, told.stderr)
                 self.assertFalse((OUTPUT / "other.toml").exists())
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The search command: equal answers however it is run, files that `check` takes, errors by code."""
+import csv
 import json
 import os
 import pathlib
@@ -8,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "search"
@@ -41,6 +43,129 @@ def run(*arguments, code=0):
 def same(one, other, names):
     for name in names:
         assert (one / name).read_bytes() == (other / name).read_bytes(), name
+
+
+KINDS = """format = 1
+name = "kinds"
+[gearbox]
+kind = "simple, stepped, pair, 3k"
+planets = "3, 4"
+output = "any"
+input = "any"
+wheel = "any"
+[ratio]
+min = 5
+max = 5.02
+[shift]
+min = -0.8
+max = 0.8
+[teeth]
+sun_min = 14
+sun_max = 15
+planet1_min = 20
+planet1_max = 24
+planet2_min = 18
+planet2_max = 19
+ring1_max = 75
+ring2_max = 75
+wheel_max = 80
+[search]
+results = 30
+"""
+
+
+def every_kind():
+    """Several kinds in one search: the same bytes however it runs, designs that check takes, files that say the kind."""
+    needs = OUTPUT / "kinds.toml"
+    needs.write_text(KINDS)
+    whole = OUTPUT / "kinds"
+    run(needs, "-o", whole, "--threads", 1, "-q")
+    names = sorted(p.name for p in whole.glob("design-*.toml")) + RESULTS[1:]
+    threads = OUTPUT / "kinds-threads"
+    run(needs, "-o", threads, "--threads", 3, "-q")
+    same(whole, threads, names)
+    text = (whole / "search.journal").read_bytes()
+    (threads / "search.journal").write_bytes(text[: len(text) // 3])
+    run(needs, "-o", threads, "--resume", "-q")
+    same(whole, threads, names)
+    for part in (1, 2, 3):
+        run(needs, "-o", OUTPUT / f"kinds{part}", "--shard", f"{part}/3", "-q")
+    merged = OUTPUT / "kinds-merged"
+    run(needs, "-o", merged, "--merge", *(OUTPUT / f"kinds{part}" for part in (1, 2, 3)), "-q")
+    same(whole, merged, names[:-1])
+
+    report = json.loads((whole / "search.json").read_text())
+    rows = list(csv.DictReader((whole / "search.csv").open()))
+    by_file = {row["file"]: row for row in rows if row["file"]}
+    assert {"simple", "pair"} <= {row["kind"] for row in rows}, {row["kind"] for row in rows}
+    for design in report["designs"]:
+        written = tomllib.loads((whole / design["file"]).read_text())
+        row = by_file[design["file"]]
+        assert written["gearbox"]["kind"] == design["kind"] == row["kind"]
+        for gear, teeth in design["teeth"].items():
+            assert written[gear]["teeth"] == teeth
+        assert row["teeth"] == "/".join(map(str, design["teeth"].values()))
+        assert written["gearbox"].get("planets", 1) == design["planets"] == int(row["planets"])
+        assert 5 <= design["ratio"] <= 5.02
+        check = subprocess.run([PROGRAM, "check", whole / design["file"], "-q"])
+        assert check.returncode == 0, design["file"]
+
+
+def short_list():
+    """The best sets alone, the others passed over: the designs of the whole list, the same bytes however it runs."""
+    needs = OUTPUT / "short.toml"
+    needs.write_text(NEEDS.replace("results = 3", "results = 2\nlisted = 2"))
+    whole = OUTPUT / "short"
+    assert "the best 2 of" in run(needs, "-o", whole, "--threads", 1).stdout
+    report = json.loads((whole / "search.json").read_text())
+    assert report["complete"] and report["optimised"] == report["feasible"] == 2
+    assert report["passed_over"] == report["to_optimise"] - 2 > 0
+    assert sum(c["count"] for c in report["rejected"]) + 2 == report["considered"]
+    assert len((whole / "search.csv").read_text().splitlines()) == 3
+    everything = OUTPUT / "everything"
+    needs_all = OUTPUT / "everything.toml"
+    needs_all.write_text(NEEDS.replace("results = 3", "results = 2\nlisted = 0"))
+    run(needs_all, "-o", everything, "-q")
+    same(whole, everything, ["design-001.toml", "design-002.toml"])
+    names = ["design-002.toml"] + RESULTS[:-1]
+    threads = OUTPUT / "short-threads"
+    run(needs, "-o", threads, "--threads", 3, "-q")
+    same(whole, threads, names + RESULTS[-1:])
+    # without its last line the journal does not say that it is complete
+    lines = (whole / "search.journal").read_text().splitlines(keepends=True)
+    (threads / "search.journal").write_text("".join(lines[:2]))
+    run(needs, "-o", threads, "--resume", "-q")
+    same(whole, threads, names + RESULTS[-1:])
+    for part in (1, 2):
+        run(needs, "-o", OUTPUT / f"short{part}", "--shard", f"{part}/2", "-q")
+    merged = OUTPUT / "short-merged"
+    run(needs, "-o", merged, "--merge", OUTPUT / "short1", OUTPUT / "short2", "-q")
+    same(whole, merged, names)
+    assert "tooth sets" in run(needs, "-o", merged, "--merge", OUTPUT / "short2", code=2).stderr
+
+
+def shift_map():
+    """The map over one set's shifts: its best is the search's, and each place says what forbids it."""
+    needs = OUTPUT / "small-map.toml"
+    needs.write_text(NEEDS)
+    folder = OUTPUT / "map"
+    call = [PROGRAM, "shifts", needs, "--teeth", "12/39/90/32/81", "-o", folder, "--points", "31"]
+    told = subprocess.run(call, capture_output=True, text=True)
+    assert told.returncode == 0 and "12/39/90/32/81: 90.99" in told.stdout, (told.stdout, told.stderr)
+    rows = list(csv.DictReader((folder / "shifts.csv").open()))
+    assert len(rows) == 3 * 31 * 31
+    for number in "123":
+        kept = [row for row in rows if row["map"] == number and row["feasible"] == "1"]
+        assert 10 < len(kept) < 31 * 31
+        assert all(float(row["margin_modules"]) >= 0 and float(row["efficiency"]) < 0.90997 for row in kept)
+    assert all((float(row["margin_modules"]) >= 0) == (row["feasible"] == "1") for row in rows)
+    page = (folder / "shifts.html").read_text()
+    assert page.count("<svg") == 3 and "fillet_interference: planet1-ring1" in page
+    first = (folder / "shifts.csv").read_bytes()
+    subprocess.run(call, capture_output=True, check=True)
+    assert (folder / "shifts.csv").read_bytes() == first
+    wrong = subprocess.run([*call[:4], "12/39", *call[5:]], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "--teeth" in wrong.stderr
 
 
 def main():
@@ -101,6 +226,10 @@ def main():
         assert not json.loads((stopped / "search.json").read_text())["complete"]
     run(needs, "-o", stopped, "--resume", "-q")
     same(whole, stopped, RESULTS)
+
+    every_kind()
+    short_list()
+    shift_map()
 
     # errors
     run(OUTPUT / "none.toml", "-o", whole, code=3)

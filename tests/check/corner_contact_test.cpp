@@ -10,6 +10,7 @@
 #include "tests/check/mesh_simulation.h"
 #include "tests/check/random_pairs.h"
 #include "trueflank/check/check_gearbox.h"
+#include "trueflank/check/interference_cure.h"
 
 namespace trueflank {
 namespace {
@@ -84,6 +85,44 @@ TEST(CornerContact, WarnsAboveZeroAndFailsAboveItsLimit) {
   EXPECT_NEAR(by_default.limit, 5.0, 1e-12);
   EXPECT_EQ(corner_of(digging(1e-3 * by_default.value + 1e-6)).status, CheckStatus::kWarn);
   EXPECT_EQ(corner_of(digging(1e-3 * by_default.value - 1e-6)).status, CheckStatus::kFail);
+}
+
+TEST(CornerContact, TipsAloneAreNeverNearerThanAllPlaces) {
+  int meshes = 0, touching = 0;
+  for (std::uint64_t seed = 1; meshes < 60; ++seed) {
+    const auto train = lay_out(test::random_design(seed));
+    if (!train || train->meshes.size() != 1) continue;
+    const GearPair pair = train->pair(train->meshes.front());
+    const double centred = sweep_clearance_mm(pair), driving = driving_clearance(pair).clearance_mm;
+    EXPECT_GE(tip_sweep_clearance_mm(pair), centred - 1e-8) << seed;
+    EXPECT_GE(tip_driving_clearance_mm(pair), (std::isnan(driving) ? centred : driving) - 1e-8) << seed;
+    ++meshes;
+    if (driving < -1e-6) ++touching;
+  }
+  EXPECT_GT(touching, 5);
+}
+
+TEST(CornerContact, SeekingWithTheTipsAloneFindsTheSameCure) {
+  const auto exact = [](const GearPair& pair) { return driving_clearance(pair).clearance_mm + 1e-6; };
+  const CureMargin all{exact};
+  const CureMargin tips{exact, [](const GearPair& pair) { return tip_driving_clearance_mm(pair) + 1e-6; }};
+  int tip_cures = 0, shift_cures = 0;
+  const GearTrain paper = laid_out(test::paper_design());
+  for (const GearTrain& train : {digging(), paper})
+    for (const TrainMesh& mesh : train.meshes) {
+      for (const bool of_gear1 : {true, false}) {
+        const auto radius = tip_radius_cure_mm(train.pair(mesh), of_gear1, tips);
+        EXPECT_EQ(radius, tip_radius_cure_mm(train.pair(mesh), of_gear1, all)) << mesh.name;
+        if (radius) ++tip_cures;
+      }
+      const auto sought = shift_cure(train, mesh, tips), exactly = shift_cure(train, mesh, all);
+      ASSERT_EQ(sought.has_value(), exactly.has_value()) << mesh.name;
+      if (!sought) continue;
+      EXPECT_EQ(sought->change, exactly->change);
+      ++shift_cures;
+    }
+  EXPECT_GT(tip_cures, 0);
+  EXPECT_GT(shift_cures, 0);
 }
 
 TEST(CornerContact, ClearTipsTouchWithTheirFlanksFirst) {

@@ -50,6 +50,39 @@ TEST(JointCure, FitsShiftsToACentreDistanceTheyDoNotFit) {
   EXPECT_EQ(cure.design.gears[0].teeth, 20);
 }
 
+TEST(JointCure, TakesPlanetsAwayThatDoNotFit) {
+  for (const int planets : {4, 15}) {  // three fit
+    GearboxDesign design = simple_design(12, 40, 92, planets);
+    design.backlash_mm = 0.05;
+    const JointCure cure = joint_cure(laid_out(design));
+    expect_cured(cure);
+    EXPECT_LE(cure.design.planets, 3);
+    EXPECT_GE(cure.design.planets, 2);
+  }
+}
+
+TEST(JointCure, GivesAnAskedClearanceAtTheTeethItEndsWith) {
+  GearboxDesign design = simple_design(16, 32, 81, 4);
+  design.centre_distance_mm = 24.091;
+  design.gears[0].shift = -0.093;
+  design.gears[1].shift = -0.061;
+  design.made.clearance_mm = 0.011;
+  const JointCure cure = joint_cure(laid_out(design));
+  expect_cured(cure);
+  EXPECT_EQ(cure.design.gears[2].teeth, 80);
+  EXPECT_LT(cure.design.backlash_mm, 0.03);
+}
+
+TEST(JointCure, AddsNoBacklashForATipThatStandsInARoot) {
+  GearboxDesign design = pair_design(20, 40, false, 0.02);
+  design.made.tolerance_class = 7;
+  design.gears[0].tip_diameter_mm = 23.5;  // 1.5 modules too long
+  design.gears[0].face_width_mm = design.gears[1].face_width_mm = 10.0;
+  const JointCure cure = joint_cure(laid_out(design));
+  expect_cured(cure);
+  EXPECT_LT(cure.design.backlash_mm, 0.15);
+}
+
 TEST(JointCure, ChangesTeethWhereNothingElseAssembles) {
   GearboxDesign design = simple_design(13, 30, 73, 4);
   design.backlash_mm = 0.05;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "trueflank/check/machine/bearing_life.h"
@@ -13,12 +15,14 @@
 #include "trueflank/design/tools_file.h"
 #include "trueflank/solid/brep/brep.h"
 #include "trueflank/solid/measure/assembly_clearance.h"
+#include "trueflank/solid/measure/assembly_order.h"
 #include "trueflank/solid/measure/bill_of_materials.h"
 #include "trueflank/solid/measure/mass_properties.h"
 #include "trueflank/solid/measure/mesh_validity.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/machine/print_plates.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -104,6 +108,16 @@ teeth = 84
 face_width_mm = 10
 )";
 
+/// A sun wider than the circle of the motor's screws, and small planets.
+std::string large_sun() {
+  return replaced(
+      "format = 1\n[gearbox]\nkind = \"simple\"\nplanets = 3\nmodule_mm = 1\nbacklash_mm = 0.15\n"
+      "[sun]\nteeth = 48\nface_width_mm = 14\n[planet]\nteeth = 24\nface_width_mm = 14\n"
+      "[ring]\nteeth = 96\nface_width_mm = 14\n" +
+          kMachine,
+      "planet = \"625\"", "planet = \"624\"");
+}
+
 GearboxDesign design_of(const std::string& text) {
   const auto design = read_design_text(text, "machine.toml");
   if (!design)
@@ -142,9 +156,15 @@ struct Made {
 std::string type_two(const std::string& text) {
   return replaced(text, "output = \"ring2\"", "output = \"ring1\"");
 }
+std::string idle_sun(const std::string& text) {
+  return replaced(text, "planets = 3", "planets = 3\ninput = \"carrier\"");
+}
 std::string split_ring(const std::string& text) {
-  const std::string driven = replaced(text, "planets = 3", "planets = 3\ninput = \"carrier\"");
-  return replaced(driven, "[sun]\nteeth = 12\nface_width_mm = 10\n", "");
+  return replaced(idle_sun(text), "[sun]\nteeth = 12\nface_width_mm = 10\n", "");
+}
+/// Simple and stepped sets whose ring drives out.
+std::string held_carrier(const std::string& text) {
+  return replaced(text, "planets = 3", "planets = 3\noutput = \"ring\"");
 }
 
 // ------------------------------------------------------------------------------------- keys
@@ -268,7 +288,66 @@ TEST_P(EveryKind, StandsOnItsLowestFaceAndItsSlabsTouch) {
 INSTANTIATE_TEST_SUITE_P(Machine, EveryKind,
                          testing::Values(k3k + kMachine, type_two(k3k + kMachine),
                                          kSimple + kMachine, split_ring(k3k + kMachine),
-                                         kStepped + kMachine));
+                                         kStepped + kMachine, held_carrier(kSimple + kMachine),
+                                         held_carrier(kStepped + kMachine)));
+
+TEST(MachineParts, TheMotorsShaftEndsFreeInASunThatIdles) {
+  const Made made(idle_sun(k3k + kMachine));
+  EXPECT_EQ(made.finding("collision", "train").status, CheckStatus::kPass);
+  EXPECT_EQ(made.finding("assembly_order", "train").status, CheckStatus::kPass);
+  // 5 mm of shaft and 0.5 mm round it leave 0.4 mm under the roots of 12 teeth: that is told
+  const Finding& wall = made.finding("wall", "sun");
+  EXPECT_EQ(wall.status, CheckStatus::kWarn);
+  EXPECT_NE(wall.cure.find("no [sun]"), std::string::npos) << wall.cure;
+  // a bore that is wide enough stays
+  const Made wide(replaced(idle_sun(k3k + kMachine), "teeth = 12", "teeth = 12\nbore_mm = 6.4"));
+  EXPECT_EQ(wide.finding("collision", "train").status, CheckStatus::kPass);
+  EXPECT_EQ(wide.part("sun").slabs.front().holes.size(), 1U);
+  // a D that is narrower gives way as far as the shaft goes
+  const Made flat(replaced(idle_sun(k3k + kMachine), "teeth = 12",
+                           "teeth = 12\nbore_mm = 6.2\nbore_d_flat_mm = 5"));
+  EXPECT_EQ(flat.finding("collision", "train").status, CheckStatus::kPass);
+  EXPECT_TRUE(mesh_validity(part_mesh(flat.part("sun")).mesh).valid());
+}
+
+TEST(MachineParts, AHeldCarrierStandsBetweenHousingAndLid) {
+  const Made made(held_carrier(kSimple + kMachine));
+  const auto layout = machine_layout(made.train);
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->fixed_gear, -1);
+  const Slab& plate = made.part("carrier").slabs.front();
+  EXPECT_NEAR(extent(plate.outer).outer_radius_mm, layout->ring_radius_mm, 1e-9);
+  EXPECT_GT(layout->ring_radius_mm, layout->cup_radius_mm + layout->clearance_mm);
+  // the housing's screws go through it
+  const auto through =
+      std::count_if(plate.holes.begin(), plate.holes.end(), [&](const Outline& hole) {
+        return std::abs(extent(hole).centre.norm() - layout->housing_screws.at.front().norm()) <
+               1e-9;
+      });
+  EXPECT_EQ(through, 6);
+  EXPECT_EQ(made.finding("screws", "housing").status, CheckStatus::kPass);
+}
+
+TEST(MachineParts, PillarsStandClearOfALargeSun) {
+  for (const std::string& text : {large_sun(), held_carrier(large_sun())}) {
+    const Made made(text);
+    const Finding& collision = made.finding("collision", "train");
+    EXPECT_EQ(collision.status, CheckStatus::kPass) << collision.message;
+  }
+}
+
+TEST(MachineParts, CompoundPlanetsHaveAMarkOutsideTheirBearings) {
+  const auto marks = [](const PartShape& planet) {
+    const auto& holes = planet.slabs.back().holes;
+    return std::count_if(holes.begin(), holes.end(),
+                         [](const Outline& hole) { return extent(hole).centre.norm() > 1e-6; });
+  };
+  const Made compound(k3k + kMachine), single(kSimple + kMachine);
+  EXPECT_EQ(marks(compound.part("planet")), 1);
+  EXPECT_EQ(marks(single.part("planet")), 0);
+  EXPECT_EQ(compound.finding("wall", "planet").status, CheckStatus::kPass);
+  EXPECT_TRUE(mesh_validity(part_mesh(compound.part("planet")).mesh).valid());
+}
 
 TEST(MachineParts, TheScrewsOfTheHousingAreHeldByTheirInserts) {
   const Made made(k3k + kMachine);
@@ -410,6 +489,31 @@ TEST(BearingLife, AnAxialLoadCountsBeyondItsLimit) {
       0.56 * 1000 + 1.71 * 560, 1e-9);
 }
 
+TEST(BearingLife, OneCrossedRollerBearingHoldsATiltingMoment) {
+  const Bearing bearing{
+      .name = "RB4010", .bore_mm = 40, .outer_mm = 60, .dynamic_n = 10000, .static_n = 10000};
+  // d_pw = 50 mm: 1000 Nmm count as 40 N across
+  const BearingLife across =
+      bearing_life(bearing, {.radial_n = 100, .axial_n = 210, .tilting_nmm = 1000, .speed_rpm = 1});
+  EXPECT_NEAR(across.equivalent_n, 140 + 0.45 * 210, 1e-9);
+  EXPECT_NEAR(across.static_equivalent_n, 140 + 0.44 * 210, 1e-9);
+  EXPECT_NEAR(across.life_h, 1e6 / 60 * std::pow(10000 / across.equivalent_n, 10.0 / 3.0), 1.0);
+  const BearingLife along =
+      bearing_life(bearing, {.radial_n = 100, .axial_n = 211, .tilting_nmm = 1000, .speed_rpm = 1});
+  EXPECT_NEAR(along.equivalent_n, 0.67 * (140 + 211), 1e-9);
+}
+
+TEST(MachineChecks, ACrossedRollerBearingSitsInTheLidAndHoldsTheLoadAlone) {
+  const std::string load = "[output]\nradial_load_n = 40\nspeed_rpm = 6\n";
+  const Made balls(k3k + kMachine + load);
+  EXPECT_EQ(balls.finding("bearing_load", "output").status, CheckStatus::kWarn);
+  EXPECT_NE(balls.finding("bearing_load", "output").cure.find("crossed"), std::string::npos);
+  const Made rollers(replaced(k3k + kMachine + load, "\"6806\"", "\"RB3010\""));
+  for (const Finding& f : rollers.findings)
+    EXPECT_EQ(f.status, CheckStatus::kPass) << f.id << " " << f.where << ": " << f.message;
+  EXPECT_EQ(rollers.part("bearing_rb3010").bought, "crossed-roller bearing RB3010 (30x55x10)");
+}
+
 TEST(MachineChecks, TheForceOnAPlanetsPinIsThatOfItsMeshes) {
   // simple, ring held: both meshes push alike; the pin carries the carrier's torque over its radius
   const Made made(kSimple + kMachine + "[output]\ntorque_nm = 6\n");
@@ -488,17 +592,163 @@ TEST(PrintPlates, HoldEveryPartThatIsMadeWithoutOverlap) {
 
 /// What hangs over at the bed's side: a part the right way up widens nowhere by more than a ledge.
 TEST(PrintPlates, PartsLieTheRightWayUp) {
-  const Made made(k3k + kMachine);
-  for (const PartShape& part : made.shapes.parts) {
-    if (!part.bought.empty()) continue;
-    std::vector<Slab> slabs = part.slabs;
-    if (part.upside_down) std::reverse(slabs.begin(), slabs.end());
-    for (std::size_t i = 1; i < slabs.size(); ++i) {
-      const double widened =
-          extent(slabs[i].outer).inner_radius_mm - extent(slabs[i - 1].outer).outer_radius_mm;
-      EXPECT_LE(widened, 0.5) << part.name << " slab " << i;
+  for (const std::string& text : {k3k + kMachine, large_sun(), held_carrier(large_sun())}) {
+    const Made made(text);
+    for (const PartShape& part : made.shapes.parts) {
+      if (!part.bought.empty()) continue;
+      std::vector<Slab> slabs = part.slabs;
+      if (part.upside_down) std::reverse(slabs.begin(), slabs.end());
+      for (std::size_t i = 1; i < slabs.size(); ++i) {
+        const double widened =
+            extent(slabs[i].outer).inner_radius_mm - extent(slabs[i - 1].outer).outer_radius_mm;
+        EXPECT_LE(widened, 0.5) << part.name << " slab " << i;
+      }
     }
   }
+}
+
+// ------------------------------------------------------------------------------------- order
+
+/// Whether body a, moved along the axis by any of many steps, runs into b: circles of the slabs.
+bool meets_on_its_way(const PartShapes& shapes, std::size_t a, std::size_t b, double way) {
+  const auto discs_clear = [](const OutlineExtent& one, const Point2& at,
+                              const OutlineExtent& other, const Point2& there,
+                              const std::vector<std::pair<Point2, double>>& holes) {
+    if ((at - there).norm() > one.outer_radius_mm + other.outer_radius_mm - 1e-4) return true;
+    return std::any_of(holes.begin(), holes.end(), [&](const auto& hole) {
+      return (at - hole.first).norm() + one.outer_radius_mm < hole.second + 1e-4;
+    });
+  };
+  const auto part = [&](std::size_t body) -> const PartShape& {
+    return shapes.parts[static_cast<std::size_t>(shapes.assembly[body].part)];
+  };
+  const auto place = [&](std::size_t body, const Point2& p) {
+    const Placement& where = shapes.assembly[body];
+    return Point2(rotated(p, where.rotation_rad) +
+                  Point2(where.translation_mm[0], where.translation_mm[1]));
+  };
+  const auto holes_of = [&](std::size_t body, const Slab& slab) {
+    std::vector<std::pair<Point2, double>> holes;
+    for (const Outline& hole : slab.holes) {
+      const auto* bore = std::get_if<BoreOutline>(&hole);  // a shaft's flat finds the bore's
+      holes.emplace_back(place(body, extent(hole).centre),
+                         bore ? 0.5 * bore->bore.diameter_mm : extent(hole).inner_radius_mm);
+    }
+    return holes;
+  };
+  const auto toothed = [](const Slab& slab) {
+    return std::holds_alternative<ToothedOutline>(slab.outer) ||
+           (!slab.holes.empty() && std::holds_alternative<ToothedOutline>(slab.holes.front()));
+  };
+  for (double step = 0.0; step < 200.0; step += 0.5)
+    for (const Slab& s : part(a).slabs)
+      for (const Slab& t : part(b).slabs) {
+        const double z = shapes.assembly[a].translation_mm[2] + way * step,
+                     w = shapes.assembly[b].translation_mm[2];
+        if (z + s.z_upper_mm < w + t.z_lower_mm + 1e-3 ||
+            w + t.z_upper_mm < z + s.z_lower_mm + 1e-3)
+          continue;
+        if (toothed(s) && toothed(t)) continue;  // gears in mesh slide along each other
+        const OutlineExtent one = extent(s.outer), other = extent(t.outer);
+        const Point2 at = place(a, one.centre), there = place(b, other.centre);
+        if (!discs_clear(one, at, other, there, holes_of(b, t)) &&
+            !discs_clear(other, there, one, at, holes_of(a, s)))
+          return true;
+      }
+  return false;
+}
+
+/// Every body once, every step free, by moving the bodies in small steps.
+void expect_proved(const Made& made, const char* name) {
+  const AssemblyOrder order = assembly_order(made.train, made.shapes);
+  ASSERT_TRUE(order.exists()) << name;
+  ASSERT_FALSE(order.units.empty());
+  for (const AssemblyUnit& unit : order.units) {
+    std::vector<std::size_t> there;
+    for (const AssemblyStep& step : unit.steps) {
+      for (const std::size_t body : step.bodies)
+        for (const std::size_t other : there)
+          EXPECT_FALSE(meets_on_its_way(made.shapes, body, other, step.from))
+              << name << ", " << unit.name << ": " << made.shapes.assembly[body].name << " meets "
+              << made.shapes.assembly[other].name;
+      there.insert(there.end(), step.bodies.begin(), step.bodies.end());
+      if (step.unit >= 0) {
+        std::size_t count = 0;
+        for (const AssemblyStep& s : order.units[static_cast<std::size_t>(step.unit)].steps)
+          count += s.bodies.size();
+        EXPECT_EQ(count, step.bodies.size());
+      }
+    }
+    if (&unit == &order.units.back()) {
+      std::sort(there.begin(), there.end());
+      EXPECT_EQ(std::unique(there.begin(), there.end()), there.end()) << name;
+      EXPECT_EQ(there.size(), made.shapes.assembly.size()) << name;
+    }
+  }
+}
+
+TEST(AssemblyOrder, EveryKindGoesTogetherBodyByBody) {
+  expect_proved(Made(k3k + kMachine), "type I");
+  expect_proved(Made(type_two(k3k) + kMachine), "type II");
+  expect_proved(Made(split_ring(k3k) + kMachine), "split ring");
+  expect_proved(Made(kSimple + kMachine), "simple");
+  expect_proved(Made(kStepped + kMachine), "stepped");
+  expect_proved(Made(held_carrier(kSimple) + kMachine), "simple, held carrier");
+  expect_proved(Made(held_carrier(kStepped) + kMachine), "stepped, held carrier");
+}
+
+TEST(AssemblyOrder, UnitsAreMadeByThemselves) {
+  const Made made(k3k + kMachine);
+  const AssemblyOrder order = assembly_order(made.train, made.shapes);
+  std::vector<std::string> names;
+  for (const AssemblyUnit& unit : order.units) names.push_back(unit.name);
+  for (const char* name : {"housing", "lid", "planet", "carrier", "gearbox"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  EXPECT_EQ(names.back(), "gearbox");
+  EXPECT_EQ(made.finding("assembly_order", "train").status, CheckStatus::kPass);
+}
+
+TEST(AssemblyOrder, HerringboneTeethHoldEachOtherUnlessRingsAreInHalves) {
+  const std::string herringbone = replaced(
+      kSimple, "module_mm = 1", "module_mm = 1\nhelix_angle_deg = 20\nherringbone = true");
+  const Made whole(replaced(herringbone, "[ring]", "[ring]\nhalves = false") + kMachine);
+  const Finding& finding = whole.finding("assembly_order", "train");
+  EXPECT_EQ(finding.status, CheckStatus::kFail);
+  EXPECT_GE(finding.value, 4.0);  // the ring and three planets
+  EXPECT_NE(finding.cure.find("halves"), std::string::npos);
+  const Made halves(herringbone + kMachine);
+  EXPECT_EQ(halves.finding("assembly_order", "train").status, CheckStatus::kPass)
+      << halves.finding("assembly_order", "train").message;
+  // sun and planets first, from the side; then one half of the ring from either side
+  const AssemblyOrder order = assembly_order(halves.train, halves.shapes);
+  const auto core = std::find_if(order.units.begin(), order.units.end(), [](const AssemblyUnit& unit) {
+    return unit.name == "sun_and_planets";
+  });
+  ASSERT_NE(core, order.units.end());
+  ASSERT_EQ(core->steps.size(), 4U);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(core->steps[i].from, 0.0);
+  std::map<std::string, int> times;
+  int now = 0;
+  for (const AssemblyStep& step : order.units.back().steps) {
+    ++now;
+    for (const std::size_t body : step.bodies) times[halves.shapes.assembly[body].name] = now;
+  }
+  EXPECT_LT(times["ring_lower"], times["sun"]);
+  EXPECT_LT(times["sun"], times["ring_upper"]);
+  // what runs into each other as it stands is told as what it is
+  const Made pierced(replaced(k3k + kMachine, "nema17\"", "nema17\"\nshaft_length_mm = 60"));
+  EXPECT_EQ(pierced.finding("collision", "train").status, CheckStatus::kFail);
+  EXPECT_NE(pierced.finding("assembly_order", "train").cure.find("collision"), std::string::npos);
+  const Made helical(replaced(kSimple, "module_mm = 1", "module_mm = 1\nhelix_angle_deg = 20") +
+                     kMachine);
+  EXPECT_EQ(helical.finding("assembly_order", "train").status, CheckStatus::kPass);
+}
+
+TEST(AssemblyOrder, APlateThatNoRingPassesIsTold) {
+  const Made made(k3k + kMachine + "[carrier]\nplate_thickness_mm = 8\nouter_diameter_mm = 74\n");
+  const Finding& finding = made.finding("assembly_order", "train");
+  EXPECT_EQ(finding.status, CheckStatus::kFail);
+  EXPECT_NE(finding.cure.find("outer_diameter_mm"), std::string::npos);
 }
 
 }  // namespace

@@ -54,6 +54,22 @@ TEST(DesignEdit, ChangesValuesAndKeepsEveryComment) {
     EXPECT_NE(text->find(line), std::string::npos) << line << *text;
 }
 
+TEST(DesignEdit, KeysThatNameTheirTableStayInTheirLine) {
+  const std::string dotted =
+      "format = 1\r\ngearbox.kind = \"pair\"\r\ngearbox.module_mm = 1.0 # bought\r\n"
+      "pinion.teeth = 20\r\npinion.face_width_mm = 10\r\nwheel.teeth = 40 # kept\r\n"
+      "wheel.face_width_mm = 10\r\n";
+  GearboxDesign design = read(dotted);
+  design.gears[0].teeth = 21;
+  design.gears[1].tip_diameter_mm = 41.875;
+  const auto text = edited_design_text(dotted, "edited.toml", design);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(*text,
+            "format = 1\r\ngearbox.kind = \"pair\"\r\ngearbox.module_mm = 1.0 # bought\r\n"
+            "pinion.teeth = 21\r\npinion.face_width_mm = 10\r\nwheel.teeth = 40 # kept\r\n"
+            "wheel.face_width_mm = 10\r\nwheel.tip_diameter_mm = 41.875\r\n");
+}
+
 TEST(DesignEdit, WritesNewKeysIntoTheirTableAndNewTablesAtTheEnd) {
   GearboxDesign design = read(kText);
   design.gears[0].tip_diameter_mm = 21.75;
@@ -110,6 +126,12 @@ TEST(InchKeys, StandForMillimetres) {
   EXPECT_DOUBLE_EQ(design.gears[0].face_width_mm, 12.7);
   EXPECT_DOUBLE_EQ(design.gears[0].bore.diameter_mm, 6.35);
   EXPECT_EQ(design.gears[1].face_width_mm, 12.0);
+}
+
+TEST(InchKeys, AreDecimalInMillimetresToo) {
+  const GearboxDesign design = read(
+      "format = 1\n[gearbox]\nkind = \"gear\"\ndiametral_pitch = 24\n[gear]\nteeth = 20\nface_width_in = 0.09\n");
+  EXPECT_EQ(design.gears[0].face_width_mm, 2.286);  // 0.09 times 25.4 is a last bit less
 }
 
 TEST(InchKeys, ErrorsNameTheKeyAsItIsWritten) {

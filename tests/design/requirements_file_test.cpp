@@ -81,11 +81,48 @@ TEST(RequirementsFile, AllErrorsAreToldAtOnceWithLineAndRemedy) {
 TEST(RequirementsFile, ContradictionsAreErrorsOfTheirKeys) {
   EXPECT_EQ(errors_of("format = 1\n[gearbox]\nkind = \"3k\"\n[ratio]\nmin = 100\nmax = 90\n")[0].key,
             "ratio.max");
-  EXPECT_EQ(errors_of(kSmall + "[teeth]\nsun_min = 20\nsun_max = 10\n")[0].key, "teeth.sun");
+  EXPECT_EQ(errors_of(kSmall + "[teeth]\nsun_min = 20\nsun_max = 10\n")[0].key, "teeth.sun_max");
   EXPECT_EQ(errors_of(kSmall + "[shift]\nmin = 1\nmax = 0\n")[0].key, "shift.max");
   EXPECT_EQ(errors_of(kSmall + "[strength]\nmaterial = \"cheese\"\n")[0].key, "strength.material");
   EXPECT_EQ(errors_of("format = 1\n")[0].code, ErrorCode::kMissingKey);
   EXPECT_EQ(errors_of("what is this")[0].code, ErrorCode::kSyntax);
+}
+
+TEST(RequirementsFile, KindsPlanetsAndTeethOfEveryNameAreRead) {
+  const auto read = read_requirements_text(
+      "format = 1\n[gearbox]\nkind = \"3k, stepped, pair\"\nplanets = \"3, 4\"\noutput = \"ring1, carrier\"\n"
+      "input = \"any\"\nwheel = \"any\"\n[ratio]\nmin = 3\nmax = 9\n[teeth]\nring_max = 70\nplanet_min = 20\n"
+      "pinion_max = 30\nwheel_min = 31\n",
+      "needs.toml");
+  ASSERT_TRUE(read.has_value()) << read.error().front().message << read.error().front().key;
+  EXPECT_EQ(read->kinds, (std::vector<std::string>{"3k", "stepped", "pair"}));
+  EXPECT_EQ(read->planets, (std::vector<int>{3, 4}));
+  EXPECT_EQ(read->outputs, (std::vector<std::string>{"ring1", "carrier"}));
+  EXPECT_TRUE(read->internal_wheels && read->external_wheels);
+  EXPECT_EQ(read->ring.max, 70);
+  EXPECT_EQ(read->planet.min, 20);
+  EXPECT_EQ(read->pinion.max, 30);
+  EXPECT_EQ(read->wheel.min, 31);
+}
+
+TEST(RequirementsFile, WhatNoKindHasIsAnErrorOfItsKey) {
+  const auto first = [](const std::string& lines, const std::string& more = "") {
+    const Errors errors = errors_of("format = 1\n[gearbox]\n" + lines + "\n[ratio]\nmin = 3\nmax = 9\n" + more);
+    EXPECT_EQ(errors.size(), 1u) << lines;
+    EXPECT_FALSE(errors.front().value.empty());
+    EXPECT_FALSE(errors.front().remedy.empty());
+    return errors.front().key;
+  };
+  for (const char* line : {"kind = \"simpel\"", "kind = \"\"", "kind = \"3k,\"", "kind = \"gear\"",
+                           "kind = \"simple, simple\"", "kind = 3"})
+    EXPECT_EQ(first(line), "gearbox.kind");
+  EXPECT_EQ(first("kind = \"simple\"\noutput = \"ring2\""), "gearbox.output");
+  EXPECT_EQ(first("kind = \"pair\"\ninput = \"carrier\""), "gearbox.input");
+  EXPECT_EQ(first("kind = \"pair\"\nwheel = \"both\""), "gearbox.wheel");
+  for (const char* planets : {"0", "21", "2.5", "\"3, x\"", "\"3, 3\"", "\"\"", "\"3,,4\"", "true"})
+    EXPECT_EQ(first(std::string("kind = \"simple\"\nplanets = ") + planets), "gearbox.planets");
+  EXPECT_EQ(first("kind = \"simple\"", "[teeth]\nring_min = 70\nring_max = 60\n"), "teeth.ring_max");
+  EXPECT_EQ(first("kind = \"pair\"", "[teeth]\npinion_min = 70\n"), "teeth.pinion_max");
 }
 
 TEST(RequirementsFile, MaterialsExtendATable) {

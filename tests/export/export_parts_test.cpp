@@ -235,7 +235,13 @@ TEST(ExportParts, ShowsEveryFileAsProgress) {
 TEST(ParseFormats, TakesAListAndRefusesUnknownOnes) {
   using enum FileFormat;
   EXPECT_EQ(parse_formats({"stl", "3mf", "step", "stl"}).value(), (std::vector{kStl, k3mf, kStep}));
-  EXPECT_EQ(parse_formats({}).value(), file_formats());
+  // unasked all but those that must be asked for: pictures
+  std::string unasked;
+  const std::vector<FileFormat> without_pictures = parse_formats({}).value();
+  for (const FileFormat format : without_pictures)
+    unasked += std::string(unasked.empty() ? "" : " ") + to_text(format);
+  EXPECT_EQ(unasked, "stl 3mf obj ply glb step dxf svg scad pdf");
+  EXPECT_EQ(unasked + " " + asked_format_names(" "), format_names(" "));
   const auto formats = parse_formats({"STL", "obj", "", "iges"});
   ASSERT_FALSE(formats);
   EXPECT_EQ(formats.error().size(), 3U);
@@ -251,8 +257,16 @@ TEST(FileFormats, TheTableStandsInTheOrderOfTheEnumeration) {
     EXPECT_EQ(to_text(table[i].format), std::string(table[i].name));
     EXPECT_FALSE(table[i].description.empty());
   }
-  EXPECT_EQ(static_cast<std::size_t>(FileFormat::kPdf) + 1, table.size());
+  EXPECT_EQ(static_cast<std::size_t>(FileFormat::kApng) + 1, table.size());
   EXPECT_EQ(format_names(",", FormatContent::kMesh), "stl,3mf,obj,ply,glb");
+}
+
+TEST(FileFormats, PicturesAreWrittenWhereTheyAreAskedFor) {
+  EXPECT_EQ(asked_format_names(","), "png,apng");
+  const auto unasked = *parse_formats({});
+  EXPECT_EQ(unasked.size() + 2, file_formats().size());
+  EXPECT_EQ(std::count(unasked.begin(), unasked.end(), FileFormat::kPng), 0);
+  EXPECT_EQ(parse_formats({"png", "png"}), std::vector<FileFormat>{FileFormat::kPng});
 }
 
 }  // namespace

@@ -87,6 +87,19 @@ TEST(BenchFile, MixedUnitsAreRefusedAndTheLineNamed) {
   EXPECT_EQ(error.line, static_cast<int>(at) + 1);
 }
 
+TEST(BenchFile, ARowOfTheOtherSignIsLeftOutAndNamed) {
+  std::vector<std::string> lines = clean_lines();
+  lines[9] = scaled(lines[9], 1.0, -1.0);
+  loop::BenchData data;
+  ASSERT_TRUE(loop::read_bench_text("bench.csv", joined(lines), data).empty());
+  const std::size_t rows = data.rows.size();
+  std::vector<std::string> notes;
+  ASSERT_TRUE(loop::settle_signs(data, notes).empty());
+  EXPECT_EQ(data.rows.size(), rows - 1);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes.front(), HasSubstr("bench.csv:10: left out: output_torque_nm of -"));
+}
+
 TEST(BenchFile, SignsThatChangeInsideADirectionAreRefused) {
   const Error error = first_error(changed([](const std::string& l, std::size_t i) {
     return i % 7 == 0 ? scaled(l, 1.0, -1.0) : l;
@@ -160,6 +173,12 @@ TEST(BenchFile, TooFewRowsAreRefused) {
   std::vector<std::string> lines = clean_lines();
   lines.resize(6);
   EXPECT_THAT(first_error(joined(lines)).message, HasSubstr("5 usable rows"));
+}
+
+TEST(BenchFile, RowsWithoutAnyTorqueAreRefused) {
+  std::string text = "direction,input_speed_rpm,input_torque_nm,output_torque_nm\n";
+  for (int row = 0; row < 20; ++row) text += "forward," + std::to_string(100 + row) + ",0,0\n";
+  EXPECT_THAT(first_error(text).message, HasSubstr("a torque of 0"));
 }
 
 TEST(BenchFile, ASingleGearHasNoBench) {

@@ -34,6 +34,25 @@ TEST(Iso1328, TolerancesAreThoseOfTheStandard) {
   EXPECT_DOUBLE_EQ(loop::iso_1328_tolerance_um(6.8, 4), 4.8);
 }
 
+TEST(Iso1328, LimitsOfEveryClassStandBesideTheFigures) {
+  MadeGear gear = spur(40);
+  gear.module_mm = 3.0;
+  gear.face_mm = 25.0;
+  gear.tip_mm = gear.reference() + 3.0;
+  gear.root_form_mm = ToothProfile::make(design_of(gear))->root_form_radius_mm();
+  bool seen = false;
+  for (const auto& figure : loop::inspection_figures(evaluated(gear, {}))) {
+    if (figure.symbol == "fHam") EXPECT_TRUE(figure.limits_um.empty());  // a mean has no tolerance
+    if (figure.symbol != "fHa") continue;
+    seen = true;
+    ASSERT_EQ(figure.limits_um.size(), 11u);
+    EXPECT_DOUBLE_EQ(figure.limits_um[4], 5.5);   // d 120, m 3: 5.32, rounded to halves
+    EXPECT_DOUBLE_EQ(figure.limits_um[6], 11.0);  // 10.64, to whole
+    EXPECT_DOUBLE_EQ(figure.limits_um[0], 1.3);   // 1.33, to tenths
+  }
+  EXPECT_TRUE(seen);
+}
+
 TEST(Iso1328, BracketsAreThoseOfTheStandard) {
   MadeGear gear = spur(40);
   gear.module_mm = 3.0;
@@ -103,8 +122,9 @@ TEST(TraceEvaluation, TheFilterPassesHalfOfAWaveOfTheCutOff) {
   // A straight line passes whole, its ends included but for the half of the weights that is missing there.
   for (auto& p : trace) p.deviation_um = 3.0 * p.at_mm;
   const auto line = loop::gaussian_filtered(trace, 0.8);
-  for (const auto& p : line)
+  for (const auto& p : line) {
     if (p.at_mm > 1.0 && p.at_mm < 39.0) EXPECT_NEAR(p.deviation_um, 3.0 * p.at_mm, 1e-6);
+  }
 }
 
 TEST(TraceEvaluation, FormIsWhatTheMeanLineLeavesAndMissingTipMaterialIsNone) {

@@ -145,7 +145,7 @@ def close(gear, kinds, leave_out=(), folder="all"):
                 lines.append(f"{kind},{tooth},{name},{d:.5f},{z:.5f},{value}")
     (place / "data.csv").write_text("\n".join(lines) + "\n")
     done = subprocess.run([PROGRAM, "loop", place / "design.toml", place / "data.csv", "-o", place],
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True, timeout=400)  # a run without an end; 54 s on a quiet machine
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return json.loads((place / "loop.json").read_text())
@@ -163,6 +163,27 @@ def form_over_the_face(term, z):
     if "width_mm" in term:
         return term["cos_um"] * numpy.exp(-((z - term["place_mm"]) / term["width_mm"]) ** 2)
     return term["cos_um"] * (z > term["place_mm"])
+
+
+def named_form(gear, term, tooth, side, roll, z, v):
+    """What a form of the library without its name does to a helix trace."""
+    size = term["cos_um"]
+    if term["form"] == "lean_over_face":
+        return 0.5 * size * side * v
+    if term["form"] == "taper_over_face":
+        return 0.5 * size * v
+    if term["form"] == "bow_over_face":
+        return -size * v**2
+    if term["form"] == "bulge_at_lower_face":
+        return size * numpy.exp(-z / term["height_mm"])
+    if term["form"] == "sideways_step_over_height":
+        direction = gear.normal_direction(tooth, side, roll, z)
+        along = size * numpy.cos(direction) + term["sin_um"] * numpy.sin(direction)
+        return numpy.where(z > term["height_mm"], along * math.cos(gear.beta_b), 0.0)
+    if term["form"] in ("thickness", "height_of_tooth", "slope_over_profile", "bow_over_profile",
+                        "hollow_over_profile", "fall_towards_tip"):
+        return 0.0 * z  # constant over a helix trace
+    raise AssertionError("no formula here for the form " + term["form"])
 
 
 def predicted_helix(gear, result, tooth, side, z):
@@ -190,6 +211,9 @@ def predicted_helix(gear, result, tooth, side, z):
                 if "along" in term:  # a form along the flank, the same on every tooth
                     if term["along"] == "face":
                         total += form_over_the_face(term, z)
+                    continue
+                if "form" in term:
+                    total += named_form(gear, term, tooth, side, roll, z, v)
                     continue
                 if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so

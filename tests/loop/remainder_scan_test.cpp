@@ -138,8 +138,30 @@ TEST(RingScan, FindsASectorAndEveryOtherTooth) {
            [](double x, auto) { return std::lround(24.0 * x - 0.5) % 2 == 0 ? 3.0 : -3.0; }),
       all_places(24), 24);
   EXPECT_LT(other.p_value, 1e-3);
-  EXPECT_EQ(other.count, 0);
-  EXPECT_EQ(other.order, 12);
+  EXPECT_EQ(other.kind, RingFinding::Kind::kComb);
+  EXPECT_EQ(other.count, 2);
+}
+
+TEST(RingScan, FindsARampThatBeginsAnewAndOneToothInThree) {
+  const auto ramp = scan_ring(with(errors(29, 1, 0.0, 1),
+                                   [](double x, auto) {
+                                     const long place = std::lround(29.0 * x - 0.5);
+                                     return 8.0 * static_cast<double>((place + 24) % 29) / 29.0;
+                                   }),
+                              all_places(29), 29);
+  EXPECT_LT(ramp.p_value, 1e-3);
+  EXPECT_EQ(ramp.kind, RingFinding::Kind::kRamp);
+  EXPECT_EQ(ramp.first, 5);
+  EXPECT_NEAR(ramp.amount, 8.0, 2.0);
+  const auto comb = scan_ring(
+      with(errors(24, 1, 0.0, 1),
+           [](double x, auto) { return std::lround(24.0 * x - 0.5) % 3 == 1 ? 5.0 : 0.0; }),
+      all_places(24), 24);
+  EXPECT_LT(comb.p_value, 1e-3);
+  EXPECT_EQ(comb.kind, RingFinding::Kind::kComb);
+  EXPECT_EQ(comb.count, 3);
+  EXPECT_EQ(comb.first, 1);
+  EXPECT_NEAR(comb.amount, 5.0, 1.0);
 }
 
 TEST(RingScan, ASectorOfFewTeethIsFoundThoughFewOrdersExist) {

@@ -14,6 +14,7 @@ NEEDS = """format = 1
 name = "around <96>"
 [gearbox]
 kind = "3k"
+output = "any"
 [ratio]
 min = 90
 max = 100
@@ -88,6 +89,65 @@ class SearchInBrowser(unittest.TestCase):
             self.assertEqual(browser.run("document.querySelectorAll('#table tbody tr').length"), len(files))
             self.assertEqual(browser.problems, [])
             self.assertTrue(all(url.startswith("file://") for url in browser.requests), browser.requests)
+
+    def test_ratio_is_drawn_as_its_size_and_bubbles_by_area(self):
+        with Browser() as browser:
+            browser.open(self.page)
+            choose = "(() => { const e = document.getElementById('%s'); e.value = '%s'; e.dispatchEvent(new Event('change')); })()"
+            browser.run(choose % ("x", "absolute"))
+            # ratios of both directions are among these: the candidates fill the width all the same
+            self.assertTrue(any(float(r["ratio"]) < 0 for r in self.rows) and any(float(r["ratio"]) > 0 for r in self.rows))
+            across = browser.run("[...document.querySelectorAll('#plot circle:not(.at)')].map(c => +c.getAttribute('cx'))")
+            self.assertGreater(max(across) - min(across), 0.7 * 885)
+            browser.run(choose % ("bubble", "output_torque_nm"))
+            seen = browser.run("places.map(p => [p.r.output_torque_nm, p.radius, Boolean(p.r.file)])")
+            largest = max(radius for torque, radius, _ in seen)
+            most = max(torque for torque, *_ in seen if torque is not None)
+            known = [row for row in seen if row[0] is not None]
+            self.assertGreater(len(known), len(seen) / 2)  # contact may be interrupted: no torque then
+            for torque, radius, made in known:
+                area = largest * (torque / most) ** 0.5
+                self.assertAlmostEqual(radius, max(area, 6 if made else 2), places=6)
+            browser.picture(os.path.join(OUTPUT, "bubbles.png"), whole=True)
+
+    def test_the_best_designs_are_drawn_to_scale(self):
+        with Browser() as browser:
+            browser.open(self.page)
+            drawn = browser.run("[...document.querySelectorAll('#gears li')].map(li => [li.querySelector('a').getAttribute('href'),"
+                                " li.querySelector('svg').getAttribute('viewBox').split(' ').map(Number),"
+                                " [...li.querySelectorAll('circle')].map(c => [c.getAttribute('class'), ...['cx', 'cy', 'r'].map(k => +c.getAttribute(k))])])")
+            self.assertEqual([d[0] for d in drawn], [d["file"] for d in self.search["designs"]])
+            rows = {row["file"]: row for row in self.rows if row["file"]}
+            for file, box, circles in drawn:
+                row, of = rows[file], {}
+                for name, x, y, r in circles:
+                    of.setdefault(name, []).append((x, y, r))
+                    self.assertLessEqual(abs(x) + r, box[2] / 2)
+                self.assertEqual({name: len(c) for name, c in of.items()}, {"sun": 1, "planet": 3, "step": 3, "ring": 1, "upper": 1})
+                sun, ring, upper = of["sun"][0][2], of["ring"][0][2], of["upper"][0][2]
+                distance = float(row["centre_distance_modules"])
+                for x, y, r in of["planet"]:  # touches its ring; in the ratio of the teeth
+                    self.assertAlmostEqual((x * x + y * y) ** 0.5, distance, places=4)
+                    self.assertAlmostEqual(distance + r, ring, places=4)
+                    self.assertAlmostEqual(ring / r, int(row["ring1"]) / int(row["planet1"]), places=4)
+                for _, _, r in of["step"]:
+                    self.assertAlmostEqual(distance + r, upper, places=4)
+                self.assertAlmostEqual(sun, distance * int(row["sun"]) / (int(row["sun"]) + int(row["planet1"])), places=4)
+            # one scale: where the centre distance is as many modules, circles of as many teeth are as large
+            scales = {round(box[2] * 1000) for _, box, _ in drawn}
+            self.assertEqual(len(scales), 1)
+
+    def test_a_search_that_finds_nothing_says_so(self):
+        needs = os.path.join(OUTPUT, "nothing.toml")
+        with open(needs, "w", encoding="utf-8") as file:
+            file.write(NEEDS.replace("min = 90\nmax = 100", "min = 9990\nmax = 9991"))
+        folder = os.path.join(OUTPUT, "nothing")
+        subprocess.run([PROGRAM, "search", needs, "-o", folder, "-q"], check=True)
+        with Browser() as browser:
+            browser.open(os.path.join(folder, "search.html"))
+            self.assertEqual(browser.problems, [])
+            self.assertIn("No candidate", browser.run("document.querySelector('#stage').innerText"))
+            self.assertGreater(browser.run("document.querySelectorAll('#fell tr').length"), 0)
 
     def test_a_click_opens_the_design_file(self):
         with Browser() as browser:

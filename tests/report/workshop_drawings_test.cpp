@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -86,6 +87,41 @@ TEST(WorkshopDrawings, TheTableHoldsTheNumbersOfTheReport) {
       EXPECT_TRUE(says(sheet, drawing_number(drawn.report["gears"][gear][key], 4))) << gear << ' ' << key;
   EXPECT_TRUE(says(sheet, "39"));
   EXPECT_TRUE(says(sheet, "ring2, z 81"));
+}
+
+TEST(WorkshopDrawings, EveryGearOfAPartAndItsUpperFaceHaveARunout) {
+  const Drawn drawn("bilateral_drive");
+  const Sheet sheet = part_sheet(drawn.model(), drawn.part("planet"));
+  const PartDimensions asked = part_dimensions(*drawn.train, drawn.part("planet"));
+  ASSERT_EQ(asked.tip_runouts.size(), 2U);
+  ASSERT_TRUE(asked.face_runout);
+  // a fifth of 16 um over 12 mm of teeth, on a face of 35.2551 mm: 9.4 um, which a face need not keep
+  EXPECT_EQ(asked.face_runout->value_mm, 0.01);
+  EXPECT_TRUE(says(sheet, drawing_number(asked.face_runout->value_mm, 3)));
+  EXPECT_TRUE(says(sheet, drawing_number(asked.tip_runouts[0].value_mm, 3)));
+  EXPECT_EQ(std::count_if(sheet.texts.begin(), sheet.texts.end(), [](const SheetText& t) { return t.text == "A" && t.height_mm < 3.2; }), 4);
+}
+
+TEST(WorkshopDrawings, AGearWithoutABoreHasNoDatumAndNoRunout) {
+  const Drawn drawn("pinion_8_undercut");
+  for (const PartShape& part : drawn.shapes.parts) {
+    PartShape solid = part;
+    for (Slab& slab : solid.slabs) slab.holes.clear();
+    const PartDimensions asked = part_dimensions(*drawn.train, solid);
+    EXPECT_EQ(asked.datum(), nullptr);
+    EXPECT_TRUE(asked.tip_runouts.empty());
+    EXPECT_FALSE(asked.face_runout);
+  }
+}
+
+TEST(WorkshopDrawings, SizesWithoutAFitHaveTheGeneralTolerance) {
+  // ISO 2768-1, class m
+  for (const auto& [size, limit] : {std::pair{0.5, 0.1}, {6.0, 0.1}, {6.1, 0.2}, {30.0, 0.2}, {31.0, 0.3}, {120.0, 0.3}, {400.0, 0.5}, {1000.0, 0.8}}) {
+    EXPECT_EQ(general_limits(size).upper_mm, limit) << size;
+    EXPECT_EQ(general_limits(size).lower_mm, -limit) << size;
+  }
+  EXPECT_TRUE(std::isnan(general_limits(0.4).upper_mm));
+  EXPECT_TRUE(std::isnan(general_limits(5000.0).upper_mm));
 }
 
 TEST(WorkshopDrawings, TheAssemblyListsEveryPartWithItsCount) {

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/search/search_corner.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
-#include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
@@ -49,9 +50,10 @@ TEST(SearchModel, HasTheEfficiencyOfTheLaidOutTrainByEitherModel) {
     r.loss_model = loss;
     const SearchModel model(r, set_of(r, 12, 39, 90, 32, 81));
     int undercut = 0;
-    for (const FreeShifts& free : {FreeShifts{25.75, 0.55, 1.6}, {25.7, 0.4, 1.9}, {25.6, 0.3, 1.2}, {25.55, 0.1, 1.2}}) {
-      const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
-      const Layer2Evaluation layer2 = model.layer2(free.centre_distance, free.ring2_shift);
+    for (const FreeShifts& free :
+         {FreeShifts{25.75, 0.55, 1.6}, {25.7, 0.4, 1.9}, {25.6, 0.3, 1.2}, {25.55, 0.1, 1.2}}) {
+      const LayerEvaluation layer1 = model.layer1(free.centre_distance, free.layer1_shift);
+      const LayerEvaluation layer2 = model.layer2(free.centre_distance, free.layer2_shift);
       const auto train = lay_out(model.design(free));
       ASSERT_TRUE(train.has_value());
       undercut += train->gears[0].profile.notes().undercut;
@@ -59,7 +61,7 @@ TEST(SearchModel, HasTheEfficiencyOfTheLaidOutTrainByEitherModel) {
       whole_teeth.backlash_mm = 0.0;  // the model's teeth
       const EfficiencyResult whole = efficiency(*lay_out(whole_teeth), {.model = loss});
       for (const auto direction : {DriveDirection::kForward, DriveDirection::kBackward})
-        EXPECT_NEAR(model.efficiency(layer1.sun_planet, layer1.planet_ring, layer2.planet_ring, direction),
+        EXPECT_NEAR(model.efficiency(layer1, layer2, direction),
                     direction == DriveDirection::kForward ? whole.forward : whole.backward, 1e-9)
             << free.centre_distance;
     }
@@ -72,8 +74,8 @@ TEST(SearchModel, IsTheLaidOutTrainSeenFromTheOptimiser) {
   r.backlash_mm = 0.0;
   const SearchModel model(r, set_of(r, 12, 39, 90, 32, 81));
   const FreeShifts free{25.75, 0.55, 1.6};
-  const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
-  const Layer2Evaluation layer2 = model.layer2(free.centre_distance, free.ring2_shift);
+  const LayerEvaluation layer1 = model.layer1(free.centre_distance, free.layer1_shift);
+  const LayerEvaluation layer2 = model.layer2(free.centre_distance, free.layer2_shift);
   const auto train = lay_out(model.design(free));
   ASSERT_TRUE(train.has_value());
   double least = 1e9, thinnest = 1e9;
@@ -84,16 +86,76 @@ TEST(SearchModel, IsTheLaidOutTrainSeenFromTheOptimiser) {
   for (const TrainGear& gear : train->gears)
     thinnest = std::min(thinnest, gear.profile.tip_thickness_mm());
   double model_least = 1e9, model_thinnest = 1e9;
-  for (std::size_t i = 0; i < kLimits; ++i) {
-    const double margin =
-        i < kLayer1Limits ? layer1.margins[i] : layer2.margins[i - kLayer1Limits];
-    if (limit_entries()[i].limit == Limit::kTipClearance)
+  for (std::size_t i = 0; i < model.limits(); ++i) {
+    const double margin = i < model.train().layer1_limits
+                              ? layer1.margins[i]
+                              : layer2.margins[i - model.train().layer1_limits];
+    if (model.train().limits[i].limit == Limit::kTipClearance)
       model_least = std::min(model_least, margin + r.tip_clearance);
-    if (limit_entries()[i].limit == Limit::kTipThickness)
+    if (model.train().limits[i].limit == Limit::kTipThickness)
       model_thinnest = std::min(model_thinnest, margin + r.tip_thickness);
   }
   EXPECT_NEAR(model_least, least, 1e-9);
   EXPECT_NEAR(model_thinnest, thinnest, 1e-9);
+}
+
+/// Requirements of which a few sets of each kind are left.
+SearchRequirements few_of(const std::string& kind) {
+  SearchRequirements r = requirements(0.8);
+  r.kinds = {kind};
+  r.outputs = r.inputs = {"any"};
+  r.external_wheels = r.internal_wheels = true;
+  r.ratio_min = kind == "3k" ? 30 : kind == "stepped" ? 9 : 5;
+  r.ratio_max = r.ratio_min * 1.05;
+  r.sun = {14, 15};
+  r.planet1 = {18, 44};
+  r.planet2 = {18, 20};
+  r.wheel = {70, 76};
+  return r;
+}
+
+TEST(SearchModel, EveryKindsBestDesignIsTheLaidOutTrainWithTheEfficiencyTold) {
+  for (const char* kind : {"simple", "stepped", "pair", "3k"}) {
+    const SearchRequirements r = few_of(kind);
+    std::set<const SearchTrain*> seen;
+    for (const ToothSet& set : enumerate_sets(r).sets) {
+      if (seen.contains(set.train)) continue;
+      const SetResult result = optimise_set(r, set);
+      if (result.candidates.empty()) continue;
+      seen.insert(set.train);
+      const SearchModel model(r, set);
+      GearboxDesign design = model.design(result.candidates[0].free);
+      const auto with_backlash = lay_out(design);
+      ASSERT_TRUE(with_backlash.has_value())
+          << kind << ": " << with_backlash.error().front().message;
+      design.backlash_mm = 0.0;
+      const auto train = lay_out(design);
+      ASSERT_TRUE(train.has_value()) << kind;
+      const EfficiencyResult exact = efficiency(*train, {.model = LossModel::kPathIntegral});
+      EXPECT_NEAR(exact.forward, result.candidates[0].forward, 1e-9)
+          << kind << ' ' << set.train->output;
+      EXPECT_NEAR(exact.backward, result.candidates[0].backward, 1e-9)
+          << kind << ' ' << set.train->output;
+      const LayerEvaluation layer1 = model.layer1(result.candidates[0].free.centre_distance,
+                                                  result.candidates[0].free.layer1_shift);
+      const LayerEvaluation layer2 = model.layer2(result.candidates[0].free.centre_distance,
+                                                  result.candidates[0].free.layer2_shift);
+      double least = 1e9, model_least = 1e9;
+      for (const TrainMesh& mesh : train->meshes) {
+        const GearPair pair = train->pair(mesh);
+        least = std::min({least, tip_clearance_of_gear1_mm(pair), tip_clearance_of_gear2_mm(pair)});
+      }
+      const auto& limits = set.train->limits;
+      for (std::size_t i = 0; i < limits.size(); ++i)
+        if (limits[i].limit == Limit::kTipClearance)
+          model_least = std::min(
+              model_least, r.tip_clearance + (i < set.train->layer1_limits
+                                                  ? layer1.margins[i]
+                                                  : layer2.margins[i - set.train->layer1_limits]));
+      EXPECT_NEAR(model_least, least, 1e-9) << kind << ' ' << set.train->output;
+    }
+    EXPECT_GE(seen.size(), 2u) << kind;
+  }
 }
 
 TEST(SearchModel, TipsAreThickEnoughWithTheBacklashToo) {
@@ -101,36 +163,48 @@ TEST(SearchModel, TipsAreThickEnoughWithTheBacklashToo) {
   r.backlash_mm = 0.1;
   const SearchModel model(r, set_of(r, 12, 39, 90, 32, 81));
   const FreeShifts free{25.75, 0.55, 1.6};
-  const Layer1Evaluation layer1 = model.layer1(free.centre_distance, free.ring1_shift);
+  const LayerEvaluation layer1 = model.layer1(free.centre_distance, free.layer1_shift);
   const auto train = lay_out(model.design(free));
   ASSERT_TRUE(train.has_value());
-  for (std::size_t i = 0; i < kLayer1Limits; ++i) {
-    if (limit_entries()[i].limit != Limit::kTipThickness) continue;
-    const double thickness = train->find(limit_entries()[i].where)->profile.tip_thickness_mm();
+  for (std::size_t i = 0; i < model.train().layer1_limits; ++i) {
+    if (model.train().limits[i].limit != Limit::kTipThickness) continue;
+    const double thickness = train->find(model.train().limits[i].where)->profile.tip_thickness_mm();
     const double model_thickness = layer1.margins[i] + r.tip_thickness;
-    EXPECT_LE(model_thickness, thickness + 1e-9) << limit_entries()[i].where;
-    EXPECT_GT(model_thickness, thickness - 0.1) << limit_entries()[i].where;
+    EXPECT_LE(model_thickness, thickness + 1e-9) << model.train().limits[i].where;
+    EXPECT_GT(model_thickness, thickness - 0.1) << model.train().limits[i].where;
   }
 }
 
-TEST(SearchModel, FastEfficiencyEqualsTheBalanceForBothTypesAndDirections) {
-  SearchRequirements r = requirements();
-  for (const OutputMember output : {OutputMember::kRing2, OutputMember::kRing1})
-    for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81}, {12, 36, 87, 41, 91}}) {
-      ToothSet set{.sun = z[0], .planet1 = z[1], .ring1 = z[2], .planet2 = z[3], .ring2 = z[4],
-                   .output = output, .centre_distance_min = 20, .centre_distance_max = 30};
+TEST(SearchModel, FastEfficiencyEqualsTheBalanceForEveryTrainAndBothDirections) {
+  const SearchRequirements r = requirements();
+  for (const SearchTrain& kind : search_trains())
+    for (const ToothNumbers& z : {ToothNumbers{12, 39, 90, 32, 81}, {12, 36, 87, 41, 91}}) {
+      ToothSet set{.train = &kind, .centre_distance_min = 20, .centre_distance_max = 30};
+      std::vector<int> teeth;
+      for (const TrainPlace place : kind.places()) {
+        const auto at = static_cast<std::size_t>(place);
+        int* places[] = {&set.sun, &set.planet1, &set.ring1, &set.planet2, &set.ring2};
+        *places[at] = z[at];
+        teeth.push_back(place == TrainPlace::kRing1 || place == TrainPlace::kRing2 ? -z[at]
+                                                                                   : z[at]);
+      }
       const SearchModel model(r, set);
-      BalanceTrain train = balance_train(train_topology("3k", to_text(output)), {z[0], z[1], -z[2], z[3], -z[4]});
+      BalanceTrain train = balance_train(kind.topology, teeth);
       for (const double loss : {0.001, 0.01, 0.03}) {
         const MeshLoss a{1 - loss, 1 - 1.1 * loss}, b{1 - 0.3 * loss, 1 - 0.4 * loss},
             c{1 - 0.5 * loss, 1 - 0.6 * loss};
-        const MeshLoss all[] = {a, b, c};
-        for (std::size_t k = 0; k < 3; ++k) {
-          train.losses[k] = {all[k].driving1, all[k].driving2};
+        const LayerEvaluation layer1{.sun_planet = a, .planet_ring = b}, layer2{.planet_ring = c};
+        for (std::size_t k = 0; k < kind.topology.meshes.size(); ++k) {
+          const auto layer =
+              kind.topology.gears[static_cast<std::size_t>(kind.topology.meshes[k].gear1)].layer;
+          const bool internal = teeth[static_cast<std::size_t>(kind.topology.meshes[k].gear2)] < 0;
+          const MeshLoss& own = layer == 2 ? c : internal ? b : a;
+          train.losses[k] = {own.driving1, own.driving2};
         }
         for (const auto direction : {DriveDirection::kForward, DriveDirection::kBackward})
-          EXPECT_NEAR(model.efficiency(a, b, c, direction),
-                      solve_balance(train, direction).efficiency, 1e-12);
+          EXPECT_NEAR(model.efficiency(layer1, layer2, direction),
+                      solve_balance(train, direction).efficiency, 1e-12)
+              << kind.kind() << ' ' << kind.output << ' ' << kind.input;
       }
     }
 }
@@ -161,7 +235,8 @@ double swept_corner_clearance(const GearPair& pair) {
       turn1 = -turn2 * g2.teeth / g1.teeth;
     }
     const double radius = corner.norm();
-    const double angle = std::abs(std::remainder(std::atan2(corner.y(), corner.x()) - turn1, kTwoPi));
+    const double angle =
+        std::abs(std::remainder(std::atan2(corner.y(), corner.x()) - turn1, kTwoPi));
     if (angle > 1.5 * kPi / g1.teeth) continue;
     for (std::size_t k = 0; k + 1 < fillet.size(); ++k) {
       const double r1 = fillet[k].norm(), r2 = fillet[k + 1].norm();
@@ -196,18 +271,18 @@ double dense_grid(const SearchRequirements& r, const ToothSet& set, int n) {
   for (int i = 0; i <= n; ++i) {
     const double a =
         set.centre_distance_min + (set.centre_distance_max - set.centre_distance_min) * i / n;
-    const auto range1 = model.ring1_shift_range(a), range2 = model.ring2_shift_range(a);
-    std::optional<MeshLoss> layer2;
+    const auto range1 = model.shift_range(0, a), range2 = model.shift_range(1, a);
+    std::optional<LayerEvaluation> layer2;
     for (int k = 0; k <= n; ++k) {
       const auto e = model.layer2(a, range2[0] + (range2[1] - range2[0]) * k / n, 0.0);
-      if (e.least_margin >= 5.1e-6 && (!layer2 || e.planet_ring.driving1 > layer2->driving1))
-        layer2 = e.planet_ring;
+      if (e.least_margin >= 5.1e-6 &&
+          (!layer2 || e.planet_ring.driving1 > layer2->planet_ring.driving1))
+        layer2 = e;
     }
     for (int k = 0; layer2 && k <= n; ++k) {
       const auto e = model.layer1(a, range1[0] + (range1[1] - range1[0]) * k / n, 0.0);
       if (e.least_margin >= 5.1e-6)
-        best = std::max(best, model.efficiency(e.sun_planet, e.planet_ring, *layer2,
-                                               DriveDirection::kForward));
+        best = std::max(best, model.efficiency(e, *layer2, DriveDirection::kForward));
     }
   }
   return best;
@@ -216,8 +291,10 @@ double dense_grid(const SearchRequirements& r, const ToothSet& set, int n) {
 TEST(SearchOptimise, ReachesTheBestOfADenseGrid) {
   const SearchRequirements r = requirements();
   int feasible = 0;
-  for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81}, {11, 46, 103, 38, 95},
-                                    {12, 36, 87, 41, 91}, {18, 39, 96, 43, 99},
+  for (const std::vector<int>& z : {std::vector<int>{12, 39, 90, 32, 81},
+                                    {11, 46, 103, 38, 95},
+                                    {12, 36, 87, 41, 91},
+                                    {18, 39, 96, 43, 99},
                                     {15, 42, 105, 37, 101}}) {
     const ToothSet set = set_of(r, z[0], z[1], z[2], z[3], z[4]);
     const SetResult result = optimise_set(r, set);

@@ -25,9 +25,8 @@ const SetEnumeration& sets() {
   static const SetEnumeration found = enumerate_sets(requirements());
   return found;
 }
-const std::vector<SearchRecord>& records() {
-  static const std::vector<SearchRecord> found =
-      run_search(requirements(), sets(), {.threads = 1});
+const SearchRecords& records() {
+  static const SearchRecords found = run_search(requirements(), sets(), {.threads = 1});
   return found;
 }
 std::string text_of(const std::vector<SearchRecord>& list) {
@@ -35,19 +34,27 @@ std::string text_of(const std::vector<SearchRecord>& list) {
   for (const SearchRecord& record : list) text += journal_line(record) + "\n";
   return text;
 }
+std::string text_of(const SearchRecords& list) { return text_of(list.optimised); }
+
+/// The same search with so few listed that most sets are passed over.
+SearchRequirements listing(int listed) {
+  SearchRequirements r = requirements();
+  r.listed = listed;
+  return r;
+}
 
 TEST(Search, AnyNumberOfThreadsGivesTheSameRecords) {
   ASSERT_GT(sets().sets.size(), 4u);
-  ASSERT_EQ(records().size(), sets().sets.size());
+  ASSERT_EQ(records().optimised.size(), sets().sets.size());
   EXPECT_EQ(text_of(run_search(requirements(), sets(), {.threads = 3})), text_of(records()));
 }
 
 TEST(Search, PartsPutTogetherAreTheWhole) {
   std::vector<SearchRecord> all;
   for (int part = 1; part <= 3; ++part)
-    for (SearchRecord& record :
-         run_search(requirements(), sets(), {.threads = 1, .part = {part, 3}}))
-      all.push_back(std::move(record));
+    for (const SearchRecords found = run_search(requirements(), sets(), {.threads = 1, .part = {part, 3}});
+         const SearchRecord& record : found.optimised)
+      all.push_back(record);
   EXPECT_EQ(all.size(), sets().sets.size());
   std::sort(all.begin(), all.end(),
             [](const SearchRecord& p, const SearchRecord& q) { return p.index < q.index; });
@@ -60,13 +67,13 @@ TEST(Search, StoppedAndResumedItEndsAsIfItHadRunThrough) {
   options.on_record = [&](const SearchRecord&, std::size_t finished, std::size_t) {
     if (finished >= 4) stop = true;
   };
-  const auto first = run_search(requirements(), sets(), options);
+  const auto first = run_search(requirements(), sets(), options).optimised;
   ASSERT_LT(first.size(), sets().sets.size());
   ASSERT_GE(first.size(), 4u);
   const auto read = read_journal(text_of(first), requirements(), sets());
   ASSERT_TRUE(read.has_value());
   std::size_t fresh = 0;
-  SearchRunOptions again{.threads = 1, .done = *read};
+  SearchRunOptions again{.threads = 1, .done = read->records};
   again.on_record = [&](const SearchRecord&, std::size_t, std::size_t) { ++fresh; };
   EXPECT_EQ(text_of(run_search(requirements(), sets(), again)), text_of(records()));
   EXPECT_EQ(fresh, sets().sets.size() - first.size());
@@ -76,10 +83,69 @@ TEST(Search, JournalsReadBackBitForBitAndForgiveALineCutShort) {
   const std::string text = text_of(records());
   const auto read = read_journal(text, requirements(), sets());
   ASSERT_TRUE(read.has_value());
-  EXPECT_EQ(text_of(*read), text);
+  EXPECT_EQ(text_of(read->records), text);
   const auto cut = read_journal(text.substr(0, text.size() - 5), requirements(), sets());
   ASSERT_TRUE(cut.has_value());
-  EXPECT_EQ(cut->size(), records().size() - 1);
+  EXPECT_EQ(cut->records.size(), records().optimised.size() - 1);
+}
+
+TEST(Search, ThePartsOfAJournalThatHaveEndedAreRead) {
+  const std::string text = text_of(records());
+  for (const SearchPart part : {SearchPart{1, 1}, SearchPart{2, 3}}) {
+    const auto read = read_journal(text + journal_end(part) + "\n", requirements(), sets());
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->ended, std::vector<SearchPart>{part});
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(read->covers(i), part.holds(i));
+  }
+  std::string damaged = journal_end({2, 3});
+  damaged[4] = '1';
+  EXPECT_FALSE(read_journal(text + damaged + "\n", requirements(), sets()).has_value());
+}
+
+TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
+  const SearchRecords few = run_search(listing(3), sets(), {.threads = 2});
+  ASSERT_EQ(few.optimised.size(), 3u);
+  EXPECT_EQ(few.sets(), sets().sets.size());
+  EXPECT_EQ(text_of(few), text_of(listed_records(listing(3), records().optimised, sets().sets.size())));
+  const SearchReport all = conclude_search(requirements(), sets(), records(), {}),
+                     short_list = conclude_search(listing(3), sets(), few, {});
+  ASSERT_EQ(short_list.designs.size(), all.designs.size());
+  for (std::size_t i = 0; i < all.designs.size(); ++i)
+    EXPECT_EQ(short_list.designs[i].candidate.free, all.designs[i].candidate.free);
+  long long sum = static_cast<long long>(short_list.feasible);
+  for (const SetClass& c : short_list.classes) sum += c.count;
+  EXPECT_EQ(sum, short_list.considered);
+}
+
+TEST(Search, PartsOfAShortListPutTogetherAreTheWhole) {
+  std::vector<SearchRecord> all;
+  for (int part = 1; part <= 3; ++part) {
+    const SearchRecords found =
+        run_search(listing(3), sets(), {.threads = 1, .part = {part, 3}});
+    all.insert(all.end(), found.optimised.begin(), found.optimised.end());
+  }
+  EXPECT_GE(all.size(), 3u);
+  EXPECT_EQ(text_of(listed_records(listing(3), all, sets().sets.size())),
+            text_of(run_search(listing(3), sets())));
+}
+
+TEST(Search, WhereListedDesignsFailAChecksThoseBehindThemAreOptimised) {
+  // the first three sets fail what no distance mends: the answer is that of the whole list
+  const SearchReport plain = conclude_search(requirements(), sets(), records(), {});
+  const auto judge = [&](const GearTrain& train) {
+    DesignVerdict verdict;
+    for (const FoundDesign& found : plain.designs)
+      if (found.design.centre_distance_mm == train.centre_distance_mm)
+        verdict.failed.push_back("axial");
+    return verdict;
+  };
+  const SearchReport all = conclude_search(requirements(), sets(), records(), judge);
+  const SearchReport short_list =
+      conclude_search(listing(3), sets(), run_search(listing(3), sets()), judge);
+  ASSERT_EQ(short_list.designs.size(), all.designs.size());
+  ASSERT_FALSE(all.designs.empty());
+  for (std::size_t i = 0; i < all.designs.size(); ++i)
+    EXPECT_EQ(short_list.designs[i].candidate.free, all.designs[i].candidate.free);
 }
 
 TEST(Search, AJournalOfOtherRequirementsOrDamagedIsRefused) {
@@ -150,7 +216,7 @@ TEST(Search, NoDesignOfAParetoFrontIsDominated) {
   SearchRequirements r = requirements();
   r.objectives = {SearchObjective::kForward, SearchObjective::kSize};
   r.results = 100;
-  const auto list = run_search(r, sets(), {.threads = 1, .part = {1, 4}});
+  const SearchRecords list = run_search(r, sets(), {.threads = 1, .part = {1, 4}});
   const SearchReport report = conclude_search(r, sets(), list, {});
   ASSERT_GE(report.designs.size(), 2u);
   for (const FoundDesign& found : report.designs)

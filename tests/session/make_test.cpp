@@ -42,6 +42,14 @@ class MakeParts : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(MakeParts, AStepSchemaThatIsNoneIsRefused) {
+  const Errors errors = errors_of(MakeOptions{.folder = folder_, .formats = {"step"}, .step_schema = "ap203"});
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].key, "--step-schema");
+  EXPECT_EQ(errors[0].value, "ap203");
+  EXPECT_TRUE(errors_of(MakeOptions{.folder = folder_, .formats = {"step"}, .step_schema = "ap242"}).empty());
+}
+
 TEST_F(MakeParts, WritesEveryFileItReports) {
   const MakeResult made = make(pair_design());
   EXPECT_FALSE(made.failed);

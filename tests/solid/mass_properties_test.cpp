@@ -101,6 +101,41 @@ TEST(MassProperties, GoToTheBodiesOfTheTrain) {
   EXPECT_NEAR(test::inertia_of(*train, bodies, "planet").mass_kg, 0.18, 0.03);
 }
 
+TEST(MassProperties, CountEveryPartThatTurnsWithAMember) {
+  const auto steel = [](const PartShape&) { return 7850.0; };
+  GearboxDesign design = test::unshifted("simple", "", {18, 24, 66});
+  design.helix_angle_rad = rad_from_deg(20.0);
+  design.herringbone = true;
+  design.gears[1].bore.diameter_mm = 8.0;
+  design.carrier = CarrierDesign{};
+  const auto whole = lay_out(design);
+  design.gears[2].halves = true;
+  const auto halved = lay_out(design);
+  ASSERT_TRUE(whole && halved);
+  const auto one = part_shapes(*whole), two = part_shapes(*halved);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(two->parts.size(), one->parts.size() + 1);
+  BodyInertias a = body_inertias(*whole, *one, steel), b = body_inertias(*halved, *two, steel);
+  for (const char* member : {"sun", "planet", "ring", "carrier"}) {
+    const BodyInertia first = test::inertia_of(*whole, a, member),
+                      second = test::inertia_of(*halved, b, member);
+    EXPECT_GT(first.axial_kg_m2, 0.0) << member;
+    EXPECT_NEAR(second.axial_kg_m2 / first.axial_kg_m2, 1.0, 1e-9) << member;
+    EXPECT_NEAR(second.mass_kg / first.mass_kg, 1.0, 1e-9) << member;
+  }
+  const int carrier = whole->topology().find_member("carrier");
+  double carrier_kg = 0.0;
+  int parts = 0;
+  for (const Placement& placement : one->assembly) {
+    const PartShape& part = one->parts[static_cast<std::size_t>(placement.part)];
+    if (part.member != carrier) continue;
+    carrier_kg += mass_properties(part, 7850.0).mass_kg;
+    ++parts;
+  }
+  EXPECT_EQ(parts, 5);  // two plates, three pins
+  EXPECT_NEAR(test::inertia_of(*whole, a, "carrier").mass_kg, carrier_kg, 1e-9);
+}
+
 TEST(MassProperties, OfATwistedGearAreThoseOfTheSpurGearWithItsSection) {
   for (std::uint64_t seed = 700; seed < 712; ++seed) {
     auto random = test::random_toothing(seed);

@@ -198,6 +198,41 @@ TEST(TriangleTree, FindsTheNearestOfAllTriangles) {
   }
 }
 
+// Boxes and planes in floats only say which facets need not be looked at: long facets that run
+// aslant, copies of one facet, far from the origin and of any size.
+TEST(TriangleTree, DistanceIsThatOfTheNearestOfAllTriangles) {
+  test::RandomNumbers random(12);
+  for (const double size : {1e-6, 1.0, 1e5})
+    for (const double away : {0.0, 1e3}) {
+      TriangleMesh mesh;
+      for (std::uint32_t i = 0; i < 400; ++i) {
+        const double x = random.between(-1, 1), y = random.between(-1, 1);
+        const auto add = [&](double dx, double dy, double z) {
+          mesh.vertices.push_back({size * (x + dx + away), size * (y + dy), size * z});
+        };
+        add(0.0, 0.0, 0.0);
+        add(0.01, 0.0, 0.0);
+        add(0.3, 0.3, 1.0);
+        for (std::uint32_t copies = i % 40 == 0 ? 30 : 1; copies > 0; --copies)
+          mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+      }
+      const TriangleTree tree(mesh);
+      std::uint32_t hint = 0;
+      for (int i = 0; i < 300; ++i) {
+        const double reach = i % 3 == 0 ? 30.0 : 1.2;
+        const Point3 p =
+            size * Point3(random.between(-reach, reach) + away, random.between(-reach, reach),
+                          random.between(-reach, reach));
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+          nearest = std::min(nearest, (nearest_on_triangle(p, tree.corners(t)) - p).norm());
+        const TriangleTree::Nearest found = tree.nearest(p, hint);
+        EXPECT_NEAR(found.distance_mm, nearest, 1e-12 * size * (1.0 + away));
+        hint = found.triangle;
+      }
+    }
+}
+
 /// Processor time of a comparison of a mesh with itself.
 double seconds_of_comparison(const TriangleMesh& mesh, const TriangleMesh& other, bool same) {
   const std::clock_t begin = std::clock();

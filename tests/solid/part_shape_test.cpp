@@ -7,6 +7,7 @@
 
 #include "tests/train/prototype_design.h"
 #include "trueflank/base/units.h"
+#include "trueflank/solid/measure/mass_properties.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
 #include "trueflank/solid/measure/mesh_validity.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
@@ -290,6 +291,50 @@ TEST(PartShapeGroove, PartsTheHalvesOfAHerringboneBelowTheRoots) {
     const PartMesh made = part_mesh(shapes->parts[0]);
     EXPECT_TRUE(mesh_validity(made.mesh).valid());
     EXPECT_LE(measure_accuracy(made.mesh, shapes->parts[0]).largest_mm(), 1e-3);
+  }
+}
+
+TEST(PartShapeHalves, CloseOverTheApexOfAHerringboneRing) {
+  for (const double groove_mm : {0.0, 1.5}) {
+    GearboxDesign design = test::unshifted("gear", "", {61});
+    design.gears[0].kind = GearKind::kInternal;
+    design.helix_angle_rad = rad_from_deg(25.0);
+    design.herringbone = true;
+    design.relief_groove_mm = groove_mm;
+    design.gears[0].bolt_circle = {.count = 6, .circle_diameter_mm = 76.0, .hole_diameter_mm = 3.0};
+    const auto whole = lay_out(design);
+    design.gears[0].halves = true;
+    const auto train = lay_out(design);
+    ASSERT_TRUE(whole && train);
+    const auto one = part_shapes(*whole), two = part_shapes(*train);
+    ASSERT_TRUE(one) << one.error()[0].message;
+    ASSERT_TRUE(two) << two.error()[0].message;
+    ASSERT_EQ(one->parts.size(), 1U);
+    ASSERT_EQ(two->parts.size(), 2U);
+    EXPECT_EQ(two->parts[0].name, "gear_lower");
+    EXPECT_EQ(two->parts[1].name, "gear_upper");
+    double volume = 0.0;
+    std::vector<std::array<double, 3>> apex[2];
+    for (int i = 0; i < 2; ++i) {
+      const PartMesh made = part_mesh(two->parts[i]);
+      EXPECT_TRUE(mesh_validity(made.mesh).valid());
+      EXPECT_LE(measure_accuracy(made.mesh, two->parts[i]).largest_mm(), 1e-3);
+      volume += mass_properties(two->parts[i], 1.0).volume_mm3;
+      const double z0 = two->assembly[i].translation_mm[2], face = i == 0 ? 5.0 : 0.0;
+      EXPECT_NEAR(z0, i == 0 ? 0.0 : 5.0, 1e-12);
+      for (const auto& vertex : made.mesh.vertices)
+        if (std::abs(vertex[2] - face) < 1e-9) apex[i].push_back({vertex[0], vertex[1], 0.0});
+    }
+    EXPECT_NEAR(volume, mass_properties(one->parts[0], 1.0).volume_mm3, 1e-9 * volume);
+    // where they meet, both have the same section: every corner of one lies on the other
+    ASSERT_FALSE(apex[0].empty());
+    double farthest = 0.0;
+    for (const auto& p : apex[0]) {
+      double nearest = 1e300;
+      for (const auto& q : apex[1]) nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1]));
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, 1e-6);
   }
 }
 

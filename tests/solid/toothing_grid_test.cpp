@@ -10,7 +10,7 @@
 #include "trueflank/solid/measure/mesh_validity.h"
 #include "trueflank/solid/measure/triangle_tree.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
-#include "trueflank/solid/shape/flank_strips.h"
+#include "trueflank/solid/shape/screw_net.h"
 
 namespace trueflank {
 namespace {
@@ -134,36 +134,107 @@ TEST(ToothingGrid, LandsOfSharpRootsGoWithTheFlanks) {
   EXPECT_TRUE(solid) << solid.error().message;
 }
 
-TEST(FlankStrips, CoverTheirPatchOnceWithNodesOfTheBorderAlone) {
-  for (const bool falling : {true, false})
-    for (int columns = 1; columns < 7; ++columns)
-      for (int rows = 1; rows < 7; ++rows) {
-        const auto facets = strips(columns, rows, falling, 1.0, 0.9);
-        EXPECT_EQ(facets.size(), static_cast<std::size_t>(2 * (columns + rows) - 2));
-        int twice_area = 0;
-        for (const auto& [a, b, c] : facets) {
-          const int area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-          EXPECT_GT(area, 0);
-          twice_area += area;
-          for (const PatchNode& node : {a, b, c})
-            EXPECT_TRUE(node[0] == 0 || node[0] == columns || node[1] == 0 || node[1] == rows);
+TEST(ScrewNet, CoversItsPatchOnceAndDevelopablePartsWithNodesOfTheirBorderAlone) {
+  for (const double turn : {0.3, -0.3})
+    for (const double edge_turn : {0.1, -0.1})
+      for (int bent = 1; bent < 5; ++bent)
+        for (int columns = 1; columns < 6; ++columns) {
+          std::vector<NetEdge> edges;
+          for (int i = 0; i < bent; ++i)
+            edges.push_back({.region = 0, .length_mm = 0.1, .turn_rad = -edge_turn, .support_mm = 3.0});
+          for (int i = 0; i < columns; ++i)
+            edges.push_back({.region = 1, .developable = true, .length_mm = 0.3, .turn_rad = edge_turn,
+                             .support_mm = 3.0, .support_from_mm = 3.0, .support_to_mm = 3.0});
+          std::vector<std::vector<double>> inner(edges.size());
+          for (int i = 0; i <= bent; ++i)
+            for (int k = 1; k <= i; ++k) inner[static_cast<std::size_t>(i) % edges.size()].push_back(k / (i + 1.0));
+          std::size_t vertices = 2 * edges.size() + 2;  // an open patch: the next tooth's first column, too
+          const NetPatch net = net_patch(edges, inner, turn);
+          double area = 0.0;
+          for (std::size_t t = 0; t < net.facets.size(); ++t) {
+            std::array<Point2, 3> c;
+            for (std::size_t k = 0; k < 3; ++k) {
+              const NetNode& node = net.facets[t][k];
+              const auto& rows = net.inner[static_cast<std::size_t>(node.column) % edges.size()];
+              const auto row = static_cast<std::size_t>(node.row);
+              ASSERT_LE(row, rows.size() + 1);
+              c[k] = {node.column, row == 0 ? 0.0 : row > rows.size() ? 1.0 : rows[row - 1]};
+            }
+            const double twice = cross(c[1] - c[0], c[2] - c[0]);
+            EXPECT_GT(twice, 0.0);
+            area += 0.5 * twice;
+          }
+          EXPECT_NEAR(area, static_cast<double>(edges.size()), 1e-12);
+          for (const auto& rows : inner) vertices += rows.size();
+          const std::size_t first = inner[0].size(), border = 2 * edges.size() + 2 * (first + 1);
+          // by Euler, with the first column's inner vertices on both sides
+          EXPECT_EQ(net.facets.size(), 2 * (vertices + first) - border - 2);
         }
-        EXPECT_EQ(twice_area, 2 * columns * rows);
-      }
 }
 
-TEST(FlankStrips, SaveAThirdOfThePlainFlanksFacetsAndNoneOfTheModifiedOnes) {
-  GearboxDesign design = test::unshifted("gear", "", {17});
-  design.helix_angle_rad = rad_from_deg(20.0);
-  auto train = lay_out(design);
-  ASSERT_TRUE(train);
-  const auto facets = [&] {
-    const auto shapes = part_shapes(*train);
-    return static_cast<double>(part_mesh(shapes->parts[0]).mesh.triangles.size());
-  };
-  const double plain = facets();
-  train->gears[0].deviation.deviation_mm = [](int, Flank, double, double) { return 0.0; };
-  EXPECT_LT(plain, 0.75 * facets());
+/// Facets that no mesh of a plain twisted toothing with vertices on its surface can do without, of one
+/// tooth: docs/theory/helical-facets.md.
+double least_facets(const Toothing& toothing, double tolerance_mm) {
+  constexpr int kSteps = 400;
+  const ToothProfile& profile = *toothing.profile;
+  const double omega = std::abs(toothing.twist.turn_rad_per_mm), width = toothing.twist.face_width_mm;
+  const double turn = omega * width, room = 8.0 * tolerance_mm;
+  const auto chords = [&](double share) { return std::max(1.0, std::ceil(share - 1e-3)); };
+  double facets = 0.0;
+  for (const ProfilePiece& piece : profile.pieces()) {
+    const bool land = piece.kind == PieceKind::kTip || piece.kind == PieceKind::kRoot;
+    double across = 0.0, bent = 0.0, support_begin = 0.0, support_end = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const auto parameter = [&](double k) { return std::lerp(piece.curve.begin, piece.curve.end, k / kSteps); };
+      const Point2 a = point_at(piece.curve, parameter(i)), b = point_at(piece.curve, parameter(i + 1));
+      const Point2 p = point_at(piece.curve, parameter(i + 0.5));
+      const Point2 ta = tangent_at(piece.curve, parameter(i + 1e-3)), tb = tangent_at(piece.curve, parameter(i + 1 - 1e-3));
+      const double length = (b - a).norm();
+      if (!(length > 0.0)) continue;
+      const Point2 t = (b - a) / length;
+      const double curvature = std::asin(std::clamp(cross(ta, tb), -1.0, 1.0)) / length;
+      const double support = p.dot(Point2(t.y(), -t.x()));
+      const double cosine = 1.0 / std::hypot(1.0, omega * p.dot(t));
+      if (i == 0) support_begin = std::abs(support) * cosine;
+      support_end = std::abs(support) * cosine;
+      across += length * std::sqrt(std::abs(curvature) * cosine / room);
+      const double gauss = curvature * support - 1.0;
+      bent += length * turn * std::sqrt(std::abs(gauss)) * cosine / ((gauss > 0.0 ? 2.598 : 4.473) * tolerance_mm);
+    }
+    const auto along = [&](double support) { return chords(turn * std::sqrt(support / room)); };
+    if (land) {  // half of it
+      facets += 2.0 * chords(2.0 * across) + 2.0 * along(support_begin) - 2.0;
+    } else if (piece.kind == PieceKind::kInvolute) {
+      facets += 2.0 * (2.0 * chords(across) + along(support_begin) + along(support_end) - 2.0);
+    } else {
+      facets += 2.0 * std::max(bent, 2.0 * chords(across) + along(support_begin) + along(support_end) - 2.0);
+    }
+  }
+  return facets;
+}
+
+TEST(ToothingGrid, PlainTwistedTeethHaveFewFacetsMoreThanTheLeast) {
+  double all = 0.0, all_least = 0.0;
+  int made = 0;
+  for (std::uint64_t seed = 0; made < 40; ++seed) {
+    auto random = test::random_toothing(seed);
+    if (!random || random->outline().twist.herringbone) continue;
+    if (made % 2 == 0) random->tolerance_mm *= 0.2;  // with many facets the whole numbers matter less
+    SCOPED_TRACE(random->text);
+    const Toothing toothing = random->outline().toothing();
+    const double tolerance = meshing_tolerance_mm(random->part, random->tolerance_mm);
+    const ToothingGrid grid(random->outline(), {0.0, toothing.twist.face_width_mm}, tolerance);
+    const std::size_t facets = grid.patches().empty()
+                                   ? 2 * (grid.heights_mm().size() - 1) * static_cast<std::size_t>(grid.points_per_tooth())
+                                   : grid.patches()[0].facets.size();
+    const double least = least_facets(toothing, tolerance);
+    // whole chords where there are few, and undercut teeth, whose fillets bend both ways at a slant
+    EXPECT_LT(static_cast<double>(facets), 1.8 * least);
+    all += static_cast<double>(facets);
+    all_least += least;
+    ++made;
+  }
+  EXPECT_LT(all, 1.3 * all_least);
 }
 
 }  // namespace

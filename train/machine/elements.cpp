@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "trueflank/train/machine/crossed_rollers.h"
+
 namespace trueflank {
 namespace {
 
@@ -104,7 +106,7 @@ Bearing bearing(const char* name, double d, double D, double B, double C, double
 }
 
 std::vector<Bearing> bearings() {
-  return {
+  std::vector<Bearing> all{
       bearing("623", 3, 10, 4, 540, 180),        bearing("624", 4, 13, 5, 1110, 380),
       bearing("625", 5, 16, 5, 1140, 380),       bearing("626", 6, 19, 6, 2340, 950),
       bearing("608", 8, 22, 7, 3450, 1370),      bearing("684", 4, 9, 4, 640, 220),
@@ -122,6 +124,9 @@ std::vector<Bearing> bearings() {
       bearing("6706", 30, 37, 4, 1140, 950),     bearing("6707", 35, 44, 5, 1860, 1640),
       bearing("6708", 40, 50, 6, 2530, 2240),    bearing("6710", 50, 62, 6, 2950, 2930),
   };
+  const auto& crossed = crossed_roller_bearings();
+  all.insert(all.end(), crossed.begin(), crossed.end());
+  return all;
 }
 
 std::vector<Screw> screws() {

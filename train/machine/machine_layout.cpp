@@ -86,13 +86,16 @@ class Layout {
       if (is_ring(train_.gears[i]) && fixed) m_.fixed_gear = static_cast<int>(i);
       if (is_ring(train_.gears[i]) && member == topology().output)
         m_.output_gear = static_cast<int>(i);
-      if (member == topology().input) m_.driven_gear = static_cast<int>(i);
+      if (member == topology().input)
+        m_.driven_gear = static_cast<int>(i);
+      else if (!is_ring(train_.gears[i]) && !topology().is_planet_gear(i))
+        m_.idle_gear = static_cast<int>(i);
     }
     // the motor stands on the side of the ring that is held
-    if (m_.output_gear >= 0 &&
+    if (m_.output_gear >= 0 && m_.fixed_gear >= 0 &&
         train_.gear(m_.output_gear).z_lower_mm < train_.gear(m_.fixed_gear).z_lower_mm)
       m_.way = -1.0;
-    m_.ring = heights(train_.gear(m_.fixed_gear));
+    if (m_.fixed_gear >= 0) m_.ring = heights(train_.gear(m_.fixed_gear));
     const double least = design_.made.process ? design_.made.process->least_wall_mm : 0.0;
     m_.wall_mm = machine_.housing.wall_mm.value_or(std::max(1.2, 1.5 * least));
     m_.fit_mm = machine_.housing.fit_mm;
@@ -104,6 +107,7 @@ class Layout {
     const HeightRange lower = m_.z(m_.carrier.lower_plate), upper = m_.z(m_.carrier.upper_plate);
     m_.near = m_.way > 0.0 ? lower : upper;
     m_.far = m_.way > 0.0 ? upper : lower;
+    if (m_.fixed_gear < 0) m_.ring = m_.near;
     // dowel pins in blind holes: the longest stocked one that leaves a web in either plate
     const double span = m_.far.lower_mm - m_.near.upper_mm;
     const double deepest = m_.near.upper_mm - m_.near.lower_mm - m_.wall_mm;
@@ -125,6 +129,8 @@ class Layout {
       const double tip = gear.profile.tip_radius_mm();
       if (is_ring(gear))
         room = std::min(room, tip - at.norm() - m_.pillar_radius_mm - m_.clearance_mm);
+      else if (!topology().is_planet_gear(i))
+        room = std::min(room, at.norm() - tip - m_.pillar_radius_mm - m_.clearance_mm);
       if (!topology().is_planet_gear(i)) continue;
       for (const double angle : train_.phases.planet_position_rad)
         room = std::min(room, (at - train_.centre_distance_mm * unit_vector(angle)).norm() - tip -
@@ -208,9 +214,16 @@ class Layout {
     if (m_.driven_gear >= 0) {
       const TrainGear& gear = train_.gear(m_.driven_gear);
       driven = heights(gear);
+      // as wide as the roots let it, and as the heads of the motor's screws do
+      const Screw& screw = machine_.fasteners.motor;
+      const double heads = 0.5 * (motor.bolt_circle_diameter_mm - screw.head_diameter_mm) -
+                           2.0 * m_.clearance_mm - m_.wall_mm;
       m_.hub_radius_mm =
-          gear.profile.root_radius_mm() - kHubInset * gear.profile.gear().normal_module_mm;
+          std::min(gear.profile.root_radius_mm() - kHubInset * gear.profile.gear().normal_module_mm,
+                   std::max(m_.hub_radius_mm, heads));
       place_stop(gear, driven);
+    } else if (m_.idle_gear >= 0) {
+      place_stop(train_.gear(m_.idle_gear), heights(train_.gear(m_.idle_gear)));
     }
     m_.hub = {std::min(face + motor.pilot_height_mm + kHubGap_mm, driven.lower_mm),
               driven.lower_mm};
@@ -327,7 +340,8 @@ class Layout {
       if (at.upper_mm > m_.ring.upper_mm - m_.clearance_mm)
         m_.lid_radius_mm = std::max(m_.lid_radius_mm, reach);
     }
-    const double root = train_.gear(m_.fixed_gear).profile.root_radius_mm();
+    const double root =
+        m_.fixed_gear < 0 ? 0.0 : train_.gear(m_.fixed_gear).profile.root_radius_mm();
     const double hole = 0.5 * screw.hole_mm, insert = 0.5 * screw.insert_hole_mm;
     const double circle =
         m_.wall_mm + std::max({root + hole, m_.cavity_radius_mm + insert, m_.lid_radius_mm + hole});
@@ -360,6 +374,8 @@ class Layout {
 };
 
 }  // namespace
+
+bool has_housing(const Topology& topology) { return topology.has_planets(); }
 
 std::optional<MachineLayout> machine_layout(const GearTrain& train) {
   if (!train.design.machine) return std::nullopt;

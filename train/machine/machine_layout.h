@@ -35,9 +35,10 @@ struct ScrewGroup {
 struct MachineLayout {
   double way = 1.0;
   double wall_mm = 1.2, fit_mm = 0.1, clearance_mm = 0.5;
-  int fixed_gear = -1;   ///< the ring that is held
+  int fixed_gear = -1;   ///< the ring that is held; -1: the carrier is, by its near plate
   int output_gear = -1;  ///< the ring that drives out; -1: the carrier does
   int driven_gear = -1;  ///< on the motor's shaft; -1: the carrier is
+  int idle_gear = -1;    ///< a sun that nothing drives; -1: none
 
   // housing and lid
   double outer_radius_mm = 0.0;
@@ -45,7 +46,7 @@ struct MachineLayout {
   double asked_radius_mm = 0.0;        ///< by the design; the parts have the larger of both
   HeightRange floor;                   ///< from the motor's face to the cavity
   double cavity_radius_mm = 0.0;
-  HeightRange ring;  ///< the fixed ring
+  HeightRange ring;  ///< what the lips of housing and lid hold: the fixed ring, or the plate
   double ring_radius_mm = 0.0;
   double seat_top_mm = 0.0;    ///< where the lips of housing and lid meet, around the ring
   double lid_radius_mm = 0.0;  ///< inside the lid
@@ -61,7 +62,7 @@ struct MachineLayout {
   double pillar_radius_mm = 0.0;
   double pillar_room_mm = 0.0;  ///< least gap of a pillar to planets and rings beyond the clearance
   ScrewGroup carrier_screws;
-  HeightRange stop;  ///< of the far plate, over the sun; empty: none
+  HeightRange stop;  ///< of the far plate, over the sun, driven or idle; empty: none
   double stop_radius_mm = 0.0;
   double stop_hole_radius_mm =
       0.0;  ///< for the end of the motor's shaft; 0: it does not reach there
@@ -89,6 +90,10 @@ struct MachineLayout {
     return way > 0.0 ? heights : HeightRange{-heights.upper_mm, -heights.lower_mm};
   }
 };
+
+/// Whether a housing is made for such a train: one with planets, of which a ring or the carrier is
+/// held.
+[[nodiscard]] bool has_housing(const Topology& topology);
 
 /// Sizes the gearbox of a design with [housing]; nothing of another. What does not fit is in its
 /// numbers: the checks tell.

@@ -15,7 +15,7 @@ struct PlanePoint {
 };
 /// The place in the transverse plane [mm].
 [[nodiscard]] inline PlanePoint point_of(const Place& place) {
-  return {place.radius_mm * std::cos(place.polar_rad), place.radius_mm * std::sin(place.polar_rad)};
+  return {place.radius_mm * place.polar_direction[0], place.radius_mm * place.polar_direction[1]};
 }
 
 /// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on height.

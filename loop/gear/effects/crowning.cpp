@@ -8,6 +8,7 @@ EffectFamily crowning() {
   auto f = on_flanks([](const FlankGeometry&, double, double v, int) { return -v * v; });
   f.id = "crowning";
   f.description = "material is missing towards both ends of the face";
+  f.form_word = "bow_over_face";
   f.causes = {{kGearMachines, "crowning motion, deflection"},
               {kPrinting, "edges rounded or cooled faster than the middle"},
               {kContourCutting, "barrelling of the wire, deflection of the cutter"},

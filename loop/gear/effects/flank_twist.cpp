@@ -8,6 +8,7 @@ EffectFamily flank_twist() {
   auto f = on_flanks([](const FlankGeometry&, double u, double v, int) { return u * v; });
   f.id = "flank_twist";
   f.description = "the profile slope changes over the face (bias)";
+  f.form_word = "twist_of_flank";
   f.causes = {{kGearMachines, "crowning of a helical gear by radial motion, diagonal grinding"},
               {kInMould, "twist of the cavity"},
               {kPrinting | kContourCutting, "warping"}};

@@ -9,6 +9,7 @@ EffectFamily flank_wear() {
   EffectFamily f;
   f.id = "flank_wear";
   f.description = "a hollow across the flank, around a diameter";
+  f.form_word = "hollow_over_profile";
   f.causes = {{kAnyMaking, "sliding under load on the loaded flank"}};
   f.correction = "look at lubrication, material and load; nothing the geometry of a new part should cancel";
   f.parameters = {"depth_um"};

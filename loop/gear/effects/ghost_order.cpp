@@ -31,14 +31,47 @@ EffectFamily ghost_order() {
     c[0] = std::cos(shape[0] * rotation);
     c[1] = std::sin(shape[0] * rotation);
   };
+  f.is_fine = [](const FlankGeometry& g, const EffectShape& shape) {
+    return shape[0] > 2.0 * g.teeth();
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    constexpr double kNear = 24.0, kFirst = 3.0;
+    const double most = std::min(3 * g.teeth(), 400);
+    for (double order = std::max(kFirst, shape[0] - kNear);
+         order <= std::min(most, shape[0] + kNear); order += 1.0)
+      if (order != shape[0]) shapes.push_back({order});
+    return shapes;
+  };
   f.order = first_value;
   f.doubt_share = 0.05;
   f.doubted_by_any_order = true;
+  f.tells_order_along_profile = true;
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.sentence = [](const FlankGeometry&, const FoundEffect& found) {
     return "A wave of " + um(figure(found, "amplitude_um")) + " lies over the flanks, " +
            times_per_turn(figure(found, "order")) + ": the gear whines at that order";
+  };
+  return f;
+}
+
+/// The same in data that count the teeth, or name the flanks, from the other face: the lines of the
+/// wave run the other way. Scans have neither numbers nor names.
+EffectFamily ghost_order_counted_backwards() {
+  EffectFamily f = ghost_order();
+  f.description +=
+      "; its lines run as if the teeth of these data were counted clockwise, or the flanks named from the "
+      "other face";
+  f.correctable = Correctable::kNoCause;
+  f.of_traces_only = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double rotation =
+        p.centre_rad + g.twist_rad(p.z_mm) + g.sense() * p.side * p.roll_mm / g.base_radius_mm();
+    c[0] = std::cos(shape[0] * rotation);
+    c[1] = std::sin(shape[0] * rotation);
   };
   return f;
 }

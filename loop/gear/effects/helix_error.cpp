@@ -9,6 +9,7 @@ EffectFamily helix_error() {
       on_flanks([](const FlankGeometry&, double, double v, int side) { return 0.5 * v * side; });
   f.id = "helix_error";
   f.description = "the section turns with height: counter-clockwise where positive";
+  f.form_word = "lean_over_face";
   f.causes = {
       {kGearMachines, "lead of the machine, differential"},
       {kPrinting, "twist of the print"},

@@ -25,7 +25,7 @@ EffectFamily lobing() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double radial = normal_part(g, p, std::cos(p.polar_rad), std::sin(p.polar_rad));
+    const double radial = normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
     c[0] = radial * std::cos(shape[0] * p.polar_rad);
     c[1] = radial * std::sin(shape[0] * p.polar_rad);
   };

@@ -8,6 +8,7 @@ EffectFamily pressure_angle_error() {
   auto f = on_flanks([](const FlankGeometry&, double u, double, int) { return 0.5 * u; });
   f.id = "pressure_angle_error";
   f.description = "the profile leans: more material towards the tip where positive";
+  f.form_word = "slope_over_profile";
   f.causes = {{kGearMachines,
                "pressure angle of tool or dresser, base circle (both flanks alike); tool tilted or "
                "off centre (flanks opposite)"},

@@ -8,6 +8,7 @@ EffectFamily profile_crowning() {
   auto f = on_flanks([](const FlankGeometry&, double u, double, int) { return -u * u; });
   f.id = "profile_crowning";
   f.description = "material is missing towards root and tip";
+  f.form_word = "bow_over_profile";
   f.causes = {{kGearMachines, "form of tool or dresser, elastic tool"},
               {kPrinting | kContourCutting, "rounding of the contour towards root and tip"},
               {kInMould, "sink marks, form of the cavity"},

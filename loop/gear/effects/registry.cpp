@@ -28,6 +28,7 @@ const std::vector<EffectFamily>& effect_library() {
         pitch_wave(),
         lobing(),
         ghost_order(),
+        ghost_order_counted_backwards(),
         single_tooth(),
         unnamed(),
         unnamed_flank(),
@@ -36,6 +37,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_waviness(),
         unnamed_sector(),
         unnamed_alternation(),
+        unnamed_ramp(),
+        unnamed_comb(),
         unnamed_dent(),
         unnamed_spot(),
     };

@@ -36,6 +36,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily pitch_wave();
 [[nodiscard]] EffectFamily lobing();
 [[nodiscard]] EffectFamily ghost_order();
+[[nodiscard]] EffectFamily ghost_order_counted_backwards();
 [[nodiscard]] EffectFamily single_tooth();
 /// @}
 
@@ -48,6 +49,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
+[[nodiscard]] EffectFamily unnamed_ramp();
+[[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_spot();
 /// @}

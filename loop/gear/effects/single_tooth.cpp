@@ -9,6 +9,7 @@ EffectFamily single_tooth() {
   EffectFamily f;
   f.id = "single_tooth";
   f.description = "one tooth stands out on both flanks";
+  f.form_word = "height_of_tooth";
   f.causes = {{kAnyMaking, "damage, a burr, a chip, a fault of one pass"}};
   f.correction = "inspect or reject the part; nothing to correct in the geometry";
   f.parameters = {"amount_um"};

@@ -8,6 +8,7 @@ EffectFamily taper() {
   auto f = on_flanks([](const FlankGeometry&, double, double v, int) { return 0.5 * v; });
   f.id = "taper";
   f.description = "the teeth grow thicker with height where positive";
+  f.form_word = "taper_over_face";
   f.causes = {
       {kGearMachines, "tailstock or axis slope, deflection of the machine, infeed over the stroke"},
       {kPrinting, "cooling of the layers"},

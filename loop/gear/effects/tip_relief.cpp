@@ -9,6 +9,7 @@ EffectFamily tip_relief() {
   EffectFamily f;
   f.id = "tip_relief";
   f.description = "material is missing at the tip, from a diameter on";
+  f.form_word = "fall_towards_tip";
   f.causes = {{kGearMachines, "relief by tool or dresser"},
               {kPrinting | kContourCutting, "rounding of the tips"},
               {kInMould, "tips that did not fill"},

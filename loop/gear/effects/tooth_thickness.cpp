@@ -10,6 +10,7 @@ EffectFamily tooth_thickness() {
   });
   f.id = "tooth_thickness";
   f.description = "the teeth are too thick or too thin, the tips as designed";
+  f.form_word = "thickness";
   f.causes = {{kMachining, "infeed of the tool (profile shift error), tool thickness"},
               {kPrinting | kContourCutting | kInMould,
                "profile shift or thinning of the model, width of line or kerf"}};

@@ -25,6 +25,24 @@ std::string at_place(double face, double place_mm) {
 }
 std::string over(double face) { return face != 0.0 ? "over the face" : "over the profile"; }
 
+double range_mm(const FlankGeometry& g, double face) {
+  return face != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm() - g.root_form_roll_mm();
+}
+
+/// The place of a form along the flank moved a little to either side.
+std::vector<EffectShape> places_beside(const FlankGeometry& g, const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  const double range = range_mm(g, shape[0]), at = stands_at(g, shape[0], shape[1]);
+  for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})
+    for (const double sign : {-1.0, 1.0}) {
+      const double moved = at + sign * share * range;
+      EffectShape beside = shape;
+      beside[1] = shape[0] != 0.0 ? moved : 2.0 * g.on_flank(1, 1, moved, 0.0).radius_mm;
+      shapes.push_back(std::move(beside));
+    }
+  return shapes;
+}
+
 const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 TermKey number(const std::string& name) { return {name, TermKey::Kind::kNumber}; }
 
@@ -42,6 +60,10 @@ EffectFamily described(const std::string& id, std::vector<std::string> shape_nam
   return f;
 }
 
+NeedsToBeSeen needs_of_direction(const EffectShape& shape) {
+  return {.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
+}
+
 /// A form along the flank: 1 where it acts wholly.
 template <class Function>
 EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_names,
@@ -51,9 +73,8 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
                           double* c) {
     c[0] = p.surface == Surface::kFlank ? function(g, p, shape) : 0.0;
   };
-  f.needs = [](const EffectShape& shape) {
-    return NeedsToBeSeen{.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
-  };
+  f.needs = needs_of_direction;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   return f;
 }
 
@@ -73,6 +94,7 @@ EffectFamily unnamed_step() {
                   [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
                     return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? 1.0 : 0.0;
                   });
+  f.nearby = places_beside;
   f.term_keys = {kAlong, number("place_mm")};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, a step " + over(shape[0]) + " " + at_place(shape[0], shape[1]);
@@ -86,6 +108,12 @@ EffectFamily unnamed_band() {
                   [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
                     return bell(along(shape[0], p) - stands_at(g, shape[0], shape[1]), shape[2]);
                   });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = places_beside(g, shape);
+    for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
+      shapes.push_back({shape[0], shape[1], times * shape[2]});
+    return shapes;
+  };
   f.term_keys = {kAlong, number("place_mm"), number("width_mm")};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, a groove or ridge " + over(shape[0]) + " " +
@@ -102,6 +130,14 @@ EffectFamily unnamed_waviness() {
     const double angle = kTwoPi * along(shape[0], p) / shape[1];
     c[0] = flank ? std::cos(angle) : 0.0;
     c[1] = flank ? std::sin(angle) : 0.0;
+  };
+  f.needs = needs_of_direction;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double times : {0.97, 0.99, 0.997, 1.003, 1.01, 1.03})
+      shapes.push_back({shape[0], times * shape[1]});
+    return shapes;
   };
   f.term_keys = {kAlong, number("wavelength_mm")};
   f.words = [](const EffectShape& shape, FlankChoice) {
@@ -126,6 +162,18 @@ EffectFamily unnamed_sector() {
                  {"profile_degree"},
                  {"face_degree"},
                  {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double first : {-2.0, -1.0, 0.0, 1.0, 2.0})
+      for (const double last : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+        EffectShape beside = shape;
+        beside[0] = std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0;
+        beside[1] = shape[1] + last - first;
+        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth())
+          shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
   f.words = [](const EffectShape& shape, FlankChoice) {
     const std::string form = shape[2] > 0.0   ? "another form of the profile"
                              : shape[3] > 0.0 ? "another form of the face"
@@ -151,6 +199,67 @@ EffectFamily unnamed_alternation() {
   f.words = [](const EffectShape& shape, FlankChoice) {
     return std::string("every other tooth differs") +
            (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
+namespace {
+
+/// Degrees over profile and face and the flanks, from the k-th shape value on.
+double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                     std::size_t k) {
+  return (shape[k + 2] != 0.0 ? p.side : 1) *
+         (shape[k] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[k]) : 1.0) *
+         (shape[k + 1] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[k + 1]) : 1.0);
+}
+std::string what_of_tooth(const EffectShape& shape, std::size_t k) {
+  return std::string(shape[k] > 0.0       ? "the form of the profile"
+                     : shape[k + 1] > 0.0 ? "the form of the face"
+                                          : "the height") +
+         (shape[k + 2] != 0.0 ? ", opposite on the two flanks" : "");
+}
+const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
+
+}  // namespace
+
+EffectFamily unnamed_ramp() {
+  EffectFamily f = described("unnamed_ramp",
+                             {"first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const int z = g.teeth(), from = static_cast<int>(shape[0]);
+    const double along = static_cast<double>(((p.tooth - from) % z + z) % z) / z;
+    c[0] = (along - 0.5) * form_of_tooth(g, p, shape, 1);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double off : {-2.0, -1.0, 1.0, 2.0}) {
+      shapes.push_back(shape);
+      shapes.back()[0] = std::fmod(shape[0] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+    }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
+           " drifts evenly and begins anew: a tool that wears, or a machine that warms up";
+  };
+  return f;
+}
+
+EffectFamily unnamed_comb() {
+  EffectFamily f = described(
+      "unnamed_comb", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const int every = static_cast<int>(shape[0]), first = static_cast<int>(shape[1]);
+    const bool stands_out = p.surface == Surface::kFlank && (p.tooth - first) % every == 0;
+    c[0] = stands_out ? form_of_tooth(g, p, shape, 2) : 0.0;
+  };
+  f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("one tooth in %.0f, from tooth %.0f on, differs in ", shape[0], shape[1]) +
+           what_of_tooth(shape, 2) + ": a cutter of so many teeth or starts";
   };
   return f;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/train/machine/crossed_rollers.h"
 
 namespace trueflank {
 namespace {
@@ -136,8 +137,9 @@ void BoughtParts::add_inserts(const Screw& screw, const std::string& what,
 void BoughtParts::add_bearing(const Bearing& bearing, const std::vector<Point2>& at, double from_mm,
                               int member) {
   place("bearing_" + file_text(bearing.name),
-        "ball bearing " + bearing.name + " (" + short_number(bearing.bore_mm) + "x" +
-            short_number(bearing.outer_mm) + "x" + short_number(bearing.width_mm) + ")",
+        (is_crossed_roller(bearing) ? "crossed-roller bearing " : "ball bearing ") + bearing.name +
+            " (" + short_number(bearing.bore_mm) + "x" + short_number(bearing.outer_mm) + "x" +
+            short_number(bearing.width_mm) + ")",
         {{from_mm,
           from_mm + bearing.width_mm,
           circle(0.5 * bearing.outer_mm),

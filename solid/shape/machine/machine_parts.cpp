@@ -36,8 +36,9 @@ class MachineBuilder {
     if (!errors_.empty()) return std::move(errors_);
     const Topology& topology = train_.topology();
     carrier_ = topology.carrier_of(topology.first_planet());
-    const int held = topology.gears[static_cast<std::size_t>(m_.fixed_gear)].member;
-    held_turn_ = train_.phases.rotation_rad(held, 0);
+    if (m_.fixed_gear >= 0)
+      held_turn_ = train_.phases.rotation_rad(
+          topology.gears[static_cast<std::size_t>(m_.fixed_gear)].member, 0);
     output_ = topology.output;
     output_turn_ = m_.output_gear < 0 ? 0.0 : train_.phases.rotation_rad(output_, 0);
     change_gears();
@@ -108,14 +109,27 @@ class MachineBuilder {
         add_hub(body, part);
       else if (m_.output_gear >= 0 && part.member == output_)
         add_cup(body, part, at);
+      else if (m_.idle_gear >= 0 &&
+               part.member ==
+                   train_.topology().gears[static_cast<std::size_t>(m_.idle_gear)].member)
+        clear_shaft(body, part);
       else
         continue;
       part.slabs = body.slabs();
-      part.upside_down = m_.output_gear >= 0 && part.member == output_ && m_.way > 0.0;
+      const bool cup = m_.output_gear >= 0 && part.member == output_;
+      part.upside_down = m_.way > 0.0 && (cup || has_narrow_hub(part));
       for (Placement& placement : shapes_.assembly)
         if (placement.part == static_cast<int>(i))
           placement.translation_mm[2] += body.heights().lower_mm - at;
     }
+  }
+
+  /// A large sun hangs over its hub.
+  [[nodiscard]] bool has_narrow_hub(const PartShape& part) const {
+    if (m_.driven_gear < 0 || part.member != train_.topology().input) return false;
+    const TrainGear& gear = train_.gear(m_.driven_gear);
+    return m_.hub_radius_mm <
+           gear.profile.root_radius_mm() - gear.profile.gear().normal_module_mm;
   }
 
   [[nodiscard]] double height_of(std::size_t part) const {
@@ -147,6 +161,20 @@ class MachineBuilder {
     made.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
     drill_shaft(made, find_gear(train_.design, part.name)->bore);
     body = std::move(made);
+  }
+
+  /// The motor's shaft ends free in a sun that idles: a bore of its own that is narrower gives way.
+  void clear_shaft(StackedBody& body, const PartShape& part) const {
+    const double free = 0.5 * machine_.motor.shaft_diameter_mm + m_.clearance_mm;
+    const double at = body.heights().lower_mm;
+    body = StackedBody();
+    for (Slab slab : part.slabs) {
+      std::erase_if(slab.holes, [&](const Outline& hole) {
+        return std::holds_alternative<BoreOutline>(hole) && extent(hole).inner_radius_mm < free;
+      });
+      body.add({slab}, at);
+    }
+    body.drill(z(m_.near.upper_mm, m_.shaft_end_mm + m_.clearance_mm), circle(free));
   }
 
   void drill_shaft(StackedBody& body, const BoreDesign& bore) const {
@@ -194,7 +222,8 @@ class MachineBuilder {
     const std::string name = train_.topology().name_of(carrier_);
     const double outer = 0.5 * m_.carrier.outer_diameter_mm;
     StackedBody near, far, pillar;
-    near.add(z(m_.near.lower_mm, m_.near.upper_mm), circle(outer));
+    near.add(z(m_.near.lower_mm, m_.near.upper_mm),
+             circle(m_.fixed_gear < 0 ? m_.ring_radius_mm : outer));
     far.add(z(m_.far.lower_mm, m_.far.upper_mm), circle(outer));
     for (const double angle : train_.phases.planet_position_rad) {
       const CircleOutline hole = circle(0.5 * m_.carrier.pin_hole_diameter_mm,
@@ -215,6 +244,7 @@ class MachineBuilder {
       far.drill(z(m_.stop.lower_mm, m_.shaft_end_mm + m_.clearance_mm),
                 circle(m_.stop_hole_radius_mm));
     drill(near, m_.carrier_screws);
+    if (m_.fixed_gear < 0) drill(near, m_.housing_screws);
     drill(far, m_.carrier_screws);
     if (m_.output_gear < 0) drill_insert_ends(far, m_.output_screws);
     add_part(name, near, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.driven_gear < 0;

@@ -44,6 +44,16 @@ void StackedBody::add(const std::vector<Slab>& slabs, double z_mm) {
   }
 }
 
+StackedBody StackedBody::between(const HeightRange& z) const {
+  const auto cut = [&](const HeightRange& all) {
+    return HeightRange{std::max(all.lower_mm, z.lower_mm), std::min(all.upper_mm, z.upper_mm)};
+  };
+  StackedBody body;
+  for (const Piece& piece : pieces_) body.add(cut(piece.z), piece.outline);
+  for (const Piece& hole : holes_) body.drill(cut(hole.z), hole.outline);
+  return body;
+}
+
 HeightRange StackedBody::heights() const {
   HeightRange all{1e300, -1e300};
   for (const Piece& piece : pieces_)

@@ -18,6 +18,9 @@ class StackedBody {
   /// Pieces and holes of a part whose lower face stands at a height.
   void add(const std::vector<Slab>& slabs, double z_mm);
 
+  /// What lies between two heights, each inside the body or at its end.
+  [[nodiscard]] StackedBody between(const HeightRange& z) const;
+
   [[nodiscard]] HeightRange heights() const;
   /// The slabs, bottom at 0.
   [[nodiscard]] std::vector<Slab> slabs() const;

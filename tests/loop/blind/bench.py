@@ -383,7 +383,8 @@ class Case:
         return f"{'' if self.right else 'WRONG '}{self.label()}: {self.why} {a['verdict']} {told}; truth {self.truth}"
 
 
-def main():
+def campaign(kinds, case_of):
+    """Benches of every kind through the program, what was wrong, and a table; ends with the exit code."""
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("folder", type=pathlib.Path)
@@ -393,7 +394,7 @@ def main():
     parser.add_argument("--least", type=float, default=0.0, help="exit 1 below this share of right answers")
     parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
     o = parser.parse_args()
-    cases = [Case(i, o.seed, kind) for kind in KINDS if o.only in kind.__name__ for i in range(o.each)]
+    cases = [case_of(i, o.seed, kind) for kind in kinds if o.only in kind.__name__ for i in range(o.each)]
     program = str(pathlib.Path(o.program).resolve())
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for case in pool.map(lambda c: c.run(program, o.folder), cases):
@@ -402,20 +403,14 @@ def main():
     table = collections.defaultdict(lambda: [0, 0, 0, 0])
     for case in cases:
         for key in (case.kind.__name__, "all"):
-            row = table[key]
-            row[0] += case.right
-            row[1] += 1
-            held, asked = case.held()
-            row[2] += held
-            row[3] += asked
+            for i, add in enumerate((case.right, 1, *case.held())):
+                table[key][i] += add
     print("\n| hidden | right | of | intervals that hold | of |\n| --- | --- | --- | --- | --- |")
-    for name, row in table.items():
-        if name != "all":
-            print("| " + " | ".join(map(str, (name, *row))) + " |")
-    print("| " + " | ".join(map(str, ("all", *table["all"]))) + " |")
+    for name in [*(k for k in table if k != "all"), "all"]:
+        print("| " + " | ".join(map(str, (name, *table[name]))) + " |")
     right, count = table["all"][:2]
     sys.exit(0 if right >= o.least * count else 1)
 
 
 if __name__ == "__main__":
-    main()
+    campaign(KINDS, Case)

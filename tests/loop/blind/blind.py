@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The blind trial: data with nothing in them, with effects the program has names for and with forms it has none
 for, drawn anew for every seed; the program's answers are judged and counted.
-Usage: blind.py PROGRAM DIRECTORY [--seed N] [--nulls N] [--named N] [--unnamed N] [--only TEXT] [--list]
+Usage: blind.py PROGRAM DIRECTORY [--seed N] [--nulls N] [--named N] [--unnamed N] [--strange N] [--only TEXT] [--list]
 An answer is right where: nothing hidden: no_effect. A named effect: its name (or that of what the data cannot
 tell from it, said so) and no other. A form without a name: seen, no name given, and the error on held-out
-data within 1.2 of the true noise or said to be more."""
+data within 1.2 of the true noise or said to be more. A strange one (strange.py): as a form without a name, in data as
+people have them."""
 import argparse
 import collections
 import concurrent.futures
@@ -17,6 +18,7 @@ import numpy
 
 import hidden
 import made
+import strange
 
 NOISES = ("white", "ar", "smooth", "heavy")
 
@@ -43,7 +45,7 @@ def draw_plan(r, gear, ways):
 class Case:
     def __init__(self, kind, number, seed, only):
         # A seed a case: leaving some out changes no other.
-        r = numpy.random.default_rng([seed, {"null": 1, "named": 2, "unnamed": 3}[kind], number])
+        r = numpy.random.default_rng([seed, {"null": 1, "named": 2, "unnamed": 3, "strange": 4}[kind], number])
         self.kind, self.number, self.random = kind, number, r
         self.gear = draw_gear(r)
         self.hidden = []
@@ -56,6 +58,11 @@ class Case:
             self.hidden.append(name)
             self.plan = draw_plan(r, self.gear, "s" if name in hidden.IN_SCANS_ONLY else
                                   "cs" if name in ("eccentricity", "lobing", "pitch_wave", "axis_tilt") else "tcs")
+        elif kind == "strange":
+            name = list(strange.STRANGE)[number % len(strange.STRANGE)]
+            self.hidden.append(name)
+            self.plan = draw_plan(r, self.gear, strange.SEEN_IN[name])
+            strange.disturb(r, self.gear, self.plan)
         else:
             name = list(hidden.UNNAMED)[number % len(hidden.UNNAMED)]
             self.hidden.append(name)
@@ -64,7 +71,7 @@ class Case:
                 self.hidden.insert(0, "crowning")
         self.noise = made.Noise(float(r.uniform(2.0, 6.0) if self.plan["scan"] else r.uniform(0.4, 1.2)), noise_kind)
         for name in self.hidden:
-            forms.append({**hidden.NAMED, **hidden.UNNAMED}[name](self.gear, r, self.noise.sigma))
+            forms.append({**hidden.NAMED, **hidden.UNNAMED, **strange.STRANGE}[name](self.gear, r, self.noise.sigma))
         self.form = lambda k, side, u, v: sum((f(k, side, u, v) for f in forms), 0.0 * u)
         self.skipped = bool(only) and only not in self.label()
 
@@ -72,13 +79,14 @@ class Case:
         p = self.plan
         data = f"scan {p['scan']}" if p["scan"] else (f"{len(p['teeth'])}/{self.gear.teeth} teeth x {p['points']}" +
                (" index" if p["index"] else "") + (" common" if p["common_zero"] else ""))
+        data += "".join(f" {word}" for word in ("rounding_um", "wild", "hole", "sides") if word in p)
         return f"{self.kind}{self.number:03d} {'+'.join(self.hidden) or '-'} [{data}, {self.noise.kind}]"
 
     def run(self, program, folder):
         where = folder / f"{self.kind}{self.number:03d}"
         where.mkdir(parents=True, exist_ok=True)
         (where / "part.toml").write_text(self.gear.design())
-        data = (made.scan(self.gear, self.random, self.noise, self.form, self.plan["scan"]) if self.plan["scan"] else
+        data = (made.scan(self.gear, self.random, self.noise, self.form, self.plan) if self.plan["scan"] else
                 made.spots(self.gear, self.random, self.noise, self.form, self.plan))
         (where / "data.csv").write_text(data)
         start = time.time()
@@ -105,11 +113,14 @@ class Case:
         if after is not None and before is not None and after > 1.02 * before:
             return False, "worse"
         wanted = [h for h in self.hidden if h in hidden.NAMED]
+        right = set().union(*(strange.NAMES.get(h, set()) for h in self.hidden))
         for name in names:
+            if name in right:
+                continue
             if not any(w in alike[name] or name in hidden.ALIKE.get(w, ()) for w in wanted):
                 return False, "misnamed " + name
         fits = after is None or after <= 1.2 * noise
-        if self.kind == "unnamed":
+        if self.kind in ("unnamed", "strange"):
             return (True, "") if fits or a["verdict"] == "partly_explained" else (False, "called explained")
         if not names and "unnamed" not in hidden.ALIKE.get(wanted[0], ()):
             return False, "no name"
@@ -151,10 +162,11 @@ def main():
     parser.add_argument("--nulls", type=int, default=40)
     parser.add_argument("--named", type=int, default=22)
     parser.add_argument("--unnamed", type=int, default=26)
+    parser.add_argument("--strange", type=int, default=0)
     parser.add_argument("--only", default="")
     parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
     o = parser.parse_args()
-    counts = {"null": o.nulls, "named": o.named, "unnamed": o.unnamed}
+    counts = {"null": o.nulls, "named": o.named, "unnamed": o.unnamed, "strange": o.strange}
     cases = [Case(kind, i, o.seed, o.only) for kind, count in counts.items() for i in range(count)]
     cases = [case for case in cases if not case.skipped]
     program = str(pathlib.Path(o.program).resolve())

@@ -94,6 +94,14 @@ class Noise:
         return self.sigma * white
 
 
+def make_wild(random, plan, noise, value):
+    """Dust and loose contacts: a share of the values is anywhere."""
+    if not plan.get("wild"):
+        return value
+    wild = random.uniform(0.0, 1.0, len(value)) < plan["wild"]
+    return numpy.where(wild, value + random.uniform(-60.0, 60.0, len(value)) * noise.sigma, value)
+
+
 def spots(gear, random, noise, form, plan):
     """Rows of an inspection: profile and helix traces of some teeth, index of all, both flanks or one.
     form(tooth, side, u, v): deviation [um] on arrays u, v (-1 ... 1)."""
@@ -101,8 +109,9 @@ def spots(gear, random, noise, form, plan):
     if plan["common_zero"]:
         rows.insert(0, "# zero = common")
     u_ref = gear.u_reference()
+    sides, step = plan.get("sides", (1, -1)), plan.get("rounding_um", 1e-4)
     for tooth in plan["teeth"]:
-        for side in (1, -1):
+        for side in sides:
             for record in plan["records"]:
                 count = plan["points"]
                 along = numpy.linspace(-0.96, 0.96, count)
@@ -110,12 +119,13 @@ def spots(gear, random, noise, form, plan):
                 v = along if record == "helix" else numpy.zeros(count)
                 zero = 0.0 if plan["common_zero"] else 9.0 * random.standard_normal()
                 value = form(tooth, side, u, v) + noise.draw(random, count) + zero
+                value = step * numpy.round(make_wild(random, plan, noise, value) / step)
                 radius = gear.radius(u)
                 for i in range(count):
                     rows.append(f"{record},{tooth},{'left' if side > 0 else 'right'},{2.0 * radius[i]:.6f},"
                                 f"{0.5 * (v[i] + 1.0) * gear.face:.5f},{value[i]:.4f}")
     if plan["index"]:
-        for side in (1, -1):
+        for side in sides:
             first = None
             for tooth in range(1, gear.teeth + 1):
                 value = float(form(tooth, side, numpy.array([u_ref]), numpy.zeros(1))[0])
@@ -127,17 +137,20 @@ def spots(gear, random, noise, form, plan):
     return "\n".join(rows) + "\n"
 
 
-def scan(gear, random, noise, form, count):
-    """Points of all flanks along scan lines, moved along their normals."""
+def scan(gear, random, noise, form, plan):
+    """Points of all flanks along scan lines, moved along their normals; of some teeth none (`hole`)."""
+    count, hole = plan["scan"], plan.get("hole", (1, 0))
     rows = ["x_mm,y_mm,z_mm"]
     per_flank = max(20, count // (2 * gear.teeth))
     for tooth in range(1, gear.teeth + 1):
+        if (tooth - hole[0]) % gear.teeth < hole[1]:
+            continue
         for side in (1, -1):
             u = random.uniform(-0.97, 0.97, per_flank)
             v = random.uniform(-0.985, 0.985, per_flank)
             order = numpy.lexsort((u, numpy.floor((v + 1.0) * 10.0)))
             u, v = u[order], v[order]
-            value = 1e-3 * (form(tooth, side, u, v) + noise.draw(random, per_flank))
+            value = 1e-3 * make_wild(random, plan, noise, form(tooth, side, u, v) + noise.draw(random, per_flank))
             radius, angle = gear.point(tooth, side, u)
             normal = gear.normal_angle(tooth, side, u)
             x = radius * numpy.cos(angle) + value * numpy.cos(normal)

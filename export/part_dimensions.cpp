@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/export/part_dimensions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "trueflank/export/number_text.h"
+#include "trueflank/geometry/flank_tolerance.h"
+#include "trueflank/solid/shape/outline_loop.h"
+
+namespace trueflank::io {
+namespace {
+
+using SizeTable = std::vector<std::pair<double, double>>;  // up to this size [mm], value
+
+double at_size(const SizeTable& table, double size_mm) {
+  for (const auto& [upto_mm, value] : table)
+    if (size_mm <= upto_mm) return value;
+  return kNaN;
+}
+
+/// Limits of H7. Source: ISO 286-1, IT7 up to 500 mm.
+SizeLimits h7_limits(double diameter_mm) {
+  static const SizeTable kIt7_um = {{3, 10},  {6, 12},   {10, 15},  {18, 18},  {30, 21},
+                                    {50, 25}, {80, 30},  {120, 35}, {180, 40}, {250, 46},
+                                    {315, 52}, {400, 57}, {500, 63}};
+  const double um = at_size(kIt7_um, diameter_mm);
+  if (std::isnan(um)) return general_limits(diameter_mm);
+  return {.lower_mm = 0.0, .upper_mm = um / 1000.0, .fit = "H7"};
+}
+
+bool is_toothed(const Outline& outline) { return std::holds_alternative<ToothedOutline>(outline); }
+
+enum class Teeth { kNone, kOuter, kInner };
+Teeth teeth_of(const PartShape& part) {
+  Teeth teeth = Teeth::kNone;
+  for (const Slab& slab : part.slabs) {
+    if (is_toothed(slab.outer)) return Teeth::kOuter;
+    if (std::any_of(slab.holes.begin(), slab.holes.end(), is_toothed)) teeth = Teeth::kInner;
+  }
+  return teeth;
+}
+
+bool same_outer(const Outline& a, const Outline& b) {
+  return a.index() == b.index() &&
+         std::abs(extent(a).outer_radius_mm - extent(b).outer_radius_mm) < 1e-9;
+}
+
+/// A circle about the axis, the tips of a toothing, or a bore.
+std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool printed) {
+  PartDiameter d{.hole = hole};
+  if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
+    d.diameter_mm = 2.0 * teeth->profile->tip_radius_mm();
+    d.tip = true;
+  } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
+    if (circle->centre.norm() > 1e-9) return std::nullopt;
+    d.diameter_mm = 2.0 * circle->radius_mm;
+  } else {
+    if (!hole) return std::nullopt;
+    d.bore = std::get<BoreOutline>(outline).bore;
+    d.diameter_mm = d.bore->diameter_mm;
+  }
+  const bool fitted = d.bore && d.bore->kind != BoreKind::kHex && !printed;
+  d.limits = fitted ? h7_limits(d.diameter_mm) : general_limits(d.diameter_mm);
+  return d;
+}
+
+std::vector<PartDiameter> diameters_of(const PartShape& part, bool printed) {
+  std::vector<PartDiameter> diameters;
+  std::set<long> seen;  // in 1e-4 mm
+  const auto add = [&](const Outline& outline, const Slab& slab, bool hole) {
+    auto diameter = diameter_of(outline, hole, printed);
+    if (!diameter || !seen.insert(std::lround(diameter->diameter_mm * 1e4)).second) return;
+    diameter->z_mm = slab.z_lower_mm;
+    diameters.push_back(std::move(*diameter));
+  };
+  for (const Slab& slab : part.slabs) {
+    add(slab.outer, slab, false);
+    for (const Outline& hole : slab.holes) add(hole, slab, true);
+  }
+  std::stable_sort(diameters.begin(), diameters.end(), [](const auto& a, const auto& b) {
+    return a.diameter_mm < b.diameter_mm;
+  });
+  return diameters;
+}
+
+void choose_datum(std::vector<PartDiameter>& diameters, Teeth teeth) {
+  if (teeth == Teeth::kInner) {
+    if (!diameters.empty() && !diameters.back().tip) diameters.back().datum = true;
+    return;
+  }
+  const auto of_hole = std::find_if(diameters.begin(), diameters.end(),
+                                    [](const PartDiameter& d) { return d.hole && !d.tip; });
+  const auto chosen = of_hole == diameters.end() && teeth == Teeth::kNone ? diameters.begin() : of_hole;
+  if (chosen != diameters.end()) chosen->datum = true;
+}
+
+std::vector<PartWidth> widths_of(const PartShape& part) {
+  std::vector<PartWidth> widths;
+  const auto add = [&](double from, double to) {
+    widths.push_back({.z_lower_mm = from, .z_upper_mm = to, .limits = general_limits(to - from)});
+  };
+  double from = part.slabs.front().z_lower_mm;
+  for (std::size_t i = 0; i < part.slabs.size(); ++i) {
+    if (i + 1 < part.slabs.size() && same_outer(part.slabs[i].outer, part.slabs[i + 1].outer))
+      continue;
+    add(from, part.slabs[i].z_upper_mm);
+    from = part.slabs[i].z_upper_mm;
+  }
+  if (widths.size() > 1) add(part.slabs.front().z_lower_mm, part.slabs.back().z_upper_mm);
+  return widths;
+}
+
+std::vector<BoltCircle> bolt_circles_of(const PartShape& part) {
+  std::map<std::pair<long, long>, BoltCircle> groups;  // by both diameters in 1e-4 mm
+  for (const Outline& hole : part.slabs.front().holes) {
+    const auto* circle = std::get_if<CircleOutline>(&hole);
+    if (!circle || circle->centre.norm() <= 1e-9) continue;
+    const double diameter = 2.0 * circle->radius_mm, about = 2.0 * circle->centre.norm();
+    BoltCircle& group = groups[{std::lround(1e4 * diameter), std::lround(1e4 * about)}];
+    group = {diameter, about, group.count + 1, general_limits(diameter)};
+  }
+  std::vector<BoltCircle> circles;
+  for (const auto& [key, circle] : groups) circles.push_back(circle);
+  return circles;
+}
+
+/// Where a gear's teeth are in the part.
+std::pair<double, double> reach_of(const PartShape& part, const TrainGear& gear) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto look = [&](const Slab& slab, const Outline& outline) {
+    const auto* teeth = std::get_if<ToothedOutline>(&outline);
+    if (!teeth || teeth->profile != &gear.profile) return;
+    low = std::min(low, slab.z_lower_mm);
+    high = std::max(high, slab.z_upper_mm);
+  };
+  for (const Slab& slab : part.slabs) {
+    look(slab, slab.outer);
+    for (const Outline& hole : slab.holes) look(slab, hole);
+  }
+  return {low, high};
+}
+
+/// A face that runs out by t leans by t / D and tilts teeth of width b by t b / D: a fifth of the
+/// helix tolerance, to whole micrometres. Faces smaller than that asks 10 um of do not guide: the bore
+/// does.
+FaceRunout face_runout_of(const PartShape& part, const TrainGear& gear, double total_helix_um) {
+  const double diameter = 2.0 * extent(part.slabs.back().outer).outer_radius_mm;
+  const double um = 0.2 * total_helix_um * diameter / gear.face_width_mm;
+  return {part.slabs.back().z_upper_mm, std::max(10.0, std::floor(um)) / 1000.0};
+}
+
+}  // namespace
+
+const PartDiameter* PartDimensions::datum() const {
+  const auto found = std::find_if(diameters.begin(), diameters.end(),
+                                  [](const PartDiameter& d) { return d.datum; });
+  return found == diameters.end() ? nullptr : &*found;
+}
+
+PartDimensions part_dimensions(const GearTrain& train, const PartShape& part, int tolerance_class) {
+  PartDimensions dimensions{.diameters = diameters_of(part, additive(train)),
+                            .widths = widths_of(part),
+                            .bolt_circles = bolt_circles_of(part),
+                            .tip_runouts = {},
+                            .face_runout = {}};
+  choose_datum(dimensions.diameters, teeth_of(part));
+  if (!dimensions.datum()) return dimensions;
+  for (const TrainGear* gear : gears_of(train, part)) {
+    const auto limits = flank_tolerances(tolerance_size(gear->profile.gear(), gear->face_width_mm),
+                                         tolerance_class);
+    if (!limits) continue;
+    const auto [low, high] = reach_of(part, *gear);
+    dimensions.tip_runouts.push_back({gear, low, high, limits->runout_um / 1000.0});
+    const FaceRunout face = face_runout_of(part, *gear, limits->total_helix_um);
+    if (!dimensions.face_runout || face.value_mm < dimensions.face_runout->value_mm)
+      dimensions.face_runout = face;
+  }
+  return dimensions;
+}
+
+SizeLimits general_limits(double size_mm) {
+  // ISO 2768-1:1989, table 1, class m
+  static const SizeTable kMedium_mm = {{6, 0.1},    {30, 0.2},   {120, 0.3}, {400, 0.5},
+                                       {1000, 0.8}, {2000, 1.2}, {4000, 2.0}};
+  constexpr double kSmallest_mm = 0.5;
+  const double either_mm = size_mm < kSmallest_mm ? kNaN : at_size(kMedium_mm, size_mm);
+  return {.lower_mm = -either_mm, .upper_mm = either_mm};
+}
+
+std::string drawing_number(double value, int decimals) {
+  if (std::isnan(value)) return "-";
+  const double unit = std::pow(10.0, decimals);
+  std::string text;
+  append_decimal(text, std::round(value * unit) / unit);
+  return text;
+}
+
+std::string bore_shape_text(const BoreDesign& bore) {
+  if (bore.kind == BoreKind::kDFlat) return "flat " + drawing_number(bore.d_flat_mm, 3);
+  if (bore.kind == BoreKind::kKeyway)
+    return "keyway " + drawing_number(bore.keyway_width_mm, 3) + " x " +
+           drawing_number(bore.keyway_depth_mm, 3);
+  return {};
+}
+
+std::vector<const TrainGear*> gears_of(const GearTrain& train, const PartShape& part) {
+  std::vector<const TrainGear*> gears;
+  const auto add = [&](const Outline& outline) {
+    const auto* teeth = std::get_if<ToothedOutline>(&outline);
+    if (!teeth) return;
+    for (const TrainGear& gear : train.gears)
+      if (&gear.profile == teeth->profile &&
+          std::find(gears.begin(), gears.end(), &gear) == gears.end())
+        gears.push_back(&gear);
+  };
+  for (const Slab& slab : part.slabs) {
+    add(slab.outer);
+    for (const Outline& hole : slab.holes) add(hole);
+  }
+  return gears;
+}
+
+bool additive(const GearTrain& train) {
+  return train.design.made.process && train.design.made.process->layer_mm > 0.0;
+}
+
+}  // namespace trueflank::io

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/bench_remainder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <tuple>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/distributions.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Chance that noise alone is called structure; the questions share it.
+constexpr double kLevel = 0.005;
+constexpr int kFlips = 1999;
+
+/// One question: visits of one cell agree.
+struct Question {
+  std::string what;
+  std::vector<int> cell;  ///< of every visit, from 0 on
+  int cells = 0;
+  int rank = 0;                           ///< the plainest answer is told
+  double agreement = 0.0, p_value = 1.0;  ///< corrected for all questions
+};
+
+class Asking {
+ public:
+  Asking(const BenchTable& table, double ratio, const Eigen::VectorXd& left)
+      : table_(table),
+        ratio_(ratio),
+        left_(left),
+        set_point_(set_points_of(table.points)),
+        visit_(visits_of(table.points, set_point_)) {
+    gather();
+  }
+
+  BenchRemainder run() {
+    if (first_.size() < 12) return {};
+    pose();
+    flip();
+    // A zero of the output's sensor moves the driven torque up in one direction and down in the
+    // other.
+    const double slow = 2.0 * std::min(slow_p_value(false), slow_p_value(true));
+    BenchRemainder found;
+    found.p_value = slow;
+    for (const Question& q : questions_) found.p_value = std::min(found.p_value, q.p_value);
+    found.p_value = std::min(1.0, 2.0 * found.p_value);
+    if (found.p_value <= kLevel)
+      describe(found, slow <= 0.5 * kLevel, 0.5 * kLevel);
+    else
+      stand_out(found);
+    return found;
+  }
+
+ private:
+  /// Means of visits in units of the noise, wild ones held back.
+  void gather() {
+    const std::size_t n = table_.points.size();
+    for (std::size_t i = 0; i < n; ++i)
+      if (i == 0 || visit_[i] != visit_[i - 1]) first_.push_back(i);
+    std::vector<double> size;
+    for (std::size_t v = 0; v < first_.size(); ++v) {
+      const std::size_t end = v + 1 < first_.size() ? first_[v + 1] : n;
+      double sum = 0.0;
+      for (std::size_t i = first_[v]; i < end; ++i)
+        sum += left_[static_cast<Eigen::Index>(i)] / table_.points[i].sigma_nm;
+      size.push_back(sum / std::sqrt(static_cast<double>(end - first_[v])));
+    }
+    size_ = Eigen::Map<Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
+    std::vector<double> sizes;
+    for (const double s : size) sizes.push_back(std::abs(s));
+    if (sizes.empty()) return;
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
+                     sizes.end());
+    const double most = 4.0 * sizes[sizes.size() / 2];
+    if (most > 0.0) size_ = size_.cwiseMax(-most).cwiseMin(most);
+  }
+
+  [[nodiscard]] std::vector<int> of_visits(const std::vector<int>& of_rows) const {
+    std::vector<int> result;
+    for (const std::size_t i : first_) result.push_back(of_rows[i]);
+    return result;
+  }
+
+  void ask(const std::string& what, int rank, const std::vector<int>& of_rows) {
+    const std::vector<int> cell = together(of_visits(of_rows), std::vector<int>(first_.size(), 0));
+    const int cells = *std::max_element(cell.begin(), cell.end()) + 1;
+    if (cells > 1) questions_.push_back({.what = what, .cell = cell, .cells = cells, .rank = rank});
+  }
+
+  void pose() {
+    const auto& points = table_.points;
+    std::vector<int> direction, file, way;
+    for (const BenchPoint& p : points) {
+      direction.push_back(p.forward ? 1 : 0);
+      file.push_back(p.file);
+    }
+    const std::vector<int> load = load_levels(points), speed = speed_levels(points);
+    ask("load", 0, load);
+    ask("speed", 0, speed);
+    if (table_.has_temperature && table_.temperature_span_c > 3.0)
+      ask("temperature", 1, levels_of(values_of(points, &BenchPoint::temperature_c), 0.0, 0.02));
+    ask("direction", 1, direction);
+    ask("file", 1, together(file, direction));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      way.push_back(i == 0 || visit_[i] == visit_[i - 1]        ? (way.empty() ? 0 : way.back())
+                    : points[i].load_nm > points[i - 1].load_nm ? 1
+                                                                : -1);
+    ask("way of loading (rising or falling)", 1, together(way, direction));
+    ask("load, otherwise in each direction,", 2, together(load, direction));
+    ask("speed, otherwise in each direction,", 2, together(speed, direction));
+    ask("load and the speed together", 3, set_point_);
+  }
+
+  /// Sum over pairs of one cell, but for those so near in time that their errors may hang together.
+  [[nodiscard]] double agreement(const Question& q, const Eigen::VectorXd& size, int near) const {
+    std::vector<double> sum(static_cast<std::size_t>(q.cells), 0.0);
+    double pairs = 0.0;
+    for (Eigen::Index v = 0; v < size.size(); ++v) {
+      const int c = q.cell[static_cast<std::size_t>(v)];
+      double& of_cell = sum[static_cast<std::size_t>(c)];
+      pairs += 2.0 * size[v] * of_cell;
+      of_cell += size[v];
+      for (Eigen::Index w = std::max<Eigen::Index>(0, v - near); w < v; ++w)
+        if (q.cell[static_cast<std::size_t>(w)] == c) pairs -= 2.0 * size[v] * size[w];
+    }
+    return pairs;
+  }
+
+  void flip() {
+    const double n = static_cast<double>(size_.size());
+    // Of dwells the table knows it from the rows inside them.
+    const bool dwells = !table_.drifts && static_cast<double>(left_.size()) > 5.0 * n;
+    const double correlation = dwells ? 0.0 : correlation_of_visits(size_, of_visits(set_point_));
+    const bool hangs = correlation > std::max(0.12, 1.5 / std::sqrt(n));
+    const int block =
+        hangs ? std::clamp(static_cast<int>(
+                               std::ceil(std::log(0.15) / std::log(std::min(0.9, correlation)))),
+                           2, std::max(2, static_cast<int>(n / 16.0)))
+              : 1;
+    std::mt19937_64 random(20261122);
+    const auto asked = static_cast<Eigen::Index>(questions_.size());
+    for (Question& q : questions_) q.agreement = agreement(q, size_, hangs ? block : 0);
+    const int flips = n > 1000.0 ? kFlips / 4 : kFlips;
+    Eigen::MatrixXd of_flips(flips, asked);
+    Eigen::VectorXd flipped = size_;
+    for (int f = 0; f < flips; ++f) {
+      const auto shift = static_cast<Eigen::Index>(random() % static_cast<std::uint64_t>(block));
+      double sign = 1.0;
+      for (Eigen::Index v = 0; v < size_.size(); ++v) {
+        if (v == 0 || (v + shift) % block == 0) sign = (random() & 1) != 0 ? 1.0 : -1.0;
+        flipped[v] = sign * size_[v];
+      }
+      for (Eigen::Index k = 0; k < asked; ++k)
+        of_flips(f, k) =
+            agreement(questions_[static_cast<std::size_t>(k)], flipped, hangs ? block : 0);
+    }
+    judge_against(of_flips);
+  }
+
+  /// Each against its own flips; beyond the largest of these by a chi-square of their spread and
+  /// skewness (Pearson's type III, Wilson and Hilferty's approximation), never below a tenth of
+  /// what flips can tell.
+  void judge_against(const Eigen::MatrixXd& of_flips) {
+    const double flips = static_cast<double>(of_flips.rows());
+    for (std::size_t k = 0; k < questions_.size(); ++k) {
+      Question& q = questions_[k];
+      if (!(q.agreement > 0.0)) continue;
+      const auto values = of_flips.col(static_cast<Eigen::Index>(k)).array();
+      const double mean = values.mean(), spread = std::sqrt((values - mean).square().mean());
+      if (!(spread > 0.0)) continue;
+      const double skew = std::max(0.05, ((values - mean) / spread).cube().mean());
+      const double degrees = 8.0 / (skew * skew), size = (q.agreement - mean) / spread;
+      const double chi = std::max(0.0, 1.0 + size * std::sqrt(2.0 / degrees)),
+                   part = 2.0 / (9.0 * degrees);
+      const double tail = 0.5 * std::erfc((std::cbrt(chi) - 1.0 + part) / std::sqrt(2.0 * part));
+      const double above = static_cast<double>((values >= q.agreement).count());
+      const double asked = static_cast<double>(questions_.size());
+      q.p_value = std::min(1.0, asked * std::max({tail, above / flips, 0.1 / flips}));
+    }
+  }
+
+  /// The slowest half waves over the run against those beside them, of what set points do not
+  /// explain.
+  [[nodiscard]] double slow_p_value(bool opposite) const {
+    if (size_.size() < 24) return 1.0;
+    Eigen::VectorXd size = size_;
+    for (std::size_t v = 0; v < first_.size() && opposite; ++v)
+      if (!table_.points[first_[v]].forward) size[static_cast<Eigen::Index>(v)] *= -1.0;
+    const int first = 2 * kSlowWaves + 1;
+    const int last = std::min<int>(first + 23, static_cast<int>(size_.size()) / 2);
+    double slow = 0.0, beside = 0.0;
+    for (int k = 1; k <= kSlowWaves; ++k) slow += std::pow(on_half_wave(size, k), 2) / kSlowWaves;
+    for (int k = first; k <= last; ++k)
+      beside += std::pow(on_half_wave(size, k), 2) / (last - first + 1);
+    return beside > 0.0 ? f_tail(slow / beside, kSlowWaves, last - first + 1) : 1.0;
+  }
+
+  /// The scatter of a direction's rows about their own kind, wild ones without weight: of repeated
+  /// set points, of dwells, else of all.
+  [[nodiscard]] double scatter_of(const std::vector<Eigen::Index>& rows,
+                                  const std::vector<int>& kind) const {
+    std::map<int, std::vector<double>> kinds;
+    for (const Eigen::Index i : rows) kinds[kind[static_cast<std::size_t>(i)]].push_back(left_[i]);
+    std::vector<double> off;
+    for (const auto& [number, values] : kinds) {
+      const double n = static_cast<double>(values.size());
+      if (values.size() < 2) continue;
+      const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+      for (const double v : values) off.push_back(std::abs(v - mean) * std::sqrt(n / (n - 1.0)));
+    }
+    if (2 * off.size() < rows.size()) return kNaN;
+    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+    std::nth_element(off.begin(), middle, off.end());
+    return 1.4826 * *middle;
+  }
+
+  /// More is left than the rows' own scatter: a few set points that lie far off agree with too few
+  /// others to be seen by agreement.
+  void stand_out(BenchRemainder& found) const {
+    constexpr double kTwice = 2.0;
+    const std::vector<int> all(left_.size(), 0);
+    double times = 0.0, noise = 0.0;
+    for (const bool forward : {true, false}) {
+      const std::vector<Eigen::Index> rows = rows_of(forward);
+      if (rows.size() < 8) continue;
+      double scatter = scatter_of(rows, set_point_);
+      if (const double of_all = scatter_of(rows, all); !(scatter < of_all)) scatter = of_all;
+      const double rms = left_(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
+      times = std::max(times, rms / std::max(scatter, 1e-9 * left_.cwiseAbs().maxCoeff() + 1e-300));
+      noise += scatter * scatter * static_cast<double>(rows.size());
+    }
+    if (times < kTwice) return;
+    found.noise_nm = std::sqrt(noise / static_cast<double>(left_.size()));
+    found.structure_nm = left_;
+    found.share = 1.0 - 1.0 / (times * times);
+    Eigen::Index worst = 0;
+    left_.cwiseAbs().maxCoeff(&worst);
+    const BenchPoint& p = table_.points[static_cast<std::size_t>(worst)];
+    found.follows = "what is left is " + printed("%.2g", times) +
+                    " times the scatter of the rows and stands at few of them: most " +
+                    printed("%.2g", left_[worst] / (p.forward ? ratio_ : 1.0)) +
+                    " N m at the input, " + (p.forward ? "forward" : "backward") +
+                    printed(" at %.3g N m and %.4g rpm", p.load_nm, p.speed_rpm) + " (line " +
+                    std::to_string(p.line) + ")";
+  }
+
+  void describe(BenchRemainder& found, bool slow, double level) const {
+    double most = 0.0;
+    for (const Question& q : questions_)
+      if (q.p_value <= level) most = std::max(most, q.agreement);
+    const Question* told = nullptr;
+    for (const Question& q : questions_)
+      if (q.p_value <= level && q.agreement >= 0.6 * most &&
+          (told == nullptr || q.rank < told->rank ||
+           (q.rank == told->rank && q.agreement > told->agreement)))
+        told = &q;
+    // Where the time tells more than a mean that differs between ways, files or directions.
+    if (slow && told != nullptr && told->rank == 1) told = nullptr;
+    // Set points that come again hold all of load, speed and direction.
+    const bool each = set_points_come_again() &&
+                      std::any_of(questions_.begin(), questions_.end(), [&](const Question& q) {
+                        return q.p_value <= level && q.rank != 1;
+                      });
+    Eigen::VectorXd noise = left_;
+    double fitted = 0.0;
+    for (int round = 0; round < 3; ++round) {
+      fitted = 0.0;
+      for (const Question& q : questions_) {
+        const bool last = &q == &questions_.back();
+        if (each && q.rank != 1 ? !last : q.p_value > level) continue;
+        const std::vector<int> cell = of_rows(q.cell);
+        for (const bool forward : {true, false}) take_means_of(noise, cell, forward, fitted);
+      }
+      if (slow) {
+        for (const bool forward : {true, false}) take_slow_of(noise, forward);
+        fitted += 2.0 * (1.0 + 2.0 * kSlowWaves);
+      }
+    }
+    found.structure_nm = left_ - noise;
+    const double n = static_cast<double>(left_.size());
+    found.share = 1.0 - noise.squaredNorm() / std::max(left_.squaredNorm(), 1e-300);
+    found.noise_nm = std::sqrt(noise.squaredNorm() / std::max(1.0, n - fitted));
+    const double times = std::sqrt(left_.squaredNorm() / n) / std::max(found.noise_nm, 1e-300);
+    found.follows = "what is left is " + printed("%.2g", std::max(1.0, times)) +
+                    " times the noise and " +
+                    (told != nullptr ? follows_in_words(*told) : slow_in_words(noise));
+  }
+
+  [[nodiscard]] bool set_points_come_again() const {
+    return !questions_.empty() &&
+           4 * questions_.back().cells <= 3 * static_cast<int>(first_.size());
+  }
+  [[nodiscard]] std::vector<int> of_rows(const std::vector<int>& of_visits) const {
+    std::vector<int> result;
+    for (std::size_t v = 0; v < first_.size(); ++v)
+      result.resize(v + 1 < first_.size() ? first_[v + 1] : table_.points.size(), of_visits[v]);
+    return result;
+  }
+  [[nodiscard]] std::vector<Eigen::Index> rows_of(bool forward) const {
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < table_.points.size(); ++i)
+      if (table_.points[i].forward == forward) rows.push_back(static_cast<Eigen::Index>(i));
+    return rows;
+  }
+  void take_means_of(Eigen::VectorXd& values, const std::vector<int>& cell, bool forward,
+                     double& fitted) const {
+    const std::vector<Eigen::Index> rows = rows_of(forward);
+    Eigen::VectorXd part = values(rows);
+    std::vector<int> cells;
+    for (const Eigen::Index i : rows) cells.push_back(cell[static_cast<std::size_t>(i)]);
+    take_means(part, cells);
+    values(rows) = part;
+    std::sort(cells.begin(), cells.end());
+    fitted += static_cast<double>(std::unique(cells.begin(), cells.end()) - cells.begin());
+  }
+  void take_slow_of(Eigen::VectorXd& values, bool forward) const {
+    const std::vector<Eigen::Index> rows = rows_of(forward);
+    if (rows.empty()) return;
+    Eigen::VectorXd part = values(rows);
+    take_slow(part, 2 * kSlowWaves);
+    values(rows) = part;
+  }
+
+  /// Mean of what is left, as torque at the input, of the cells in which it is lowest and highest.
+  [[nodiscard]] std::string follows_in_words(const Question& q) const {
+    std::map<int, std::tuple<double, double, std::size_t>> cells;
+    const std::vector<int> cell = of_rows(q.cell);
+    for (std::size_t i = 0; i < table_.points.size(); ++i) {
+      auto& [sum, count, at] = cells.try_emplace(cell[i], 0.0, 0.0, i).first->second;
+      sum += left_[static_cast<Eigen::Index>(i)] / (table_.points[i].forward ? ratio_ : 1.0);
+      count += 1.0;
+    }
+    const auto mean = [](const auto& c) { return std::get<0>(c.second) / std::get<1>(c.second); };
+    const auto [low, high] =
+        std::minmax_element(cells.begin(), cells.end(),
+                            [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
+    const auto words = [&](const auto& c) {
+      return printed("%.2g", mean(c)) + " N m " +
+             place_in_words(q, table_.points[std::get<2>(c.second)]);
+    };
+    return "follows the " + q.what + ": on average " + words(*low) + ", " + words(*high) +
+           " (at the input; below zero the drive loses more than the model)";
+  }
+  [[nodiscard]] std::string place_in_words(const Question& q, const BenchPoint& p) const {
+    const std::string way = p.forward ? "forward" : "backward";
+    const std::string load = printed("%.3g", p.load_nm) + " N m",
+                      speed = printed("%.4g", p.speed_rpm) + " rpm";
+    if (q.what == "direction") return way;
+    if (q.what == "file") return way + " in file " + std::to_string(p.file + 1);
+    if (q.what == "temperature") return "at " + printed("%.3g", p.temperature_c) + " C";
+    if (q.what == "load") return "at " + load;
+    if (q.what == "speed") return "at " + speed;
+    if (q.what.front() == 'w')
+      return way + (&p == &table_.points.front() || (&p)[-1].load_nm > p.load_nm ? " falling"
+                                                                                 : " rising");
+    if (q.rank == 2) return way + " at " + (q.what.front() == 's' ? speed : load);
+    return way + " at " + load + " and " + speed;
+  }
+  /// Where on the run it is lowest and highest.
+  [[nodiscard]] std::string slow_in_words(const Eigen::VectorXd& noise) const {
+    const Eigen::VectorXd slow = left_ - noise;
+    Eigen::Index low = 0, high = 0;
+    slow.minCoeff(&low);
+    slow.maxCoeff(&high);
+    const auto at = [&](Eigen::Index i) {
+      const BenchPoint& p = table_.points[static_cast<std::size_t>(i)];
+      return printed("%.2g", slow[i] / (p.forward ? ratio_ : 1.0)) + " N m in line " +
+             std::to_string(p.line);
+    };
+    return "moves slowly over the run: " + at(low) + ", " + at(high) +
+           " (at the input): a zero that wanders or jumps, or warmth";
+  }
+
+  const BenchTable& table_;
+  const double ratio_;
+  const Eigen::VectorXd& left_;
+  const std::vector<int> set_point_, visit_;
+  std::vector<std::size_t> first_;  ///< row of every visit
+  Eigen::VectorXd size_;            ///< of every visit, in its noise's units
+  std::vector<Question> questions_;
+};
+
+}  // namespace
+
+BenchRemainder ask_remainder(const BenchTable& table, double ratio,
+                             const Eigen::VectorXd& left_nm) {
+  return Asking(table, ratio, left_nm).run();
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/bench_visits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Orthonormal half wave k of n values.
+double half_wave(int k, Eigen::Index i, Eigen::Index n) {
+  return std::sqrt(2.0 / static_cast<double>(n)) *
+         std::cos(0.5 * kTwoPi * k * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+}
+
+}  // namespace
+
+std::vector<int> levels_of(const std::vector<double>& values, double scatter, double of_range) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
+  std::vector<int> level(values.size(), 0);
+  if (values.empty()) return level;
+  const double low = values[order.front()], span = values[order.back()] - low;
+  int count = 0;
+  double start = low, longest = 0.0;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const double before = values[order[k - 1]], here = values[order[k]];
+    if (here - before > scatter * std::abs(here) + of_range * span) {
+      ++count;
+      start = here;
+    }
+    longest = std::max(longest, here - start);
+    level[order[k]] = count;
+  }
+  if (longest <= 0.25 * span) return level;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    level[i] = std::min(9, static_cast<int>(10.0 * (values[i] - low) / span));
+  return level;
+}
+
+std::vector<double> values_of(const std::vector<BenchPoint>& points, double BenchPoint::*member) {
+  std::vector<double> values;
+  values.reserve(points.size());
+  for (const BenchPoint& p : points) values.push_back(p.*member);
+  return values;
+}
+
+std::vector<int> load_levels(const std::vector<BenchPoint>& points) {
+  return levels_of(values_of(points, &BenchPoint::load_nm), 0.012, 0.006);
+}
+std::vector<int> speed_levels(const std::vector<BenchPoint>& points) {
+  return levels_of(values_of(points, &BenchPoint::speed_rpm), 0.015, 0.003);
+}
+
+std::vector<int> together(const std::vector<int>& a, const std::vector<int>& b) {
+  std::map<std::pair<int, int>, int> number;
+  std::vector<int> result;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    result.push_back(
+        number.emplace(std::pair(a[i], b[i]), static_cast<int>(number.size())).first->second);
+  return result;
+}
+
+void take_means(Eigen::VectorXd& values, const std::vector<int>& cell) {
+  std::map<int, std::pair<double, double>> sums;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    auto& [sum, count] = sums[cell[static_cast<std::size_t>(i)]];
+    sum += values[i];
+    count += 1.0;
+  }
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const auto& [sum, count] = sums[cell[static_cast<std::size_t>(i)]];
+    values[i] -= sum / count;
+  }
+}
+
+double on_half_wave(const Eigen::VectorXd& values, int k) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    sum += values[i] * half_wave(k, i, values.size());
+  return sum;
+}
+void take_slow(Eigen::VectorXd& values, int waves) {
+  const Eigen::VectorXd from = values;
+  values.array() -= from.mean();
+  for (int k = 1; k <= waves; ++k) {
+    const double size = on_half_wave(from, k);
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      values[i] -= size * half_wave(k, i, values.size());
+  }
+}
+
+std::vector<int> set_points_of(const std::vector<BenchPoint>& points) {
+  std::vector<int> direction;
+  for (const BenchPoint& p : points) direction.push_back(p.forward ? 1 : 0);
+  return together(together(load_levels(points), speed_levels(points)), direction);
+}
+
+std::vector<int> visits_of(const std::vector<BenchPoint>& points,
+                           const std::vector<int>& set_point) {
+  std::vector<int> visit;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    visit.push_back(i == 0 ? 0
+                    : set_point[i] == set_point[i - 1] && points[i].file == points[i - 1].file
+                        ? visit.back()
+                        : visit.back() + 1);
+  return visit;
+}
+
+double correlation_of_visits(const Eigen::VectorXd& size, const std::vector<int>& set_point) {
+  std::map<int, double> count;
+  std::map<std::pair<int, int>, double> beside;  // cells -> how often one follows the other
+  for (std::size_t v = 0; v < set_point.size(); ++v) {
+    count[set_point[v]] += 1.0;
+    if (v == 0) continue;
+    beside[{set_point[v - 1], set_point[v]}] += 1.0;
+    beside[{set_point[v], set_point[v - 1]}] += 1.0;
+  }
+  const double n = static_cast<double>(size.size());
+  double again = 0.0;
+  for (const auto& [cell, visits] : count) again += visits > 1.0 ? visits : 0.0;
+  // Without set points that come again only the slow course can be taken off.
+  const bool means = again > 0.5 * n;
+  Eigen::VectorXd error = size;
+  if (means) take_means(error, set_point);
+  if (size.size() >= 24) take_slow(error, kSlowWaves);
+  double product = 0.0, kept = 0.0;
+  for (std::size_t v = 1; v < set_point.size(); ++v) {
+    product += error[static_cast<Eigen::Index>(v)] * error[static_cast<Eigen::Index>(v) - 1];
+    // What taking the means off leaves of the product of neighbours.
+    const int here = set_point[v], before = set_point[v - 1];
+    const auto in = [&](std::size_t w, int cell) {
+      return w < set_point.size() && set_point[w] == cell ? 1.0 : 0.0;
+    };
+    const double of_before = in(v - 1, before) + in(v + 1, before);
+    const double of_here = in(v, here) + (v >= 2 ? in(v - 2, here) : 0.0);
+    kept += means ? 1.0 - of_before / count[before] - of_here / count[here] +
+                        beside[{before, here}] / (count[before] * count[here])
+                  : 1.0;
+  }
+  const double freedom = means ? n - static_cast<double>(count.size()) : n;
+  if (!(error.squaredNorm() > 0.0) || kept < 0.1 * n || freedom < 1.0) return 0.0;
+  return std::clamp(product / kept / (error.squaredNorm() / freedom), -1.0, 1.0);
+}
+
+}  // namespace trueflank::loop

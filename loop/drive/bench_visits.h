@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "trueflank/loop/drive/bench_table.h"
+
+// Which rows of a bench were taken at the same set point, and when: visits.
+namespace trueflank::loop {
+
+/// Levels of a quantity: sorted values apart by more than the setting's scatter (a share of the
+/// value, and of the range). Where they run into each other: tenths of the range.
+[[nodiscard]] std::vector<int> levels_of(const std::vector<double>& values, double scatter,
+                                         double of_range);
+[[nodiscard]] std::vector<double> values_of(const std::vector<BenchPoint>& points,
+                                            double BenchPoint::*member);
+[[nodiscard]] std::vector<int> load_levels(const std::vector<BenchPoint>& points);
+[[nodiscard]] std::vector<int> speed_levels(const std::vector<BenchPoint>& points);
+/// Numbers from 0 on for pairs.
+[[nodiscard]] std::vector<int> together(const std::vector<int>& a, const std::vector<int>& b);
+
+/// Rows of one direction and of the same speed and load, as far as a bench can set them again: one
+/// number a row. Rows without levels, of a sweep, share cells of a tenth of the range.
+[[nodiscard]] std::vector<int> set_points_of(const std::vector<BenchPoint>& points);
+
+/// Rows of one set point and file that follow each other: one number a row, from 0 on.
+[[nodiscard]] std::vector<int> visits_of(const std::vector<BenchPoint>& points,
+                                         const std::vector<int>& set_point);
+
+/// Correlation of neighbouring visits' means with what set points and slow courses have in common
+/// taken off: of the errors alone, where set points come again. `size`: of every visit, in its
+/// noise's units.
+[[nodiscard]] double correlation_of_visits(const Eigen::VectorXd& size,
+                                           const std::vector<int>& set_point);
+
+/// @name What a series of visits is made of
+/// @{
+inline constexpr int kSlowWaves = 4;  ///< half waves over the run that are called slow
+/// Takes the mean of every cell off.
+void take_means(Eigen::VectorXd& values, const std::vector<int>& cell);
+/// Size of half wave k over the run.
+[[nodiscard]] double on_half_wave(const Eigen::VectorXd& values, int k);
+/// Takes the mean and the slowest half waves off.
+void take_slow(Eigen::VectorXd& values, int waves);
+/// @}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the chosen effects leave is searched for forms; what these and the hold-out say of the
+// effects.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/possible_effects.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/gear/trial_fit.h"
+
+namespace trueflank::loop {
+
+/// Asked for the same effects again, the answer is kept.
+const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Effect>& effects,
+                                                            RemainderOf which) {
+  const auto same = [](const Effect& a, const Effect& b) {
+    return a.family == b.family && a.flank == b.flank && a.shape == b.shape;
+  };
+  if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
+                                  kept_.effects.end(), same)) {
+    kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
+    std::vector<float> before_um;
+    PointFit(geometry_, table_, patches_, effects).residuals(before_um, kept_.row_um);
+  }
+  auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
+  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, kept_.row_um, which);
+  return *findings;
+}
+
+/// Forms that the data as they are show, so that a sector or a step stands beside the waves that
+/// would otherwise imitate it: candidates like all others.
+void PartLoop::nominate() {
+  for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
+    if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
+      continue;
+    if (name_like(finding, options_.given)) continue;
+    candidates_.push_back(*finding.effect);
+    banned_.push_back(false);
+    unseen_.push_back(false);
+  }
+}
+
+/// Effects with a name that do nearly the same on these data, the simplest first.
+std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
+  constexpr double kNearly = 0.9;
+  std::vector<Effect> effects{form};
+  std::vector<std::size_t> group;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (candidates_[g].family->named && !candidates_[g].family->local && !banned_[g] &&
+        candidates_[g].columns() == form.columns() &&
+        (form.columns() == 1 || candidates_[g].order() == form.order())) {
+      effects.push_back(candidates_[g]);
+      group.push_back(g);
+    }
+  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
+  Eigen::MatrixXd columns = problem.candidates.cast<double>();
+  std::map<int, std::pair<Eigen::VectorXd, double>> zeros;
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    auto& [sum, weight] = zeros[problem.zero[i]];
+    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns.cols());
+    sum += problem.weight[i] * columns.row(i).transpose();
+    weight += problem.weight[i];
+  }
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const auto& [sum, weight] = zeros[problem.zero[i]];
+    columns.row(i) -= (sum / weight).transpose();
+    columns.row(i) *= std::sqrt(problem.weight[i]);
+  }
+  const Eigen::VectorXd norms = columns.colwise().norm();
+  const auto is_alike = [&](std::size_t effect) {
+    for (Eigen::Index k = 0; k < form.columns(); ++k) {
+      const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
+      if (!(std::abs(columns.col(k).dot(columns.col(other))) > kNearly * norms[k] * norms[other]))
+        return false;
+    }
+    return true;
+  };
+  std::vector<Effect> names;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (is_alike(i + 1)) names.push_back(candidates_[group[i]]);
+  std::stable_sort(names.begin(), names.end(),
+                   [](const Effect& a, const Effect& b) { return a.order() < b.order(); });
+  return names;
+}
+
+/// The effect with a name that says what a finding says: at its best shape it takes out nearly as
+/// much beside the others, with the right sign.
+std::optional<Effect> PartLoop::name_like(const RemainderFinding& finding,
+                                          const std::vector<Effect>& beside) const {
+  constexpr double kNothing = 9.0, kNearly = 0.05;  // chi-square; share of what the form takes out
+  constexpr std::size_t kMostTried = 6;
+  std::vector<Effect> names = names_alike(*finding.effect);
+  if (names.empty()) return {};
+  if (names.size() > kMostTried) names.resize(kMostTried);
+  std::vector<Effect> with = beside;
+  const double none = TrialFit(geometry_, table_, patches_, with).residual_square();
+  with.push_back(*finding.effect);
+  refine_nearby(geometry_, table_, patches_, with);
+  const double form = TrialFit(geometry_, table_, patches_, with).residual_square();
+  for (const Effect& name : names) {
+    with = beside;
+    with.push_back(name);
+    if (name.family->shape_is_continuous)
+      refine_shapes(geometry_, table_, patches_, with, beside.size());
+    const PointFit fit(geometry_, table_, patches_, with);
+    if (fit.residual_square() > form + std::max(kNothing, kNearly * (none - form))) continue;
+    if (is_possible(geometry_, fit, static_cast<int>(with.size()) - 1)) return with.back();
+  }
+  return {};
+}
+
+/// True where what an effect does is not nearly what others do together.
+bool PartLoop::is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const {
+  std::vector<Effect> with = beside;
+  with.push_back(effect);
+  return TrialFit(geometry_, table_, patches_, with).as_is(beside.size()).retained >= kToldApart;
+}
+
+/// The finding enters the model, and all else is chosen anew beside it.
+void PartLoop::take_up(const RemainderFinding& finding) {
+  options_.given.push_back(*finding.effect);
+  given_p_values_.push_back(finding.p_value);
+  ban_given();
+}
+
+bool PartLoop::take_up_remainder() {
+  constexpr int kAtOnce = 4;
+  std::vector<Effect> effects = effects_;
+  const auto known = [&](const Effect& found) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) {
+      return e.family == found.family && e.flank == found.flank && e.shape == found.shape;
+    });
+  };
+  const auto take_first = [&](RemainderOf which, bool local) {
+    const std::vector<RemainderFinding> findings = remainder_of(effects, which);
+    for (RemainderFinding finding : findings) {
+      if (!finding.effect || finding.local != local) continue;
+      // what a name says is told by its name
+      if (!local)
+        if (const std::optional<Effect> name = name_like(finding, effects)) finding.effect = *name;
+      if (known(*finding.effect) || !is_told_apart(*finding.effect, effects)) continue;
+      take_up(finding);
+      effects.push_back(*finding.effect);
+      return true;
+    }
+    return false;
+  };
+  int taken = 0;
+  while (taken < kAtOnce && take_first(RemainderOf::kTraining, false)) ++taken;
+  // What stands on one tooth cannot be learnt from others: from all the data.
+  while (taken < kAtOnce && take_first(RemainderOf::kAll, true)) ++taken;
+  return taken > 0;
+}
+
+/// Forms that a better one, taken up later, made idle. True where there were any.
+bool PartLoop::drop_idle_forms() {
+  constexpr double kIdle = 25.0;  // chi-square: five standard errors
+  bool any = false;
+  while (!given_p_values_.empty()) {
+    const double full = TrialFit(geometry_, table_, patches_, effects_).residual_square();
+    const std::size_t first = options_.given.size() - given_p_values_.size();
+    std::size_t idle = 0;
+    double least = 1e300;
+    for (std::size_t e = first; e < options_.given.size(); ++e) {
+      std::vector<Effect> without = effects_;
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+      const double loss = TrialFit(geometry_, table_, patches_, without).residual_square() - full;
+      if (loss >= least) continue;
+      least = loss;
+      idle = e;
+    }
+    if (least > kIdle) return any;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(idle));
+    options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(idle));
+    given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(idle - first));
+    any = true;
+  }
+  return any;
+}
+
+/// Bans a family on these flanks; true where that is new.
+bool PartLoop::ban_alike(const Effect& effect) {
+  bool any = false;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank &&
+        !banned_[g])
+      banned_[g] = any = true;
+  return any;
+}
+
+/// A name must hold whether or not forms without a name stand beside it: where its size hangs on
+/// them it is a part of the description, no cause. True where any was banned.
+bool PartLoop::ban_what_forms_explain() {
+  constexpr double kHangs = 0.25;
+  const auto is_form = [&](const Effect& e) {
+    return e.is_term() && e.family->shapes && e.family->shapes(geometry_).empty();
+  };
+  std::vector<Effect> without;
+  std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),
+               [&](const Effect& e) { return !is_form(e); });
+  if (without.size() == effects_.size()) return false;
+  const PointFit full(geometry_, table_, patches_, effects_);
+  const PointFit bare(geometry_, table_, patches_, without);
+  bool any = false;
+  int at = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (is_form(effect)) continue;
+    const int own = at++;
+    if (!effect.family->named || effect.family->local) continue;
+    const auto b =
+        full.coefficients().segment(full.first_column(static_cast<int>(e)), effect.columns());
+    const auto b0 = bare.coefficients().segment(bare.first_column(own), effect.columns());
+    if ((b - b0).norm() <= kHangs * std::max(b.norm(), b0.norm())) continue;
+    any = ban_alike(effect) || any;
+    // What could not be told from it is no better.
+    for (const int group : discovery_.chosen[e].confounded)
+      if (candidates_[group].family->named) any = ban_alike(candidates_[group]) || any;
+  }
+  return any;
+}
+
+/// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
+/// one that harms most first. A weak effect that is true may cost a little there by its own error;
+/// and of what stands on one tooth the hold-out knows nothing: these go only where the error would
+/// rise.
+void PartLoop::veto() {
+  constexpr double kClearly = 0.98;
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  while (effects_.size() > told) {
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    if (fit.held_out() == 0) return;
+    std::vector<bool> with(effects_.size(), true);
+    const double full = fit.errors(with).held_out_rms_um;
+    // Together they may harm where none does alone.
+    const double none = PointFit(geometry_, measured_, patches_, {}).errors({}).held_out_rms_um;
+    const bool rises = full > none;
+    double least = rises ? 1e300 : kClearly * full;
+    std::size_t worst = effects_.size();
+    for (std::size_t e = told; e < effects_.size(); ++e) {
+      if (effects_[e].family->local && !rises) continue;
+      with[e] = false;
+      const double error = fit.errors(with).held_out_rms_um;
+      with[e] = true;
+      if (error >= least) continue;
+      least = error;
+      worst = e;
+    }
+    if (worst == effects_.size()) return;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(worst));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(worst));
+    if (worst < options_.given.size()) {
+      options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(worst));
+      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(worst - told));
+    }
+    vetoed_ = true;
+    const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+      return static_cast<bool>(effect.family->displacement_mm);
+    });
+    if (!body &&
+        !measured_.points_mm.empty()) {  // deviations about a displacement that is taken back
+      table_ = measured_;
+      divide_into_patches();
+      leave_out_across_steps();
+    }
+  }
+}
+
+}  // namespace trueflank::loop

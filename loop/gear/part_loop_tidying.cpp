@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is taken out of the answer, or put together, once the effects are chosen.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/possible_effects.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+
+/// What is still impossible in the end is not told.
+void PartLoop::drop_impossible() {
+  for (bool again = true; again;) {
+    again = false;
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    for (std::size_t e = options_.given.size(); e < effects_.size() && !again; ++e) {
+      if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
+      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+      again = true;
+    }
+  }
+}
+
+/// Beside an effect with a shape (where a relief starts, how wide a hollow is) a small one may have
+/// been chosen for what the shape's first value left. With the shape free it is nothing, and is not
+/// told.
+void PartLoop::drop_what_mends_a_shape() {
+  constexpr double kStandsOut =
+      3.5;  // standard errors: less is never found alone among so many candidates
+  const auto shaped = [](const Effect& e) {
+    return e.family->shape_is_continuous && !e.family->shape_is_step;
+  };
+  while (effects_.size() > 1 && std::any_of(effects_.begin(), effects_.end(), shaped)) {
+    const PointFit fit(geometry_, table_, patches_, effects_);
+    const Eigen::MatrixXd covariance =
+        shape_uncertainty(geometry_, table_, patches_, fit).covariance;
+    std::size_t least = effects_.size();
+    double least_square = kStandsOut * kStandsOut;
+    for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
+      if (effects_[e].family->local) continue;
+      const int first = fit.first_column(static_cast<int>(e)), columns = effects_[e].columns();
+      const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
+      const Eigen::MatrixXd spread = covariance.block(first, first, columns, columns);
+      const double square = b.dot(spread.ldlt().solve(b)) / columns;
+      if (square >= least_square) continue;
+      least_square = square;
+      least = e;
+    }
+    if (least == effects_.size()) return;
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(least));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least));
+    refine_shapes(geometry_, table_, patches_, effects_, options_.given.size());
+  }
+}
+
+namespace {
+
+/// The family that says on both flanks what this one says on one; nullptr: none does.
+const EffectFamily* on_both_flanks(const EffectFamily& family) {
+  if (!family.flank_only) return &family;
+  for (const EffectFamily& other : effect_library())
+    if (other.local && !other.flank_only && other.shape_names == family.shape_names) return &other;
+  return nullptr;
+}
+
+bool are_two_flanks_of_one(const Effect& a, const Effect& b) {
+  if (a.family != b.family || a.flank == b.flank || a.flank == FlankChoice::kBoth ||
+      b.flank == FlankChoice::kBoth)
+    return false;
+  constexpr double kSameShape = 0.03;
+  for (std::size_t k = 0; k < a.shape.size(); ++k)
+    if (a.family->shape_is_continuous
+            ? std::abs(a.shape[k] - b.shape[k]) > kSameShape * std::abs(a.shape[k])
+            : a.shape[k] != b.shape[k])
+      return false;
+  return true;
+}
+
+}  // namespace
+
+/// An effect found on the left flanks and on the right ones, of one size, is one effect: of a
+/// tooth, too.
+void PartLoop::join_flanks() {
+  constexpr double kErrors = 3.0, kSameSize = 0.1;
+  const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b) {
+    for (int k = 0; k < effects_[a].columns(); ++k) {
+      const int at_a = fit.first_column(static_cast<int>(a)) + k,
+                at_b = fit.first_column(static_cast<int>(b)) + k;
+      const double left = fit.coefficients()[at_a], right = fit.coefficients()[at_b];
+      const double spread = std::sqrt(fit.covariance()(at_a, at_a) + fit.covariance()(at_b, at_b));
+      if (std::abs(left - right) >
+          std::max(kErrors * spread, 0.5 * kSameSize * std::abs(left + right)))
+        return false;
+    }
+    return true;
+  };
+  for (std::size_t a = options_.given.size(); a < effects_.size(); ++a)
+    for (std::size_t b = a + 1; b < effects_.size(); ++b) {
+      const EffectFamily* both = on_both_flanks(*effects_[a].family);
+      if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b]) ||
+          !same_size(PointFit(geometry_, table_, patches_, effects_), a, b))
+        continue;
+      for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
+        effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
+      effects_[a].family = both;
+      effects_[a].flank = FlankChoice::kBoth;
+      discovery_.chosen[a].p_value =
+          std::min(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
+      discovery_.chosen[a].group = -1;
+      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(b));
+      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(b));
+      b = a;
+    }
+}
+
+namespace {
+
+constexpr int kPlaces = 33, kDegrees = 4;
+
+/// What some effects do along the flanks of one tooth, over the profile or the face: the places of
+/// the left flank, then of the right one, each about its mean.
+Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
+                          bool face) {
+  const Effect& one = fit.effects()[effect];
+  const int first = fit.first_column(static_cast<int>(effect));
+  Eigen::VectorXd course = Eigen::VectorXd::Zero(2 * kPlaces);
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  double columns[8];
+  for (int i = 0; i < 2 * kPlaces; ++i) {
+    const double share = static_cast<double>(i % kPlaces) / (kPlaces - 1);
+    const double roll = low + (face ? 0.5 : share) * (high - low);
+    one.evaluate(geometry,
+                 geometry.on_flank(1, i < kPlaces ? 1 : -1, roll,
+                                   (face ? share : 0.5) * geometry.face_width_mm()),
+                 columns);
+    for (int k = 0; k < one.columns(); ++k) course[i] += fit.coefficients()[first + k] * columns[k];
+  }
+  course.head(kPlaces).array() -= course.head(kPlaces).mean();
+  course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
+  return course;
+}
+
+/// The part of a course that polynomials follow.
+Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
+  Eigen::MatrixXd powers(kPlaces, kDegrees + 1);
+  for (int i = 0; i < kPlaces; ++i)
+    for (int d = 0; d <= kDegrees; ++d) powers(i, d) = std::pow(2.0 * i / (kPlaces - 1) - 1.0, d);
+  const Eigen::MatrixXd fit = (powers.transpose() * powers).ldlt().solve(powers.transpose());
+  Eigen::VectorXd slow(course.size());
+  slow << powers * (fit * course.head(kPlaces)), powers * (fit * course.tail(kPlaces));
+  return slow;
+}
+
+bool is_common_form(const Effect& e) {
+  return e.is_term() && e.family->form_word.empty() && e.order() == 0.0;
+}
+
+}  // namespace
+
+/// A slope or a bow beside slow forms without a name on the same flanks is a part of one odd form
+/// and no cause of its own: it is told as a form. So is a single tooth whose size hangs on a form
+/// around the gear.
+void PartLoop::tell_parts_of_a_form() {
+  constexpr double kSlow = 0.6, kShare = 0.3, kHangs = 0.25;
+  const auto nameless = [&](std::size_t e) {
+    const EffectFamily& family = *effects_[e].family;
+    return family.named ? find_form(family.form_word) : nullptr;
+  };
+  const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  std::vector<Effect> bare;
+  for (const Effect& effect : effects_)
+    if (!is_form(effect)) bare.push_back(effect);
+  if (bare.size() == effects_.size() || bare.empty()) return;
+  const PointFit without(geometry_, table_, patches_, bare);
+  std::array<Eigen::VectorXd, 2> forms{Eigen::VectorXd::Zero(2 * kPlaces),
+                                       Eigen::VectorXd::Zero(2 * kPlaces)};
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    for (const bool face : {false, true}) {
+      if (!is_common_form(effects_[e])) continue;
+      const Eigen::VectorXd course = course_of(geometry_, fit, e, face), slow = slow_part(course);
+      if (slow.squaredNorm() > kSlow * course.squaredNorm()) forms[face ? 1 : 0] += slow;
+    }
+  int own = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (is_form(effects_[e])) continue;
+    const int at = own++;
+    const EffectFamily* form = nameless(e);
+    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
+    bool part = false;
+    if (effects_[e].family->local) {
+      const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+      const double b0 = without.coefficients()[without.first_column(at)];
+      part = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0));
+    } else {
+      for (const bool face : {false, true}) {
+        const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
+        double there = 0.0;  // forms on the flanks that the name is of
+        for (const int flank : {0, 1})
+          if (course.segment(flank * kPlaces, kPlaces).norm() > 1e-6 * course.norm())
+            there += forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces).squaredNorm();
+        part = part || (course.norm() > 0.0 && std::sqrt(there) > kShare * course.norm());
+      }
+    }
+    if (part) effects_[e].family = form;
+  }
+  tell_level_of_forms();
+}
+
+/// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
+/// mean of its own.
+void PartLoop::tell_level_of_forms() {
+  constexpr double kHangs = 0.25;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  std::vector<Effect> named;
+  for (const Effect& effect : effects_)
+    if (!effect.is_term() || effect.order() != 0.0) named.push_back(effect);
+  if (named.size() == effects_.size() || named.empty()) return;
+  const PointFit without(geometry_, table_, patches_, named);
+  int own = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    Effect& effect = effects_[e];
+    if (effect.is_term() && effect.order() == 0.0) continue;
+    const int at = own++;
+    const EffectFamily* form =
+        effect.family->named && !effect.family->local ? find_form(effect.family->form_word) : nullptr;
+    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    const double b0 = without.coefficients()[without.first_column(at)];
+    const bool level = course_of(geometry_, fit, e, true).norm() <= 1e-9 * std::abs(b) &&
+                       course_of(geometry_, fit, e, false).norm() <= 1e-9 * std::abs(b);
+    if (level && std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)))
+      effect.family = form;
+  }
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/trial_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank::loop {
+namespace {
+
+Eigen::LDLT<Eigen::MatrixXd> decomposed(Eigen::MatrixXd normal) {
+  normal.diagonal() *= 1.0 + 1e-12;
+  normal.diagonal().array() += 1e-30;
+  return normal.ldlt();
+}
+
+/// Of normal equations whose last row and column are the value's.
+double square_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
+  const auto n = b.size();
+  return gram(n, n) - 2.0 * b.dot(gram.col(n).head(n)) + b.dot(gram.topLeftCorner(n, n) * b);
+}
+
+TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::Index columns) {
+  const Eigen::Index n = gram.rows() - 1;
+  const auto solver = decomposed(gram.topLeftCorner(n, n));
+  TrialFit::Trial result{square_of(gram, solver.solve(gram.col(n).head(n))), 1.0};
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n).middleCols(first, columns);
+  const Eigen::MatrixXd inverse = solver.solve(unit);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const double own = gram(first + k, first + k);
+    result.retained =
+        own > 0.0 ? std::min(result.retained, 1.0 / (inverse(first + k, k) * own)) : 0.0;
+  }
+  return result;
+}
+
+}  // namespace
+
+TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect> effects, std::size_t stride)
+    : geometry_(geometry), table_(table), effects_(std::move(effects)) {
+  trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
+  for (std::size_t i = 0; i < table.rows.size(); i += stride) {
+    if (patches.patch_of_row[i] < 0) continue;
+    const auto& patch = patches.patches[static_cast<std::size_t>(patches.patch_of_row[i])];
+    const double weight = patch.weight / patch.count;
+    const int trace = table.rows[i].trace;
+    rows_.push_back({static_cast<std::uint32_t>(i), trace, std::sqrt(weight)});
+    if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
+  }
+  const NuisanceColumns nuisance(geometry, table);
+  Eigen::Index columns = nuisance.count();
+  for (const Effect& effect : effects_) {
+    first_column_.push_back(columns);
+    columns += effect.columns();
+  }
+  columns_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), columns + 1);
+  Eigen::MatrixXd own =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), nuisance.count() + 1);
+  std::vector<double> values(static_cast<std::size_t>(nuisance.count()) + 1);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Observation& row = table.rows[rows_[i].row];
+    std::fill(values.begin(), values.end(), 0.0);
+    for (std::uint32_t k = 0; k < row.places; ++k) {
+      const WeightedPlace& place = table.places[row.first_place + k];
+      nuisance.add(place.place, row.kind, row.source, place.weight, values.data());
+    }
+    values.back() = row.deviation_um;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = values[k];
+  }
+  centre(own);
+  columns_.leftCols(nuisance.count()) = own.leftCols(nuisance.count());
+  columns_.col(columns) = own.col(nuisance.count());
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
+  gram_ = columns_.transpose() * columns_;
+  solve();
+}
+
+/// Takes the weighted mean of every trace out and puts the roots of the weights on.
+void TrialFit::centre(Eigen::MatrixXd& columns) const {
+  std::vector<double> mean(trace_weight_.size());
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].trace >= 0)
+        mean[static_cast<std::size_t>(rows_[i].trace)] +=
+            rows_[i].root * rows_[i].root * columns(static_cast<Eigen::Index>(i), k);
+    for (std::size_t t = 0; t < mean.size(); ++t)
+      if (trace_weight_[t] > 0.0) mean[t] /= trace_weight_[t];
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double& value = columns(static_cast<Eigen::Index>(i), k);
+      if (rows_[i].trace >= 0) value -= mean[static_cast<std::size_t>(rows_[i].trace)];
+      value *= rows_[i].root;
+    }
+  }
+}
+
+Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
+  const int count = effect.columns();
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), count);
+  double one[8];
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Observation& row = table_.rows[rows_[i].row];
+    for (std::uint32_t p = 0; p < row.places; ++p) {
+      const WeightedPlace& place = table_.places[row.first_place + p];
+      effect.evaluate(geometry_, place.place, one);
+      for (int k = 0; k < count; ++k)
+        columns(static_cast<Eigen::Index>(i), k) += place.weight * one[k];
+    }
+  }
+  centre(columns);
+  return columns;
+}
+
+void TrialFit::solve() {
+  const Eigen::Index n = gram_.rows() - 1;
+  coefficients_ = decomposed(gram_.topLeftCorner(n, n)).solve(gram_.col(n).head(n));
+  square_ = square_of(gram_, coefficients_);
+}
+
+Eigen::VectorXd TrialFit::coefficients(std::size_t effect) const {
+  return coefficients_.segment(first_column_[effect], effects_[effect].columns());
+}
+
+TrialFit::Trial TrialFit::as_is(std::size_t effect) const {
+  return judged(gram_, first_column_[effect], effects_[effect].columns());
+}
+
+TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shape) const {
+  Effect moved = effects_[effect];
+  moved.shape = shape;
+  const Eigen::Index first = first_column_[effect], count = moved.columns();
+  const Eigen::MatrixXd columns = columns_of(moved);
+  Eigen::MatrixXd gram = gram_;
+  gram.middleCols(first, count) = columns_.transpose() * columns;
+  gram.middleRows(first, count) = gram.middleCols(first, count).transpose();
+  gram.block(first, first, count, count) = columns.transpose() * columns;
+  return judged(gram, first, count);
+}
+
+void TrialFit::set_shapes(const std::vector<Effect>& effects) {
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (effects[e].shape == effects_[e].shape) continue;
+    effects_[e].shape = effects[e].shape;
+    const Eigen::Index first = first_column_[e], count = effects_[e].columns();
+    columns_.middleCols(first, count) = columns_of(effects_[e]);
+    gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
+    gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose();
+  }
+  solve();
+}
+
+Eigen::VectorXd TrialFit::joint_coefficients(const Eigen::MatrixXd& more) const {
+  const Eigen::Index n = gram_.rows() - 1, m = more.cols();
+  const Eigen::MatrixXd cross = columns_.transpose() * more;  // the value's row last
+  Eigen::MatrixXd normal(n + m, n + m);
+  normal.topLeftCorner(n, n) = gram_.topLeftCorner(n, n);
+  normal.topRightCorner(n, m) = cross.topRows(n);
+  normal.bottomLeftCorner(m, n) = cross.topRows(n).transpose();
+  normal.bottomRightCorner(m, m) = more.transpose() * more;
+  Eigen::VectorXd right(n + m);
+  right << gram_.col(n).head(n), cross.row(n).transpose();
+  return decomposed(std::move(normal)).solve(right).tail(m);
+}
+
+}  // namespace trueflank::loop

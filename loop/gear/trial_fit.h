@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "trueflank/loop/gear/patches.h"
+
+namespace trueflank::loop {
+
+/// The least squares of PointFit where shapes are tried one after another: columns of effects that
+/// stay as they are, and their products, are kept. Of a fit only the residual square and the
+/// coefficients are known; no errors. With a stride only every n-th value is used.
+class TrialFit {
+ public:
+  TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+           std::vector<Effect> effects, std::size_t stride = 1);
+
+  struct Trial {
+    double square = 0.0;    ///< weighted residual square
+    double retained = 1.0;  ///< least share of the effect's columns that is left beside all others
+  };
+  [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
+  [[nodiscard]] double residual_square() const { return square_; }
+  /// Coefficients of an effect's columns.
+  [[nodiscard]] Eigen::VectorXd coefficients(std::size_t effect) const;
+  /// The fit as it is, judged by one effect.
+  [[nodiscard]] Trial as_is(std::size_t effect) const;
+  /// The fit with another shape of one effect (of as many columns).
+  [[nodiscard]] Trial with_shape(std::size_t effect, const EffectShape& shape) const;
+  /// Puts shapes in place of those that effects have.
+  void set_shapes(const std::vector<Effect>& effects);
+  /// The columns of an effect, weighted, zeros of traces taken out: one row a value that counts.
+  [[nodiscard]] Eigen::MatrixXd columns_of(const Effect& effect) const;
+  /// Coefficients of more columns, fitted jointly with all that is there.
+  [[nodiscard]] Eigen::VectorXd joint_coefficients(const Eigen::MatrixXd& more) const;
+
+ private:
+  struct Row {
+    std::uint32_t row = 0;
+    int trace = -1;
+    double root = 0.0;  ///< of its weight
+  };
+  void centre(Eigen::MatrixXd& columns) const;
+  void solve();
+
+  const FlankGeometry& geometry_;
+  const Observations& table_;
+  std::vector<Effect> effects_;
+  std::vector<Eigen::Index> first_column_;
+  std::vector<Row> rows_;
+  std::vector<double> trace_weight_;
+  Eigen::MatrixXd columns_;  ///< nuisance, effects, the value last
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd coefficients_;
+  double square_ = 0.0;
+};
+
+}  // namespace trueflank::loop

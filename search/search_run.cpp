@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which sets are optimised, and in which order. What is returned does not depend on either: the
+// best are among those whose bound is not below the merit of the last one listed, and these are
+// optimised in every run.
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <queue>
+#include <set>
+
+#include "trueflank/base/threads.h"
+#include "trueflank/search/search.h"
+#include "trueflank/search/search_bound.h"
+
+namespace trueflank {
+namespace {
+
+/// Sets looked at together: the best of so many come first.
+constexpr std::size_t kBatch = 16384;
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// What a set is worth where it has feasible shifts and one objective ranks.
+std::optional<double> merit_of(const SearchRequirements& r, const SearchRecord& record) {
+  if (record.result.candidates.empty()) return std::nullopt;
+  return record.result.candidates.front().merit(r.objectives.front());
+}
+
+/// The merit of the last one listed, as far as is known.
+class Threshold {
+ public:
+  Threshold(const SearchRequirements& r, std::size_t listed) : r_(r), listed_(listed) {}
+  void add(const SearchRecord& record) {
+    const auto merit = merit_of(r_, record);
+    if (listed_ == 0 || !merit) return;
+    best_.insert(*merit);
+    if (best_.size() > listed_) best_.erase(best_.begin());
+  }
+  [[nodiscard]] double merit() const {
+    return listed_ > 0 && best_.size() == listed_ ? *best_.begin() : kNone;
+  }
+
+ private:
+  const SearchRequirements& r_;
+  std::size_t listed_;
+  std::multiset<double> best_;
+};
+
+enum class Known { kNothing, kOutlines, kProfiles };
+
+/// A set that waits for its next step.
+struct Waiting {
+  double bound = std::numeric_limits<double>::infinity();
+  std::size_t index = 0;
+  Known known = Known::kNothing;
+  bool operator<(const Waiting& other) const {
+    return bound != other.bound ? bound < other.bound : index > other.index;
+  }
+};
+
+/// The sets of a run that wait, best first. Not for several threads at a time.
+class WaitingSets {
+ public:
+  WaitingSets(std::vector<std::size_t> open, bool bounded)
+      : open_(std::move(open)), bounded_(bounded) {}
+
+  /// The next one whose bound is not below the threshold.
+  std::optional<Waiting> next(double threshold) {
+    while (true) {
+      while (!heap_.empty() && heap_.top().bound < threshold) drop_all();
+      if (heap_.empty() || heap_.top().bound < 0.0)
+        if (take_batch()) continue;
+      if (heap_.empty()) return std::nullopt;
+      const Waiting first = heap_.top();
+      heap_.pop();
+      return first;
+    }
+  }
+  void put_back(const Waiting& waiting) { heap_.push(waiting); }
+  [[nodiscard]] std::size_t dropped() const { return dropped_; }
+
+ private:
+  void drop_all() {
+    dropped_ += heap_.size();
+    heap_ = {};
+  }
+  bool take_batch() {
+    const std::size_t end = std::min(open_.size(), taken_ + kBatch);
+    if (taken_ == end) return false;
+    for (; taken_ < end; ++taken_)
+      heap_.push({.index = open_[taken_], .known = bounded_ ? Known::kNothing : Known::kProfiles});
+    return true;
+  }
+
+  std::vector<std::size_t> open_;
+  bool bounded_;
+  std::size_t taken_ = 0, dropped_ = 0;
+  std::priority_queue<Waiting> heap_;
+};
+
+class Run {
+ public:
+  Run(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+      const SearchRunOptions& options)
+      : r_(requirements),
+        enumeration_(enumeration),
+        options_(options),
+        threshold_(requirements, listed_sets(requirements)),
+        waiting_(open_sets(), listed_sets(requirements) > 0) {}
+
+  SearchRecords run() {
+    const auto work = [this] { this->work(); };
+    auto threads =
+        helping_threads(static_cast<std::size_t>(thread_count(options_.threads) - 1), work);
+    work();
+    threads.clear();  // joins
+    if (failure_) std::rethrow_exception(failure_);
+    std::vector<SearchRecord> records;
+    for (auto& [index, record] : records_) records.push_back(std::move(record));
+    if (stopped_) return {.optimised = std::move(records)};
+    return listed_records(r_, std::move(records), total_);
+  }
+
+ private:
+  /// Counts the part's sets, takes what is done of them; the others.
+  std::vector<std::size_t> open_sets() {
+    for (const SearchRecord& record : options_.done)
+      if (options_.part.holds(record.index) && records_.insert({record.index, record}).second)
+        threshold_.add(record);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < enumeration_.sets.size(); ++i) {
+      if (!options_.part.holds(i)) continue;
+      ++total_;
+      if (!records_.contains(i)) open.push_back(i);
+    }
+    return open;
+  }
+
+  void work() {
+    try {
+      while (const auto waiting = next()) {
+        const ToothSet& set = enumeration_.sets[waiting->index];
+        if (waiting->known == Known::kProfiles)
+          keep({waiting->index, optimise_set(r_, set)});
+        else
+          put_back(bounded(*waiting, set));
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stopped_ = true;
+    }
+  }
+
+  std::optional<Waiting> next() {
+    const std::lock_guard lock(mutex_);
+    // a stop that comes when nothing is left is none
+    auto waiting = stopped_ ? std::nullopt : waiting_.next(threshold_.merit());
+    if (waiting && options_.stop && options_.stop->load()) {
+      stopped_ = true;
+      return std::nullopt;
+    }
+    return waiting;
+  }
+
+  [[nodiscard]] Waiting bounded(Waiting waiting, const ToothSet& set) const {
+    const bool outlines = waiting.known == Known::kNothing;
+    const DriveDirection direction = r_.objectives.front() == SearchObjective::kForward
+                                         ? DriveDirection::kForward
+                                         : DriveDirection::kBackward;
+    const double bound =
+        efficiency_bound(r_, set, direction, outlines ? BoundBy::kOutlines : BoundBy::kProfiles);
+    waiting.bound = std::min(waiting.bound, bound);
+    waiting.known = outlines && bound >= 0.0 ? Known::kOutlines : Known::kProfiles;
+    return waiting;
+  }
+
+  void put_back(const Waiting& waiting) {
+    const std::lock_guard lock(mutex_);
+    waiting_.put_back(waiting);
+  }
+
+  void keep(SearchRecord record) {
+    const std::lock_guard lock(mutex_);
+    threshold_.add(record);
+    const auto it = records_.insert({record.index, std::move(record)}).first;
+    if (options_.on_record)
+      options_.on_record(it->second, records_.size() + waiting_.dropped(), total_);
+  }
+
+  const SearchRequirements& r_;
+  const SetEnumeration& enumeration_;
+  const SearchRunOptions& options_;
+  std::map<std::size_t, SearchRecord> records_;
+  std::size_t total_ = 0;
+  Threshold threshold_;
+  WaitingSets waiting_;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+SearchRecords run_search(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+                         const SearchRunOptions& options) {
+  return Run(requirements, enumeration, options).run();
+}
+
+std::size_t listed_sets(const SearchRequirements& r) {
+  const bool bounded = r.objectives.size() == 1 && !r.losses &&
+                       (r.objectives.front() == SearchObjective::kForward ||
+                        r.objectives.front() == SearchObjective::kBackward);
+  return bounded && r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results)) : 0;
+}
+
+SearchRecords listed_records(const SearchRequirements& r, std::vector<SearchRecord> records,
+                             std::size_t sets) {
+  const std::size_t listed = listed_sets(r);
+  const auto feasible = std::stable_partition(
+      records.begin(), records.end(),
+      [&](const SearchRecord& record) { return merit_of(r, record).has_value(); });
+  const bool all = listed == 0 || static_cast<std::size_t>(feasible - records.begin()) < listed;
+  if (!all) {
+    records.erase(feasible, records.end());
+    std::sort(records.begin(), records.end(), [&](const SearchRecord& p, const SearchRecord& q) {
+      const double mp = *merit_of(r, p), mq = *merit_of(r, q);
+      return mp != mq ? mp > mq : p.index < q.index;
+    });
+    records.resize(listed);
+  }
+  std::sort(records.begin(), records.end(),
+            [](const SearchRecord& p, const SearchRecord& q) { return p.index < q.index; });
+  const std::size_t passed_over = sets - records.size();
+  return {.optimised = std::move(records), .passed_over = passed_over};
+}
+
+}  // namespace trueflank

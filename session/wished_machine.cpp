@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/session/wished_machine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/train/gear_train.h"
+#include "trueflank/train/machine/machine_layout.h"
+
+namespace trueflank {
+namespace {
+
+/// The gears are scaled at most so often, to this much below the outer diameter asked for.
+constexpr int kScalings = 4;
+constexpr double kSpare_mm = 0.05;
+/// Of planets without bearings; and what two bearings in a planet leave between them.
+constexpr double kPlainPin_mm = 4.0, kBetweenBearings_mm = 1.0;
+
+Screw screw_of(const std::string& name) { return *find_element(standard_elements().screws, name); }
+
+/// What is driven gets the bore of the motor's shaft.
+void shaft_gear(GearboxDesign& design, const MachineDesign& machine) {
+  const Topology& topology = design.topology;
+  for (std::size_t i = 0; i < topology.gears.size(); ++i)
+    if (topology.gears[i].member == topology.input) design.gears[i].bore = shaft_bore(machine);
+}
+
+/// The largest that the planets' roots and faces have room for; none: they turn on their pins.
+void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
+  MachineDesign& machine = *design.machine;
+  const auto train = lay_out(design);
+  if (!train) return;
+  double root = 1e300, lower = 1e300, upper = -1e300;
+  for (std::size_t i = 0; i < train->gears.size(); ++i) {
+    const TrainGear& gear = train->gears[i];
+    if (!train->topology().is_planet_gear(i)) continue;
+    root = std::min(root, gear.profile.root_radius_mm());
+    lower = std::min(lower, gear.z_lower_mm);
+    upper = std::max(upper, gear.z_lower_mm + gear.face_width_mm);
+  }
+  BoreDesign& bore =
+      design.gears[static_cast<std::size_t>(planet_with_bore(design) - design.gears.data())].bore;
+  for (const char* name : {"608", "626", "625", "624", "623", "684"}) {
+    const Bearing& bearing = *find_element(standard_elements().bearings, name);
+    if (0.5 * (bearing.outer_mm + machine.housing.fit_mm) + wall_mm > root) continue;
+    if (2.0 * bearing.width_mm + kBetweenBearings_mm > upper - lower) continue;
+    machine.bearings.planet = bearing;
+    bore.diameter_mm = bore_between(bearing);
+    return;
+  }
+  machine.bearings.planet.reset();
+  bore.diameter_mm = kPlainPin_mm + CarrierDesign{}.pin_clearance_mm;
+}
+
+/// Room around a screw's head, as the parts have it.
+constexpr double kHeadRoom_mm = 0.3;
+
+/// Least wall between the output's screws, the inserts for the load, and what else is drilled into
+/// the carrier where that drives out.
+double wall_of_output_mm(const GearTrain& train, const MachineLayout& m) {
+  const Screw& screw = m.output_screws.screw;
+  const double insert = 0.5 * screw.insert_hole_mm,
+               head = 0.5 * screw.head_diameter_mm + kHeadRoom_mm;
+  const double apart = (m.output_screws.at.front() - m.load_inserts.front()).norm();
+  double wall = apart - std::max(head + 0.5 * screw.hole_mm, insert + 0.5 * screw.hole_mm);
+  if (m.output_gear >= 0) return wall;
+  for (const Point2& at : m.output_screws.at) {
+    for (const Point2& pillar : m.pillars)
+      wall = std::min(wall,
+                      (at - pillar).norm() - insert - 0.5 * m.carrier_screws.screw.insert_hole_mm);
+    for (const double angle : train.phases.planet_position_rad)
+      wall = std::min(wall, (at - train.centre_distance_mm * unit_vector(angle)).norm() - insert -
+                                0.5 * m.carrier.pin_hole_diameter_mm);
+    wall = std::min(wall, at.norm() - insert - m.stop_hole_radius_mm);
+  }
+  return wall;
+}
+
+/// The largest whose retainer is no wider than what turns inside the lid, and whose screws leave
+/// walls.
+void choose_output_bearing(GearboxDesign& design, double wall_mm) {
+  MachineDesign& machine = *design.machine;
+  auto train = lay_out(design);  // the gears do not depend on what is chosen here
+  if (!train) return;
+  const auto fits = [&](const char* screw, const char* bearing, int bolts) {
+    machine.fasteners.output = screw_of(screw);
+    machine.bearings.output = *find_element(standard_elements().bearings, bearing);
+    machine.output.bolts = bolts;
+    train->design.machine = machine;
+    const auto m = machine_layout(*train);
+    return m && wall_of_output_mm(*train, *m) >= wall_mm &&
+           m->retainer_radius_mm <= std::max(m->cup_radius_mm, 0.5 * m->carrier.outer_diameter_mm);
+  };
+  const int usual = OutputDesign{}.bolts;
+  for (const char* screw : {"M3", "M2.5"})
+    for (const int bolts : {usual, 3})
+      for (const char* name : {"6815", "6812", "6810", "6808", "6806", "6804", "6803", "6802"})
+        if (fits(screw, name, bolts)) return;
+  fits("M3", "6804", usual);
+}
+
+/// Gears alike, so that the housing has the diameter asked for; the shifts stay.
+void scale(GearboxDesign& design, double factor) {
+  design.module_mm *= factor;
+  *design.centre_distance_mm *= factor;
+}
+double largest_root_diameter_mm(const GearTrain& train) {
+  double largest = 0.0;
+  for (const TrainGear& gear : train.gears)
+    largest = std::max(largest, 2.0 * gear.profile.root_radius_mm());
+  return largest;
+}
+
+}  // namespace
+
+GearboxDesign with_machine(GearboxDesign design, const Motor& motor, double outer_diameter_mm,
+                           double wall_mm) {
+  if (!has_housing(design.topology)) {
+    shaft_gear(design, {.motor = motor});
+    return design;
+  }
+  MachineDesign& machine = design.machine.emplace(MachineDesign{.motor = motor});
+  machine.fasteners = {.housing = screw_of("M3"),
+                       .carrier = screw_of("M3-short"),
+                       .output = screw_of("M3"),
+                       .motor = screw_of(motor.screw)};
+  for (GearDesign& gear : design.gears) gear.outer_diameter_mm.reset();  // the housing's
+  machine.bearings = {.output = *find_element(standard_elements().bearings, "6804")};
+  shaft_gear(design, machine);
+  for (int turn = 0; turn < kScalings; ++turn) {
+    choose_planet_bearing(design, wall_mm);
+    choose_output_bearing(design, wall_mm);
+    const auto train = lay_out(design);
+    const auto layout = train ? machine_layout(*train) : std::nullopt;
+    if (!layout) return design;
+    const double over = 2.0 * layout->least_outer_radius_mm - (outer_diameter_mm - kSpare_mm);
+    if (std::abs(over) < kSpare_mm) return design;
+    scale(design, 1.0 - over / largest_root_diameter_mm(*train));
+  }
+  return design;
+}
+
+}  // namespace trueflank

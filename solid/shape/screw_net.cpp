@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/shape/screw_net.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trueflank/base/contract.h"
+
+namespace trueflank {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Vertices farther apart along the chains than so many of their widest steps are never joined.
+constexpr double kReach = 1.5;
+
+/// A vertex on one of two chains, with its place along them.
+struct Link {
+  NetNode node;
+  double along = 0.0;    ///< what both chains ascend in
+  double support = 0.0;  ///< of a developable surface
+};
+using Chain = std::vector<Link>;
+
+double widest_step(const Chain& chain) {
+  double widest = 0.0;
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    widest = std::max(widest, chain[i].along - chain[i - 1].along);
+  return widest;
+}
+
+/// Triangles between a chain on the left and one on the right, each ending where the other does.
+/// `error(a, b, c)` of a triangle of links.
+template <class Error>
+class Zip {
+ public:
+  Zip(const Chain& left, const Chain& right, const Error& error)
+      : left_(left), right_(right), error_(error) {
+    const double reach = kReach * std::max(widest_step(left), widest_step(right));
+    std::size_t cells = 0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const auto is_before = [](const Link& link, double along) { return link.along < along; };
+      auto low = static_cast<std::size_t>(
+          std::lower_bound(right.begin(), right.end(), left[i].along - reach, is_before) -
+          right.begin());
+      auto high = static_cast<std::size_t>(
+          std::lower_bound(right.begin(), right.end(), left[i].along + reach, is_before) -
+          right.begin());
+      if (i == 0) low = 0;
+      if (i + 1 == left.size()) high = right.size();
+      low = std::min(low, right.size() - 1);
+      rows_.push_back({low, std::max(high, low + 1), cells});
+      cells += rows_.back().high - low;
+    }
+    cost_.assign(cells, kInfinity);
+    from_left_.assign(cells, false);
+  }
+
+  void add_to(std::vector<std::array<NetNode, 3>>& facets) {
+    for (std::size_t i = 0; i < left_.size(); ++i)
+      for (std::size_t j = rows_[i].low; j < rows_[i].high; ++j) settle(i, j);
+    const std::size_t begin = facets.size();
+    std::size_t i = left_.size() - 1, j = right_.size() - 1;
+    while (i > 0 || j > 0) {
+      const bool step = j == 0 || (i > 0 && from_left_[cell(i, j)]);
+      const Link& next = step ? left_[i] : right_[j];
+      step ? --i : --j;
+      facets.push_back({left_[i].node, right_[j].node, next.node});
+    }
+    std::reverse(facets.begin() + static_cast<std::ptrdiff_t>(begin), facets.end());
+  }
+
+ private:
+  struct Row {
+    std::size_t low = 0, high = 0, first = 0;
+  };
+  [[nodiscard]] std::size_t cell(std::size_t i, std::size_t j) const {
+    return rows_[i].first + j - rows_[i].low;
+  }
+  [[nodiscard]] double cost(std::size_t i, std::size_t j) const {
+    return j < rows_[i].low || j >= rows_[i].high ? kInfinity : cost_[cell(i, j)];
+  }
+  void settle(std::size_t i, std::size_t j) {
+    const std::size_t here = cell(i, j);
+    if (i == 0 && j == 0) {
+      cost_[here] = 0.0;
+      return;
+    }
+    const auto through = [&](double before, const Link& a, const Link& b, const Link& c) {
+      if (before == kInfinity) return kInfinity;
+      const double error = error_(a, b, c);
+      return before + error * error * error * error;
+    };
+    const double by_left =
+        i == 0 ? kInfinity : through(cost(i - 1, j), left_[i - 1], right_[j], left_[i]);
+    const double by_right =
+        j == 0 ? kInfinity : through(cost(i, j - 1), left_[i], right_[j - 1], right_[j]);
+    from_left_[here] = by_left < by_right;
+    cost_[here] = std::min(by_left, by_right);
+  }
+
+  const Chain &left_, &right_;
+  const Error& error_;
+  std::vector<Row> rows_;
+  std::vector<double> cost_;
+  std::vector<bool> from_left_;
+};
+
+class PatchBuilder {
+ public:
+  PatchBuilder(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
+               double turn_rad)
+      : edges_(edges), turn_(turn_rad) {
+    TRUEFLANK_EXPECTS(!edges.empty() && inner.size() == edges.size());
+    result_.inner = std::move(inner);
+  }
+
+  NetPatch build() {
+    const auto n = static_cast<int>(edges_.size());
+    int first = 0;
+    while (first < n && edge(first).region == edge(first + n - 1).region) ++first;
+    for (int i = first; i < first + n;) {
+      int end = i + 1;
+      while (end < first + n && edge(end).region == edge(i).region) ++end;
+      if (edge(i).developable)
+        add_strips(i, end);
+      else
+        for (int k = i; k < end; ++k) add_band(k);
+      result_.region.resize(result_.facets.size(), edge(i).region);
+      i = end;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] const NetEdge& edge(int i) const {
+    return edges_[static_cast<std::size_t>(i) % edges_.size()];
+  }
+  [[nodiscard]] const std::vector<double>& inner(int column) const {
+    return result_.inner[static_cast<std::size_t>(column) % edges_.size()];
+  }
+  [[nodiscard]] int last_row(int column) const {
+    return static_cast<int>(inner(column).size()) + 1;
+  }
+  [[nodiscard]] double height(const NetNode& node) const {
+    if (node.row == 0) return 0.0;
+    return node.row == last_row(node.column)
+               ? 1.0
+               : inner(node.column)[static_cast<std::size_t>(node.row - 1)];
+  }
+
+  /// Between two columns.
+  void add_band(int i) {
+    const NetEdge& e = edge(i);
+    const auto chain = [&](int column) {
+      Chain links;
+      for (int row = 0; row <= last_row(column); ++row)
+        links.push_back({{column, row}, height({column, row}), 0.0});
+      return links;
+    };
+    const auto off = [&](const Link& a, const Link& b) {
+      const double ds = e.length_mm * (b.node.column - a.node.column);
+      const double turn = turn_ * (b.along - a.along);
+      return e.cosine / 8.0 *
+             (e.turn_rad * e.length_mm * (ds != 0.0 ? 1.0 : 0.0) + 2.0 * ds * turn +
+              e.support_mm * turn * turn);
+    };
+    const auto error = [&](const Link& a, const Link& b, const Link& c) {
+      return triangle_error(off(a, b), off(b, c), off(c, a));
+    };
+    const Chain left = chain(i), right = chain(i + 1);
+    Zip(left, right, error).add_to(result_.facets);
+  }
+
+  /// Columns `from` to `to` of a developable surface. Both ways round its border the angle of the
+  /// normal ascends (or descends), from one corner to the opposite one.
+  void add_strips(int from, int to) {
+    double angle = 0.0;
+    Chain lower, upper, at_from, at_to;
+    const auto link = [&](int column, int row, double support) {
+      return Link{{column, row}, angle + turn_ * height({column, row}), support};
+    };
+    for (int i = from; i <= to; ++i) {
+      const double support = i < to ? edge(i).support_from_mm : edge(i - 1).support_to_mm;
+      lower.push_back(link(i, 0, support));
+      upper.push_back(link(i, last_row(i), support));
+      if (i == from || i == to)
+        for (int row = 1; row < last_row(i); ++row)
+          (i == from ? at_from : at_to).push_back(link(i, row, support));
+      if (i < to) angle += edge(i).turn_rad;
+    }
+    const bool along = angle * turn_ > 0.0;
+    const auto reversed = [](Chain chain) {
+      std::reverse(chain.begin(), chain.end());
+      return chain;
+    };
+    const auto joined = [](Chain a, const Chain& b, const Chain& c) {
+      a.insert(a.end(), b.begin(), b.end());
+      a.insert(a.end(), c.begin(), c.end());
+      return a;
+    };
+    // from the corner where both begin to the one where both end
+    Chain left = along ? joined({lower.front()}, at_from, upper)
+                       : joined(reversed(lower), at_from, {upper.front()});
+    Chain right = along ? joined(lower, at_to, {upper.back()})
+                        : joined({lower.back()}, at_to, reversed(upper));
+    const double sense = left.back().along < left.front().along ? -1.0 : 1.0;
+    for (Chain* chain : {&left, &right})
+      for (Link& l : *chain) l.along *= sense;
+    const double cosine = edge(from).cosine;
+    const auto off = [&](const Link& a, const Link& b) {
+      return cosine / 16.0 * std::abs(a.support + b.support) * (b.along - a.along) *
+             (b.along - a.along);
+    };
+    const auto error = [&](const Link& a, const Link& b, const Link& c) {
+      return std::max({off(a, b), off(b, c), off(c, a)});
+    };
+    result_.facets.push_back({left[0].node, right[1].node, left[1].node});
+    const NetNode end = left.back().node;
+    const Chain inner_left(left.begin() + 1, left.end() - 1),
+        inner_right(right.begin() + 1, right.end() - 1);
+    Zip(inner_left, inner_right, error).add_to(result_.facets);
+    result_.facets.push_back({inner_left.back().node, inner_right.back().node, end});
+  }
+
+  const std::vector<NetEdge>& edges_;
+  double turn_ = 0.0;
+  NetPatch result_;
+};
+
+}  // namespace
+
+double triangle_error(double a, double b, double c) {
+  const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
+  if (!((a > 0.0) == (b > 0.0) && (b > 0.0) == (c > 0.0))) return largest;
+  a = std::abs(a), b = std::abs(b), c = std::abs(c);
+  if (2.0 * largest >= a + b + c) return largest;  // obtuse
+  const double squares = a * a + b * b + c * c;
+  return std::max(largest, 4.0 * a * b * c / (2.0 * (a * b + b * c + c * a) - squares));
+}
+
+NetPatch net_patch(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
+                   double turn_rad) {
+  return PatchBuilder(edges, std::move(inner), turn_rad).build();
+}
+
+}  // namespace trueflank

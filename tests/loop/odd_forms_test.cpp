@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/loop/made_gears.h"
+
+// Forms that no library of causes has: around the gear, along the flank, beside names.
+namespace trueflank::test {
+namespace {
+
+InspectionOptions sheet_of_all(unsigned seed) {
+  InspectionOptions options;
+  options.points = 60;
+  options.noise_um = 0.8;
+  options.seed = seed;
+  return options;
+}
+
+const loop::FoundEffect* named(const loop::LoopResult& result) {
+  for (const auto& effect : result.effects)
+    if (effect.named) return &effect;
+  return nullptr;
+}
+
+TEST(OddForms, AToolThatWearsFromToothToToothIsADriftWithoutAName) {
+  const MadeGear gear = spur(29);
+  const auto drift = [](auto&, const FlankSpot& s, auto&) {
+    return s.side * 9.0 * ((s.tooth + 12) % 29) / 29.0;
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(drift)}, sheet_of_all(seed)));
+    EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+    EXPECT_EQ(named(result), nullptr) << list(result);
+    ASSERT_FALSE(result.effects.empty());
+    EXPECT_NE(result.effects[0].description.find("drifts evenly"), std::string::npos)
+        << list(result);
+  }
+}
+
+TEST(OddForms, AnIndexOfOneFlankIsEnough) {
+  const MadeGear gear = spur(29);
+  const auto drift = [](auto&, const FlankSpot& s, auto&) {
+    return s.side * 9.0 * ((s.tooth + 12) % 29) / 29.0;
+  };
+  auto data = inspection_of(gear, {grown(drift)}, sheet_of_all(4));
+  std::erase_if(data.rows, [](const auto& row) { return row.flank == Flank::kRight; });
+  const auto result = close(gear, data);
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+}
+
+TEST(OddForms, OneToothInFourIsTheCuttersAndNoThickness) {
+  const MadeGear gear = spur(24);
+  const auto comb = [](auto&, const FlankSpot& s, auto&) { return s.tooth % 4 == 1 ? 8.0 : 0.0; };
+  for (unsigned seed = 5; seed <= 8; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(comb)}, sheet_of_all(seed)));
+    EXPECT_EQ(named(result), nullptr) << list(result);
+    ASSERT_FALSE(result.effects.empty()) << list(result);
+    EXPECT_NE(result.effects[0].description.find("one tooth in 4"), std::string::npos)
+        << list(result);
+  }
+}
+
+TEST(OddForms, AStepOverTheProfileOfAScanIsAStepAndNoWear) {
+  const MadeGear gear = spur(47);
+  const auto step = [](auto&, const FlankSpot& s, auto&) { return s.u > -0.3 ? -10.0 : 0.0; };
+  ScanOptions options;
+  options.points = 4000;
+  options.noise_um = 2.7;
+  const auto result = close(gear, scan_of(gear, {grown(step)}, options), true);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+  ASSERT_FALSE(result.effects.empty());
+  EXPECT_NE(result.effects[0].description.find("a step over the profile"), std::string::npos)
+      << list(result);
+}
+
+TEST(OddForms, ASlopeBesideABowOfOneKinkIsNoHelixError) {
+  const MadeGear gear = spur(24);
+  const auto kink = [](auto&, const FlankSpot& s, auto&) {
+    return s.side * 12.0 * std::max(s.v - 0.1, 0.0);
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(kink)}, sheet_of_all(6)));
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+  // A slope alone keeps its name.
+  const auto lean = [](auto&, const FlankSpot& s, auto&) { return s.side * 6.0 * s.v; };
+  const auto plain = close(gear, inspection_of(gear, {grown(lean)}, sheet_of_all(6)));
+  ASSERT_EQ(plain.effects.size(), 1U) << list(plain);
+  EXPECT_EQ(plain.effects[0].id, "helix_error");
+}
+
+TEST(OddForms, AGhostOrderFinerThanThePatchesIsOneOrderHoweverTheTeethAreCounted) {
+  const MadeGear gear = spur(67);
+  for (const double way : {-1.0, 1.0}) {
+    const auto ghost = [way](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      return 5.0 * std::cos(174.0 * (2.0 * M_PI * (s.tooth - 1) / g.teeth + way * s.side * turned));
+    };
+    InspectionOptions options = sheet_of_all(7);
+    options.noise_um = 0.4;
+    options.points = 120;
+    options.teeth = {1, 14, 27, 41, 54};
+    const auto result = close(gear, inspection_of(gear, {grown(ghost)}, options));
+    ASSERT_EQ(result.effects.size(), 1U) << way << ": " << list(result);
+    EXPECT_EQ(result.effects[0].id, "ghost_order");
+    EXPECT_EQ(parameter(result.effects[0], "order").value, 174.0);
+    // A wave that contradicts the counting of the teeth is not undone.
+    EXPECT_EQ(result.effects[0].correctable, way < 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// OpenCASCADE's document framework reads the product information of AP242 files: sizes, limits, datum
+// and runouts, and the faces they hang on.
+#include <gtest/gtest.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopoDS.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDimTolObjects_DatumObject.hxx>
+#include <XCAFDimTolObjects_DimensionObject.hxx>
+#include <XCAFDimTolObjects_GeomToleranceObject.hxx>
+#include <XCAFDoc_Datum.hxx>
+#include <XCAFDoc_DimTolTool.hxx>
+#include <XCAFDoc_Dimension.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GeomTolerance.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tests/programs/opencascade_solid.h"
+#include "tests/support/random_designs.h"
+#include "trueflank/design/design_file.h"
+#include "trueflank/geometry/flank_tolerance.h"
+
+namespace trueflank {
+namespace {
+
+using Faces = std::vector<TopoDS_Face>;
+
+struct ReadDimension {
+  XCAFDimTolObjects_DimensionType type;
+  double value = 0.0, lower = 0.0, upper = 0.0;
+  bool limited = false;
+  std::string note;
+  Faces first, second;
+};
+struct ReadRunout {
+  XCAFDimTolObjects_GeomToleranceType type;
+  double value = 0.0;
+  Faces faces;
+  std::vector<std::string> datums;
+  Faces datum_faces;
+};
+struct ReadPmi {
+  std::vector<ReadDimension> dimensions;
+  std::vector<ReadRunout> runouts;
+  int solids = 0;
+};
+
+Faces faces_of(const TDF_LabelSequence& labels) {
+  Faces faces;
+  for (int i = 1; i <= labels.Length(); ++i)
+    faces.push_back(TopoDS::Face(XCAFDoc_ShapeTool::GetShape(labels.Value(i))));
+  return faces;
+}
+
+ReadDimension read_dimension(const XCAFDoc_DimTolTool& tool, const TDF_Label& label) {
+  Handle(XCAFDoc_Dimension) attribute;
+  EXPECT_TRUE(label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute));
+  const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
+  ReadDimension read{.type = object->GetType(), .value = object->GetValue(), .note = {}, .first = {}, .second = {}};
+  read.limited = object->IsDimWithPlusMinusTolerance();
+  if (read.limited) {
+    read.lower = object->GetLowerTolValue();
+    read.upper = object->GetUpperTolValue();
+  }
+  if (object->NbDescriptions() > 0) read.note = object->GetDescription(0)->ToCString();
+  TDF_LabelSequence first, second;
+  tool.GetRefShapeLabel(label, first, second);
+  read.first = faces_of(first);
+  read.second = faces_of(second);
+  return read;
+}
+
+ReadRunout read_runout(const XCAFDoc_DimTolTool& tool, const TDF_Label& label) {
+  Handle(XCAFDoc_GeomTolerance) attribute;
+  EXPECT_TRUE(label.FindAttribute(XCAFDoc_GeomTolerance::GetID(), attribute));
+  ReadRunout read{.type = attribute->GetObject()->GetType(),
+                  .value = attribute->GetObject()->GetValue(), .faces = {}, .datums = {}, .datum_faces = {}};
+  TDF_LabelSequence first, second, datums;
+  tool.GetRefShapeLabel(label, first, second);
+  read.faces = faces_of(first);
+  tool.GetDatumWithObjectOfTolerLabels(label, datums);
+  for (int i = 1; i <= datums.Length(); ++i) {
+    Handle(XCAFDoc_Datum) datum;
+    EXPECT_TRUE(datums.Value(i).FindAttribute(XCAFDoc_Datum::GetID(), datum));
+    read.datums.emplace_back(datum->GetObject()->GetName()->ToCString());
+    TDF_LabelSequence on, none;
+    tool.GetRefShapeLabel(datums.Value(i), on, none);
+    for (const TopoDS_Face& face : faces_of(on)) read.datum_faces.push_back(face);
+  }
+  return read;
+}
+
+ReadPmi read_pmi(const std::string& text) {
+  Handle(TDocStd_Document) document;
+  XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
+  STEPCAFControl_Reader reader;
+  reader.SetGDTMode(true);
+  std::istringstream stream(text);
+  EXPECT_EQ(reader.ChangeReader().ReadStream("part", stream), IFSelect_RetDone);
+  EXPECT_TRUE(reader.Transfer(document));
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document->Main());
+  TDF_LabelSequence dimensions, tolerances;
+  tool->GetDimensionLabels(dimensions);
+  tool->GetGeomToleranceLabels(tolerances);
+  ReadPmi read;
+  for (int i = 1; i <= dimensions.Length(); ++i) read.dimensions.push_back(read_dimension(*tool, dimensions.Value(i)));
+  for (int i = 1; i <= tolerances.Length(); ++i) read.runouts.push_back(read_runout(*tool, tolerances.Value(i)));
+  TDF_LabelSequence free;
+  XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(free);
+  for (int i = 1; i <= free.Length(); ++i)
+    read.solids += test::count(XCAFDoc_ShapeTool::GetShape(free.Value(i)), TopAbs_SOLID);
+  XCAFApp_Application::GetApplication()->Close(document);
+  return read;
+}
+
+void expect_cylinders(const Faces& faces, double diameter_mm) {
+  EXPECT_FALSE(faces.empty());
+  for (const TopoDS_Face& face : faces) {
+    const BRepAdaptor_Surface surface(face);
+    ASSERT_EQ(surface.GetType(), GeomAbs_Cylinder);
+    EXPECT_NEAR(2.0 * surface.Cylinder().Radius(), diameter_mm, 1e-9);
+  }
+}
+double height_of(const TopoDS_Face& face) {
+  const BRepAdaptor_Surface surface(face);
+  EXPECT_EQ(surface.GetType(), GeomAbs_Plane);
+  return surface.Plane().Location().Z();
+}
+
+void expect_dimension(const ReadDimension& read, double value_mm, const io::SizeLimits& limits) {
+  EXPECT_NEAR(read.value, value_mm, 1e-12 * value_mm);
+  EXPECT_EQ(read.limited, !std::isnan(limits.upper_mm));
+  if (!read.limited) return;
+  EXPECT_NEAR(read.lower, std::abs(limits.lower_mm), 1e-15);  // OpenCASCADE tells its size
+  EXPECT_NEAR(read.upper, limits.upper_mm, 1e-15);
+}
+
+/// What is asked of the part stands in the file, on faces that have the sizes it says.
+void expect_same(const ReadPmi& read, const io::StepPmi& pmi) {
+  ASSERT_EQ(read.dimensions.size(), pmi.dimensions.size());
+  for (std::size_t i = 0; i < pmi.dimensions.size(); ++i) {
+    const ReadDimension& d = read.dimensions[i];
+    const io::PmiDimension& asked = pmi.dimensions[i];
+    SCOPED_TRACE("dimension " + std::to_string(asked.value_mm));
+    expect_dimension(d, asked.value_mm, asked.limits);
+    EXPECT_EQ(d.note, asked.note);
+    EXPECT_EQ(d.first.size(), asked.faces.size());
+    EXPECT_EQ(d.second.size(), asked.other_faces.size());
+    if (asked.other_faces.empty()) {
+      EXPECT_EQ(d.type, XCAFDimTolObjects_DimensionType_Size_Diameter);
+      expect_cylinders(d.first, asked.value_mm);
+    } else {
+      EXPECT_EQ(d.type, XCAFDimTolObjects_DimensionType_Location_LinearDistance);
+    }
+  }
+  ASSERT_EQ(read.runouts.size(), pmi.runouts.size());
+  for (std::size_t i = 0; i < pmi.runouts.size(); ++i) {
+    EXPECT_EQ(read.runouts[i].type, XCAFDimTolObjects_GeomToleranceType_CircularRunout);
+    EXPECT_NEAR(read.runouts[i].value, pmi.runouts[i].value_mm, 1e-15);
+    EXPECT_EQ(read.runouts[i].faces.size(), pmi.runouts[i].faces.size());
+    EXPECT_EQ(read.runouts[i].datums, std::vector<std::string>{"A"});
+    EXPECT_EQ(read.runouts[i].datum_faces.size(), pmi.datum.size());
+  }
+}
+
+std::string ap242(const PartShape& part, Brep solid, const io::StepPmi& pmi) {
+  return io::step_text({.name = part.name, .solid = std::move(solid), .pmi = pmi}, io::StepSchema::kAp242);
+}
+
+/// An example laid out, and its parts.
+struct Example {
+  explicit Example(const std::string& name) {
+    const auto file = read_design_file(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + name + "/design.toml");
+    EXPECT_TRUE(file.has_value());
+    train = std::make_shared<const GearTrain>(*lay_out(file->design));
+    shapes = *part_shapes(*train);
+  }
+  [[nodiscard]] ReadPmi read(const std::string& name) const {
+    for (const PartShape& part : shapes.parts) {
+      if (part.name != name) continue;
+      auto solid = brep_of(part);
+      EXPECT_TRUE(solid);
+      const io::StepPmi pmi = io::step_pmi(*train, part, *solid);
+      return read_pmi(ap242(part, std::move(*solid), pmi));
+    }
+    ADD_FAILURE() << "no part " << name;
+    return {};
+  }
+  [[nodiscard]] const TrainGear& gear(const std::string& name) const {
+    return *std::find_if(train->gears.begin(), train->gears.end(),
+                         [&](const TrainGear& g) { return g.name == name; });
+  }
+  [[nodiscard]] FlankTolerances limits(const std::string& name) const {
+    const TrainGear& g = gear(name);
+    return *flank_tolerances(tolerance_size(g.profile.gear(), g.face_width_mm), io::kDrawingToleranceClass);
+  }
+  std::shared_ptr<const GearTrain> train;
+  PartShapes shapes;
+};
+
+const ReadDimension* diameter(const ReadPmi& pmi, double value_mm) {
+  for (const ReadDimension& d : pmi.dimensions)
+    if (d.second.empty() && std::abs(d.value - value_mm) < 1e-9) return &d;
+  return nullptr;
+}
+
+TEST(StepPmi, ABoreHasItsFitAndCarriesTheDatum) {
+  const Example example("bilateral_drive");
+  const ReadPmi pmi = example.read("planet");
+  const double bore_mm = find_gear(example.train->design, "planet1")->bore.diameter_mm;
+  const ReadDimension* bore = diameter(pmi, bore_mm);
+  ASSERT_NE(bore, nullptr);
+  EXPECT_EQ(bore->note, "H7");
+  ASSERT_EQ(bore_mm, 19.0);
+  expect_dimension(*bore, bore_mm, {.lower_mm = 0.0, .upper_mm = 0.021});  // ISO 286-1, 18 to 30 mm
+  expect_cylinders(bore->first, bore_mm);
+  ASSERT_EQ(pmi.runouts.size(), 3U);  // the tips of two gears, the upper face
+  for (const ReadRunout& runout : pmi.runouts) expect_cylinders(runout.datum_faces, bore_mm);
+}
+
+TEST(StepPmi, TipsRunAsTrueAsTheTeethHaveTo) {
+  const Example example("bilateral_drive");
+  const ReadPmi pmi = example.read("planet");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string name = i == 0 ? "planet1" : "planet2";
+    const TrainGear& gear = example.gear(name);
+    EXPECT_NEAR(pmi.runouts[i].value, example.limits(name).runout_um / 1000.0, 1e-15);
+    EXPECT_EQ(static_cast<int>(pmi.runouts[i].faces.size()), gear.profile.gear().teeth);
+    expect_cylinders(pmi.runouts[i].faces, 2.0 * gear.profile.tip_radius_mm());
+  }
+}
+
+TEST(StepPmi, WidthsAreBetweenTheFacesTheySpan) {
+  const Example example("bilateral_drive");
+  const ReadPmi pmi = example.read("planet");
+  const double whole_mm = example.gear("planet1").face_width_mm + example.gear("planet2").face_width_mm +
+                          example.train->design.layer_gap_mm;
+  const ReadDimension& whole = pmi.dimensions.back();
+  EXPECT_EQ(whole.type, XCAFDimTolObjects_DimensionType_Location_LinearDistance);
+  expect_dimension(whole, whole_mm, {.lower_mm = -0.2, .upper_mm = 0.2});  // ISO 2768-1 m, 6 to 30 mm
+  ASSERT_EQ(whole.first.size(), 1U);
+  ASSERT_EQ(whole.second.size(), 1U);
+  EXPECT_NEAR(height_of(whole.first[0]), 0.0, 1e-12);
+  EXPECT_NEAR(height_of(whole.second[0]), whole_mm, 1e-12);
+}
+
+TEST(StepPmi, ARingIsHeldByItsOuterCylinder) {
+  const Example example("bilateral_drive");
+  const ReadPmi pmi = example.read("ring1");
+  ASSERT_EQ(pmi.runouts.size(), 2U);
+  const double outer_mm = *find_gear(example.train->design, "ring1")->outer_diameter_mm;
+  for (const ReadRunout& runout : pmi.runouts) expect_cylinders(runout.datum_faces, outer_mm);
+  expect_cylinders(pmi.runouts[0].faces, 2.0 * example.gear("ring1").profile.tip_radius_mm());
+  ASSERT_EQ(pmi.runouts[1].faces.size(), 1U);
+  EXPECT_NEAR(height_of(pmi.runouts[1].faces[0]), example.gear("ring1").face_width_mm, 1e-12);
+}
+
+TEST(StepPmi, AnAssemblyHasTheInformationOfEveryPart) {
+  const Example example("simple_planetary");
+  std::vector<io::StepPart> parts;
+  std::size_t dimensions = 0, runouts = 0;
+  for (const PartShape& shape : example.shapes.parts) {
+    auto solid = brep_of(shape);
+    ASSERT_TRUE(solid);
+    io::StepPmi pmi = io::step_pmi(*example.train, shape, *solid);
+    dimensions += pmi.dimensions.size();
+    runouts += pmi.runouts.size();
+    parts.push_back({.name = shape.name, .solid = std::move(*solid), .pmi = std::move(pmi)});
+  }
+  const ReadPmi read = read_pmi(io::step_text(parts, example.shapes.assembly, "set", io::StepSchema::kAp242));
+  EXPECT_EQ(read.dimensions.size(), dimensions);
+  EXPECT_EQ(read.runouts.size(), runouts);
+  EXPECT_GE(runouts, 5U);
+}
+
+TEST(StepPmi, Ap214FilesHaveNone) {
+  const Example example("external_pair");
+  const PartShape& part = example.shapes.parts.front();
+  auto solid = brep_of(part);
+  ASSERT_TRUE(solid);
+  const io::StepPmi pmi = io::step_pmi(*example.train, part, *solid);
+  ASSERT_FALSE(pmi.dimensions.empty());
+  const std::string plain = io::step_text({.name = part.name, .solid = *solid});
+  EXPECT_EQ(io::step_text({.name = part.name, .solid = *solid, .pmi = pmi}), plain);
+  EXPECT_TRUE(read_pmi(plain).dimensions.empty());
+}
+
+/// External gears, rings, twisted, modified, with bores of every kind.
+TEST(StepPmi, RandomPartsReadBackAsAsked) {
+  test::RandomDesigns designs(17);
+  int parts = 0, rings = 0, twisted = 0, runouts = 0;
+  for (int i = 0; i < 80 && parts < 14; ++i) {
+    const auto train = lay_out(designs.next());
+    if (!train) continue;
+    const auto shapes = part_shapes(*train);
+    if (!shapes) continue;
+    for (const PartShape& part : shapes->parts) {
+      const auto gears = io::gears_of(*train, part);
+      if (gears.empty() || gears.front()->profile.gear().teeth > 36) continue;
+      auto solid = brep_of(part);
+      if (!solid) continue;
+      const io::StepPmi pmi = io::step_pmi(*train, part, *solid);
+      SCOPED_TRACE("design " + std::to_string(i) + " " + part.name);
+      EXPECT_FALSE(pmi.dimensions.empty());
+      const std::string text = ap242(part, std::move(*solid), pmi);
+      const ReadPmi read = read_pmi(text);
+      EXPECT_EQ(read.solids, 1);
+      expect_same(read, pmi);
+      ++parts;
+      rings += gears.front()->profile.gear().kind == GearKind::kInternal;
+      twisted += gears.front()->profile.gear().helix_angle_rad != 0.0;
+      runouts += static_cast<int>(pmi.runouts.size());
+    }
+  }
+  std::cout << parts << " parts, " << rings << " rings, " << twisted << " twisted, " << runouts << " runouts\n";
+  EXPECT_GE(parts, 12);
+  EXPECT_GE(rings, 1);
+  EXPECT_GE(twisted, 4);
+  EXPECT_GE(runouts, 8);
+}
+
+}  // namespace
+}  // namespace trueflank
