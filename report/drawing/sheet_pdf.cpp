@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
+#include <type_traits>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
@@ -53,29 +55,32 @@ std::vector<Glyph> glyphs_of(std::string_view utf8) {
   return glyphs;
 }
 
-/// A document of libharu. Its errors are programming errors here but for want of memory; the last one
-/// is kept and asked for at the end.
+/// A document of libharu. What fails here fails for want of memory. libharu then hands out null pages and
+/// fonts, which its other functions do not look at: nothing is called after an error.
 class PdfDocument {
  public:
-  PdfDocument() : document_(HPDF_New(nullptr, nullptr)) {
-    TRUEFLANK_EXPECTS(document_ != nullptr);
-    HPDF_SetCompressionMode(document_, HPDF_COMP_TEXT);
-    helvetica_ = HPDF_GetFont(document_, "Helvetica", "WinAnsiEncoding");
-    symbol_ = HPDF_GetFont(document_, "Symbol", nullptr);
+  PdfDocument() : document_(HPDF_New(nullptr, nullptr), HPDF_Free) {
+    if (document_ == nullptr) throw std::bad_alloc();
+    HPDF_SetCompressionMode(document(), HPDF_COMP_TEXT);
+    helvetica_ = HPDF_GetFont(document(), "Helvetica", "WinAnsiEncoding");
+    if (helvetica_ != nullptr) symbol_ = HPDF_GetFont(document(), "Symbol", nullptr);
+    if (symbol_ == nullptr) throw std::bad_alloc();
+    require_memory();
   }
-  PdfDocument(const PdfDocument&) = delete;
-  PdfDocument& operator=(const PdfDocument&) = delete;
-  ~PdfDocument() { HPDF_Free(document_); }
 
   void set_title(const std::string& title) {
     std::string latin;
     for (const Glyph& g : glyphs_of(title)) latin += g.symbol ? '?' : static_cast<char>(g.code);
-    HPDF_SetInfoAttr(document_, HPDF_INFO_TITLE, latin.c_str());
-    HPDF_SetInfoAttr(document_, HPDF_INFO_PRODUCER, "Trueflank");
+    HPDF_SetInfoAttr(document(), HPDF_INFO_TITLE, latin.c_str());
+    require_memory();
+    HPDF_SetInfoAttr(document(), HPDF_INFO_PRODUCER, "Trueflank");
+    require_memory();
   }
 
   void add(const Sheet& sheet) {
-    page_ = HPDF_AddPage(document_);
+    page_ = HPDF_AddPage(document());
+    if (page_ == nullptr) throw std::bad_alloc();
+    require_memory();
     HPDF_Page_SetWidth(page_, points(sheet.width_mm));
     HPDF_Page_SetHeight(page_, points(sheet.height_mm));
     HPDF_Page_SetLineCap(page_, HPDF_ROUND_END);
@@ -87,17 +92,23 @@ class PdfDocument {
 
   /// The file's bytes; nothing where libharu failed.
   [[nodiscard]] std::optional<std::string> bytes() {
-    if (HPDF_SaveToStream(document_) != HPDF_OK || HPDF_GetError(document_) != HPDF_OK) return {};
-    std::string all(HPDF_GetStreamSize(document_), '\0');
-    HPDF_ResetStream(document_);
+    if (HPDF_SaveToStream(document()) != HPDF_OK || HPDF_GetError(document()) != HPDF_OK) return {};
+    std::string all(HPDF_GetStreamSize(document()), '\0');
+    HPDF_ResetStream(document());
     auto size = static_cast<HPDF_UINT32>(all.size());
-    HPDF_ReadFromStream(document_, reinterpret_cast<HPDF_BYTE*>(all.data()), &size);
+    HPDF_ReadFromStream(document(), reinterpret_cast<HPDF_BYTE*>(all.data()), &size);
     all.resize(size);
     return all;
   }
 
  private:
+  [[nodiscard]] HPDF_Doc document() const { return document_.get(); }
+  void require_memory() const {
+    if (HPDF_GetError(document()) != HPDF_OK) throw std::bad_alloc();
+  }
+
   void draw_with(const Sheet& sheet, Pen pen) {
+    require_memory();
     HPDF_Page_SetLineWidth(page_, points(width_mm(pen)));
     static constexpr HPDF_UINT16 kChain[] = {17, 3, 2, 3};  // points: 6, 1, 0.7, 1 mm
     if (pen == Pen::kChain)
@@ -110,6 +121,7 @@ class PdfDocument {
       for (std::size_t i = 1; i < path.points.size(); ++i)
         HPDF_Page_LineTo(page_, points(path.points[i].x()), points(path.points[i].y()));
       path.closed ? HPDF_Page_ClosePathStroke(page_) : HPDF_Page_Stroke(page_);
+      require_memory();
     }
     for (const SheetArc& arc : sheet.arcs)
       if (arc.pen == pen) draw(arc);
@@ -132,6 +144,7 @@ class PdfDocument {
                         points(p3.x()), points(p3.y()));
     }
     HPDF_Page_Stroke(page_);
+    require_memory();
   }
 
   void fill(const std::vector<Point2>& polygon) {
@@ -139,6 +152,7 @@ class PdfDocument {
     for (std::size_t i = 1; i < polygon.size(); ++i)
       HPDF_Page_LineTo(page_, points(polygon[i].x()), points(polygon[i].y()));
     HPDF_Page_Fill(page_);
+    require_memory();
   }
 
   void write(const SheetText& text) {
@@ -147,6 +161,7 @@ class PdfDocument {
     float width = 0.0F;
     for (const auto& [run, symbol] : runs(glyphs)) {
       HPDF_Page_SetFontAndSize(page_, symbol ? symbol_ : helvetica_, size);
+      require_memory();
       width += HPDF_Page_TextWidth(page_, run.c_str());
     }
     const double back = text.anchor == TextAnchor::kLeft ? 0.0 : text.anchor == TextAnchor::kRight ? 1.0 : 0.5;
@@ -157,9 +172,11 @@ class PdfDocument {
     HPDF_Page_SetTextMatrix(page_, c, s, -s, c, points(text.at.x()) + start * c, points(text.at.y()) + start * s);
     for (const auto& [run, symbol] : runs(glyphs)) {
       HPDF_Page_SetFontAndSize(page_, symbol ? symbol_ : helvetica_, size);
+      require_memory();
       HPDF_Page_ShowText(page_, run.c_str());
     }
     HPDF_Page_EndText(page_);
+    require_memory();
   }
 
   /// Neighbouring letters of one font.
@@ -172,7 +189,7 @@ class PdfDocument {
     return all;
   }
 
-  HPDF_Doc document_;
+  std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, void (*)(HPDF_Doc)> document_;
   HPDF_Page page_ = nullptr;
   HPDF_Font helvetica_ = nullptr, symbol_ = nullptr;
 };
