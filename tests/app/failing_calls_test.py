@@ -119,6 +119,7 @@ def main():
     commands = {
         "make": lambda d: ["make", pair, "-o", d, "--formats", "stl,3mf,glb,step,svg,dxf,scad,pdf", "--tolerance-um",
                            20, "--allow-failing"],
+        "draw": lambda d: ["make", gear, "-o", d, "--formats", "pdf", "--tolerance-um", 20],
         "correct": lambda d: ["make", gear, "-o", d, "--formats", "stl,ply", "--correct", OUTPUT / "loop.json",
                               "--tolerance-um", 20],
         "check": lambda d: ["check", pair, "--json", d / "c.json", "--html", d / "c.html"],
