@@ -32,6 +32,14 @@ function(trueflank_find_package name targets dependency)
     _trueflank_find(libassimp-dev assimp 5.2)
     set(found assimp::assimp)
     set(call "assimp 5.2")
+  elseif(name STREQUAL "Boost")
+    find_path(TRUEFLANK_BOOST_INCLUDE boost/math/special_functions/beta.hpp)
+    if(NOT TRUEFLANK_BOOST_INCLUDE)
+      message(FATAL_ERROR "trueflank: Boost.Math not found. On Debian: apt-get install libboost-dev (or run "
+        "scripts/install-dependencies, which installs all of them).")
+    endif()
+    set(found "")  # headers alone, where the compiler looks; Boost's target would add definitions
+    set(call "")
   elseif(name STREQUAL "NLopt")
     _trueflank_find("libnlopt-dev libnlopt-cxx-dev" NLopt)
     set(found ${NLOPT_LIBRARIES})  # Debian has two configurations with one target each

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/distributions.h"
 
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
 #include "trueflank/base/units.h"
@@ -9,34 +10,10 @@
 namespace trueflank::loop {
 namespace {
 
-/// Regularised incomplete beta function by its continued fraction (Lentz).
-double beta_fraction(double a, double b, double x) {
-  double c = 1.0, d = 1.0 - (a + b) * x / (a + 1.0);
-  d = 1.0 / (std::abs(d) < 1e-300 ? 1e-300 : d);
-  double h = d;
-  for (int i = 1; i <= 300; ++i) {
-    const double m = i;
-    double factor = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
-    d = 1.0 / (1.0 + factor * d);
-    c = 1.0 + factor / c;
-    h *= d * c;
-    factor = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
-    d = 1.0 / (1.0 + factor * d);
-    c = 1.0 + factor / c;
-    h *= d * c;
-    if (std::abs(d * c - 1.0) < 1e-14) break;
-  }
-  return h;
-}
-
-double incomplete_beta(double a, double b, double x) {
-  if (x <= 0.0) return 0.0;
-  if (x >= 1.0) return 1.0;
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
-                                a * std::log(x) + b * std::log1p(-x));
-  if (x < (a + 1.0) / (a + b + 2.0)) return front * beta_fraction(a, b, x) / a;
-  return 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
-}
+// In double precision; NaN where an argument is none, as the functions of <cmath>.
+using namespace boost::math::policies;
+using Quiet = policy<promote_double<false>, domain_error<ignore_error>, pole_error<ignore_error>,
+                     overflow_error<ignore_error>, evaluation_error<ignore_error>>;
 
 }  // namespace
 
@@ -67,7 +44,7 @@ double minus_log_chi_square_tail(double x, int degrees) {
 }
 
 double student_two_sided(double t, double degrees) {
-  return incomplete_beta(0.5 * degrees, 0.5, degrees / (degrees + t * t));
+  return boost::math::ibeta(0.5 * degrees, 0.5, degrees / (degrees + t * t), Quiet());
 }
 
 double student_95(double degrees) {
@@ -76,8 +53,8 @@ double student_95(double degrees) {
 
 double f_tail(double f, double degrees, double degrees_below) {
   if (!(f > 0.0)) return 1.0;
-  return incomplete_beta(0.5 * degrees_below, 0.5 * degrees,
-                         degrees_below / (degrees_below + degrees * f));
+  return boost::math::ibeta(0.5 * degrees_below, 0.5 * degrees,
+                            degrees_below / (degrees_below + degrees * f), Quiet());
 }
 
 }  // namespace trueflank::loop

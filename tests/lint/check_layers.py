@@ -49,6 +49,7 @@ THIRD_PARTY = {
     # linked into tests only (33 ms at every start): tests/programs
     "OpenCASCADE": (r"(Standard|TopoDS|TopExp|BRep\w*|STEP\w*|XCAF\w*|gp)(_\w+)?\.hxx|opencascade/",
                     [], []),
+    "Boost.Math": (r"boost/math/", ["loop"], []),
     "NLopt": (r"nlopt", ["search"], []),
     "nlohmann_json, declared only": (r"nlohmann/json_fwd\.hpp", ["report"], ["report"]),
     "nlohmann_json": (r"nlohmann/", ["export", "loop", "report", "session"], []),

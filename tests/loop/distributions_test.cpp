@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/distributions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+namespace {
+
+// Closed forms of few degrees of freedom: 1 (Cauchy), 2 and 4.
+TEST(Distributions, StudentsTailsAgreeWithClosedForms) {
+  for (double t : {0.01, 0.5, 1.0, 3.0, 40.0, 1e4}) {
+    const double cauchy = 2.0 / kPi * std::atan2(1.0, t);
+    EXPECT_NEAR(student_two_sided(t, 1.0), cauchy, 1e-13 + 1e-11 * cauchy) << t;
+    const double root = std::sqrt(2.0 + t * t), two = 2.0 / (root * (root + t));
+    EXPECT_NEAR(student_two_sided(t, 2.0), two, 1e-11 * two) << t;
+  }
+  // A quantile printed in every table: t(0.975; 10).
+  EXPECT_NEAR(student_95(10.0), 2.2281388520, 1e-9);
+}
+
+// F with 2 degrees above: (1 + 2 f / n)^(-n / 2).
+TEST(Distributions, TheFTailAgreesWithItsClosedForm) {
+  for (double f : {0.1, 1.0, 7.0, 300.0})
+    for (double below : {1.0, 5.0, 60.0, 1e5}) {
+      const double closed = std::exp(-0.5 * below * std::log1p(2.0 * f / below));
+      EXPECT_NEAR(f_tail(f, 2.0, below), closed, 1e-10 * closed) << f << ' ' << below;
+    }
+  EXPECT_EQ(f_tail(0.0, 2.0, 5.0), 1.0);
+}
+
+TEST(Distributions, NoNumberGivesNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(student_two_sided(none, 3.0)));
+  EXPECT_TRUE(std::isnan(student_two_sided(1.0, none)));
+}
+
+// 2 degrees: exp(-x / 2); 1 degree: erfc(sqrt(x / 2)); far beyond where the tail itself underflows.
+TEST(Distributions, ChiSquareKeepsItsLogarithm) {
+  EXPECT_NEAR(minus_log_chi_square_tail(12.0, 2), 6.0, 1e-12);
+  EXPECT_NEAR(minus_log_chi_square_tail(9.0, 1), -std::log(std::erfc(std::sqrt(4.5))), 1e-12);
+  EXPECT_NEAR(minus_log_chi_square_tail(1e6, 2), 5e5, 1e-6);
+}
+
+}  // namespace
+}  // namespace trueflank::loop
