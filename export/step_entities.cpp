@@ -2,6 +2,7 @@
 #include "trueflank/export/step_entities.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 
@@ -37,79 +38,114 @@ std::uint32_t next_character(std::string_view text, std::size_t& at) {
   return character;
 }
 
+/// Ten decimals less the zeros at their end.
+char* put_fraction(char* at, std::uint64_t fraction) {
+  const auto first = static_cast<std::uint32_t>(fraction / 100'000U);
+  const auto last = static_cast<std::uint32_t>(fraction % 100'000U);
+  const auto put_five = [](char* to, std::uint32_t five) {
+    for (int i = 4; i >= 0; --i, five /= 10) to[i] = static_cast<char>('0' + five % 10);
+  };
+  put_five(at, first);
+  char* end = at + 5;
+  if (last != 0) {
+    put_five(end, last);
+    end += 5;
+  }
+  while (end[-1] == '0') --end;
+  return end;
+}
+
 }  // namespace
 
+void StepEntities::grow(std::size_t bytes) {
+  constexpr std::size_t kLeast = 4096;
+  text_.resize(size_ + std::max({bytes, size_, kLeast}));
+}
+
+std::string StepEntities::take() {
+  text_.resize(size_);
+  size_ = 0;
+  return std::move(text_);
+}
+
 StepId StepEntities::begin(std::string_view opening) {
-  text_ += '#';
-  append_integer(text_, ++last_);
-  text_ += '=';
-  text_ += opening;
+  char* at = room(opening.size() + kNumberRoom + 2);
+  *at++ = '#';
+  at = io::put_integer(at, static_cast<std::uint32_t>(++last_));
+  *at++ = '=';
+  ends_at(std::copy(opening.begin(), opening.end(), at));
   return last_;
 }
 
 StepId StepEntities::add(std::string_view opening, std::string_view arguments) {
   const StepId id = begin(opening);
-  text_ += arguments;
-  end();
+  put(arguments).end();
   return id;
 }
 
 StepEntities& StepEntities::put(std::string_view text) {
-  text_ += text;
+  ends_at(std::copy(text.begin(), text.end(), room(text.size())));
   return *this;
 }
 
 StepEntities& StepEntities::put(StepId id) {
-  text_ += '#';
-  append_integer(text_, id);
+  char* at = room(kNumberRoom + 1);
+  *at++ = '#';
+  ends_at(io::put_integer(at, static_cast<std::uint32_t>(id)));
   return *this;
 }
 
 StepEntities& StepEntities::put(const std::vector<StepId>& ids) {
+  char* at = room(ids.size() * (kNumberRoom + 2) + 2);
   char separator = '(';
   for (const StepId id : ids) {
-    text_ += separator;
-    put(id);
+    *at++ = separator;
+    *at++ = '#';
+    at = io::put_integer(at, static_cast<std::uint32_t>(id));
     separator = ',';
   }
-  text_ += ')';
+  if (ids.empty()) *at++ = '(';
+  *at++ = ')';
+  ends_at(at);
   return *this;
 }
 
 StepEntities& StepEntities::put_integer(int number) {
-  append_integer(text_, number);
+  char* const at = room(kNumberRoom);
+  ends_at(std::to_chars(at, at + kNumberRoom, number).ptr);
   return *this;
 }
 
 StepEntities& StepEntities::put_integers(const std::vector<int>& numbers) {
   char separator = '(';
   for (const int number : numbers) {
-    text_ += separator;
-    append_integer(text_, number);
+    put(std::string_view(&separator, 1)).put_integer(number);
     separator = ',';
   }
-  text_ += ')';
-  return *this;
+  return put(")");
 }
 
 StepEntities& StepEntities::put_reals(const std::vector<double>& numbers) {
   char separator = '(';
   for (const double number : numbers) {
-    text_ += separator;
-    put(number);
+    put(std::string_view(&separator, 1)).put(number);
     separator = ',';
   }
-  text_ += ')';
-  return *this;
+  return put(")");
 }
 
 StepEntities& StepEntities::put(double number) {
-  const std::size_t start = text_.size();
-  append_shortest(text_, number == 0.0 ? 0.0 : number);  // no negative zero
-  const std::size_t exponent = text_.find('e', start);
-  if (exponent != std::string::npos) text_[exponent] = 'E';
-  if (text_.find('.', start) == std::string::npos)
-    text_.insert(std::min(exponent, text_.size()), 1, '.');
+  char* const start = room(kNumberRoom + 1);
+  // no negative zero
+  char* end = std::to_chars(start, start + kNumberRoom, number == 0.0 ? 0.0 : number).ptr;
+  char* const exponent = std::find(start, end, 'e');
+  if (exponent != end) *exponent = 'E';
+  if (std::find(start, end, '.') == end) {
+    std::copy_backward(exponent, end, end + 1);
+    *exponent = '.';
+    ++end;
+  }
+  ends_at(end);
   return *this;
 }
 
@@ -118,21 +154,35 @@ StepEntities& StepEntities::put_coordinate(double value_mm) {
   const double steps = value_mm * kPerMillimetre;
   // beyond 2^53 steps doubles are coarser than the step
   if (std::abs(steps) > 9e15) return put(value_mm);
-  return put(std::round(steps) / kPerMillimetre);
+  const double whole = std::round(steps);
+  // Decimals of 15 digits or less differ as doubles: the steps' own digits are the shortest that read back
+  // the same. Without an exponent, as put() writes numbers of this size.
+  constexpr double kLeastSteps = 1e7, kMostSteps = 1e14;
+  const double size = std::abs(whole);
+  if (size < kLeastSteps || size >= kMostSteps) return put(whole / kPerMillimetre);
+  char* at = room(kNumberRoom);
+  if (whole < 0.0) *at++ = '-';
+  const auto count = static_cast<std::uint64_t>(size);
+  at = io::put_integer(at, static_cast<std::uint32_t>(count / 10'000'000'000U));
+  *at++ = '.';
+  const std::uint64_t fraction = count % 10'000'000'000U;
+  if (fraction != 0) at = put_fraction(at, fraction);
+  ends_at(at);
+  return *this;
 }
 
 StepEntities& StepEntities::put_quoted(std::string_view utf8) {
-  text_ += '\'';
+  std::string text(1, '\'');
   for (std::size_t at = 0; at < utf8.size();) {
     const std::uint32_t character = next_character(utf8, at);
-    if (character == '\'' || character == '\\') text_ += static_cast<char>(character);
+    if (character == '\'' || character == '\\') text += static_cast<char>(character);
     if (character >= 0x20U && character < 0x7FU)
-      text_ += static_cast<char>(character);
+      text += static_cast<char>(character);
     else
-      append_encoded(text_, character);
+      append_encoded(text, character);
   }
-  text_ += '\'';
-  return *this;
+  text += '\'';
+  return put(text);
 }
 
 }  // namespace trueflank::io

@@ -17,7 +17,7 @@ class StepEntities {
  public:
   /// Begins an entity; write its text with the functions below, then end().
   StepId begin(std::string_view opening);
-  void end() { text_ += ");\n"; }
+  void end() { put(");\n"); }
   /// An entity that is all text.
   StepId add(std::string_view opening, std::string_view arguments);
 
@@ -34,11 +34,20 @@ class StepEntities {
   /// A quoted string; anything beyond printable ASCII as ISO 10303-21 spells it.
   StepEntities& put_quoted(std::string_view utf8);
 
-  [[nodiscard]] std::string take() { return std::move(text_); }
-  void reserve(std::size_t bytes) { text_.reserve(bytes); }
+  [[nodiscard]] std::string take();
+  void reserve(std::size_t bytes) { static_cast<void>(room(bytes)); }
 
  private:
-  std::string text_;
+  /// Where the text ends, with room for so many bytes.
+  char* room(std::size_t bytes) {
+    if (text_.size() - size_ < bytes) grow(bytes);
+    return text_.data() + size_;
+  }
+  void grow(std::size_t bytes);
+  void ends_at(const char* end) { size_ = static_cast<std::size_t>(end - text_.data()); }
+
+  std::string text_;  ///< longer than what is written, so that pieces are written in place
+  std::size_t size_ = 0;
   StepId last_ = 0;
 };
 

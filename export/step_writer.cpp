@@ -32,8 +32,9 @@ const SchemaWords& words_of(StepSchema schema) {
 
 class StepFile {
  public:
-  StepFile(std::size_t bytes, StepSchema schema) : schema_(schema) {
+  StepFile(std::size_t bytes, StepSchema schema, const std::string& name) : schema_(schema) {
     out_.reserve(bytes);
+    add_header(name);
     application_ = out_.add("APPLICATION_CONTEXT(", words_of(schema).context);
     out_.begin("APPLICATION_PROTOCOL_DEFINITION('international standard',");
     out_.put(words_of(schema).protocol).put(",").put(application_).end();
@@ -85,18 +86,21 @@ class StepFile {
     }
   }
 
-  std::string finish(const std::string& name) {
-    StepEntities header;
-    header.put("ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((").put_quoted("Trueflank " + name);
-    // no clock: the same design gives the same bytes
-    header.put("),'2;1');\nFILE_NAME(").put_quoted(name + ".step");
-    header.put(",'1970-01-01T00:00:00',(''),(''),'Trueflank','Trueflank','');\n"
-               "FILE_SCHEMA((");
-    header.put(words_of(schema_).schema).put("));\nENDSEC;\nDATA;\n");
-    return header.take() + out_.take() + "ENDSEC;\nEND-ISO-10303-21;\n";
+  std::string finish() {
+    out_.put("ENDSEC;\nEND-ISO-10303-21;\n");
+    return out_.take();
   }
 
  private:
+  void add_header(const std::string& name) {
+    out_.put("ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((").put_quoted("Trueflank " + name);
+    // no clock: the same design gives the same bytes
+    out_.put("),'2;1');\nFILE_NAME(").put_quoted(name + ".step");
+    out_.put(",'1970-01-01T00:00:00',(''),(''),'Trueflank','Trueflank','');\n"
+             "FILE_SCHEMA((");
+    out_.put(words_of(schema_).schema).put("));\nENDSEC;\nDATA;\n");
+  }
+
   /// A product with its definition; returns the PRODUCT_DEFINITION.
   StepId add_product(const std::string& name) {
     const StepId product_context = out_.begin("PRODUCT_CONTEXT('',");
@@ -183,20 +187,20 @@ std::size_t expected_bytes(const StepPart& part) {
 }  // namespace
 
 std::string step_text(const StepPart& part, StepSchema schema) {
-  StepFile file(expected_bytes(part), schema);
+  StepFile file(expected_bytes(part), schema, part.name);
   file.add_part(part);
-  return file.finish(part.name);
+  return file.finish();
 }
 
 std::string step_text(const std::vector<StepPart>& parts, const std::vector<Placement>& placements,
                       const std::string& name, StepSchema schema) {
   std::size_t bytes = 1000 * placements.size();
   for (const StepPart& part : parts) bytes += expected_bytes(part);
-  StepFile file(bytes, schema);
+  StepFile file(bytes, schema, name);
   std::vector<ProductIds> ids;
   for (const StepPart& part : parts) ids.push_back(file.add_part(part));
   file.add_assembly(ids, placements, name);
-  return file.finish(name);
+  return file.finish();
 }
 
 }  // namespace trueflank::io

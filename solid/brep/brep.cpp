@@ -46,16 +46,14 @@ struct WallEnd {
 
 bool is_circle(const WallEnd& end) { return end.wall->path.pieces.size() == 1; }
 
-/// What is known from the circles about the axis between which two ends lie.
+/// What is known from the circles about the ends' own centres between which they lie.
 enum class Nesting { kInside, kApart, kUnknown };
-Nesting nesting_by_radii(const WallEnd& inner, const WallEnd& outer) {
-  const double inner_off = inner.extent.centre.norm(), outer_off = outer.extent.centre.norm();
-  const double nearest = std::max(inner_off - inner.extent.outer_radius_mm,
-                                  inner.extent.inner_radius_mm - inner_off);
-  if (nearest > outer_off + outer.extent.outer_radius_mm) return Nesting::kApart;
-  if (inner_off + inner.extent.outer_radius_mm < outer.extent.inner_radius_mm - outer_off)
-    return Nesting::kInside;
-  return Nesting::kUnknown;
+Nesting nesting_by_radii(const OutlineExtent& inner, const OutlineExtent& outer) {
+  const double off_mm = (inner.centre - outer.centre).norm();
+  if (off_mm > inner.outer_radius_mm + outer.outer_radius_mm ||
+      off_mm + outer.outer_radius_mm < inner.inner_radius_mm)
+    return Nesting::kApart;
+  return off_mm + inner.outer_radius_mm < outer.inner_radius_mm ? Nesting::kInside : Nesting::kUnknown;
 }
 
 /// How many of the inner polygon's points the outer end contains. The polygon's vertices are on the
@@ -111,7 +109,7 @@ Status find_nesting(const Brep& brep, std::vector<WallEnd>& ends, const PartShap
   for (WallEnd& inner : ends)
     for (std::size_t k = 0; k < ends.size(); ++k) {
       if (&ends[k] == &inner) continue;
-      const Nesting nesting = nesting_by_radii(inner, ends[k]);
+      const Nesting nesting = nesting_by_radii(inner.extent, ends[k].extent);
       if (nesting == Nesting::kInside) inner.inside.push_back(k);
       if (nesting != Nesting::kUnknown) continue;
       make_polygon(inner);

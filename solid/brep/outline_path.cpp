@@ -8,6 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/spline_basis.h"
 #include "trueflank/solid/brep/toothing_path.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
@@ -210,8 +211,9 @@ void append_points(const OutlinePath& path, std::size_t index, std::vector<Point
   polygon.push_back(piece.start);
   if (const auto* spline = std::get_if<PathSpline>(&piece.shape)) {
     constexpr int kSteps = 32;
+    const SplineBasis basis(spline->spline.degree, spline->spline.knots);
     for (int i = 1; i < kSteps; ++i)
-      polygon.push_back(point_at(spline->spline, static_cast<double>(i) / kSteps));
+      polygon.push_back(point_at(spline->spline, basis, static_cast<double>(i) / kSteps));
   } else if (const auto* arc = std::get_if<PathArc>(&piece.shape)) {
     const PathCircle& circle = path.circles[static_cast<std::size_t>(arc->circle)];
     const double from = polar_angle_rad(piece.start - circle.centre);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <random>
 #include <regex>
 #include <set>
 
@@ -50,6 +52,21 @@ TEST(StepEntities, CoordinatesAreRoundedToATenthOfAPicometre) {
   EXPECT_EQ(coordinate_text(0.1 + 0.2), "0.3");
   EXPECT_EQ(coordinate_text(-1e-12), "0.");
   EXPECT_EQ(coordinate_text(25.68261234567891), "25.6826123457");
+}
+
+TEST(StepEntities, CoordinatesHaveTheFewestDigitsThatReadBackTheSame) {
+  std::mt19937 random(7);
+  const auto expect_shortest = [](double x) {
+    const double rounded = std::round(x * 1e10) / 1e10;
+    EXPECT_EQ(coordinate_text(x), real_text(rounded)) << x;
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const double size = std::exp(std::uniform_real_distribution<>(std::log(1e-5), std::log(8e5))(random));
+    const double x = i % 2 == 0 ? size : -size;
+    expect_shortest(x);
+    expect_shortest(std::round(x * 1e4) / 1e4);  // few decimals: zeros at the end are left out
+  }
+  for (const double x : {1e-3, 9.99e-4, 1.0, 1e4, 9999.9999999999, 1e5, 0.0000100001}) expect_shortest(x);
 }
 
 TEST(StepEntities, StringsKeepQuotesBackslashesAndForeignLetters) {
