@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trueflank::io {
 namespace {
@@ -53,28 +54,24 @@ std::optional<double> FacetComparison::rounding_mm() {
   return std::nullopt;
 }
 
-const std::array<std::uint32_t, 3>* FacetComparison::expected() {
-  for (; body_ < scene_.bodies.size(); ++body_, next_ = 0) {
+const std::array<std::uint32_t, 3>* FacetComparison::next_body() {
+  for (; next_ == end_ && body_ < scene_.bodies.size(); ++body_) {
     const Placement& body = scene_.bodies[body_];
-    const TriangleMesh& mesh = *scene_.shapes[static_cast<std::size_t>(body.part)].mesh;
-    if (next_ == mesh.triangles.size()) continue;
-    if (placed_body_ != body_) {
-      const PlacementTransform place(body);
-      placed_.clear();
-      placed_.reserve(mesh.vertices.size());
-      for (const auto& vertex : mesh.vertices) placed_.push_back(place(vertex));
-      placed_body_ = body_;
-    }
-    return &mesh.triangles[next_];
+    mesh_ = scene_.shapes[static_cast<std::size_t>(body.part)].mesh;
+    next_ = mesh_->triangles.data();
+    end_ = next_ + mesh_->triangles.size();
+    const PlacementTransform place(body);
+    placed_.clear();
+    placed_.reserve(mesh_->vertices.size());
+    for (const auto& vertex : mesh_->vertices) placed_.push_back(place(vertex));
   }
-  return nullptr;
+  return next_ == end_ ? nullptr : next_;
 }
 
 /// The larger of both kinds of file.
 double FacetComparison::largest_step_mm(const std::array<std::uint32_t, 3>& triangle) const {
   // Some formats round in the assembly's frame, some in the part's, whose origin may be far.
-  const Placement& body = scene_.bodies[body_];
-  const auto& vertices = scene_.shapes[static_cast<std::size_t>(body.part)].mesh->vertices;
+  const auto& vertices = mesh_->vertices;
   double reach_mm = 0.0;
   for (const std::uint32_t v : triangle)
     reach_mm = std::max({reach_mm, largest_coordinate_mm(placed_[v]),

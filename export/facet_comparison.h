@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,14 +36,16 @@ class FacetComparison {
   using Point = std::array<double, 3>;
 
   /// The scene's next facet; nullptr after the last.
-  const std::array<std::uint32_t, 3>* expected();
+  const std::array<std::uint32_t, 3>* expected() { return next_ != end_ ? next_ : next_body(); }
+  const std::array<std::uint32_t, 3>* next_body();
   [[nodiscard]] bool may_be_missing(const std::array<std::uint32_t, 3>& triangle) const;
   [[nodiscard]] double largest_step_mm(const std::array<std::uint32_t, 3>& triangle) const;
 
   const Scene& scene_;
-  std::size_t body_ = 0, next_ = 0;  ///< of the scene's facet that comes next
-  std::vector<Point> placed_;        ///< vertices of that body where it stands
-  std::size_t placed_body_ = std::numeric_limits<std::size_t>::max();
+  std::size_t body_ = 0;               ///< of the scene, begun after the one compared now
+  const TriangleMesh* mesh_ = nullptr;  ///< of the body compared now, and those of its facets that are left
+  const std::array<std::uint32_t, 3>*next_ = nullptr, *end_ = nullptr;
+  std::vector<Point> placed_;  ///< its vertices where it stands
   double farthest_mm_ = 0.0;
   bool differs_ = false;
   std::size_t facets_ = 0;

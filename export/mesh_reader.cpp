@@ -46,37 +46,6 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// Decimal numbers as programs write them: both the digits and the power of ten are exact doubles, so
-/// that their quotient is rounded as the standard library rounds it, several times as fast. Leaves
-/// everything else alone: exponents, more than 15 digits.
-bool take_short_decimal(std::string_view& text, double& value) {
-  static constexpr std::array<double, 16> kPowers = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const bool minus = at != end && *at == '-';
-  if (minus) ++at;
-  std::int64_t digits = 0;
-  const char* const first = at;
-  while (at != end && *at >= '0' && *at <= '9' && at - first < 16) digits = 10 * digits + (*at++ - '0');
-  auto count = at - first;
-  std::ptrdiff_t decimals = 0;
-  if (count > 0 && at != end && *at == '.') {
-    const char* const point = ++at;
-    while (at != end && *at >= '0' && *at <= '9' && count + (at - point) < 16)
-      digits = 10 * digits + (*at++ - '0');
-    decimals = at - point;
-    count += decimals;
-  }
-  const bool goes_on = at != end && ((*at >= '0' && *at <= '9') || *at == 'e' || *at == 'E');
-  if (count == 0 || count > 15 || goes_on) return false;
-  const double magnitude =
-      static_cast<double>(digits) / kPowers[static_cast<std::size_t>(decimals)];
-  value = minus ? -magnitude : magnitude;
-  text.remove_prefix(static_cast<std::size_t>(at - text.data()));
-  return true;
-}
-
 Error with_file(Error error, const std::filesystem::path& path) {
   if (error.file.empty()) error.file = path.string();
   return error;
@@ -103,7 +72,11 @@ tl::unexpected<Error> syntax_error(std::string message, int line) {
 bool take_number(std::string_view& text, double& value) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  if (take_short_decimal(text, value)) return true;
+  const char* at = text.data();
+  if (take_short_decimal(at, at + text.size(), value)) {
+    text.remove_prefix(static_cast<std::size_t>(at - text.data()));
+    return true;
+  }
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value)) return false;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));

@@ -19,17 +19,6 @@ std::size_t allowance(std::size_t bytes, std::size_t factor, std::size_t least, 
   return bytes >= most / factor ? most : std::max(least, factor * bytes);
 }
 
-Status take(std::size_t& left, std::size_t wanted, const char* what) {
-  if (wanted > left)
-    return fail(Error{.code = ErrorCode::kUnsupported,
-                      .message = std::string("the file expands to too many ") + what +
-                                 " for its size",
-                      .remedy = "a file that holds its parts once, with at most " +
-                                std::to_string(kMostFacets / 1'000'000) + " million facets"});
-  left -= wanted;
-  return {};
-}
-
 }  // namespace
 
 Reading::Reading(std::size_t file_bytes, Damage damage)
@@ -39,9 +28,17 @@ Reading::Reading(std::size_t file_bytes, Damage damage)
       bytes_left_(allowance(file_bytes, kUnpackedPerByte, kUnpackedOfAnyFile, kMostUnpacked)),
       pieces_left_(kMostPieces) {}
 
-Status Reading::take_facets(std::size_t facets, std::size_t vertices) {
-  if (auto status = take(facets_left_, facets, "facets"); !status) return status;
-  return take(vertices_left_, vertices, "vertices");
+Status Reading::too_many(const char* what) {
+  return fail(Error{.code = ErrorCode::kUnsupported,
+                    .message = std::string("the file expands to too many ") + what + " for its size",
+                    .remedy = "a file that holds its parts once, with at most " +
+                              std::to_string(kMostFacets / 1'000'000) + " million facets"});
+}
+
+Status Reading::take(std::size_t& left, std::size_t wanted, const char* what) {
+  if (wanted > left) return too_many(what);
+  left -= wanted;
+  return {};
 }
 
 Status Reading::take_unpacked_bytes(std::size_t bytes) {

@@ -28,12 +28,21 @@ class Reading {
   [[nodiscard]] std::vector<std::string> take_notes() { return std::move(notes_); }
 
   /// To be asked before so many more are made. Errors: kUnsupported beyond what the file may expand to.
-  [[nodiscard]] Status take_facets(std::size_t facets, std::size_t vertices);
+  [[nodiscard]] Status take_facets(std::size_t facets, std::size_t vertices) {
+    if (facets > facets_left_) return too_many("facets");
+    if (vertices > vertices_left_) return too_many("vertices");
+    facets_left_ -= facets;
+    vertices_left_ -= vertices;
+    return {};
+  }
   [[nodiscard]] Status take_unpacked_bytes(std::size_t bytes);
   /// One more solid, object, node, component or primitive, that many levels deep.
   [[nodiscard]] Status take_piece(int depth = 0);
 
  private:
+  [[nodiscard]] static Status too_many(const char* what);
+  [[nodiscard]] static Status take(std::size_t& left, std::size_t wanted, const char* what);
+
   Damage damage_;
   std::size_t facets_left_, vertices_left_, bytes_left_, pieces_left_;
   std::vector<std::string> notes_;

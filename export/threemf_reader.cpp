@@ -4,6 +4,7 @@
 // else a file may hold are passed over.
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <map>
 #include <optional>
 
@@ -91,40 +92,53 @@ Result<Reference> reference_of(const XmlScanner::Tag& tag) {
   return reference;
 }
 
-bool take_plain(std::string_view& text, double& value) { return take_number(text, value); }
-bool take_plain(std::string_view& text, std::uint32_t& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+bool take_plain(const char*& at, const char* end, double& value) {
+  if (take_short_decimal(at, end, value)) return true;
+  std::string_view text(at, static_cast<std::size_t>(end - at));
+  if (!take_number(text, value)) return false;
+  at = text.data();
   return true;
 }
-bool take_plain(std::string_view& text, std::string_view word) {
-  if (text.substr(0, word.size()) != word) return false;
-  text.remove_prefix(word.size());
+bool take_plain(const char*& at, const char* end, std::uint32_t& value) {
+  const auto result = std::from_chars(at, end, value);
+  at = result.ptr;
+  return result.ec == std::errc();
+}
+template <std::size_t kSize>
+bool take_plain(const char*& at, const char* end, const char (&word)[kSize]) {
+  constexpr std::ptrdiff_t kLength = kSize - 1;
+  if (end - at < kLength || std::memcmp(at, word, kLength) != 0) return false;
+  at += kLength;
   return true;
 }
 
-/// An empty element whose first three attributes are these in this order; text is left as it was where
+/// Behind the last number of a plain tag: its end, with whatever else programs say of every facet (colours).
+/// The scanner judges all unusual ends.
+bool take_plain_end(const char*& at, const char* end) {
+  if (take_plain(at, end, "\"/>")) return true;
+  const std::string_view rest(at, static_cast<std::size_t>(end - at));
+  const std::size_t close = rest.find('>');
+  if (rest.empty() || rest.front() != '"' || close == rest.npos || rest[close - 1] != '/' ||
+      rest.substr(0, close).find_first_of("<\'") != rest.npos ||
+      std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(close), '"') % 2 == 0)
+    return false;
+  at += close + 1;
+  return true;
+}
+
+/// An empty element whose first three attributes are these in this order; `from` is left as it was where
 /// something else stands there.
-template <class Number>
-bool take_plain_tag(std::string_view& text, const std::array<std::string_view, 3>& before,
+template <class Number, std::size_t kFirst, std::size_t kSecond, std::size_t kThird>
+bool take_plain_tag(const char*& from, const char* end, const char (&first)[kFirst],
+                    const char (&second)[kSecond], const char (&third)[kThird],
                     std::array<Number, 3>& values) {
-  std::string_view rest = text;
-  while (!rest.empty() && (rest.front() == '\n' || rest.front() == ' ' || rest.front() == '\t' ||
-                           rest.front() == '\r'))
-    rest.remove_prefix(1);
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!take_plain(rest, before[i]) || !take_plain(rest, values[i])) return false;
-  if (!take_plain(rest, "\"/>")) {
-    // colours, and whatever else programs say of every facet; the scanner judges all unusual ends
-    const std::size_t end = rest.find('>');
-    if (rest.empty() || rest.front() != '"' || end == rest.npos || rest[end - 1] != '/' ||
-        rest.substr(0, end).find_first_of("<\'") != rest.npos ||
-        std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(end), '"') % 2 == 0)
-      return false;
-    rest.remove_prefix(end + 1);
-  }
-  text = rest;
+  const char* at = from;
+  while (at != end && (*at == '\n' || *at == ' ' || *at == '\t' || *at == '\r')) ++at;
+  if (!take_plain(at, end, first) || !take_plain(at, end, values[0]) ||
+      !take_plain(at, end, second) || !take_plain(at, end, values[1]) ||
+      !take_plain(at, end, third) || !take_plain(at, end, values[2]) || !take_plain_end(at, end))
+    return false;
+  from = at;
   return true;
 }
 
@@ -156,13 +170,16 @@ class ModelParser {
     if (!object_) return {};
     TriangleMesh& mesh = object_->mesh;
     make_room(text, "<vertex ", "</vertices>", mesh.vertices);
+    const char *at = text.data(), *const end = at + text.size();
     std::array<double, 3> v{};
-    while (take_plain_tag(text, {"<vertex x=\"", "\" y=\"", "\" z=\""}, v))
+    while (take_plain_tag(at, end, "<vertex x=\"", "\" y=\"", "\" z=\"", v))
       if (auto status = add(v); !status) return status;
+    text.remove_prefix(static_cast<std::size_t>(at - text.data()));
     make_room(text, "<triangle ", "</triangles>", mesh.triangles);
     std::array<std::uint32_t, 3> t{};
-    while (take_plain_tag(text, {"<triangle v1=\"", "\" v2=\"", "\" v3=\""}, t))
+    while (take_plain_tag(at, end, "<triangle v1=\"", "\" v2=\"", "\" v3=\"", t))
       if (auto status = add(t); !status) return status;
+    text.remove_prefix(static_cast<std::size_t>(at - text.data()));
     return {};
   }
   [[nodiscard]] bool seen() const { return seen_; }
