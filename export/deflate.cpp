@@ -35,17 +35,25 @@ struct Symbol {
 
 /// Values in steps of `kShare` symbols for each power of two.
 template <std::uint32_t kShare>
-Symbol symbol_of(std::uint32_t value) {
+constexpr Symbol symbol_of(std::uint32_t value) {
   constexpr std::uint32_t kShareBits = std::bit_width(kShare) - 1;
   if (value < 2 * kShare) return {value, 0, 0};
   const std::uint32_t bits = std::bit_width(value) - 1 - kShareBits;
   return {kShare * bits + (value >> bits), bits, value & ((1U << bits) - 1)};
 }
-Symbol length_symbol(std::uint32_t length) {
+constexpr Symbol length_symbol(std::uint32_t length) {
   if (length == kMostMatch) return {28, 0, 0};
   return symbol_of<4>(length - 3);
 }
-Symbol distance_symbol(std::uint32_t distance) { return symbol_of<2>(distance - 1); }
+constexpr Symbol distance_symbol(std::uint32_t distance) { return symbol_of<2>(distance - 1); }
+
+/// The code of every length that a match can have.
+constexpr auto kLengthCodeOf = [] {
+  std::array<std::uint8_t, kMostMatch + 1> codes{};
+  for (std::uint32_t length = 3; length <= kMostMatch; ++length)
+    codes[length] = static_cast<std::uint8_t>(length_symbol(length).code);
+  return codes;
+}();
 
 /// A literal byte (distance 0) or a match.
 struct Token {
@@ -160,56 +168,67 @@ class BitWriter {
 
 /// Text as literals and matches, and how often each symbol occurs.
 struct Parse {
-  std::vector<Token> tokens;
+  std::unique_ptr<Token[]> tokens;
+  std::size_t count = 0;
   std::array<std::uint32_t, kLiterals> literals{};
   std::array<std::uint32_t, kDistances> distances{};
-  std::uint64_t extra_bits = 0;
 
+  explicit Parse(std::size_t most) : tokens(std::make_unique_for_overwrite<Token[]>(most)) {}
   void literal(unsigned char byte) {
-    tokens.push_back({byte, 0});
+    tokens[count++] = {byte, 0};
     ++literals[byte];
   }
   void match(std::uint32_t length, std::uint32_t distance) {
-    tokens.push_back({static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(distance)});
-    const Symbol l = length_symbol(length), d = distance_symbol(distance);
-    ++literals[kEndOfBlock + 1 + l.code];
-    ++distances[d.code];
-    extra_bits += l.extra_bits + d.extra_bits;
+    tokens[count++] = {static_cast<std::uint16_t>(length), static_cast<std::uint16_t>(distance)};
+    ++literals[kEndOfBlock + 1 + kLengthCodeOf[length]];
+    ++distances[distance_symbol(distance).code];
   }
 };
 
+/// The last two places of each hash of four bytes, the last one in the lower half.
+class Places {
+ public:
+  explicit Places(const unsigned char* bytes) : bytes_(bytes), places_(1U << kHashBits, kNowhere) {}
+  /// Those before a place, which is kept.
+  std::uint64_t put(std::uint32_t at) {
+    std::uint64_t& seen = places_[four_bytes(bytes_ + at) * 0x9E3779B1U >> (32 - kHashBits)];
+    const std::uint64_t before = seen;
+    seen = before << 32 | at;
+    return before;
+  }
+  static constexpr std::uint32_t kNone = ~0U;
+
+ private:
+  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+  const unsigned char* bytes_;
+  std::vector<std::uint64_t> places_;
+};
+
 Parse parsed(std::string_view text) {
-  Parse result;
-  result.tokens.reserve(text.size() / 4);
+  Parse result(text.size());
   const auto* const bytes = reinterpret_cast<const unsigned char*>(text.data());
   const auto size = static_cast<std::uint32_t>(text.size());
-  constexpr std::uint32_t kNowhere = ~0U;
-  std::vector<std::array<std::uint32_t, 2>> places(1U << kHashBits, {kNowhere, kNowhere});
-  const auto slot = [&](std::uint32_t at) -> std::array<std::uint32_t, 2>& {
-    return places[four_bytes(bytes + at) * 0x9E3779B1U >> (32 - kHashBits)];
-  };
+  Places places(bytes);
   std::uint32_t at = 0;
   while (at + kLeastMatch <= size) {
-    auto& seen = slot(at);
     std::uint32_t length = 0, distance = 0;
-    const std::uint32_t most = std::min(kMostMatch, size - at);
-    for (const std::uint32_t place : seen) {
-      if (place == kNowhere || at - place > kWindow) break;
+    const std::uint32_t most = std::min(kMostMatch, size - at), four = four_bytes(bytes + at);
+    std::uint64_t seen = places.put(at);
+    for (int i = 0; i < 2; ++i, seen >>= 32) {
+      const auto place = static_cast<std::uint32_t>(seen);
+      if (place == Places::kNone || at - place > kWindow) break;
+      if (four_bytes(bytes + place) != four) continue;
       if (length > 0 && (length == most || bytes[place + length] != bytes[at + length])) continue;
       const std::uint32_t n = match_length(bytes + place, bytes + at, most);
       if (n > length) length = n, distance = at - place;
     }
-    seen = {at, seen[0]};
-    if (length < kLeastMatch) {
+    if (length == 0) {
       result.literal(bytes[at++]);
       continue;
     }
     result.match(length, distance);
-    const std::uint32_t end = at + length;
-    for (++at; at < end && at + kLeastMatch <= size; ++at) {
-      auto& passed = slot(at);
-      passed = {at, passed[0]};
-    }
+    const std::uint32_t end = at + length, last = std::min(end, size - kLeastMatch + 1);
+    for (++at; at < last; ++at) static_cast<void>(places.put(at));
     at = end;
   }
   while (at < size) result.literal(bytes[at++]);
@@ -270,6 +289,41 @@ void append_stored(std::string& bytes, std::string_view text) {
   }
 }
 
+/// Of all symbols that say a length or a distance.
+std::uint64_t extra_bits_of(const Parse& parse) {
+  std::uint64_t bits = 0;
+  for (std::uint32_t code = 8; code < 28; ++code)  // the last one, of the longest match, has none
+    bits += std::uint64_t{parse.literals[kEndOfBlock + 1 + code]} * (code / 4 - 1);
+  for (std::uint32_t code = 4; code < kDistances; ++code)
+    bits += std::uint64_t{parse.distances[code]} * (code / 2 - 1);
+  return bits;
+}
+
+void put_tokens(BitWriter& out, const Parse& parse, const Code<kLiterals>& literals,
+                const Code<kDistances>& distances) {
+  struct Bits {
+    std::uint32_t bits = 0, count = 0;
+  };
+  std::array<Bits, kMostMatch + 1> lengths;  // code and further bits of each length
+  for (std::uint32_t length = 3; length <= kMostMatch; ++length) {
+    const Symbol symbol = length_symbol(length);
+    const std::uint32_t s = kEndOfBlock + 1 + symbol.code, bits = literals.lengths[s];
+    lengths[length] = {literals.codes[s] | symbol.extra << bits, bits + symbol.extra_bits};
+  }
+  for (std::size_t i = 0; i < parse.count; ++i) {
+    const Token token = parse.tokens[i];
+    out.flush();
+    if (token.distance == 0) {
+      out.put(literals.codes[token.value], literals.lengths[token.value]);
+      continue;
+    }
+    out.put(lengths[token.value].bits, lengths[token.value].count);
+    const Symbol d = distance_symbol(token.distance);
+    out.put(distances.codes[d.code] | std::uint64_t{d.extra} << distances.lengths[d.code],
+            distances.lengths[d.code] + d.extra_bits);
+  }
+}
+
 /// One block, from a whole byte to a whole byte.
 void append_block(std::string& bytes, std::string_view text) {
   const Parse parse = parsed(text);
@@ -286,7 +340,7 @@ void append_block(std::string& bytes, std::string_view text) {
 
   const std::uint64_t bits = 17 + 3 * written + bits_of(list.counts, list_code) + 7 * list.runs.size() +
                              bits_of(parse.literals, literals) + bits_of(parse.distances, distances) +
-                             parse.extra_bits;
+                             extra_bits_of(parse);
   if (bits / 8 + 6 >= text.size() + 5 * (text.size() / kStoredMost + 1)) {
     append_stored(bytes, text);
     return;
@@ -307,19 +361,7 @@ void append_block(std::string& bytes, std::string_view text) {
     out.put(list_code.codes[run.symbol], list_code.lengths[run.symbol]);
     out.put(run.extra, run.extra_bits);
   }
-  for (const Token token : parse.tokens) {
-    out.flush();
-    if (token.distance == 0) {
-      out.put(literals.codes[token.value], literals.lengths[token.value]);
-      continue;
-    }
-    const Symbol l = length_symbol(token.value), d = distance_symbol(token.distance);
-    const std::uint32_t s = kEndOfBlock + 1 + l.code;
-    out.put(literals.codes[s], literals.lengths[s]);
-    out.put(l.extra, l.extra_bits);
-    out.put(distances.codes[d.code], distances.lengths[d.code]);
-    out.put(d.extra, d.extra_bits);
-  }
+  put_tokens(out, parse, literals, distances);
   out.flush();
   out.put(literals.codes[kEndOfBlock], literals.lengths[kEndOfBlock]);
   // an empty stored block ends on a byte, and so do we
