@@ -51,6 +51,7 @@ struct SlabWalls {
   std::vector<Wall> walls;
   bool prismatic = true;
   std::vector<double> cut_heights_mm = {};
+  std::size_t last_nearest = 0;  ///< the wall that the point measured last belongs to
 };
 
 double bed_height_mm(const Slab& slab) {
@@ -135,24 +136,29 @@ class Measurement {
     return std::max({0.0, planes_mm_.front() - z_mm, z_mm - planes_mm_.back()});
   }
 
-  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point3& point) {
-    const Point2 p = point.head<2>();
+  /// `first` is looked at first: the others will be too far to look at where it is the nearest.
+  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point3& point,
+                                                std::size_t first) {
     NearestWall nearest{.wall = 0, .excess_mm = std::numeric_limits<double>::infinity()};
-    for (std::size_t w = 0; w < slab.walls.size(); ++w) {
-      const Wall& wall = slab.walls[w];
-      if (wall.surface) {
-        if (lower_bound_mm(*wall.surface, point) >= std::abs(nearest.excess_mm)) continue;
-        const double distance = distance_mm(*wall.surface, point);
-        if (std::abs(distance) < std::abs(nearest.excess_mm))
-          nearest = {w, wall.hole ? -distance : distance, p};
-        continue;
-      }
-      if (wall.curves.lower_bound_mm(p) >= std::abs(nearest.excess_mm)) continue;
-      const OutlineFoot foot = wall.curves.foot(p);
-      if (std::abs(foot.distance_mm) < std::abs(nearest.excess_mm))
-        nearest = {w, wall.hole ? -foot.distance_mm : foot.distance_mm, foot.point};
-    }
+    look_at(slab, first, point, nearest);
+    for (std::size_t w = 0; w < slab.walls.size(); ++w)
+      if (w != first) look_at(slab, w, point, nearest);
     return nearest;
+  }
+  static void look_at(const SlabWalls& slab, std::size_t index, const Point3& point, NearestWall& nearest) {
+    const Point2 p = point.head<2>();
+    const Wall& wall = slab.walls[index];
+    if (wall.surface) {
+      if (lower_bound_mm(*wall.surface, point) >= std::abs(nearest.excess_mm)) return;
+      const double distance = distance_mm(*wall.surface, point);
+      if (std::abs(distance) < std::abs(nearest.excess_mm))
+        nearest = {index, wall.hole ? -distance : distance, p};
+      return;
+    }
+    if (wall.curves.lower_bound_mm(p) >= std::abs(nearest.excess_mm)) return;
+    const OutlineFoot foot = wall.curves.foot(p);
+    if (std::abs(foot.distance_mm) < std::abs(nearest.excess_mm))
+      nearest = {index, wall.hole ? -foot.distance_mm : foot.distance_mm, foot.point};
   }
 
   void measure_triangle(const std::array<std::uint32_t, 3>& t) {
@@ -244,7 +250,8 @@ class Measurement {
 
   /// Returns the wall the point belongs to.
   std::size_t measure_on_wall(std::size_t slab, const Point3& p) {
-    const NearestWall nearest = nearest_wall(slabs_[slab], p);
+    const NearestWall nearest = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest);
+    slabs_[slab].last_nearest = nearest.wall;
     Wall& wall = slabs_[slab].walls[nearest.wall];
     if (std::abs(nearest.excess_mm) > wall.error_mm) {
       wall.error_mm = std::abs(nearest.excess_mm);
@@ -263,7 +270,7 @@ class Measurement {
       for (int j = 0; i + j <= kSteps; ++j) {
         const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
         const Point3 p = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
-        const double excess = nearest_wall(slabs_[slab], p).excess_mm;
+        const double excess = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest).excess_mm;
         facet_is_off(std::min(plane_distance_mm(p),
                               std::hypot(excess, outside_stack_mm(p.z()))), p);
       }
