@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <future>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -32,6 +36,30 @@ template <class Work>
     // the ones that run share what there is to do
   }
   return threads;
+}
+
+/// Does `work(i)` for every i below `count` on all processors, in any order; returns when all is
+/// done. An exception is thrown on once the others ended.
+template <class Work>
+void for_each_piece(std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  const auto take_pieces = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+    }
+  };
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  if (count > 0) {
+    const auto others = helping_threads(std::min(count, processors) - 1, take_pieces);
+    take_pieces();
+  }
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace trueflank

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
@@ -70,20 +71,26 @@ double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& st
   return squares / values / left.first * (1.0 + rho) / (1.0 - rho);
 }
 
+/// Of the columns of one group: few, and so without memory of their own.
+constexpr int kMostColumns = 8;
+using GroupMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
+using GroupVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
+
 /// What the wholes say of one group.
 struct Agreement {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd score;
+  GroupMatrix gram;
+  GroupVector score;
   double total = 0.0;  ///< squares that every whole explains by itself
   int degrees = 0;     ///< and with how many numbers
 };
 
-void add_whole(Agreement& sum, const Eigen::MatrixXd& gram, const Eigen::VectorXd& score,
+void add_whole(Agreement& sum, const GroupMatrix& gram, const GroupVector& score,
                double information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(gram);
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own(gram);
   for (Eigen::Index k = 0; k < gram.rows(); ++k) {
     if (!(own.eigenvalues()[k] > kNone * information)) continue;
-    const Eigen::VectorXd direction = own.eigenvectors().col(k);
+    const GroupVector direction = own.eigenvectors().col(k);
     const double along = direction.dot(score);
     sum.gram += own.eigenvalues()[k] * direction * direction.transpose();
     sum.score += along * direction;
@@ -96,13 +103,56 @@ double p_of(const Agreement& sum, int fitted, double within) {
   const auto columns = static_cast<int>(sum.score.size());
   const int below = sum.degrees - columns - fitted;
   if (below < 1 || (below < 2 && !(within > 0.0))) return 1.0;
-  const Eigen::LDLT<Eigen::MatrixXd> gram(sum.gram);
+  const Eigen::LDLT<GroupMatrix> gram(sum.gram);
   if (gram.info() != Eigen::Success || !gram.isPositive()) return 1.0;
   const double explained = sum.score.dot(gram.solve(sum.score));
   const double left = std::max(sum.total - explained, 1e-12 * sum.total);
   const double own = within > 0.0 ? kOwnDegrees : 0.0;
   const double variance = (left + own * within) / (below + own);
   return f_tail(explained / columns / variance, columns, below + own);
+}
+
+/// The values of one whole, what is fitted to them and what that leaves.
+struct WholeRows {
+  std::vector<int> rows;
+  Eigen::MatrixXd fitted;
+  Eigen::VectorXd weight, weighted_left;
+};
+
+struct Asked {
+  const DiscoveryProblem& problem;
+  const BlockStatistics& statistics;
+  const FittedModel& model;
+  const std::vector<Eigen::MatrixXd>& projected;
+  const std::vector<bool>& observable;
+};
+
+/// What every whole says of some groups, whose columns stand beside each other.
+void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, std::size_t from,
+                std::size_t to, std::vector<Agreement>& sums) {
+  const std::vector<CandidateGroup>& groups = asked.problem.groups;
+  const int first = groups[from].first_column;
+  const auto columns = Eigen::seq(first, groups[to - 1].first_column + groups[to - 1].columns - 1);
+  const Eigen::MatrixXd absorbed = asked.model.absorbed(Eigen::all, columns);
+  for (const WholeRows& whole : wholes) {
+    const Eigen::MatrixXd beside =
+        asked.statistics.candidates()(whole.rows, columns).cast<double>() -
+        whole.fitted * absorbed;
+    const Eigen::MatrixXd weighted = whole.weight.asDiagonal() * beside;
+    for (std::size_t g = from; g < to; ++g) {
+      if (!asked.observable[g] || groups[g].local_family >= 0) continue;
+      const int own = groups[g].columns, at = groups[g].first_column - first;
+      GroupMatrix gram(own, own);
+      GroupVector score(own);
+      for (int k = 0; k < own; ++k) {
+        score[k] = beside.col(at + k).dot(whole.weighted_left);
+        for (int l = 0; l <= k; ++l)
+          gram(k, l) = gram(l, k) = weighted.col(at + k).dot(beside.col(at + l));
+      }
+      add_whole(sums[g], gram, score,
+                asked.projected[g].trace() / static_cast<double>(wholes.size()));
+    }
+  }
 }
 
 }  // namespace
@@ -119,23 +169,23 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
   std::vector<Agreement> sums(groups);
   for (std::size_t g = 0; g < groups; ++g) {
     const int columns = problem.groups[g].columns;
-    sums[g].gram = Eigen::MatrixXd::Zero(columns, columns);
-    sums[g].score = Eigen::VectorXd::Zero(columns);
+    sums[g].gram = GroupMatrix::Zero(columns, columns);
+    sums[g].score = GroupVector::Zero(columns);
   }
+  std::vector<WholeRows> values;
   for (const auto& [whole, rows] : wholes) {
-    const Eigen::MatrixXd fitted = statistics.model()(rows, model.columns);
-    const Eigen::VectorXd weight = problem.weight(rows);
-    const Eigen::MatrixXd beside =
-        statistics.candidates()(rows, Eigen::all).cast<double>() - fitted * model.absorbed;
-    const Eigen::VectorXd weighted_left =
-        weight.cwiseProduct(statistics.value()(rows) - fitted * model.fitted);
-    for (std::size_t g = 0; g < groups; ++g) {
-      if (!observable[g] || problem.groups[g].local_family >= 0) continue;
-      const auto x = beside.middleCols(problem.groups[g].first_column, problem.groups[g].columns);
-      add_whole(sums[g], x.transpose() * weight.asDiagonal() * x, x.transpose() * weighted_left,
-                projected[g].trace() / static_cast<double>(wholes.size()));
-    }
+    WholeRows one{rows, statistics.model()(rows, model.columns), problem.weight(rows), {}};
+    one.weighted_left =
+        one.weight.cwiseProduct(statistics.value()(rows) - one.fitted * model.fitted);
+    values.push_back(std::move(one));
   }
+  // Groups do not ask each other: the same sums on any number of processors.
+  constexpr std::size_t kGroupsOfWork = 24;
+  for_each_piece((groups + kGroupsOfWork - 1) / kGroupsOfWork, [&](std::size_t piece) {
+    const std::size_t from = piece * kGroupsOfWork;
+    add_wholes(values, {problem, statistics, model, projected, observable}, from,
+               std::min(groups, from + kGroupsOfWork), sums);
+  });
   const double within = scatter_within(problem, statistics, wholes);
   std::vector<double> single(groups, 1.0);
   for (std::size_t g = 0; g < groups; ++g) {

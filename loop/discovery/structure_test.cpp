@@ -119,7 +119,8 @@ void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
   const Eigen::MatrixXf scores =
       unit_scores_.cast<float>() * flip_signs(statistics_.units(), flips);
   const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
+  // The tail falls with the statistic: of groups of one size the largest statistic has it.
+  std::map<int, Eigen::VectorXd> largest_of_size;
   std::vector<double> own(groups, -1.0);
   Eigen::VectorXd statistic(flips);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -138,12 +139,16 @@ void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
     const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
     if (!(scale > 0.0)) continue;
     own[g] = minus_log_chi_square_tail(t / scale, group.columns);
-    for (int k = 0; k < flips; ++k)
-      largest[k] = std::max(largest[k],
-                            minus_log_chi_square_tail(statistic[k] / scale, group.columns));
+    Eigen::VectorXd& largest_statistic = largest_of_size[group.columns];
+    if (largest_statistic.size() == 0) largest_statistic = Eigen::VectorXd::Zero(flips);
+    largest_statistic = largest_statistic.cwiseMax(statistic / scale);
     if (likest_ < 0 || own[g] > own[likest_]) likest_ = static_cast<int>(g);
   }
   if (likest_ < 0) return;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
+  for (const auto& [columns, statistics] : largest_of_size)
+    for (int k = 0; k < flips; ++k)
+      largest[k] = std::max(largest[k], minus_log_chi_square_tail(statistics[k], columns));
   std::sort(largest.data(), largest.data() + flips);
   for (std::size_t g = 0; g < groups; ++g) {
     if (own[g] < 0.0) continue;

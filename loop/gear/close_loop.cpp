@@ -69,17 +69,15 @@ bool is_more_than_noise(const LoopResult& result) {
 }
 
 LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit,
-                     Makings makings) {
+                     const std::vector<float>& left_um, Makings makings) {
   LoopResult result;
   result.observations = fit.observations();
   result.held_out = fit.held_out();
   result.outliers = loop.table().outliers;
-  std::vector<float> unused, left_um;
-  fit.residuals(unused, left_um);
   result.noise =
       random_error_um(geometry, loop.table(), loop.patches(), left_um, !loop.structure_is_left());
   result.notes = loop.table().notes;
-  const auto none = PointFit(geometry, loop.measured(), loop.patches(), {}).errors({});
+  const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
   result.after = {all.rms_um, all.held_out_rms_um, 0.0};
@@ -118,12 +116,14 @@ GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, 
                    const LoopOptions& options) {
   PartLoop loop(geometry, std::move(table), {.declared = options.declared, .makings = options.makings});
   loop.run();
-  const PointFit fit(geometry, loop.table(), loop.patches(), loop.effects());
-  GearLoop done{result_of(geometry, loop, fit, options.makings), geometry, {}, {}, {}};
+  const auto fit = loop.fit_of(loop.effects());
+  std::vector<float> before_um, after_um, unused;
+  fit->residuals(unused, after_um);
+  loop.plain_fit()->residuals(before_um, unused);
+  GearLoop done{result_of(geometry, loop, *fit, after_um, options.makings), geometry, {}, {}, {}};
   done.result.gear = gear_name;
-  std::vector<float> unused;
-  PointFit(geometry, loop.measured(), loop.patches(), {}).residuals(done.before_um, unused);
-  fit.residuals(unused, done.after_um);
+  done.before_um = std::move(before_um);
+  done.after_um = std::move(after_um);
   done.table = std::move(loop).take_table();
   find_largest_errors(done);
   const Iso1328 iso = iso_1328(done);

@@ -34,6 +34,33 @@ PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options op
 void PartLoop::divide_into_patches() {
   patches_ = make_patches(geometry_, table_);
   problem_ = {};
+  forget_fits();
+}
+
+/// Where values, places or weights changed.
+void PartLoop::forget_fits() {
+  fits_.clear();
+  plain_fit_.reset();
+}
+
+std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effects) const {
+  constexpr std::size_t kMost = 3;
+  auto found = std::find_if(fits_.begin(), fits_.end(),
+                            [&](const auto& fit) { return fit->effects() == effects; });
+  if (found == fits_.end()) {
+    if (fits_.size() == kMost) fits_.pop_back();
+    found = fits_.insert(fits_.end(),
+                         std::make_shared<const PointFit>(geometry_, table_, patches_, effects));
+  }
+  std::rotate(fits_.begin(), found, found + 1);
+  return fits_.front();
+}
+
+std::shared_ptr<const PointFit> PartLoop::plain_fit() const {
+  if (!plain_fit_)
+    plain_fit_ = std::make_shared<const PointFit>(geometry_, measured_, patches_,
+                                                  std::vector<Effect>());
+  return plain_fit_;
 }
 
 void PartLoop::run() {
@@ -75,8 +102,8 @@ void PartLoop::explain() {
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
 bool PartLoop::is_rounding() const {
   constexpr double kFileRounding_um = 0.01;
-  const PointFit plain(geometry_, measured_, patches_, {});
-  return plain.observations() > 0 && plain.errors({}).rms_um < kFileRounding_um;
+  const auto plain = plain_fit();
+  return plain->observations() > 0 && plain->errors({}).rms_um < kFileRounding_um;
 }
 
 /// What the data cannot show is not looked for under another name: shapes over the profile where
@@ -193,8 +220,11 @@ void PartLoop::select() {
 
 void PartLoop::leave_out_across_steps() {
   kept_.valid = false;
-  for (const Effect& effect : effects_)
-    if (effect.family->shape_is_step) patches_.leave_out_across(effect.shape[0]);
+  for (const Effect& effect : effects_) {
+    if (!effect.family->shape_is_step) continue;
+    patches_.leave_out_across(effect.shape[0]);
+    forget_fits();
+  }
 }
 
 /// True where a shape moved noticeably.
@@ -224,9 +254,10 @@ bool PartLoop::linearise() {
     return static_cast<bool>(effect.family->displacement_mm);
   });
   if (!body || measured_.points_mm.empty()) return false;
-  const PointFit fit(geometry_, table_, patches_, effects_);
-  const double change = linearise_at(geometry_, fit, measured_, table_);
-  if (!(change > 0.02 * fit.noise_um())) return false;
+  const auto fit = fit_of(effects_);
+  const double change = linearise_at(geometry_, *fit, measured_, table_);
+  forget_fits();
+  if (!(change > 0.02 * fit->noise_um())) return false;
   divide_into_patches();
   leave_out_across_steps();
   return true;
@@ -282,11 +313,11 @@ bool PartLoop::ban_misnamed() {
 /// Effects that no gear can have (possible_effects.h) are not chosen again, at no shape.
 bool PartLoop::ban_impossible() {
   if (effects_.empty()) return false;
-  const PointFit fit(geometry_, table_, patches_, effects_);
+  const auto fit = fit_of(effects_);
   bool any = false;
   for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
+    if (is_possible(geometry_, *fit, static_cast<int>(e))) continue;
     for (std::size_t g = 0; g < candidates_.size(); ++g)
       if (candidates_[g].family == effect.family && candidates_[g].flank == effect.flank)
         banned_[g] = any = true;
@@ -329,7 +360,7 @@ void PartLoop::look_at_sizes() {
       std::count_if(table_.rows.begin(), table_.rows.end(),
                     [](const Observation& row) { return row.kind == ObservationKind::kSize; });
   for (int round = 0; round < 2 && sizes > 0; ++round) {
-    const double before = PointFit(geometry_, table_, patches_, effects_).residual_square();
+    const double before = fit_of(effects_)->residual_square();
     int best = -1;
     std::vector<std::pair<int, double>> tried;
     for (int g = 0; g < static_cast<int>(candidates_.size()); ++g) {
@@ -370,7 +401,7 @@ void PartLoop::look_at_neighbours() {
     if (!effect.family->local) common.push_back(effect);
   const auto shared_without = [&](const std::vector<Effect>& effects) {
     std::vector<float> before_um, after_um;
-    PointFit(geometry_, table_, patches_, effects).residuals(before_um, after_um);
+    fit_of(effects)->residuals(before_um, after_um);
     return shared_by_neighbours(geometry_, patches_, after_um);
   };
   neighbours_ = shared_without(common);

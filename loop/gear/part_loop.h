@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ class PartLoop {
     int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
   };
   PartLoop(const FlankGeometry& geometry, Observations table, Options options);
+  PartLoop(const PartLoop&) = delete;  ///< fits refer to its tables
+  PartLoop& operator=(const PartLoop&) = delete;
 
   void run();
 
@@ -39,6 +42,10 @@ class PartLoop {
   [[nodiscard]] Observations take_table() && { return std::move(table_); }
   [[nodiscard]] const Observations& measured() const { return measured_; }
   [[nodiscard]] const Patches& patches() const { return patches_; }
+  /// The fit of effects to the table as it is; asked for again, it is at hand.
+  [[nodiscard]] std::shared_ptr<const PointFit> fit_of(const std::vector<Effect>& effects) const;
+  /// The fit of nothing but the pose to the deviations of the gear as designed.
+  [[nodiscard]] std::shared_ptr<const PointFit> plain_fit() const;
   [[nodiscard]] std::vector<std::string> not_observable() const;
   /// True where the test of structure that is left answers yes, how sure, and what it looks like.
   [[nodiscard]] bool structure_is_left() const;
@@ -79,6 +86,7 @@ class PartLoop {
   [[nodiscard]] bool neighbours_share() const;
   void leave_out_across_steps();
   void divide_into_patches();
+  void forget_fits();
   [[nodiscard]] const DiscoveryProblem& candidates_problem();
 
   const FlankGeometry& geometry_;
@@ -104,6 +112,8 @@ class PartLoop {
     std::array<std::optional<std::vector<RemainderFinding>>, 2> findings;  ///< of training, of all
   };
   Kept kept_;
+  mutable std::vector<std::shared_ptr<const PointFit>> fits_;  ///< the one asked for last first
+  mutable std::shared_ptr<const PointFit> plain_fit_;
   std::vector<RemainderFinding> remainder_;  ///< what no effect found took up
 };
 

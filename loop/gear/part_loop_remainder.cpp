@@ -24,7 +24,7 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
                                   kept_.effects.end(), same)) {
     kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
     std::vector<float> before_um;
-    PointFit(geometry_, table_, patches_, effects).residuals(before_um, kept_.row_um);
+    fit_of(effects)->residuals(before_um, kept_.row_um);
   }
   auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
   if (!findings) findings = look_at_remainder(geometry_, table_, patches_, kept_.row_um, which);
@@ -203,8 +203,8 @@ bool PartLoop::ban_what_forms_explain() {
   std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),
                [&](const Effect& e) { return !is_form(e); });
   if (without.size() == effects_.size()) return false;
-  const PointFit full(geometry_, table_, patches_, effects_);
-  const PointFit bare(geometry_, table_, patches_, without);
+  const auto fit = fit_of(effects_), fit_without = fit_of(without);
+  const PointFit &full = *fit, &bare = *fit_without;
   bool any = false;
   int at = 0;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
@@ -232,19 +232,19 @@ void PartLoop::veto() {
   constexpr double kClearly = 0.98;
   const std::size_t told = options_.given.size() - given_p_values_.size();
   while (effects_.size() > told) {
-    const PointFit fit(geometry_, table_, patches_, effects_);
-    if (fit.held_out() == 0) return;
+    const auto fit = fit_of(effects_);
+    if (fit->held_out() == 0) return;
     std::vector<bool> with(effects_.size(), true);
-    const double full = fit.errors(with).held_out_rms_um;
+    const double full = fit->errors(with).held_out_rms_um;
     // Together they may harm where none does alone.
-    const double none = PointFit(geometry_, measured_, patches_, {}).errors({}).held_out_rms_um;
+    const double none = plain_fit()->errors({}).held_out_rms_um;
     const bool rises = full > none;
     double least = rises ? 1e300 : kClearly * full;
     std::size_t worst = effects_.size();
     for (std::size_t e = told; e < effects_.size(); ++e) {
       if (effects_[e].family->local && !rises) continue;
       with[e] = false;
-      const double error = fit.errors(with).held_out_rms_um;
+      const double error = fit->errors(with).held_out_rms_um;
       with[e] = true;
       if (error >= least) continue;
       least = error;

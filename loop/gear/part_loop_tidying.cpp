@@ -15,9 +15,9 @@ namespace trueflank::loop {
 void PartLoop::drop_impossible() {
   for (bool again = true; again;) {
     again = false;
-    const PointFit fit(geometry_, table_, patches_, effects_);
+    const auto fit = fit_of(effects_);
     for (std::size_t e = options_.given.size(); e < effects_.size() && !again; ++e) {
-      if (is_possible(geometry_, fit, static_cast<int>(e))) continue;
+      if (is_possible(geometry_, *fit, static_cast<int>(e))) continue;
       effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
       discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
       again = true;
@@ -35,7 +35,8 @@ void PartLoop::drop_what_mends_a_shape() {
     return e.family->shape_is_continuous && !e.family->shape_is_step;
   };
   while (effects_.size() > 1 && std::any_of(effects_.begin(), effects_.end(), shaped)) {
-    const PointFit fit(geometry_, table_, patches_, effects_);
+    const auto kept = fit_of(effects_);
+    const PointFit& fit = *kept;
     const Eigen::MatrixXd covariance =
         shape_uncertainty(geometry_, table_, patches_, fit).covariance;
     std::size_t least = effects_.size();
@@ -102,7 +103,7 @@ void PartLoop::join_flanks() {
     for (std::size_t b = a + 1; b < effects_.size(); ++b) {
       const EffectFamily* both = on_both_flanks(*effects_[a].family);
       if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b]) ||
-          !same_size(PointFit(geometry_, table_, patches_, effects_), a, b))
+          !same_size(*fit_of(effects_), a, b))
         continue;
       for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
         effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
@@ -171,12 +172,14 @@ void PartLoop::tell_parts_of_a_form() {
     return family.named ? find_form(family.form_word) : nullptr;
   };
   const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
-  const PointFit fit(geometry_, table_, patches_, effects_);
+  const auto kept = fit_of(effects_);
+  const PointFit& fit = *kept;
   std::vector<Effect> bare;
   for (const Effect& effect : effects_)
     if (!is_form(effect)) bare.push_back(effect);
   if (bare.size() == effects_.size() || bare.empty()) return;
-  const PointFit without(geometry_, table_, patches_, bare);
+  const auto kept_without = fit_of(bare);
+  const PointFit& without = *kept_without;
   std::array<Eigen::VectorXd, 2> forms{Eigen::VectorXd::Zero(2 * kPlaces),
                                        Eigen::VectorXd::Zero(2 * kPlaces)};
   for (std::size_t e = 0; e < effects_.size(); ++e)
@@ -215,12 +218,14 @@ void PartLoop::tell_parts_of_a_form() {
 /// mean of its own.
 void PartLoop::tell_level_of_forms() {
   constexpr double kHangs = 0.25;
-  const PointFit fit(geometry_, table_, patches_, effects_);
+  const auto kept = fit_of(effects_);
+  const PointFit& fit = *kept;
   std::vector<Effect> named;
   for (const Effect& effect : effects_)
     if (!effect.is_term() || effect.order() != 0.0) named.push_back(effect);
   if (named.size() == effects_.size() || named.empty()) return;
-  const PointFit without(geometry_, table_, patches_, named);
+  const auto kept_without = fit_of(named);
+  const PointFit& without = *kept_without;
   int own = 0;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     Effect& effect = effects_[e];

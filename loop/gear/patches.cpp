@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 #include "trueflank/export/parallel_jobs.h"
@@ -405,14 +406,27 @@ void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, 
 
 namespace {
 
-constexpr std::size_t kCandidatesOfWork = 64;
+constexpr std::size_t kCandidatesOfWork = 64, kPatchesOfWork = 64;
 
-/// Writes the columns of one effect: its mean over every patch.
-void write_columns(const FlankGeometry& geometry, const Patches& patches, const Effect& effect,
+/// Patches of one tooth after the other: what differs from tooth to tooth alone is asked for the
+/// same angle many times in a row.
+std::vector<std::size_t> by_tooth(const Patches& patches) {
+  std::vector<std::size_t> order(patches.patches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return patches.patches[a].places.front().place.tooth <
+           patches.patches[b].places.front().place.tooth;
+  });
+  return order;
+}
+
+/// Writes the columns of one effect over some patches: its mean over each of them.
+void write_columns(const FlankGeometry& geometry, const Patches& patches,
+                   std::span<const std::size_t> members, const Effect& effect,
                    const CandidateGroup& group, DiscoveryProblem& problem) {
   const bool fine = effect.family->is_fine && effect.family->is_fine(geometry, effect.shape);
   double one[8], sum[8];
-  for (std::size_t i = 0; i < patches.patches.size(); ++i) {
+  for (const std::size_t i : members) {
     const Patches::Patch& patch = patches.patches[i];
     std::fill_n(sum, group.columns, 0.0);
     const auto add = [&](const Place& place, double weight) {
@@ -508,14 +522,20 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
     if (g >= before.size() || g >= stood.size() || !(before[g] == effects[g]) ||
         stood[g].first_column != problem.groups[g].first_column)
       changed.push_back(g);
-  // Candidates do not ask each other: the same columns on any number of processors.
+  // Candidates do not ask each other: the same columns on any number of processors. A few patches
+  // at a time, so that their rows of the matrix stay at hand.
+  const std::vector<std::size_t> order = by_tooth(patches);
   std::vector<io::QueuedJob> jobs;
   for (std::size_t first = 0; first < changed.size(); first += kCandidatesOfWork)
     jobs.push_back({[&, first] {
                       const std::size_t end = std::min(changed.size(), first + kCandidatesOfWork);
-                      for (std::size_t i = first; i < end; ++i)
-                        write_columns(geometry, patches, effects[changed[i]],
-                                      problem.groups[changed[i]], problem);
+                      for (std::size_t p = 0; p < order.size(); p += kPatchesOfWork) {
+                        const std::span members(order.data() + p,
+                                                std::min(kPatchesOfWork, order.size() - p));
+                        for (std::size_t i = first; i < end; ++i)
+                          write_columns(geometry, patches, members, effects[changed[i]],
+                                        problem.groups[changed[i]], problem);
+                      }
                       return true;
                     },
                     {}});

@@ -252,7 +252,8 @@ class PartsLoop {
       const PartLoop& loop = *each_[p];
       std::vector<Effect> effects;
       for (const int m : members_on(p)) effects.push_back(members_[m].effect);
-      const PointFit none(geometry_, loop.measured(), loop.patches(), {});
+      const auto plain_fit = loop.plain_fit();
+      const PointFit& none = *plain_fit;
       const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
       const auto plain = none.errors({}), full = fit.errors(std::vector<bool>(effects.size(), true));
       const double n = fit.observations(), held = fit.held_out();

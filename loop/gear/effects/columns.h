@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effect.h"
 
 // What several effects' columns are made of.
@@ -16,6 +17,18 @@ struct PlanePoint {
 /// The place in the transverse plane [mm].
 [[nodiscard]] inline PlanePoint point_of(const Place& place) {
   return {place.radius_mm * place.polar_direction[0], place.radius_mm * place.polar_direction[1]};
+}
+
+/// Cosine and sine of an angle. Those of the angle asked for last are at hand: places of one tooth
+/// come one after the other.
+[[nodiscard]] inline std::array<double, 2> direction_at(double angle_rad) {
+  struct Last {
+    double angle_rad = kNaN;
+    std::array<double, 2> direction{};
+  };
+  static thread_local Last last;
+  if (angle_rad != last.angle_rad) last = {angle_rad, {std::cos(angle_rad), std::sin(angle_rad)}};
+  return last.direction;
 }
 
 /// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on height.

@@ -24,10 +24,10 @@ EffectFamily pitch_wave() {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
     // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
-    const double lever =
-        p.side * g.base_radius_mm() / g.reference_radius_mm() * std::cos(g.base_helix_rad());
-    c[0] = lever * std::cos(shape[0] * p.centre_rad);
-    c[1] = lever * std::sin(shape[0] * p.centre_rad);
+    const double lever = p.side * g.base_radius_mm() / g.reference_radius_mm() * g.cos_base_helix();
+    const auto [cosine, sine] = direction_at(shape[0] * p.centre_rad);
+    c[0] = lever * cosine;
+    c[1] = lever * sine;
   };
   f.order = first_value;
   f.doubt_share = 0.05;

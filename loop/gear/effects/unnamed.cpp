@@ -94,8 +94,9 @@ EffectFamily unnamed() {
       c[0] = value;
       return;
     }
-    c[0] = value * std::cos(shape[2] * p.centre_rad);
-    c[1] = value * std::sin(shape[2] * p.centre_rad);
+    const auto [cosine, sine] = direction_at(shape[2] * p.centre_rad);
+    c[0] = value * cosine;
+    c[1] = value * sine;
   };
   f.order = [](const EffectShape& shape) { return shape[2]; };
   f.needs = [](const EffectShape& shape) {
