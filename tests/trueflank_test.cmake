@@ -39,11 +39,15 @@ function(trueflank_test name)
 endfunction()
 
 # A test written as a script, run by the distribution's Python:
-#   trueflank_script_test(<name> [SLOW] SCRIPT <file.py> [ARGUMENTS <argument>...])
+#   trueflank_script_test(<name> [SLOW] [WITHOUT_PROGRAM] SCRIPT <file.py> [ARGUMENTS <argument>...])
 # The script finds the repository in TRUEFLANK_SOURCE_DIR, the program in TRUEFLANK_PROGRAM, and a
-# folder for its output, its own, in TRUEFLANK_TEST_OUTPUT.
+# folder for its output, its own, in TRUEFLANK_TEST_OUTPUT. WITHOUT_PROGRAM: it does not run the program;
+# all others are left out where the program is not built (TRUEFLANK_BUILD_PROGRAM=OFF).
 function(trueflank_script_test name)
-  cmake_parse_arguments(arg "SLOW" "SCRIPT" "ARGUMENTS" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;WITHOUT_PROGRAM" "SCRIPT" "ARGUMENTS" ${ARGN})
+  if(NOT arg_WITHOUT_PROGRAM AND NOT TARGET trueflank_program)
+    return()
+  endif()
   add_test(NAME ${name}
     COMMAND ${TRUEFLANK_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${arg_SCRIPT} ${arg_ARGUMENTS})
   set(output ${PROJECT_BINARY_DIR}/test_output/${name})
