@@ -71,7 +71,10 @@ std::string real_text(const Directive& d, char letter, double value) {
   const std::chars_format form = letter == 'f'   ? std::chars_format::fixed
                                  : letter == 'e' ? std::chars_format::scientific
                                                  : std::chars_format::general;
-  return signed_text(d, std::signbit(value), value, form, d.precision < 0 ? 6 : d.precision);
+  const int precision = d.precision < 0 ? 6 : d.precision;
+  std::string text = signed_text(d, std::signbit(value), value, form, precision);
+  const bool is_zero = text.substr(0, text.find('e')).find_first_not_of("-0.") == std::string::npos;
+  return is_zero && std::signbit(value) ? signed_text(d, false, 0.0, form, precision) : text;
 }
 
 long long signed_argument(const Directive& d, va_list& arguments) {
@@ -133,7 +136,7 @@ std::string printed_number(double value, const char* format) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 #pragma GCC diagnostic ignored "-Wformat-security"
-  return printed(format, value == 0.0 ? 0.0 : value);
+  return printed(format, value);
 #pragma GCC diagnostic pop
 }
 

@@ -57,8 +57,8 @@ Finding judge_carrier(const GearTrain& train, const CarrierLayout& carrier) {
   }
   finding.status = finding.value > 0.0 ? CheckStatus::kPass : CheckStatus::kFail;
   if (finding.status == CheckStatus::kFail)
-    finding.cure = "axial_clearance_mm in [carrier] larger by " + mm_text(-finding.value) +
-                   ", an outer_diameter_mm smaller by twice that, or a larger opening_diameter_mm";
+    finding.cure = "axial_clearance_mm in [carrier] larger by more than " + bound_text(-finding.value, Rounded::kUp) +
+                   " mm, an outer_diameter_mm smaller by twice that, or a larger opening_diameter_mm";
   return finding;
 }
 
@@ -81,9 +81,9 @@ Findings check_axial(const GearTrain& train) {
       finding.status = gap > 0.0 ? CheckStatus::kPass : CheckStatus::kFail;
       finding.cure = gap > 0.0 ? ""
                                : "layer_gap_mm above " +
-                                     number_text(train.design.layer_gap_mm - gap) +
+                                     bound_text(train.design.layer_gap_mm - gap, Rounded::kUp) +
                                      ", or a face width of " + lower.name + " below " +
-                                     mm_text(lower.face_width_mm + gap);
+                                     bound_text(lower.face_width_mm + gap, Rounded::kDown) + " mm";
     }
   }
   if (finding.message.empty()) {

@@ -36,7 +36,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
   finding.message += ": the flanks overlap";
   // thinning on the reference circle grows by the ratio of the radii
   const double needed = -backlash * reference_radius_mm(pair.gear1()) / pitch_radius1_mm(pair);
-  finding.cure = "teeth thinned by another " + um_text(needed) +
+  finding.cure = "teeth thinned by another " + bound_text(um_from_mm(needed), Rounded::kUp, 2) + " um" +
                  " on the reference circle (both gears together)";
   return finding;
 }

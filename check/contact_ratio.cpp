@@ -14,6 +14,18 @@ namespace {
 
 constexpr double kWantedContactRatio = 1.1;
 
+/// Transverse contact of the pair with another tip of gear 1; NaN where that tooth cannot be made, or is pointed before.
+double ratio_with_tip(const GearPair& pair, double tip_diameter_mm) {
+  Gear gear = pair.gear1();
+  gear.tip_radius_mm = 0.5 * tip_diameter_mm;
+  const auto made = ToothProfile::make(gear);
+  if (!made || made->notes().pointed) return kNaN;
+  GearPair changed = pair;
+  changed.profile1 = &*made;
+  const ContactRatios ratios = contact_ratios(changed);
+  return std::min(ratios.total, ratios.effective);
+}
+
 Finding judge(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const ContactRatios ratios = contact_ratios(pair);
@@ -59,9 +71,12 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
     return finding;
   }
   const double roll = pair.profile1->tip_form_roll_length_mm() + lacking;
-  finding.cure = "a tip diameter of " + gear1_name(train, mesh) + " of " +
-                 mm_text(2.0 * std::hypot(base_radius_mm(pair.gear1()), roll)) + " gives " +
-                 number_text(limit) + ", or a smaller working pressure angle (shifts, centre distance)";
+  const double diameter_mm = 2.0 * std::hypot(base_radius_mm(pair.gear1()), roll);
+  // a tenth of a micrometre: the last decimal that is written
+  if (ratio_with_tip(pair, diameter_mm + 1e-4) + overlap >= limit)
+    finding.cure = "a tip diameter of " + gear1_name(train, mesh) + " of " +
+                   bound_text(diameter_mm, Rounded::kUp) + " mm gives " + number_text(limit) + ", or ";
+  finding.cure += "a smaller working pressure angle (shifts, centre distance)";
   return finding;
 }
 

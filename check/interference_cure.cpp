@@ -125,8 +125,8 @@ std::string cure_text(const GearTrain& train, const TrainMesh& mesh, bool tip_of
   std::string text;
   if (const auto radius = tip_radius_cure_mm(pair, tip_of_gear1, margin)) {
     const double now = (tip_of_gear1 ? pair.profile1 : pair.profile2)->tip_radius_mm();
-    text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " + mm_text(2.0 * *radius) +
-           " (" + (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
+    text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " +
+           bound_text(2.0 * *radius, *radius > now ? Rounded::kUp : Rounded::kDown) + " mm (" + (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
   }
   if (const auto shift = shift_cure(train, mesh, margin)) {
     text += text.empty() ? "" : "; or ";

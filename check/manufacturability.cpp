@@ -106,7 +106,7 @@ Finding judge_mesh(const GearTrain& train, const TrainMesh& mesh, const Process&
                     mm_text(process.backlash_mm);
   if (finding.margin >= 0.0) return finding;
   finding.status = CheckStatus::kWarn;
-  finding.cure = "backlash_mm = " + number_text(process.backlash_mm, 3);
+  finding.cure = "backlash_mm = " + bound_text(process.backlash_mm, Rounded::kUp, 3);
   return finding;
 }
 

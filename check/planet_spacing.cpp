@@ -39,7 +39,7 @@ Finding judge(const GearTrain& train, const TrainGear& gear) {
   if (gap > 0.0) return finding;
   finding.status = CheckStatus::kFail;
   finding.cure = "at most " + std::to_string(most) + " planets, or a tip diameter of " + gear.name +
-                 " below " + mm_text(2.0 * a * std::sin(0.5 * angle)) + " (" + mm_text(gap) + ")";
+                 " below " + bound_text(2.0 * a * std::sin(0.5 * angle), Rounded::kDown) + " mm (" + mm_text(gap) + ")";
   return finding;
 }
 

@@ -20,15 +20,17 @@ std::vector<Notice> notices(const ToothProfile& profile) {
   if (notes.pointed)
     list.push_back({"the teeth are pointed and end at diameter " + diameter(profile.tip_radius_mm()) +
                         " instead of " + diameter(gear.tip_radius_mm),
-                    "a smaller profile shift, or that diameter as tip diameter"});
-  if (notes.full_round)
+                    "a smaller profile shift, or a tip diameter of at " +
+                        std::string(external ? "most " : "least ") +
+                        bound_text(2.0 * profile.tip_radius_mm(), external ? Rounded::kDown : Rounded::kUp) + " mm"});
+  if (notes.full_round && !notes.space_closed)  // a space that closes has no root to be rounded
     list.push_back({"the root rounding does not fit and is reduced to the full round, " +
                         number_text(profile.root_radius_coefficient()) + " module",
                     external || gear.ring_root == RingRoot::kFillet
                         ? "rack.root_radius of at most " +
-                              number_text(profile.root_radius_coefficient())
+                              bound_text(profile.root_radius_coefficient(), Rounded::kDown)
                         : "cutter.tip_radius of at most " +
-                              number_text(profile.root_radius_coefficient())});
+                              bound_text(profile.root_radius_coefficient(), Rounded::kDown)});
   if (notes.space_closed)
     list.push_back({"the tooth spaces close at diameter " + diameter(profile.root_radius_mm()) +
                         ", before the root circle of " + diameter(nominal_root_radius_mm(gear)),
@@ -37,12 +39,13 @@ std::vector<Notice> notices(const ToothProfile& profile) {
     list.push_back({"the tip circle of diameter " + diameter(profile.tip_radius_mm()) +
                         " lies inside the base circle of " + diameter(base_radius_mm(gear)) +
                         "; the flank goes on radially there",
-                    "a tip diameter of at least " + diameter(base_radius_mm(gear)) +
-                        " or a larger profile shift"});
+                    "a tip diameter of at least " + bound_text(2.0 * base_radius_mm(gear), Rounded::kUp) +
+                        " mm or a larger profile shift"});
   if (notes.tip_trimmed)
     list.push_back({"the cutter trims the tip corners; the involute ends at diameter " +
                         diameter(profile.tip_form_radius_mm()),
-                    "a cutter with fewer teeth, or that diameter as tip diameter"});
+                    "a cutter with fewer teeth, or a tip diameter of at least " +
+                        bound_text(2.0 * profile.tip_form_radius_mm(), Rounded::kUp) + " mm"});
   return list;
 }
 

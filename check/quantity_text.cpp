@@ -22,6 +22,14 @@ std::string number_text(double value, int digits) {
   return text == "-0" ? "0" : text;
 }
 
+std::string bound_text(double value, Rounded rounded, int digits) {
+  const double scale = std::pow(10.0, digits);
+  // what stands on the last decimal but for the error of the multiplication is not moved
+  const double slack = 1e-13 * std::abs(value) * scale;
+  const double whole = rounded == Rounded::kUp ? std::ceil(value * scale - slack) : std::floor(value * scale + slack);
+  return number_text(whole / scale, digits);
+}
+
 std::string mm_text(double length_mm) { return number_text(length_mm, 4) + " mm"; }
 std::string um_text(double length_mm) { return number_text(um_from_mm(length_mm), 2) + " um"; }
 std::string deg_text(double angle_rad) { return number_text(deg_from_rad(angle_rad), 3) + " deg"; }

@@ -31,8 +31,9 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
   const double change = wanted - smaller;
   const bool external = tip.gear().kind == GearKind::kExternal;
   finding.cure = "a tip diameter of " + (first ? name1 : name2) + " of " +
-                 mm_text(2.0 * (tip.tip_radius_mm() + (external ? -change : change))) +
-                 (external ? " (" : " (+") + mm_text(external ? -2.0 * change : 2.0 * change) +
+                 bound_text(2.0 * (tip.tip_radius_mm() + (external ? -change : change)),
+                            external ? Rounded::kDown : Rounded::kUp) +
+                 (external ? " mm (" : " mm (+") + mm_text(external ? -2.0 * change : 2.0 * change) +
                  ") gives " + mm_text(wanted);
   return finding;
 }

@@ -45,7 +45,7 @@ Finding judge(const TrainGear& gear) {
   const double radius = tip_radius_for_thickness_mm(gear.profile, limit);
   const bool external = gear.profile.gear().kind == GearKind::kExternal;
   if (radius == radius)
-    finding.cure = "a tip diameter of " + mm_text(2.0 * radius) + " leaves " + mm_text(limit) +
+    finding.cure = "a tip diameter of " + bound_text(2.0 * radius, external ? Rounded::kDown : Rounded::kUp) + " mm leaves " + mm_text(limit) +
                    (external ? "; or a smaller profile shift" : "; or a smaller shift of the ring");
   else
     finding.cure = "a smaller profile shift";

@@ -251,9 +251,9 @@ Findings check_tolerance(const GearTrain& train, const ToleranceResult& result) 
                       number_text(100.0 * mesh.jam_share, 2) + " % of the sets jam here";
     if (finding.status != CheckStatus::kPass)
       finding.cure = "backlash_mm of at least " +
-                     number_text(mesh.nominal_backlash_mm -
+                     bound_text(mesh.nominal_backlash_mm -
                                      std::min(mesh.smallest_backlash_mm, 2.0 * mesh.smallest_clearance_mm),
-                                 3) +
+                                 Rounded::kUp, 3) +
                      ", or closer tolerances";
     findings.push_back(std::move(finding));
   }

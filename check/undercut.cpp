@@ -38,7 +38,7 @@ Finding judge(const TrainGear& gear) {
   finding.message = gear.name + ": the tool cuts into the involute; it starts at diameter " +
                     mm_text(2.0 * gear.profile.root_form_radius_mm()) + ", " + mm_text(lost) +
                     " above the base circle (radius)";
-  finding.cure = "a profile shift of at least " + number_text(limit) + " (" +
+  finding.cure = "a profile shift of at least " + bound_text(limit, Rounded::kUp) + " (" +
                  number_text(limit - gear.shift) + " more)";
   return finding;
 }

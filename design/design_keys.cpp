@@ -236,7 +236,7 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        KeyPlace::kAnywhere,
        [](R&, const KeyValue&) {},  // the reader has taken the rack's values before the other keys
        [](const R&) { return Value(); }},
-      {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 45, .by_default = "20",
+      {{.name = "pressure_angle_deg", .unit = "deg", .lower = 5, .upper = 44, .by_default = "20",
         .meaning = "pressure angle, in the normal section"},
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.pressure_angle_rad = rad_from_deg(number(v)); },

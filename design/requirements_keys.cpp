@@ -191,7 +191,7 @@ RequirementsSection rack() {
           {{{.name = "pressure_angle_deg",
              .unit = "deg",
              .lower = 5,
-             .upper = 45,
+             .upper = 44,
              .by_default = "20",
              .meaning = "basic rack, as in a design file"},
             [](R& r, const V& v) {

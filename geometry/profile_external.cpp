@@ -70,7 +70,9 @@ Status ProfileBuilder::build_external() {
   if (full_round < 0.0)
     return fail(no_tooth("rack.dedendum", g().rack.dedendum,
                          "the tooth of the rack is pointed before it reaches its depth",
-                         "a dedendum of at most " + profile_number(0.25 * kPi / std::tan(alpha_n))));
+                         "a dedendum of at most " + profile_number(0.25 * kPi / std::tan(alpha_n)) +
+                             " or a pressure angle of at most " +
+                             profile_number(deg_from_rad(std::atan(0.25 * kPi / g().rack.dedendum))) + " deg"));
   double rho = g().rack.root_radius;
   if (rho > full_round) {
     rho = full_round;

@@ -16,6 +16,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// -0 as 0: nothing in a report depends on the sign of zero.
+void drop_signs_of_zero(Json& json) {
+  if (json.is_structured()) for (Json& item : json) drop_signs_of_zero(item);
+  else if (json.is_number_float() && json.get<double>() == 0.0) json = 0.0;
+}
+
 Json degrees(const std::vector<double>& angles_rad) {
   Json list = Json::array();
   for (double angle : angles_rad) list.push_back(deg_from_rad(angle));
@@ -249,6 +255,7 @@ std::string report_json(const Report& report) {
   if (report.inches) json["inches"] = Json::parse(inch_json_text(*report.train));
   json["joint_cure"] = report.cure ? Json::parse(cure_json_text(*report.cure)) : Json(nullptr);
   json["verdict"] = to_text(verdict(report.findings));
+  drop_signs_of_zero(json);
   // names come from users: what is no UTF-8 is shown as the replacement character
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -139,6 +139,13 @@ class Check(Case):
             self.expect_error(result, 2, "gearbox.centre_distance_mm", "25 mm")
             self.assertNotIn("tip_diameter", result.stderr)
 
+    def test_a_rack_too_steep_for_its_depth_is_told_by_its_angle_too(self):
+        steep = PAIR + "[rack]\npressure_angle_deg = 33\n"
+        self.expect_error(run("check", self.design(steep)), 2, "rack", "a pressure angle of at most 32.1")
+        for refused in ("45", "47.5", "50"):
+            self.expect_error(run("check", self.design(steep.replace("33", refused))), 2,
+                              f"rack.pressure_angle_deg = {refused}", "from 5 to 44 deg")
+
     def test_helical_sets_tell_hands_overlap_thrust_and_what_cannot_be_measured(self):
         design = SOURCE / "examples/helical_planetary/design.toml"
         result = run("check", design, "--json", self.folder / "r.json")

@@ -5,6 +5,7 @@ import os
 import pathlib
 import pty
 import re
+import select
 import shutil
 import signal
 import subprocess
@@ -40,16 +41,15 @@ def run(*arguments):
 def errors_on_a_terminal(*arguments, paused=False):
     """What the program writes to standard error where that is a terminal.
 
-    `paused` stops the process for 1.5 s soon after its start, so that the work takes longer than the
-    second after which progress is shown, on the fastest machine too.
+    `paused` stops the process again and again for longer than the second after which progress is shown, until it
+    shows something: whenever the work begins, it then takes longer than that, on a fast machine and on a slow one.
     """
     own, its = pty.openpty()
     process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=its)
     os.close(its)
-    if paused:
-        time.sleep(0.1)
+    while paused and process.poll() is None and not select.select([own], [], [], 0.1)[0]:
         process.send_signal(signal.SIGSTOP)
-        time.sleep(1.5)
+        time.sleep(1.2)
         process.send_signal(signal.SIGCONT)
     text = b""
     while True:

@@ -21,6 +21,12 @@ std::string by_printf(const char* format, Arguments... arguments) {
   return room;
 }
 
+/// What must be shown of `value` where `format` writes it: zero has no sign.
+template <class... Arguments>
+double shown(double value, const char* format, Arguments... arguments) {
+  return std::strtod(by_printf(format, arguments..., value).c_str(), nullptr) == 0.0 ? 0.0 : value;
+}
+
 // The C library is the judge: the test program itself runs in the C locale.
 TEST(Printed, IsWhatPrintfWrites) {
   std::mt19937_64 random(20261122);
@@ -30,12 +36,13 @@ TEST(Printed, IsWhatPrintfWrites) {
     const double round = std::round(value * 4.0) / 4.0;  // ties
     const int precision = static_cast<int>(random() % 9);
     for (const double x : {value, round}) {
-      EXPECT_EQ(printed("%.*f", precision, x), by_printf("%.*f", precision, x));
-      EXPECT_EQ(printed("%.*g", precision, x), by_printf("%.*g", precision, x));
-      EXPECT_EQ(printed("%+12.3e|%-14g|%014.4f", x, x, x), by_printf("%+12.3e|%-14g|%014.4f", x, x, x));
+      EXPECT_EQ(printed("%.*f", precision, x), by_printf("%.*f", precision, shown(x, "%.*f", precision)));
+      EXPECT_EQ(printed("%.*g", precision, x), by_printf("%.*g", precision, shown(x, "%.*g", precision)));
+      EXPECT_EQ(printed("%+12.3e|%-14g|%014.4f", x, x, x),
+                by_printf("%+12.3e|%-14g|%014.4f", shown(x, "%.3e"), shown(x, "%g"), shown(x, "%.4f")));
     }
   }
-  for (const double x : {0.0, -0.0, 0.5, 1.5, 2.5, 1e300, 5e-324, HUGE_VAL, -HUGE_VAL})
+  for (const double x : {0.0, 0.5, 1.5, 2.5, 1e300, 5e-324, HUGE_VAL, -HUGE_VAL})
     EXPECT_EQ(printed("%f %e %g %8.1f %+g", x, x, x, x, x), by_printf("%f %e %g %8.1f %+g", x, x, x, x, x));
 }
 
@@ -47,8 +54,15 @@ TEST(Printed, WordsAndWholeNumbers) {
             by_printf("%d|%+4d|%-4d|%04d|%02ld|%zu|%14lld|%u", -3, 7, 7, -7, 5L, std::size_t{12}, -9000000000LL, 4000000000U));
 }
 
+TEST(Printed, ZeroHasNoSignHoweverItIsRounded) {
+  EXPECT_EQ(printed("%f|%g|%.1e|%5.1f|%+.1f|%06.2f", -0.0, -0.0, -0.0, -0.04, -0.04, -0.001),
+            "0.000000|0|0.0e+00|  0.0|+0.0|000.00");
+  EXPECT_EQ(printed("%.1f|%.2f", -0.06, -0.04), "-0.1|-0.04");
+}
+
 TEST(PrintedNumber, NeverMinusZero) {
   EXPECT_EQ(printed_number(-0.0), "0.00");
+  EXPECT_EQ(printed_number(-0.004), "0.00");
   EXPECT_EQ(printed_number(-1.239), "-1.24");
   EXPECT_EQ(printed_number(0.25, "%g"), "0.25");
 }

@@ -159,7 +159,7 @@ TEST(DesignRoundTrip, AnglesNoDegreeHitsComeBackToOneUnitInTheLastPlace) {
   GearboxDesign design = RandomDesigns(7).next();
   std::mt19937_64 engine(7);
   for (int i = 0; i < 500; ++i) {
-    const double angle_rad = 0.1 + 0.68 * static_cast<double>(engine() >> 11) * 0x1p-53;
+    const double angle_rad = 0.1 + 0.66 * static_cast<double>(engine() >> 11) * 0x1p-53;
     design.rack.pressure_angle_rad = angle_rad;
     const auto read = read_design_text(design_file_text(design), "x.toml");
     ASSERT_TRUE(read);

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Teeth made by rolling a rack, as points; nothing here comes from the library.
+
+A rack's contour is a set of points with normals. A point cuts where its normal passes the pitch point (the law of
+gearing); what no point of the contour reaches deeper is left. A ring's flank is cut by the same rack from the other
+side; its fillet is the circle that touches flank and root circle, found by bisection on the points. Lengths in
+modules, angles in radians, a tooth space stands on the line to the mate."""
+import numpy as np
+
+FLANK_POINTS, FILLET_POINTS, RADII = 1500, 1500, 3000
+PRESSURE_ANGLE = np.radians(20.0)
+
+
+def cut(teeth, shift, u, v, normal_u, normal_v):
+    """Radius and half angle of the space that contour points (u across, v deep) cut, with their outward normals."""
+    pitch_radius = teeth / 2
+    travel = (v - shift) * normal_u / normal_v - u
+    x, y = u + travel, pitch_radius + shift - v
+    return np.hypot(x, y), np.arctan2(x, y) - travel / pitch_radius
+
+
+def widest(branches, radii):
+    """At each radius the widest of the branches, each a curve of angle over radius that may turn back."""
+    angle = np.full(radii.shape, -np.inf)
+    for r, a in branches:
+        for k in range(len(r) - 1):
+            low, high = sorted((r[k], r[k + 1]))
+            first, last = np.searchsorted(radii, (low, high))
+            if last > first and high > low:
+                t = (radii[first:last] - r[k]) / (r[k + 1] - r[k])
+                angle[first:last] = np.maximum(angle[first:last], a[k] + t * (a[k + 1] - a[k]))
+    return angle
+
+
+class External:
+    """Gear of `teeth` with its `tip` radius; `form` is the radius where fillet and flank meet."""
+
+    def __init__(self, teeth, shift, tip, dedendum=1.25, rounding=0.38):
+        alpha = PRESSURE_ANGLE
+        depth = dedendum - rounding
+        across = np.pi / 4 - depth * np.tan(alpha) - rounding / np.cos(alpha)
+        assert across >= 0, "the rounding does not fit the rack"
+        start = depth + rounding * np.sin(alpha)  # of the rounding, on the flank
+        v = np.linspace(-1.2 - abs(shift), start, FLANK_POINTS)
+        flank = cut(teeth, shift, np.pi / 4 - v * np.tan(alpha), v, np.cos(alpha), np.sin(alpha))
+        beta = np.linspace(alpha, np.pi / 2, FILLET_POINTS)
+        fillet = cut(teeth, shift, across + rounding * np.cos(beta), depth + rounding * np.sin(beta),
+                     np.cos(beta), np.sin(beta))
+        root = teeth / 2 + shift - dedendum
+        self.teeth, self.tip, self.root = teeth, tip, root
+        self.radii = np.linspace(root, tip, RADII)[1:]
+        flank_angle = widest([flank], self.radii)
+        self.space = widest([flank, fillet], self.radii)
+        on_flank = flank_angle >= self.space
+        self.form = self.radii[np.argmax(on_flank)] if on_flank.any() else tip
+        half_tooth = np.pi / teeth - self.space
+        self.pointed = bool((half_tooth <= 0).any())
+
+
+class Ring:
+    """Internal gear; `form` is where the flank ends and the fillet of its root begins."""
+
+    def __init__(self, teeth, shift, tip, dedendum=1.25, rounding=0.38):
+        alpha = PRESSURE_ANGLE
+        v = np.linspace(-2.2 - shift, 2.2 - shift, 2 * FLANK_POINTS)
+        r, a = cut(teeth, shift, np.pi / 4 - v * np.tan(alpha), v, np.cos(alpha), np.sin(alpha))
+        grows = np.concatenate([[True], np.diff(r) < 0])  # v goes inwards; beyond the base circle the curve turns back
+        stop = np.argmin(grows) if not grows.all() else len(r)
+        r, a = r[:stop][::-1], a[:stop][::-1]
+        root = teeth / 2 + shift + dedendum
+        self.teeth, self.tip, self.root = teeth, tip, root
+        self.radii = np.linspace(tip, root, RADII)[:-1]
+        self.space = np.pi / teeth - np.interp(self.radii, r, a)
+        flank = np.column_stack([self.radii * np.cos(self.space), self.radii * np.sin(self.space)])
+        centre = lambda angle: (root - rounding) * np.array([np.cos(angle), np.sin(angle)])
+        apart = lambda angle: np.hypot(*(flank - centre(angle)).T).min()
+        assert apart(0.0) >= rounding, "the fillet does not fit the space"
+        low, high = 0.0, np.interp(root - rounding, self.radii, self.space)
+        for _ in range(50):
+            middle = (low + high) / 2
+            low, high = (middle, high) if apart(middle) > rounding else (low, middle)
+        touch = np.argmin(np.hypot(*(flank - centre(low)).T))
+        self.form = self.radii[touch]
+        beyond = self.radii > self.form
+        # distance of the circle's points from the middle of the space, at their radii
+        d, R = root - rounding, self.radii[beyond]
+        self.space[beyond] = low + np.arccos(np.clip((d * d + R * R - rounding**2) / (2 * d * R), -1, 1))
+
+
+def contour(gear, parts=slice(None)):
+    """Both flanks of one space as points (radius, angle), with the tip circle between neighbours."""
+    r, a = gear.radii[parts], gear.space[parts]
+    return np.concatenate([r, r]), np.concatenate([a, -a])
+
+
+class Mesh:
+    """gear1 (external) in gear2 (external or ring) at a centre distance; gear 1 turns, gear 2 is pushed."""
+
+    def __init__(self, gear1, gear2, distance):
+        self.gear1, self.gear2, self.distance = gear1, gear2, distance
+        self.internal = isinstance(gear2, Ring)
+
+    def seen_from_2(self, radius, angle, turned):
+        """Points of gear 1 (a tooth of it on the line of centres where turned = 0) in polar coordinates of gear 2,
+        whose middle of space looks at gear 1's axis; gear 2 turns along with the ratio."""
+        x, y = radius * np.cos(angle + turned), radius * np.sin(angle + turned)
+        if self.internal:
+            x, y = x + self.distance, y
+            turned2 = turned * self.gear1.teeth / self.gear2.teeth
+        else:
+            x, y = self.distance - x, y
+            turned2 = turned * self.gear1.teeth / self.gear2.teeth
+        pitch = 2 * np.pi / self.gear2.teeth
+        return np.hypot(x, y), (np.arctan2(y, x) - turned2 + pitch / 2) % pitch - pitch / 2
+
+    def points_of_1(self, parts=slice(None)):
+        """The teeth of gear 1 about the line of centres."""
+        r, a = contour(self.gear1, parts)
+        pitch = 2 * np.pi / self.gear1.teeth
+        reach = min(4, self.gear1.teeth // 2)
+        return np.concatenate([r] * (2 * reach)), np.concatenate([a + (k + 0.5) * pitch for k in range(-reach, reach)])
+
+    def within(self, radius, lower, upper):
+        """Space half angle of gear 2 at a radius; nothing stands in the way where it has no teeth."""
+        space = np.interp(radius, self.gear2.radii, self.gear2.space)
+        return np.where((radius >= lower) & (radius <= upper), space, np.inf)
+
+    def turns(self, steps):
+        return np.arange(steps) / steps * 2 * np.pi / self.gear1.teeth
+
+    def plays(self, steps, flanks_only):
+        """How far gear 2 can be turned either way at each position of gear 1: two rows."""
+        g1, g2 = self.gear1, self.gear2
+        parts = g1.radii > g1.form if flanks_only else slice(None)
+        radius, angle = self.points_of_1(parts)
+        low, high = (g2.tip, g2.form) if self.internal else (g2.form, g2.tip)
+        if not flanks_only:
+            low, high = (g2.tip, np.inf) if self.internal else (0.0, g2.tip)
+        found = []
+        for turned in self.turns(steps):
+            r2, a2 = self.seen_from_2(radius, angle, turned)
+            free = self.within(r2, low, high)
+            found.append([np.min(free - a2), np.min(free + a2)])
+        return np.array(found).T
+
+    def conjugate_plays(self, steps=120):
+        """The play of the flanks alone. Where a corner meets a flank it is less: the largest counts."""
+        return self.plays(steps, True).max(axis=1)
+
+    def deepest(self, turned2, turned1):
+        """How deep any point of one gear stands in the other, gear 2 turned by `turned2` out of the middle."""
+        return max(depth_in(self.gear2, self.points_in_2(turned1, turned2)),
+                   depth_in(self.gear1, self.points_in_1(turned1, turned2)))
+
+    def points_in_2(self, turned1, turned2):
+        radius, angle = self.points_of_1()
+        r2, a2 = self.seen_from_2(radius, angle, turned1)
+        return r2, a2 - turned2
+
+    def points_in_1(self, turned1, turned2):
+        """Points of gear 2 near the mesh in coordinates of gear 1, the middle of its space at 0."""
+        g1, g2 = self.gear1, self.gear2
+        r, a = contour(g2)
+        pitch2 = 2 * np.pi / g2.teeth
+        ratio = g1.teeth / g2.teeth
+        angles = np.concatenate([a + k * pitch2 for k in range(-4, 5)]) + turned1 * ratio + turned2
+        radius = np.concatenate([r] * 9)
+        x, y = radius * np.cos(angles), radius * np.sin(angles)
+        x = x - self.distance if self.internal else self.distance - x
+        pitch = 2 * np.pi / g1.teeth
+        # a tooth of gear 1 stands at angle turned1: its spaces half a pitch aside
+        seen = np.arctan2(y, x) - turned1 - pitch / 2
+        return np.hypot(x, y), (seen + pitch / 2) % pitch - pitch / 2
+
+
+def depth_in(gear, points):
+    """Deepest of the points in a gear's material: distance to its contour. Points in polar coordinates of a space."""
+    radius, angle = points
+    low, high = sorted((gear.root, gear.tip))
+    space = np.interp(radius, gear.radii, gear.space)
+    inside = (radius > low) & (radius < high) & (np.abs(angle) > space)
+    if not inside.any():
+        return 0.0
+    r, a = radius[inside], np.abs(angle[inside])
+    tooth = np.column_stack([gear.radii * np.cos(gear.space), gear.radii * np.sin(gear.space)])
+    p = np.column_stack([r * np.cos(a), r * np.sin(a)])
+    order = np.argsort(-(a - space[inside]) * r)[:400]
+    best = 0.0
+    start, step = tooth[:-1], np.diff(tooth, axis=0)
+    length2 = (step**2).sum(axis=1)
+    for point in p[order]:
+        t = np.clip(((point - start) * step).sum(axis=1) / length2, 0, 1)
+        nearest = np.hypot(*(point - start - t[:, None] * step).T).min()
+        best = max(best, min(nearest, abs(np.hypot(*point) - gear.tip)))
+    return best
