@@ -48,7 +48,7 @@ int conclude(const SearchTask& task, const SearchRecords& records,
   }();
   if (auto ok = write_search(task, report, options.folder); !ok) return report_errors({ok.error()});
   if (!options.quiet)
-    if (auto ok = print(search_summary(report) +
+    if (auto ok = print(search_summary(task, report) +
                         open_text((std::filesystem::path(options.folder) / "search.html").string()));
         !ok)
       return report_errors({ok.error()});

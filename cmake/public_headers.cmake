@@ -37,8 +37,10 @@ set(TRUEFLANK_PUBLIC_HEADERS
   design/kinds/train_kind.h
   search/search.h
   search/search_enumerate.h
+  search/search_figures.h
   search/search_model.h
   search/search_optimise.h
+  search/search_relax.h
   search/search_requirements.h
   search/search_train.h
   check/check_gearbox.h

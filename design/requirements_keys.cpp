@@ -9,6 +9,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/search/search_figures.h"
 
 namespace trueflank {
 namespace {
@@ -33,19 +34,46 @@ std::vector<std::string> words(const std::string& list) {
   return result;
 }
 
+/// "forward, mass", or with weights: "forward: 1, mass: 0.2".
 std::string set_objectives(R& r, const V& v) {
   r.objectives.clear();
+  r.weights.clear();
   for (const std::string& word : words(text(v))) {
-    const auto all = {SearchObjective::kForward, SearchObjective::kBackward,
-                      SearchObjective::kTorque, SearchObjective::kSize};
-    const auto it =
-        std::find_if(all.begin(), all.end(), [&](SearchObjective o) { return word == to_text(o); });
-    if (it == all.end()) return "forward, backward, torque, size: one, or several by commas";
-    if (std::find(r.objectives.begin(), r.objectives.end(), *it) != r.objectives.end())
+    const std::string name = word.substr(0, word.find(':'));
+    const auto& all = objective_entries();
+    const auto it = std::find_if(all.begin(), all.end(),
+                                 [&](const ObjectiveEntry& entry) { return name == entry.name; });
+    if (it == all.end()) {
+      std::string names;
+      for (const ObjectiveEntry& entry : all) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+      return names + ": one, or several by commas";
+    }
+    if (std::find(r.objectives.begin(), r.objectives.end(), it->objective) != r.objectives.end())
       return "each objective once";
-    r.objectives.push_back(*it);
+    r.objectives.push_back(it->objective);
+    if (name == word) continue;
+    double weight = 0.0;
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data() + name.size() + 1, end, weight);
+    if (error != std::errc() || stop != end || !(weight > 0.0 && weight <= 1000.0))
+      return "weights above 0, at most 1000: \"forward: 1, mass: 0.2\"";
+    r.weights.push_back({it->objective, weight});
   }
+  if (!r.weights.empty() && r.weights.size() != r.objectives.size())
+    return "a weight for each objective, or for none";
+  if (!r.weights.empty()) r.objectives = {SearchObjective::kWeighted};
   return "";
+}
+
+template <SearchObjective kFigure>
+std::string set_figure_limit(R& r, const V& v) {
+  r.figure_limits.push_back({kFigure, number(v)});
+  return "";
+}
+
+SearchTolerance& tolerance_of(R& r) {
+  if (!r.tolerance) r.tolerance.emplace();
+  return *r.tolerance;
 }
 
 std::string set_module_ratios(R& r, const V& v) {
@@ -177,6 +205,20 @@ RequirementsSection gearbox() {
          .by_default = "10",
          .meaning = "of every gear"},
         [](R& r, const V& v) { return r.face_width_mm = number(v), std::string(); }},
+       {{.name = "face_width_max_mm",
+         .unit = "mm",
+         .lower = 0.1,
+         .upper = 10000,
+         .by_default = "none",
+         .meaning = "a design gets wider up to this where it must to carry output_torque_nm"},
+        [](R& r, const V& v) { return r.face_width_max_mm = number(v), std::string(); }},
+       {{.name = "module_max_mm",
+         .unit = "mm",
+         .lower = 0.05,
+         .upper = 100,
+         .by_default = "none",
+         .meaning = "then its module grows up to this"},
+        [](R& r, const V& v) { return r.module_max_mm = number(v), std::string(); }},
        {{.name = "backlash_mm",
          .unit = "mm",
          .lower = 0,
@@ -296,6 +338,10 @@ RequirementsSection shift() {
             [](R& r, const V& v) { return r.shift_max = number(v), std::string(); }}}};
 }
 
+KeyRule figure_rule(const char* name, const char* unit, double upper, const char* meaning) {
+  return {.name = name, .unit = unit, .lower = 0, .upper = upper, .by_default = "none", .meaning = meaning};
+}
+
 RequirementsSection limits() {
   return {"limits",
           {{{.name = "contact_ratio_min",
@@ -337,7 +383,97 @@ RequirementsSection limits() {
              .upper = 1000,
              .by_default = "0.5",
              .meaning = "least, between tip circles of neighbours"},
-            [](R& r, const V& v) { return r.planet_clearance_mm = number(v), std::string(); }}}};
+            [](R& r, const V& v) { return r.planet_clearance_mm = number(v), std::string(); }},
+           {figure_rule("forward_min", "", 1, "forward efficiency, with `[losses]` where there are"),
+            set_figure_limit<SearchObjective::kForward>},
+           {figure_rule("backward_min", "", 1, "backward efficiency"),
+            set_figure_limit<SearchObjective::kBackward>},
+           {figure_rule("outer_diameter_max_mm", "mm", 20000, "of the smallest circle around everything"),
+            set_figure_limit<SearchObjective::kSize>},
+           {figure_rule("mass_max_kg", "kg", 1e6, "of all gears, solid, with the rings' rims"),
+            set_figure_limit<SearchObjective::kMass>},
+           {figure_rule("length_max_mm", "mm", 1e5, "of the gears along the axis"),
+            set_figure_limit<SearchObjective::kLength>},
+           {figure_rule("torque_density_min_nm_per_kg", "N m/kg", 1e9, "allowable torque over mass"),
+            set_figure_limit<SearchObjective::kTorqueDensity>},
+           {figure_rule("starting_torque_max_nm", "N m", 1e9,
+                        "that starts the train at the output against the drag of `[losses]`"),
+            set_figure_limit<SearchObjective::kStartingTorque>},
+           {figure_rule("input_inertia_max_kg_m2", "kg m2", 1e9,
+                        "of gears, rotor and load, as the input feels it"),
+            set_figure_limit<SearchObjective::kInputInertia>},
+           {figure_rule("output_inertia_max_kg_m2", "kg m2", 1e9,
+                        "the same as the output feels it, driving backwards"),
+            set_figure_limit<SearchObjective::kOutputInertia>},
+           {figure_rule("sliding_max", "", 1e6, "specific sliding of any tooth"),
+            set_figure_limit<SearchObjective::kSliding>},
+           {figure_rule("backlash_max_arcmin", "arcmin", 1e6, "of the output, the input held"),
+            set_figure_limit<SearchObjective::kBacklash>},
+           {figure_rule("acceleration_min_rad_s2", "rad/s2", 1e9, "of the load by the motor"),
+            set_figure_limit<SearchObjective::kAcceleration>},
+           {figure_rule("settling_max_s", "s", 1e6, "of a move of the load from rest to rest"),
+            set_figure_limit<SearchObjective::kSettling>},
+           {{.name = "hunting",
+             .type = KeyType::kFlag,
+             .by_default = "false",
+             .meaning = "tooth numbers of a mesh have no common divisor"},
+            [](R& r, const V& v) { return r.hunting = flag(v), std::string(); }},
+           {{.name = "phasing",
+             .type = KeyType::kChoice,
+             .choices = {"any", "sequential"},
+             .by_default = "any",
+             .meaning = "sequential: in no mesh all planets engage at once"},
+            [](R& r, const V& v) { return r.sequential = text(v) == "sequential", std::string(); }},
+           {{.name = "assembling_share_min",
+             .lower = 0,
+             .upper = 1,
+             .by_default = "none",
+             .meaning = "least share of sets within the tolerances that assemble and turn"},
+            [](R& r, const V& v) { return r.assembling_share_min = number(v), std::string(); }},
+           {{.name = "tolerance_class",
+             .type = KeyType::kWhole,
+             .lower = 1,
+             .upper = 11,
+             .by_default = "none",
+             .meaning = "ISO 1328-1: runout and pitch of every gear"},
+            [](R& r, const V& v) { return tolerance_of(r).tolerance_class = whole(v), std::string(); }},
+           {{.name = "axis_tolerance_um",
+             .unit = "um",
+             .lower = 0,
+             .upper = 1e4,
+             .by_default = "0",
+             .meaning = "+-, of the centre distance"},
+            [](R& r, const V& v) { return tolerance_of(r).centre_distance_um = number(v), std::string(); }},
+           {{.name = "thickness_tolerance_um",
+             .unit = "um",
+             .lower = 0,
+             .upper = 1e4,
+             .by_default = "0",
+             .meaning = "+-, of every tooth on its reference circle"},
+            [](R& r, const V& v) {
+              return tolerance_of(r).tooth_thickness_um = number(v), std::string();
+            }}}};
+}
+
+KeyRule drive_rule(const char* name, const char* unit, double upper, const char* by_default,
+                   const char* meaning) {
+  return {.name = name, .unit = unit, .lower = 0, .upper = upper, .by_default = by_default, .meaning = meaning};
+}
+
+RequirementsSection motor() {
+  return {"motor",
+          {{drive_rule("torque_nm", "N m", 1e9, "none", "at the input, either way"),
+            [](R& r, const V& v) { return r.motor.torque_nm = number(v), std::string(); }},
+           {drive_rule("speed_rpm", "rpm", 1e7, "none", "the motor turns no faster"),
+            [](R& r, const V& v) { return r.motor.speed_rpm = number(v), std::string(); }},
+           {drive_rule("rotor_inertia_kg_m2", "kg m2", 1e6, "0", "of the motor, on the input"),
+            [](R& r, const V& v) { return r.motor.rotor_kg_m2 = number(v), std::string(); }},
+           {drive_rule("load_inertia_kg_m2", "kg m2", 1e9, "0", "on the output"),
+            [](R& r, const V& v) { return r.motor.load_kg_m2 = number(v), std::string(); }},
+           {drive_rule("load_torque_nm", "N m", 1e9, "0", "on the output, against its motion"),
+            [](R& r, const V& v) { return r.motor.load_nm = number(v), std::string(); }},
+           {drive_rule("move_deg", "deg", 1e6, "90", "of the output from rest to rest, for `settling`"),
+            [](R& r, const V& v) { return r.motor.move_rad = rad_from_deg(number(v)), std::string(); }}}};
 }
 
 KeyRule factor_rule(const char* name, const char* by_default, const char* meaning) {
@@ -388,7 +524,8 @@ RequirementsSection search() {
       {{{.name = "objectives",
          .type = KeyType::kText,
          .by_default = "\"forward\"",
-         .meaning = "forward, backward, torque, size: one, or several for their Pareto front"},
+         .meaning = "one figure of the list above, or several for their Pareto front, or with weights: "
+                    "\"forward: 1, mass: 0.2\""},
         set_objectives},
        {{.name = "loss_model",
          .type = KeyType::kChoice,
@@ -451,7 +588,7 @@ RequirementsSection losses(std::index_sequence<I...>) {
 const std::vector<RequirementsSection>& requirements_sections() {
   static const std::vector<RequirementsSection> kSections{
       top(),   gearbox(), rack(),     ratio(),  teeth(),
-      shift(), limits(),  strength(), search(), losses(std::make_index_sequence<kLossKeys>{})};
+      shift(), limits(),  strength(), motor(), search(), losses(std::make_index_sequence<kLossKeys>{})};
   return kSections;
 }
 

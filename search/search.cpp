@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "trueflank/search/search_values.h"
 #include "trueflank/train/efficiency.h"
 
 namespace trueflank {
@@ -12,12 +13,14 @@ namespace {
 constexpr int kTightenings = 4;
 /// So many times as many sets are listed where those listed do not do.
 constexpr std::size_t kMoreListed = 4;
+/// Designs of which is computed what their limits cost: each takes as long as a few tooth sets.
+constexpr std::ptrdiff_t kRelaxed = 5;
 /// First extra distance from a limit a check found broken, in modules; four times that each time.
 constexpr double kFirstTightening = 5e-5;
 
 /// Limits whose reserve may mend a failed check.
 std::vector<Limit> limits_behind(const std::string& check) {
-  if (check == "overlap" || check == "fillet_interference" || check == "involute_interference")
+  if (check == "overlap" || check == "tolerance" || check == "fillet_interference" || check == "involute_interference")
     return {Limit::kFillet, Limit::kTrochoid};
   if (check == "trochoid_interference") return {Limit::kTrochoid};
   if (check == "contact_ratio") return {Limit::kContactRatio};
@@ -75,7 +78,8 @@ class Judging {
     const ToothSet& set = enumeration_.sets[ranked.set_index];
     const SearchModel model(r_, set);
     FoundDesign found{
-        .set = set, .candidate = ranked.candidate, .design = model.design(ranked.candidate.free)};
+        .set = set, .candidate = ranked.candidate,
+        .design = model.design(ranked.candidate.free, ranked.candidate.dimensions)};
     ++report_.judged;
     const auto train = lay_out(found.design);
     if (!train) {
@@ -90,7 +94,7 @@ class Judging {
       found.exact_forward = exact.forward;
       found.exact_backward = exact.backward;
       found.by_formula = exact.by_formula;
-      found.tightened = *std::max_element(state.reserve.begin(), state.reserve.end());
+      found.reserve = state.reserve;
       return found;
     }
     again = tightened(ranked, set, found.verdict.failed, state);
@@ -155,8 +159,12 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
       continue;
     }
     SetClass c{"limits", "no shifts found that keep all limits", 0};
-    if (record.result.failed_limit == static_cast<int>(kLimits)) {
-      c = {"torque", "no shifts carry the output torque asked for", 0};
+    if (record.result.failed_limit >= static_cast<int>(kLimits)) {
+      const auto index = static_cast<std::size_t>(record.result.failed_limit) - kLimits;
+      const SearchObjective figure = asked_limits(requirements)[index].figure;
+      c = {to_text(figure), "no shifts keep the limit of this figure", 0};
+      if (figure == SearchObjective::kTorque)
+        c.description = "no shifts carry the output torque asked for";
     } else if (record.result.failed_limit >= 0) {
       const LimitEntry& entry =
           enumeration.sets[record.index]
@@ -226,7 +234,14 @@ SearchReport conclude_search(const SearchRequirements& requirements,
                       {.done = more.optimised.empty() ? records.optimised : more.optimised});
     report = judged(requirements, enumeration, more, judge);
   }
+  for (FoundDesign& found : report.designs)
+    found.binding = binding_limits(requirements, found.set, found.candidate, found.reserve,
+                                   &found - report.designs.data() < kRelaxed);
+  if (!report.designs.empty())
+    report.binding_ranges = binding_ranges(requirements, report.designs.front().set, report.designs.front().candidate);
   return report;
 }
+
+double FoundDesign::tightened() const { return *std::max_element(reserve.begin(), reserve.end()); }
 
 }  // namespace trueflank

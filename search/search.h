@@ -8,6 +8,7 @@
 
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_optimise.h"
+#include "trueflank/search/search_relax.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/train/gear_train.h"
 
@@ -45,6 +46,9 @@ struct SearchRunOptions {
   SearchPart part;
   std::vector<SearchRecord> done;           ///< of an earlier run: not computed again
   const std::atomic<bool>* stop = nullptr;  ///< set: what is under way is finished, no more started
+  /// Where bounds are known, sets of which they say that they are worse than this merit are passed
+  /// over; NaN: none.
+  double better_than = kNaN;
   /// Called for every new record, one call at a time, in no fixed order; `finished` counts the sets
   /// that are passed over too.
   std::function<void(const SearchRecord&, std::size_t finished, std::size_t total)> on_record;
@@ -71,6 +75,7 @@ struct SearchRunOptions {
 struct DesignVerdict {
   std::vector<std::string> failed;  ///< ids; empty: it passes
   std::vector<std::string> warned;
+  double assembling_share = kNaN;  ///< of sets within the tolerances asked for
 };
 using DesignJudge = std::function<DesignVerdict(const GearTrain&)>;
 
@@ -89,7 +94,10 @@ struct FoundDesign {
   DesignVerdict verdict;
   double exact_forward = kNaN, exact_backward = kNaN;  ///< by the path integral
   FormulaEfficiency by_formula;
-  double tightened = 0.0;  ///< reserve the checks asked for beyond the limits, in modules
+  LimitReserve reserve{};                ///< that the checks asked for beyond the limits
+  std::vector<BindingLimit> binding;     ///< limits it stands on, and what each costs
+  /// The greatest reserve, in modules.
+  [[nodiscard]] double tightened() const;
 };
 
 struct SearchReport {
@@ -102,6 +110,7 @@ struct SearchReport {
   long long evaluations = 0;      ///< of a layer
   std::vector<RankedCandidate> ranking;  ///< of all candidates, best first
   std::vector<FoundDesign> designs;      ///< judged, best first
+  std::vector<BindingLimit> binding_ranges;  ///< of tooth numbers and ratio, of the best design
   std::size_t judged = 0;
   std::vector<SetClass> fell_in_checks;  ///< by check id, of those judged
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "trueflank/geometry/gear_pair.h"
@@ -118,6 +119,8 @@ enum Reason {
   kRatio,
   kPlanets2,
   kIdentical,
+  kHunting,
+  kPhasing,
   kReasons
 };
 
@@ -135,7 +138,9 @@ std::vector<SetClass> empty_classes() {
        0},
       {"ratio", "ratio or direction outside the requirement", 0},
       {"planet_spacing_layer2", "neighbouring planets collide in layer 2 whatever the shifts", 0},
-      {"identical_planets", "planet bodies would differ at equal spacing", 0}};
+      {"identical_planets", "planet bodies would differ at equal spacing", 0},
+      {"hunting", "tooth numbers of a mesh have a common divisor", 0},
+      {"phasing", "in a mesh all planets engage at once", 0}};
 }
 
 /// The enumeration of the trains of one kind and input, which differ in their output, with one
@@ -251,6 +256,8 @@ class Enumerator {
       return reject(kPlanets2, 1);
     if (r_.identical_planets && !set.train->planets_are_identical(set.teeth(), planets_))
       return reject(kIdentical, 1);
+    if (r_.hunting && !has_hunting_teeth(set)) return reject(kHunting, 1);
+    if (r_.sequential && !engages_in_sequence(set)) return reject(kPhasing, 1);
     result_.sets.push_back(set);
   }
 
@@ -336,6 +343,25 @@ ToothRange tooth_range(const SearchRequirements& r, const SearchTrain& train, Tr
 }
 
 double signed_ratio(const ToothSet& set) { return set.train->signed_ratio(set.teeth()); }
+
+bool has_hunting_teeth(const ToothSet& set) {
+  const SearchTrain& train = *set.train;
+  return std::all_of(train.topology.meshes.begin(), train.topology.meshes.end(),
+                     [&](const TopologyMesh& mesh) {
+                       return std::gcd(set.teeth_at(train.place_of(mesh.gear1)),
+                                       set.teeth_at(train.place_of(mesh.gear2))) == 1;
+                     });
+}
+
+bool engages_in_sequence(const ToothSet& set) {
+  const SearchTrain& train = *set.train;
+  if (!train.has_planets() || set.planets < 2) return true;
+  return std::all_of(train.layers.begin(), train.layers.end(), [&](const SearchLayer& layer) {
+    for (const int gear : {layer.sun, layer.ring})
+      if (gear >= 0 && set.teeth_at(train.place_of(gear)) % set.planets == 0) return false;
+    return true;
+  });
+}
 
 bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements) {
   const double ratio = signed_ratio(set);

@@ -38,6 +38,15 @@ struct ToothSet {
 /// Input speed over output speed, signed; infinite where the output stands still.
 [[nodiscard]] double signed_ratio(const ToothSet& set);
 
+/// Whether every tooth of a gear meets every tooth of its mate: tooth numbers without a common
+/// divisor, in every mesh.
+[[nodiscard]] bool has_hunting_teeth(const ToothSet& set);
+/// Whether in every mesh of identical planets at equal spacing these engage one after another: the
+/// teeth of the gear about the axis are no multiple of their number. The forces of the mesh frequency
+/// then cancel in their sum about the axis; where they are a multiple, they add up.
+/// Source: the i-th planet is i z/N pitches behind the first; docs/search.md.
+[[nodiscard]] bool engages_in_sequence(const ToothSet& set);
+
 /// Why a class of sets fell, and how many sets.
 struct SetClass {
   std::string id;  ///< "assembly", "centre_distance_layer1", ...

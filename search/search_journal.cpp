@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <sstream>
@@ -51,6 +52,12 @@ std::string digest(std::string_view text) {
 
 constexpr std::string_view kEnd = "end";
 
+std::array<double*, 11> journaled(DesignFigures& f) {
+  return {&f.mass_kg, &f.length_mm, &f.torque_density_nm_per_kg, &f.starting_torque_nm,
+          &f.input_inertia_kg_m2, &f.output_inertia_kg_m2, &f.contact_ratio, &f.sliding,
+          &f.backlash_arcmin, &f.acceleration_rad_s2, &f.settling_s};
+}
+
 /// A line ends with the digest of what stands before it.
 bool read_undamaged(std::string& line) {
   const std::size_t last = line.rfind(' ');
@@ -79,9 +86,12 @@ bool read_record(const std::string& line, std::size_t sets, SearchRecord& record
     SearchCandidate c;
     if (!words.take(c.free.centre_distance) || !words.take(c.free.layer1_shift) ||
         !words.take(c.free.layer2_shift) || !words.take(c.forward) || !words.take(c.backward) ||
+        !words.take(c.dimensions.face_width_mm) || !words.take(c.dimensions.module_mm) ||
         !words.take(c.torque_nm) || !words.take(c.size_mm) || !words.take(c.least_margin) ||
-        !words.take(c.gap))
+        !words.take(c.gap) || !words.take(c.score))
       return false;
+    for (double* figure : journaled(c.figures))
+      if (!words.take(*figure)) return false;
     record.result.candidates.push_back(c);
   }
   return words.ended();
@@ -91,7 +101,7 @@ bool read_record(const std::string& line, std::size_t sets, SearchRecord& record
 
 std::string journal_header(const SearchRequirements& requirements,
                            const SetEnumeration& enumeration) {
-  return "trueflank-search-journal 4 " + digest(fingerprint(requirements)) + " " +
+  return "trueflank-search-journal 5 " + digest(fingerprint(requirements)) + " " +
          std::to_string(enumeration.sets.size());
 }
 
@@ -100,11 +110,14 @@ std::string journal_line(const SearchRecord& record) {
   append(line, static_cast<long long>(record.result.failed_limit));
   append(line, static_cast<long long>(record.result.evaluations));
   append(line, static_cast<long long>(record.result.candidates.size()));
-  for (const SearchCandidate& c : record.result.candidates)
+  for (SearchCandidate c : record.result.candidates) {
     for (const double value :
          {c.free.centre_distance, c.free.layer1_shift, c.free.layer2_shift, c.forward, c.backward,
-          c.torque_nm, c.size_mm, c.least_margin, c.gap})
+          c.dimensions.face_width_mm, c.dimensions.module_mm, c.torque_nm, c.size_mm,
+          c.least_margin, c.gap, c.score})
       append(line, value);
+    for (const double* figure : journaled(c.figures)) append(line, *figure);
+  }
   return line + ' ' + digest(line);
 }
 

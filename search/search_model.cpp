@@ -484,10 +484,13 @@ double SearchModel::module_mm(const FreeShifts& free) const {
   return r.outer_diameter_mm ? *r.outer_diameter_mm / outer_diameter(free) : r.module_mm;
 }
 
-GearboxDesign SearchModel::design(const FreeShifts& free) const {
+GearboxDesign SearchModel::design(const FreeShifts& free,
+                                  const DesignDimensions& dimensions) const {
   const SearchRequirements& r = *requirements_;
   const Shifts x = shifts(free);
-  const double m1 = module_mm(free);
+  const double m1 = std::isnan(dimensions.module_mm) ? module_mm(free) : dimensions.module_mm;
+  const double width =
+      std::isnan(dimensions.face_width_mm) ? r.face_width_mm : dimensions.face_width_mm;
   GearboxDesign design;
   design.name = r.name;
   design.topology = train().topology;
@@ -496,6 +499,8 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
   design.centre_distance_mm = free.centre_distance * m1;
   design.friction = r.friction;
   design.losses = r.losses;
+  design.shafts = {.rotor_inertia_kg_m2 = r.motor.rotor_kg_m2,
+                   .load_inertia_kg_m2 = r.motor.load_kg_m2};
   design.backlash_mm = r.backlash_mm.value_or(kUsualBacklash * m1);
   design.tips = TipCircles::kStandard;  // the circles of this model
   design.rack = r.rack;
@@ -512,7 +517,7 @@ GearboxDesign SearchModel::design(const FreeShifts& free) const {
     gear.kind = ring ? GearKind::kInternal : GearKind::kExternal;
     gear.teeth = set_.teeth_at(place);
     gear.shift = x[static_cast<std::size_t>(place)];
-    gear.face_width_mm = r.face_width_mm;
+    gear.face_width_mm = width;
     if (module != m1) gear.module_mm = module;
     if (ring)
       gear.outer_diameter_mm =

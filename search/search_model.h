@@ -26,6 +26,13 @@ struct FreeShifts {
   bool operator==(const FreeShifts&) const = default;
 };
 
+/// What a design's size is where a torque asked for decides it.
+struct DesignDimensions {
+  double face_width_mm = kNaN, module_mm = kNaN;  ///< NaN: as the requirements say
+
+  bool operator==(const DesignDimensions&) const = default;
+};
+
 /// Loss of one mesh, as the torque balance takes it.
 struct MeshLoss {
   double driving1 = kNaN, driving2 = kNaN;  ///< efficiency where gear 1, gear 2 drives
@@ -80,7 +87,8 @@ class SearchModel {
 
   /// The design file's design: all shifts and the centre distance stated, rings with their outer
   /// diameters.
-  [[nodiscard]] GearboxDesign design(const FreeShifts& free) const;
+  [[nodiscard]] GearboxDesign design(const FreeShifts& free,
+                                     const DesignDimensions& dimensions = {}) const;
 
   [[nodiscard]] const ToothSet& set() const { return set_; }
 

@@ -9,8 +9,6 @@
 
 #include "trueflank/search/search_sweep.h"
 #include "trueflank/search/search_values.h"
-#include "trueflank/train/gear_train.h"
-#include "trueflank/train/strength.h"
 
 namespace trueflank {
 namespace {
@@ -31,7 +29,17 @@ DriveDirection direction_of(SearchObjective objective) {
   return objective == SearchObjective::kForward ? DriveDirection::kForward
                                                 : DriveDirection::kBackward;
 }
-bool needs_strength(SearchObjective objective) { return objective == SearchObjective::kTorque; }
+/// Whether an objective is computed of the laid-out design, and has kinks.
+bool of_design(SearchObjective objective) {
+  return !is_efficiency(objective) && objective != SearchObjective::kSize;
+}
+
+/// What values of an objective are divided by, so that all are of the order of 1.
+double scale_of(SearchObjective objective, double value) {
+  if (!std::isfinite(value) || value == 0.0) return 1.0;
+  const bool small = objective == SearchObjective::kWeighted || is_efficiency(objective);
+  return small ? std::max(1.0, std::abs(value)) : std::abs(value);
+}
 
 class SetOptimiser {
  public:
@@ -53,6 +61,17 @@ class SetOptimiser {
   using State = SetValues::State;
 
   void collect();
+  /// Starts from which every limit asked for is kept, one of them first; false: there is none.
+  bool reach_limits(std::vector<FreeShifts>& from);
+  [[nodiscard]] bool keeps(const FreeShifts& free, const std::vector<MeritBound>& bounds);
+  /// The best of one objective with its gap.
+  struct Best {
+    std::optional<FreeShifts> free;
+    double gap = kNaN;
+  };
+  Best best_of(SearchObjective objective, const std::vector<FreeShifts>& from);
+  void keep_compromises();
+  void keep(const Best& best);
   void name_failed_limit(const FreeShifts& nearest);
   /// Of an objective that is an efficiency, without bounds.
   const SweepResult& swept(DriveDirection direction);
@@ -70,6 +89,7 @@ class SetOptimiser {
   std::optional<FreeShifts> best_;
   double best_merit_ = 0.0;
   std::array<std::optional<SweepResult>, 2> swept_;
+  std::vector<MeritBound> asked_;
 };
 
 FreeShifts free_of(const double* v) { return {v[0], v[1], v[2]}; }
@@ -132,7 +152,7 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
                          const std::vector<MeritBound>& bounds) {
   const std::size_t limits = values_.model().limits(), count = limits + bounds.size();
   const double at_start = values_.merit(values_.state(start), start, objective);
-  const double scale = std::isfinite(at_start) ? std::max(1.0, std::abs(at_start)) : 1.0;
+  const double scale = scale_of(objective, at_start);
   // one point's value and differences serve objective and constraints
   struct Point {
     double value = 0.0;
@@ -196,7 +216,7 @@ void SetOptimiser::slsqp(FreeShifts start, SearchObjective objective,
 void SetOptimiser::simplex(FreeShifts start, SearchObjective objective,
                            const std::vector<MeritBound>& bounds, double step) {
   const double at_start = values_.merit(values_.state(start), start, objective);
-  const double scale = std::isfinite(at_start) ? std::max(1.0, std::abs(at_start)) : 1.0;
+  const double scale = scale_of(objective, at_start);
   auto value = [&](const double* v, double*) {
     const FreeShifts free = free_of(v);
     const State s = values_.state(free);
@@ -224,7 +244,7 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
                                               SearchObjective objective,
                                               const std::vector<MeritBound>& bounds) {
   best_.reset();
-  const bool smooth = bounds.empty() && !needs_strength(objective);
+  const bool smooth = bounds.empty() && !of_design(objective);
   for (const FreeShifts& start : starts) {
     const State s = values_.state(start);
     std::vector<double> bound_margins;
@@ -241,72 +261,102 @@ std::optional<FreeShifts> SetOptimiser::climb(const std::vector<FreeShifts>& sta
   return best_;
 }
 
-void SetOptimiser::collect() {
-  const SearchRequirements& r = values_.requirements();
-  std::vector<MeritBound> asked;
-  std::vector<FreeShifts> from;
-  for (const SweepPoint& peak : swept(values_.guide()).peaks) from.push_back(peak.free);
-  if (r.output_torque_nm) {
-    const auto strongest = climb(from, SearchObjective::kTorque, {});
-    if (!strongest) return;
-    if (values_.allowable_torque(*strongest) < *r.output_torque_nm) {
-      result_.failed_limit = static_cast<int>(kLimits);
-      return;
-    }
-    asked.push_back({SearchObjective::kTorque, *r.output_torque_nm});
-    from.insert(from.begin(), *strongest);
-  }
-  const auto keep = [&](const std::optional<FreeShifts>& free, double gap = kNaN) {
-    if (!free) return;
-    result_.candidates.push_back(evaluate_candidate(r, values_.model(), *free, values_.reserve()));
-    result_.candidates.back().gap = gap;
-  };
-  const auto carries = [&](const FreeShifts& free) {
-    return asked.empty() || values_.allowable_torque(free) >= *r.output_torque_nm;
-  };
-  for (const SearchObjective objective : r.objectives) {
-    std::optional<FreeShifts> free;
-    if (is_efficiency(objective)) {
-      // mostly the torque asked for binds nowhere, and the sweep is the better way
-      const SweepResult& found = swept(direction_of(objective));
-      if (!found.peaks.empty() && carries(found.peaks.front().free)) {
-        // a discontinuity of the swept function may have stopped a bracket short: climb on from the
-        // peaks
-        const SweepPoint& best = found.peaks.front();
-        std::vector<FreeShifts> peaks;
-        for (const SweepPoint& peak : found.peaks)
-          if (peaks.size() < 2) peaks.push_back(peak.free);
-        free = climb(peaks, objective, {});
-        const bool better = free && carries(*free) && best_merit_ > best.merit;
-        if (!better) free = best.free;
-        keep(free, found.gap + (better ? best_merit_ - best.merit : 0.0));
-        from.push_back(*free);
-        continue;
+bool SetOptimiser::keeps(const FreeShifts& free, const std::vector<MeritBound>& bounds) {
+  if (bounds.empty()) return true;
+  const State s = values_.state(free);
+  return std::all_of(bounds.begin(), bounds.end(), [&](const MeritBound& bound) {
+    return values_.bound_margin(s, free, bound) >= 0.0;
+  });
+}
+
+bool SetOptimiser::reach_limits(std::vector<FreeShifts>& from) {
+  const auto limits = asked_limits(values_.requirements());
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const MeritBound next{limits[i].figure, merit_of_figure(limits[i].figure, limits[i].value)};
+    std::vector<MeritBound> with = asked_;
+    with.push_back(next);
+    const auto kept = std::find_if(from.begin(), from.end(),
+                                   [&](const FreeShifts& free) { return keeps(free, with); });
+    if (kept != from.end()) {
+      std::rotate(from.begin(), kept, kept + 1);
+    } else {
+      const auto farthest = climb(from, next.objective, asked_);
+      if (!farthest) return false;
+      if (!keeps(*farthest, with)) {
+        result_.failed_limit = static_cast<int>(kLimits + i);
+        return false;
       }
-    } else if (!needs_strength(objective) && !asked.empty()) {
-      free = climb(from, objective, {});
-      if (free && !carries(*free)) free.reset();
+      from.insert(from.begin(), *farthest);
     }
-    if (!free)
-      free = climb(from, objective, needs_strength(objective) ? std::vector<MeritBound>{} : asked);
-    keep(free);
-    if (free) from.push_back(*free);
+    asked_ = std::move(with);
   }
+  return true;
+}
+
+SetOptimiser::Best SetOptimiser::best_of(SearchObjective objective,
+                                         const std::vector<FreeShifts>& from) {
+  if (is_efficiency(objective)) {
+    // mostly what is asked for binds nowhere, and the sweep is the better way
+    const SweepResult& found = swept(direction_of(objective));
+    if (!found.peaks.empty() && keeps(found.peaks.front().free, asked_)) {
+      // a discontinuity of the swept function may have stopped a bracket short: climb on from the
+      // peaks
+      const SweepPoint& best = found.peaks.front();
+      std::vector<FreeShifts> peaks;
+      for (const SweepPoint& peak : found.peaks)
+        if (peaks.size() < 2) peaks.push_back(peak.free);
+      const auto free = climb(peaks, objective, {});
+      const double merit = best_merit_;
+      const bool better = free && merit > best.merit && keeps(*free, asked_);
+      return {better ? *free : best.free, found.gap + (better ? merit - best.merit : 0.0)};
+    }
+  } else if (!of_design(objective) && !asked_.empty()) {
+    if (const auto free = climb(from, objective, {}); free && keeps(*free, asked_)) return {free};
+  }
+  return {climb(from, objective, asked_)};
+}
+
+void SetOptimiser::keep(const Best& best) {
+  if (!best.free) return;
+  result_.candidates.push_back(
+      evaluate_candidate(values_.requirements(), values_.model(), *best.free, values_.reserve()));
+  result_.candidates.back().gap = best.gap;
+}
+
+void SetOptimiser::keep_compromises() {
+  const SearchRequirements& r = values_.requirements();
   const std::vector<SearchCandidate> ends = result_.candidates;
+  if (ends.size() < r.objectives.size()) return;
   for (std::size_t other = 1; other < ends.size(); ++other)
     for (const double share : kCompromises) {
       const SearchObjective objective = r.objectives[other];
       const double at_first = ends.front().merit(objective), at_own = ends[other].merit(objective);
       if (!(at_own > at_first)) continue;
-      std::vector<MeritBound> bounds = asked;
+      std::vector<MeritBound> bounds = asked_;
       bounds.push_back({objective, at_first + share * (at_own - at_first)});
-      keep(climb({ends[other].free, ends.front().free}, r.objectives.front(), bounds));
+      keep({climb({ends[other].free, ends.front().free}, r.objectives.front(), bounds)});
     }
+}
+
+void SetOptimiser::collect() {
+  std::vector<FreeShifts> from;
+  for (const SweepPoint& peak : swept(values_.guide()).peaks) from.push_back(peak.free);
+  if (!reach_limits(from)) return;
+  for (const SearchObjective objective : values_.requirements().objectives) {
+    const Best best = best_of(objective, from);
+    keep(best);
+    if (best.free) from.push_back(*best.free);
+  }
+  keep_compromises();
 }
 
 }  // namespace
 
 double SearchCandidate::merit(SearchObjective objective) const {
+  return merit_of_figure(objective, value(objective));
+}
+
+double SearchCandidate::value(SearchObjective objective) const {
   switch (objective) {
     case SearchObjective::kForward:
       return forward;
@@ -315,9 +365,12 @@ double SearchCandidate::merit(SearchObjective objective) const {
     case SearchObjective::kTorque:
       return torque_nm;
     case SearchObjective::kSize:
-      return -size_mm;
+      return size_mm;
+    case SearchObjective::kWeighted:
+      return score;
+    default:
+      return figure_of(figures, objective);
   }
-  return kNaN;
 }
 
 SetResult optimise_set(const SearchRequirements& requirements, const ToothSet& set,
@@ -330,23 +383,18 @@ SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const
   const LayerEvaluation layer1 = model.layer1(free.centre_distance, free.layer1_shift);
   const LayerEvaluation layer2 = model.layer2(free.centre_distance, free.layer2_shift);
   SearchCandidate candidate{.free = free};
-  candidate.forward = model.efficiency(layer1, layer2, DriveDirection::kForward);
-  candidate.backward = model.efficiency(layer1, layer2, DriveDirection::kBackward);
-  if (requirements.losses) {
-    // A mesh's loss is in proportion to its friction; the best shifts are those of the meshes
-    // alone.
-    const double forward = 1.0 - candidate.forward, backward = 1.0 - candidate.backward;
-    const MeshEfficiencies meshes = [&](double mu_forward, double mu_backward) {
-      const double friction = std::max(requirements.friction, 1e-9);
-      return std::pair(1.0 - forward * mu_forward / friction,
-                       candidate.backward > 0.0 ? 1.0 - backward * mu_backward / friction : 0.0);
-    };
-    const LossyEfficiency lossy = lossy_efficiency(*requirements.losses, requirements.friction,
-                                                   std::abs(signed_ratio(model.set())), meshes);
-    candidate.forward = lossy.forward;
-    candidate.backward = lossy.backward;
-  }
-  candidate.size_mm = model.outer_diameter(free) * model.module_mm(free);
+  const double forward = model.efficiency(layer1, layer2, DriveDirection::kForward),
+               backward = model.efficiency(layer1, layer2, DriveDirection::kBackward);
+  const ToldEfficiencies told = told_efficiencies(requirements, model.set(), forward, backward);
+  candidate.forward = told.forward;
+  candidate.backward = told.backward;
+  const DesignValues values = design_values(requirements, model, free, forward, backward);
+  candidate.dimensions = values.dimensions;
+  candidate.torque_nm = values.torque_nm;
+  candidate.size_mm = values.size_mm;
+  candidate.figures = values.figures;
+  if (!requirements.weights.empty())
+    candidate.score = weighted_score(requirements, told, values);
   candidate.least_margin = 1e300;
   const std::size_t first2 = model.train().layer1_limits;
   for (std::size_t i = 0; i < model.limits(); ++i) {
@@ -355,9 +403,6 @@ SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const
         std::min(candidate.least_margin,
                  margin - reserve[static_cast<std::size_t>(model.train().limits[i].limit)]);
   }
-  if (auto train = lay_out(model.design(free)))
-    if (auto result = strength(*train, requirements.strength))
-      candidate.torque_nm = result->output_torque_nm;
   return candidate;
 }
 

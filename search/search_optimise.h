@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "trueflank/search/search_figures.h"
 #include "trueflank/search/search_model.h"
 #include "trueflank/search/search_requirements.h"
 
@@ -14,21 +15,25 @@ namespace trueflank {
 struct SearchCandidate {
   FreeShifts free;
   double forward = kNaN, backward = kNaN;
+  DesignDimensions dimensions;
   double torque_nm = kNaN;  ///< allowable at the output
   double size_mm = kNaN;    ///< outer diameter of the larger ring
+  DesignFigures figures;
+  double score = kNaN;  ///< of a weighted ranking
   double least_margin = kNaN;
   /// Of the objective an efficiency was swept for: what may be lacking, as measured (search_sweep.h); NaN: not measured.
   double gap = kNaN;
 
   /// Larger is better, whatever the objective.
   [[nodiscard]] double merit(SearchObjective objective) const;
+  [[nodiscard]] double value(SearchObjective objective) const;
 };
 
 /// What the continuous optimisation of one tooth set found.
 struct SetResult {
   std::vector<SearchCandidate> candidates;  ///< empty: nothing keeps all limits
-  /// Index into SearchTrain::limits of the limit that could be kept least; kLimits: the torque
-  /// asked for; -1 where there is a candidate, or a start that led to none.
+  /// Index into SearchTrain::limits of the limit that could be kept least; from kLimits on: into
+  /// asked_limits(); -1 where there is a candidate, or a start that led to none.
   int failed_limit = -1;
   int evaluations = 0;  ///< of a layer
 };

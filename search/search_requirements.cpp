@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "trueflank/search/search_enumerate.h"
+#include "trueflank/search/search_figures.h"
 
 namespace trueflank {
 namespace {
@@ -34,7 +35,8 @@ void add_strength(const StrengthOptions& s, Text& text) {
   for (const Material& m : s.materials.all()) {
     text.add("table", m.name);
     for (const double v :
-         {m.bending_limit_mpa, m.contact_limit_mpa, m.elastic_modulus_mpa, m.poisson_ratio})
+         {m.bending_limit_mpa, m.contact_limit_mpa, m.elastic_modulus_mpa, m.poisson_ratio,
+          m.density_kg_m3})
       text.add("value", v);
   }
   for (const double v :
@@ -112,22 +114,43 @@ void require(bool good, const char* key, double value, const char* message, cons
 
 }  // namespace
 
-const char* to_text(SearchObjective objective) {
-  switch (objective) {
-    case SearchObjective::kForward:
-      return "forward";
-    case SearchObjective::kBackward:
-      return "backward";
-    case SearchObjective::kTorque:
-      return "torque";
-    case SearchObjective::kSize:
-      return "size";
-  }
-  return "";
+namespace {
+
+/// Figures that need more than the teeth.
+void check_figures(const SearchRequirements& r, Errors& errors) {
+  const auto asked = [&](SearchObjective figure) {
+    return std::count(r.objectives.begin(), r.objectives.end(), figure) > 0 ||
+           std::any_of(r.figure_limits.begin(), r.figure_limits.end(),
+                       [&](const FigureLimit& limit) { return limit.figure == figure; }) ||
+           std::any_of(r.weights.begin(), r.weights.end(),
+                       [&](const ObjectiveWeight& w) { return w.objective == figure; });
+  };
+  const auto missing = [&](const char* key, const char* message, const char* remedy) {
+    errors.push_back({.code = ErrorCode::kInconsistent, .message = message, .key = key, .remedy = remedy});
+  };
+  for (const SearchObjective figure : {SearchObjective::kAcceleration, SearchObjective::kSettling})
+    if (asked(figure) && !(r.motor.torque_nm > 0.0))
+      return missing("motor.torque_nm", "how the load moves depends on the motor",
+                     "the motor's torque above 0, or other objectives and limits");
+  if (asked(SearchObjective::kStartingTorque) && !(drag_at_rest_nm(r) > 0.0))
+    missing("losses.drag_torque_nm", "without a drag at rest nothing has to be overcome",
+            "the torque that turns the input, or other objectives and limits");
+  if (r.assembling_share_min > 0.0 && !r.tolerance)
+    missing("limits.tolerance_class", "what the parts may be off by is not said",
+            "tolerance_class, axis_tolerance_um, thickness_tolerance_um: one or more of them");
+  if ((r.face_width_max_mm || r.module_max_mm) && !r.output_torque_nm)
+    missing("strength.output_torque_nm", "what width and module have to carry is not said",
+            "the torque at the output, or no face_width_max_mm and module_max_mm");
+  if (r.module_max_mm && r.outer_diameter_mm)
+    missing("gearbox.module_max_mm", "the module follows from outer_diameter_mm",
+            "one of both; limits.outer_diameter_max_mm holds a growing module");
 }
+
+}  // namespace
 
 Errors validate(const SearchRequirements& r) {
   Errors errors;
+  check_figures(r, errors);
   require(r.ratio_min > 1.0, "ratio.min", r.ratio_min, "a reducer's ratio is above 1",
           "input speed over output speed, above 1", errors);
   require(r.ratio_max >= r.ratio_min, "ratio.max", r.ratio_max, "the ratio range is empty",
@@ -207,6 +230,21 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("tip_thickness", r.tip_thickness);
   text.add("planet_clearance_mm", r.planet_clearance_mm);
   text.add("output_torque_nm", r.output_torque_nm.value_or(kNaN));
+  text.add("face_width_max_mm", r.face_width_max_mm.value_or(kNaN));
+  text.add("module_max_mm", r.module_max_mm.value_or(kNaN));
+  for (const FigureLimit& limit : r.figure_limits) text.add(to_text(limit.figure), limit.value);
+  for (const ObjectiveWeight& w : r.weights) text.add("weight", to_text(w.objective) + (":" + std::to_string(w.weight)));
+  text.add("hunting", r.hunting ? 1.0 : 0.0);
+  text.add("sequential", r.sequential ? 1.0 : 0.0);
+  text.add("assembling_share_min", r.assembling_share_min);
+  if (r.tolerance) {
+    text.add("tolerance_class", r.tolerance->tolerance_class.value_or(0));
+    text.add("tolerance", r.tolerance->centre_distance_um);
+    text.add("tolerance", r.tolerance->tooth_thickness_um);
+  }
+  for (const double value : {r.motor.torque_nm, r.motor.speed_rpm, r.motor.rotor_kg_m2,
+                             r.motor.load_kg_m2, r.motor.load_nm, r.motor.move_rad})
+    text.add("motor", value);
   text.add("loss_model", static_cast<int>(r.loss_model));
   if (r.losses) {
     const LossesDesign& l = *r.losses;

@@ -29,13 +29,56 @@ struct OpenToothRange {
   }
 };
 
+/// What a design is ranked by, or held to; search_figures.h says what each is and which way is better.
 enum class SearchObjective {
-  kForward,   ///< forward efficiency, to be large
-  kBackward,  ///< backward efficiency, to be large
-  kTorque,    ///< allowable output torque, to be large
-  kSize,      ///< outer diameter of the larger ring, to be small
+  kForward,
+  kBackward,
+  kTorque,
+  kSize,
+  kMass,
+  kLength,
+  kTorqueDensity,
+  kStartingTorque,
+  kInputInertia,
+  kOutputInertia,
+  kContactRatio,
+  kSliding,
+  kBacklash,
+  kAcceleration,
+  kSettling,
+  kWeighted,  ///< SearchRequirements::weights
 };
 [[nodiscard]] const char* to_text(SearchObjective objective);
+
+/// A figure that every design keeps: at least `value` where large is better, else at most.
+struct FigureLimit {
+  SearchObjective figure;
+  double value = 0.0;
+  bool operator==(const FigureLimit&) const = default;
+};
+
+/// An objective's share in a weighted ranking.
+struct ObjectiveWeight {
+  SearchObjective objective;
+  double weight = 1.0;
+  bool operator==(const ObjectiveWeight&) const = default;
+};
+
+/// The motor on the input and what hangs on the output.
+struct MotorDesign {
+  double torque_nm = kNaN;  ///< at the input, either way; NaN: not known
+  double speed_rpm = kNaN;  ///< it turns no faster; NaN: no bound
+  double rotor_kg_m2 = 0.0;
+  double load_kg_m2 = 0.0;
+  double load_nm = 0.0;          ///< against the motion of the output
+  double move_rad = 0.5 * kPi;  ///< of the output, from rest to rest, for the settling time
+};
+
+/// What parts may be off by, for the share of sets that assemble; as `check --tolerance` takes it.
+struct SearchTolerance {
+  std::optional<int> tolerance_class;  ///< ISO 1328-1
+  double centre_distance_um = 0.0, tooth_thickness_um = 0.0;
+};
 
 enum class OutputDirection { kAny, kSame, kOpposite };
 
@@ -53,6 +96,9 @@ struct SearchRequirements {
   bool external_wheels = true, internal_wheels = false;  ///< of pairs
   double friction = 0.1;
   double face_width_mm = 10.0;
+  /// A design that does not carry the torque asked for gets wider up to this, then its module grows
+  /// up to that below; omitted: neither.
+  std::optional<double> face_width_max_mm, module_max_mm;
   std::optional<double> backlash_mm;  ///< of every mesh of the designs; omitted: kUsualBacklash
   BasicRack rack;
 
@@ -77,12 +123,19 @@ struct SearchRequirements {
   double tip_thickness = 0.2;              ///< least, coefficient of the module
   double planet_clearance_mm = 0.5;        ///< least, between tip circles of neighbouring planets
   std::optional<double> output_torque_nm;  ///< to be carried
+  std::vector<FigureLimit> figure_limits;  ///< each figure at most once
+  bool hunting = false;     ///< no two teeth of a mesh have a common divisor in their numbers
+  bool sequential = false;  ///< in every mesh the planets engage one after another
+  double assembling_share_min = 0.0;  ///< of sets made within `tolerance`
+  std::optional<SearchTolerance> tolerance;
+  MotorDesign motor;
   std::optional<LossesDesign> losses;      ///< measured on a like drive; written into the designs
   StrengthOptions strength;
   LossModel loss_model = LossModel::kPathIntegral;
 
   /// One: designs are ranked by it. Several: the Pareto front of them, ranked by the first.
   std::vector<SearchObjective> objectives{SearchObjective::kForward};
+  std::vector<ObjectiveWeight> weights;  ///< of kWeighted, which is then the only objective
   int results = 20;  ///< design files written
   /// Tooth sets in the ranking, the best: what cannot be among them need not be optimised. Never
   /// fewer than results; 0: all.

@@ -36,7 +36,8 @@ std::optional<double> merit_of(const SearchRequirements& r, const SearchRecord& 
 /// The merit of the last one listed, as far as is known.
 class Threshold {
  public:
-  Threshold(const SearchRequirements& r, std::size_t listed) : r_(r), listed_(listed) {}
+  Threshold(const SearchRequirements& r, std::size_t listed, double better_than)
+      : r_(r), listed_(listed), least_(listed > 0 && better_than == better_than ? better_than : kNone) {}
   void add(const SearchRecord& record) {
     const auto merit = merit_of(r_, record);
     if (listed_ == 0 || !merit) return;
@@ -44,12 +45,13 @@ class Threshold {
     if (best_.size() > listed_) best_.erase(best_.begin());
   }
   [[nodiscard]] double merit() const {
-    return listed_ > 0 && best_.size() == listed_ ? *best_.begin() : kNone;
+    return listed_ > 0 && best_.size() == listed_ ? std::max(least_, *best_.begin()) : least_;
   }
 
  private:
   const SearchRequirements& r_;
   std::size_t listed_;
+  double least_;
   std::multiset<double> best_;
 };
 
@@ -112,7 +114,7 @@ class Run {
       : r_(requirements),
         enumeration_(enumeration),
         options_(options),
-        threshold_(requirements, listed_sets(requirements)),
+        threshold_(requirements, listed_sets(requirements), options.better_than),
         waiting_(open_sets(), listed_sets(requirements) > 0) {}
 
   SearchRecords run() {

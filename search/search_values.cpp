@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/losses.h"
 #include "trueflank/train/strength.h"
 
 namespace trueflank {
@@ -102,15 +103,17 @@ double SetValues::margin_of_limits(int layer, const LayerEvaluation& evaluation,
 double SetValues::bound_margin(const State& s, const FreeShifts& free,
                                const MeritBound& bound) const {
   const double margin =
-      (merit(s, free, bound.objective) - bound.merit) / std::max(1e-9, std::abs(bound.merit));
+      (told_merit(s, free, bound.objective) - bound.merit) / std::max(1e-9, std::abs(bound.merit));
   return std::isfinite(margin) ? std::clamp(margin, -kFarMargin, kFarMargin) : -kFarMargin;
 }
 
-double SetValues::allowable_torque(const FreeShifts& free) const {
-  auto train = lay_out(model_.design(free));
-  if (!train) return 0.0;
-  auto result = strength(*train, r_.strength);
-  return result && std::isfinite(result->output_torque_nm) ? result->output_torque_nm : 0.0;
+const DesignValues& SetValues::design_values(const State& s, const FreeShifts& free) const {
+  if (free == last_free_) return last_;
+  last_ = trueflank::design_values(r_, model_, free,
+                                   model_.efficiency(s.layer1, s.layer2, DriveDirection::kForward),
+                                   model_.efficiency(s.layer1, s.layer2, DriveDirection::kBackward));
+  last_free_ = free;
+  return last_;
 }
 
 double SetValues::merit(const State& s, const FreeShifts& free, SearchObjective objective) const {
@@ -119,12 +122,112 @@ double SetValues::merit(const State& s, const FreeShifts& free, SearchObjective 
       return model_.efficiency(s.layer1, s.layer2, DriveDirection::kForward);
     case SearchObjective::kBackward:
       return model_.efficiency(s.layer1, s.layer2, DriveDirection::kBackward);
-    case SearchObjective::kTorque:
-      return allowable_torque(free);
     case SearchObjective::kSize:
-      return -model_.outer_diameter(free) * model_.module_mm(free);
+      if (!r_.module_max_mm) return -model_.outer_diameter(free) * model_.module_mm(free);
+      break;
+    default:
+      break;
   }
-  return kNaN;
+  return told_merit(s, free, objective);
+}
+
+double SetValues::told_merit(const State& s, const FreeShifts& free,
+                             SearchObjective objective) const {
+  const bool efficiency =
+      objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
+  ToldEfficiencies told;
+  if (efficiency || objective == SearchObjective::kWeighted)
+    told = told_efficiencies(r_, model_.set(),
+                             model_.efficiency(s.layer1, s.layer2, DriveDirection::kForward),
+                             model_.efficiency(s.layer1, s.layer2, DriveDirection::kBackward));
+  if (objective == SearchObjective::kForward) return told.forward;
+  if (objective == SearchObjective::kBackward) return told.backward;
+  const DesignValues& values = design_values(s, free);
+  if (objective == SearchObjective::kWeighted) return weighted_score(r_, told, values);
+  if (objective == SearchObjective::kTorque) return values.torque_nm;
+  if (objective == SearchObjective::kSize) return -values.size_mm;
+  return merit_of_figure(objective, figure_of(values.figures, objective));
+}
+
+std::vector<FigureLimit> asked_limits(const SearchRequirements& r) {
+  std::vector<FigureLimit> asked;
+  if (r.output_torque_nm) asked.push_back({SearchObjective::kTorque, *r.output_torque_nm});
+  asked.insert(asked.end(), r.figure_limits.begin(), r.figure_limits.end());
+  return asked;
+}
+
+double merit_of_figure(SearchObjective objective, double value) {
+  return objective_entry(objective).larger_is_better ? value : -value;
+}
+
+namespace {
+
+/// Allowable torque; 0 where the design cannot be laid out.
+double torque_of(const SearchRequirements& r, const GearTrain& train) {
+  const auto result = strength(train, r.strength);
+  return result && std::isfinite(result->output_torque_nm) ? result->output_torque_nm : 0.0;
+}
+
+}  // namespace
+
+DesignValues design_values(const SearchRequirements& r, const SearchModel& model,
+                           const FreeShifts& free, double mesh_forward, double mesh_backward) {
+  DesignValues values;
+  const double module = model.module_mm(free);
+  values.size_mm = model.outer_diameter(free) * module;
+  auto train = lay_out(model.design(free));
+  if (!train) return values;
+  values.torque_nm = torque_of(r, *train);
+  const bool grows = r.face_width_max_mm || r.module_max_mm;
+  if (grows && r.output_torque_nm && values.torque_nm > 0.0) {
+    // the allowable torque is in proportion to the width and to the square of the module
+    constexpr double kEnough = 1.0 + 1e-9;
+    const double wanted = kEnough * *r.output_torque_nm / values.torque_nm;
+    const double wider = std::clamp(wanted, 1.0, r.face_width_max_mm.value_or(0.0) / r.face_width_mm > 1.0
+                                                     ? *r.face_width_max_mm / r.face_width_mm
+                                                     : 1.0);
+    const double larger = std::clamp(std::sqrt(wanted / wider), 1.0,
+                                     std::max(1.0, r.module_max_mm.value_or(0.0) / module));
+    if (wider > 1.0 || larger > 1.0) {
+      values.dimensions = {.face_width_mm = r.face_width_mm * wider, .module_mm = module * larger};
+      values.size_mm *= larger;
+      train = lay_out(model.design(free, values.dimensions));
+      if (!train) return {};
+      values.torque_nm = torque_of(r, *train);
+    }
+  }
+  values.figures = design_figures(r, *train, mesh_forward, mesh_backward, values.torque_nm);
+  return values;
+}
+
+ToldEfficiencies told_efficiencies(const SearchRequirements& r, const ToothSet& set,
+                                   double mesh_forward, double mesh_backward) {
+  if (!r.losses) return {mesh_forward, mesh_backward};
+  // A mesh's loss is in proportion to its friction.
+  const double forward = 1.0 - mesh_forward, backward = 1.0 - mesh_backward;
+  const MeshEfficiencies meshes = [&](double mu_forward, double mu_backward) {
+    const double friction = std::max(r.friction, 1e-9);
+    return std::pair(1.0 - forward * mu_forward / friction,
+                     mesh_backward > 0.0 ? 1.0 - backward * mu_backward / friction : 0.0);
+  };
+  const LossyEfficiency lossy =
+      lossy_efficiency(*r.losses, r.friction, std::abs(signed_ratio(set)), meshes);
+  return {lossy.forward, lossy.backward};
+}
+
+double weighted_score(const SearchRequirements& r, const ToldEfficiencies& told,
+                      const DesignValues& values) {
+  double score = 0.0;
+  for (const ObjectiveWeight& w : r.weights) {
+    const SearchObjective o = w.objective;
+    const double value = o == SearchObjective::kForward    ? told.forward
+                         : o == SearchObjective::kBackward ? told.backward
+                         : o == SearchObjective::kTorque   ? values.torque_nm
+                         : o == SearchObjective::kSize     ? values.size_mm
+                                                           : figure_of(values.figures, o);
+    score += w.weight * merit_of_figure(o, std::log(std::max(value, 1e-12)));
+  }
+  return score;
 }
 
 }  // namespace trueflank

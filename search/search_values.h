@@ -9,11 +9,41 @@
 // What the points of a tooth set's optimisation are worth, and what they lack; for its parts alone.
 namespace trueflank {
 
-/// A lower bound on another objective's merit, for compromises and a torque that is asked for.
+/// A lower bound on another objective's merit, for compromises and figures that are asked for.
 struct MeritBound {
   SearchObjective objective;
   double merit = 0.0;
 };
+
+/// The torque and the figures asked for, in this order.
+[[nodiscard]] std::vector<FigureLimit> asked_limits(const SearchRequirements& requirements);
+
+/// What a laid-out design is worth beside the efficiencies of its meshes.
+struct DesignValues {
+  DesignDimensions dimensions;
+  double torque_nm = 0.0;
+  double size_mm = kNaN;
+  DesignFigures figures;
+};
+/// With the width and module that carry the torque asked for, where they may grow.
+/// Requires: efficiencies of the meshes alone.
+[[nodiscard]] DesignValues design_values(const SearchRequirements& requirements,
+                                         const SearchModel& model, const FreeShifts& free,
+                                         double mesh_forward, double mesh_backward);
+
+/// Efficiencies with what `[losses]` take.
+struct ToldEfficiencies {
+  double forward = kNaN, backward = kNaN;
+};
+[[nodiscard]] ToldEfficiencies told_efficiencies(const SearchRequirements& requirements,
+                                                 const ToothSet& set, double mesh_forward,
+                                                 double mesh_backward);
+
+/// Larger is better.
+[[nodiscard]] double merit_of_figure(SearchObjective objective, double value);
+/// Of a weighted ranking: the sum of each weight times the logarithm of its figure.
+[[nodiscard]] double weighted_score(const SearchRequirements& requirements,
+                                    const ToldEfficiencies& told, const DesignValues& values);
 
 /// Limits are approached to this (modules), so that rounding leaves a design on the good side.
 inline constexpr double kLimitReserve = 1e-7;
@@ -58,9 +88,12 @@ class SetValues {
   /// Relative, so that newton metres and efficiencies weigh alike.
   [[nodiscard]] double bound_margin(const State& state, const FreeShifts& free,
                                     const MeritBound& bound) const;
+  /// An efficiency is that of the meshes: its best shifts are those with losses too.
   [[nodiscard]] double merit(const State& state, const FreeShifts& free,
                              SearchObjective objective) const;
-  [[nodiscard]] double allowable_torque(const FreeShifts& free) const;
+  /// Of a value that is told; an efficiency with its losses.
+  [[nodiscard]] double told_merit(const State& state, const FreeShifts& free,
+                                  SearchObjective objective) const;
 
   [[nodiscard]] const SearchRequirements& requirements() const { return r_; }
   [[nodiscard]] const SearchModel& model() const { return model_; }
@@ -70,12 +103,17 @@ class SetValues {
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
+  [[nodiscard]] const DesignValues& design_values(const State& state, const FreeShifts& free) const;
+
   const SearchRequirements& r_;
   SearchModel model_;
   LimitReserve reserve_;
   std::array<double, kLimits> offset_{};
   DriveDirection guide_ = DriveDirection::kForward;
   int evaluations_ = 0;
+  /// Of the point asked for last: objective and limits ask for the same one after another.
+  mutable FreeShifts last_free_;
+  mutable DesignValues last_;
 };
 
 }  // namespace trueflank

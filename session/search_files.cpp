@@ -2,6 +2,7 @@
 #include "trueflank/session/search_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "trueflank/base/number_text.h"
@@ -17,7 +18,18 @@ std::string decimal(double value) {
   return text;
 }
 
-std::string json_number(double value) { return value == value ? decimal(value) : "null"; }
+std::string json_number(double value) { return std::isfinite(value) ? decimal(value) : "null"; }
+
+/// Figures may be small: seven digits instead of six places.
+std::string figure_number(double value) {
+  return std::isfinite(value) ? printed("%.7g", value) : std::string();
+}
+std::string json_figure(double value) {
+  return std::isfinite(value) ? figure_number(value) : "null";
+}
+
+/// Empty where there is none.
+std::string csv_number(double value) { return std::isfinite(value) ? decimal(value) : std::string(); }
 
 /// JSON takes the escapes TOML's basic strings use.
 std::string json_string(const std::string& text) { return toml_string(text); }
@@ -28,6 +40,33 @@ std::string classes_json(const std::vector<SetClass>& classes) {
     text += (text.empty() ? "\n    " : ",\n    ") + std::string("{\"id\": ") + json_string(c.id) +
             ", \"count\": " + std::to_string(c.count) +
             ", \"description\": " + json_string(c.description) + "}";
+  return "[" + text + "]";
+}
+
+/// "sequential", "together"; "" without planets.
+std::string phasing_of(const ToothSet& set) {
+  if (!set.train->has_planets() || set.planets < 2) return "";
+  return engages_in_sequence(set) ? "sequential" : "together";
+}
+
+/// Figures that the named columns of search.csv do not have.
+std::vector<SearchObjective> other_figures() {
+  std::vector<SearchObjective> figures;
+  for (const ObjectiveEntry& entry : objective_entries())
+    if (entry.objective != SearchObjective::kForward && entry.objective != SearchObjective::kBackward &&
+        entry.objective != SearchObjective::kTorque && entry.objective != SearchObjective::kSize)
+      figures.push_back(entry.objective);
+  return figures;
+}
+
+std::string binding_json(const std::vector<BindingLimit>& binding) {
+  std::string text;
+  for (const BindingLimit& b : binding)
+    text += (text.empty() ? "" : ", ") + std::string("{\"limit\": ") + json_string(b.limit) +
+            ", \"where\": " + json_string(b.where) +
+            ", \"key\": " + (b.key.empty() ? "null" : json_string(b.key)) +
+            ", \"value\": " + json_figure(b.value) + ", \"relaxed\": " + json_figure(b.relaxed) +
+            ", \"objective\": " + json_figure(b.objective) + "}";
   return "[" + text + "]";
 }
 
@@ -59,7 +98,18 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
           ", \"output_torque_nm\": " + json_number(found.candidate.torque_nm) +
           ", \"outer_diameter_mm\": " + json_number(found.candidate.size_mm) +
           ", \"gap\": " + json_number(found.candidate.gap) +
-          ", \"tightened\": " + json_number(found.tightened) + ", \"warnings\": [";
+          ", \"tightened\": " + json_number(found.tightened());
+  for (const SearchObjective figure : other_figures())
+    text += ", " + json_string(objective_entry(figure).column) + ": " +
+            json_figure(found.candidate.value(figure));
+  if (found.candidate.score == found.candidate.score)
+    text += ", \"score\": " + json_number(found.candidate.score);
+  text += ", \"module_mm\": " + json_number(found.design.module_mm) +
+          ", \"face_width_mm\": " + json_number(found.design.gears.front().face_width_mm) +
+          ", \"hunting\": " + (has_hunting_teeth(set) ? "true" : "false") +
+          ", \"phasing\": " + (phasing_of(set).empty() ? "null" : json_string(phasing_of(set))) +
+          ", \"assembling_share\": " + json_number(found.verdict.assembling_share) +
+          ", \"binding\": " + binding_json(found.binding) + ", \"warnings\": [";
   for (std::size_t i = 0; i < found.verdict.warned.size(); ++i)
     text += (i ? ", " : "") + json_string(found.verdict.warned[i]);
   return text + "]}";
@@ -81,7 +131,10 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
       "rank,sun,planet1,ring1,planet2,ring2,output,layer2_module_ratio,ratio,forward,backward,"
       "output_torque_nm,outer_diameter_mm,centre_distance_modules,ring1_shift,ring2_shift,kind,"
       "input,"
-      "planets,teeth,gap,on_front,file\n";
+      "planets,teeth,gap,face_width_mm,module_mm";
+  for (const SearchObjective figure : other_figures())
+    text += std::string(",") + objective_entry(figure).column;
+  text += ",score,hunting,phasing,on_front,file\n";
   std::map<std::pair<std::size_t, double>, std::string> files;
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& found = report.designs[i];
@@ -105,6 +158,11 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
       text += "," + (value == value ? decimal(value) : std::string());
     text += "," + set.train->kind() + "," + set.train->input + "," + std::to_string(set.planets) +
             "," + teeth_text(set) + "," + (c.gap == c.gap ? decimal(c.gap) : std::string());
+    const DesignDimensions& d = c.dimensions;
+    text += "," + csv_number(d.face_width_mm == d.face_width_mm ? d.face_width_mm : task.requirements.face_width_mm) +
+            "," + csv_number(d.module_mm == d.module_mm ? d.module_mm : SearchModel(task.requirements, set).module_mm(c.free));
+    for (const SearchObjective figure : other_figures()) text += "," + figure_number(c.value(figure));
+    text += "," + csv_number(c.score) + (has_hunting_teeth(set) ? ",1," : ",0,") + phasing_of(set);
     const auto file = files.find({ranked.set_index, c.free.centre_distance});
     text += std::string(ranked.on_front ? ",1," : ",0,") +
             (file == files.end() ? std::string() : file->second) + "\n";
@@ -116,6 +174,10 @@ std::string search_json(const SearchTask& task, const SearchReport& report) {
   std::string text = "{\"format\": \"trueflank-search\", \"version\": 1, \"name\": " +
                      json_string(task.requirements.name) +
                      ", \"material\": " + json_string(task.requirements.strength.material);
+  text += ",\n  \"objectives\": [";
+  for (std::size_t i = 0; i < task.requirements.objectives.size(); ++i)
+    text += (i ? ", " : "") + json_string(to_text(task.requirements.objectives[i]));
+  text += "]";
   text += ",\n  \"considered\": " + std::to_string(report.considered);
   text += ",\n  \"rejected\": " + classes_json(report.classes);
   text += ",\n  \"optimised\": " + std::to_string(report.optimised - report.passed_over) +
@@ -126,13 +188,42 @@ std::string search_json(const SearchTask& task, const SearchReport& report) {
           ", \"judged\": " + std::to_string(report.judged);
   text += ",\n  \"fell_in_checks\": " + classes_json(report.fell_in_checks);
   text += std::string(",\n  \"complete\": ") + (report.optimised == report.sets ? "true" : "false");
+  text += ",\n  \"binding_ranges\": " + binding_json(report.binding_ranges);
   text += ",\n  \"designs\": [";
   for (std::size_t i = 0; i < report.designs.size(); ++i)
     text += (i ? ",\n    " : "\n    ") + design_json(report.designs[i], i);
   return text + "]}\n";
 }
 
-std::string search_summary(const SearchReport& report) {
+namespace {
+
+std::string told(SearchObjective objective, double value) {
+  if (value != value) return "-";
+  const bool share = objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
+  return share ? printed("%.2f %%", 100.0 * value) : printed("%.5g", value);
+}
+
+/// What the best design stands on, and what each limit costs.
+std::string binding_text(SearchObjective objective, const SearchReport& report) {
+  std::vector<BindingLimit> all = report.designs.front().binding;
+  all.insert(all.end(), report.binding_ranges.begin(), report.binding_ranges.end());
+  std::string text;
+  for (const BindingLimit& b : all) {
+    text += "  " + b.limit + (b.where.empty() ? "" : " of " + b.where);
+    if (b.key.empty())
+      text += ": by the teeth's own shape\n";
+    else
+      text += printed(": %s %.6g, at %.6g %s would be ", b.key.c_str(), b.value, b.relaxed, to_text(objective)) +
+              told(objective, b.objective) + "\n";
+  }
+  if (text.empty()) return "no limit binds the best design\n";
+  return printed("the best design (%s %s) stands on\n", to_text(objective),
+                 told(objective, report.designs.front().candidate.value(objective)).c_str()) + text;
+}
+
+}  // namespace
+
+std::string search_summary(const SearchTask& task, const SearchReport& report) {
   std::string text = printed("%lld tooth sets considered\n", report.considered);
   for (const SetClass& c : report.classes)
     if (c.count > 0)
@@ -171,7 +262,7 @@ std::string search_summary(const SearchReport& report) {
   text +=
       "torque: allowable at the output [N m]; size: outer diameter [mm]; ratio < 0: output turns "
       "against the input\n";
-  return text;
+  return text + binding_text(task.requirements.objectives.front(), report);
 }
 
 }  // namespace trueflank

@@ -24,6 +24,6 @@ namespace trueflank {
 /// It holds search_json() whole and the first 4000 rows of search_csv().
 [[nodiscard]] std::string search_html(const SearchTask& task, const SearchReport& report);
 /// What the program prints.
-[[nodiscard]] std::string search_summary(const SearchReport& report);
+[[nodiscard]] std::string search_summary(const SearchTask& task, const SearchReport& report);
 
 }  // namespace trueflank

@@ -20,7 +20,7 @@ std::string script_text(std::string text) {
 std::string objectives_text(const std::vector<SearchObjective>& objectives) {
   std::string text;
   for (const SearchObjective objective : objectives)
-    text += (text.empty() ? "\"" : ", \"") + std::string(to_text(objective)) + "\"";
+    text += (text.empty() ? "\"" : ", \"") + std::string(objective_entry(objective).column) + "\"";
   return text;
 }
 
@@ -34,6 +34,15 @@ std::string first_rows(const std::string& csv) {
   return csv.substr(0, end);
 }
 
+/// The figures beside those that every page shows: ["mass_kg", "mass of the gears [kg]", "mass"], ...
+std::string figures_text() {
+  std::string text;
+  for (const ObjectiveEntry& entry : objective_entries())
+    text += (text.empty() ? "[\"" : ", [\"") + std::string(entry.column) + "\", \"" + entry.title + "\", " +
+            (entry.larger_is_better ? "true]" : "false]");
+  return text;
+}
+
 }  // namespace
 
 std::string search_html(const SearchTask& task, const SearchReport& report) {
@@ -42,6 +51,7 @@ std::string search_html(const SearchTask& task, const SearchReport& report) {
       {"@JSON@", script_text(search_json(task, report))},
       {"@CSV@", script_text(first_rows(search_csv(task, report)))},
       {"@OBJECTIVES@", objectives_text(task.requirements.objectives)},
+      {"@FIGURES@", figures_text()},
       {"@TOTAL@", std::to_string(report.ranking.size())}};
   std::string page;
   for (std::string_view rest = kSearchPage; !rest.empty();) {

@@ -36,32 +36,16 @@ void round_outwards(Axis& axis) {
 
 std::string number(double value, int digits = 2) { return fixed_text(value, digits); }
 
-double shown(SearchObjective objective, const SearchCandidate& c) {
-  switch (objective) {
-    case SearchObjective::kForward:
-      return 100.0 * c.forward;
-    case SearchObjective::kBackward:
-      return 100.0 * c.backward;
-    case SearchObjective::kTorque:
-      return c.torque_nm;
-    case SearchObjective::kSize:
-      return c.size_mm;
-  }
-  return kNaN;
+bool is_share(SearchObjective objective) {
+  return objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
 }
 
-const char* title_of(SearchObjective objective) {
-  switch (objective) {
-    case SearchObjective::kForward:
-      return "forward efficiency [%]";
-    case SearchObjective::kBackward:
-      return "backward efficiency [%]";
-    case SearchObjective::kTorque:
-      return "allowable output torque [N m]";
-    case SearchObjective::kSize:
-      return "outer diameter [mm]";
-  }
-  return "";
+double shown(SearchObjective objective, const SearchCandidate& c) {
+  return (is_share(objective) ? 100.0 : 1.0) * c.value(objective);
+}
+
+std::string title_of(SearchObjective objective) {
+  return objective_entry(objective).title + std::string(is_share(objective) ? " [%]" : "");
 }
 
 struct Dot {

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "trueflank/check/check_gearbox.h"
+#include "trueflank/check/tolerance_analysis.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/design_file_writer.h"
 #include "trueflank/design/requirements_file.h"
@@ -47,6 +48,19 @@ std::size_t sets_of(const SearchTask& task, const SearchPart& part) {
   std::size_t sets = 0;
   for (std::size_t i = 0; i < task.enumeration.sets.size(); ++i) sets += part.holds(i);
   return sets;
+}
+
+/// Also by the share of sets that assemble, where tolerances are asked for.
+DesignVerdict judged_within_tolerance(const SearchRequirements& r, const GearTrain& train) {
+  DesignVerdict verdict = judged_by_checks(train);
+  if (!r.tolerance || !verdict.failed.empty()) return verdict;
+  const auto result = analyse_tolerances(train, {.centre_distance_um = r.tolerance->centre_distance_um,
+                                                 .tooth_thickness_um = r.tolerance->tooth_thickness_um,
+                                                 .tolerance_class = r.tolerance->tolerance_class});
+  if (result) verdict.assembling_share = 1.0 - result->jam_share;
+  if (r.assembling_share_min > 0.0 && !(verdict.assembling_share >= r.assembling_share_min))
+    verdict.failed.emplace_back("tolerance");
+  return verdict;
 }
 
 }  // namespace
@@ -161,7 +175,9 @@ SearchRecords gathered_records(const SearchTask& task, SearchJournal journal) {
 }
 
 SearchReport finish_search(const SearchTask& task, const SearchRecords& records) {
-  return conclude_search(task.requirements, task.enumeration, records, judged_by_checks);
+  return conclude_search(
+      task.requirements, task.enumeration, records,
+      [&](const GearTrain& train) { return judged_within_tolerance(task.requirements, train); });
 }
 
 Status write_search(const SearchTask& task, const SearchReport& report,

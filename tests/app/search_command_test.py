@@ -178,6 +178,10 @@ def main():
     assert "12  39  90  32  81" in summary, summary
     report = json.loads((whole / "search.json").read_text())
     assert report["complete"] and report["designs"][0]["forward"] > 0.908
+    # what the best stands on is named, with what each costs
+    binding = report["designs"][0]["binding"]
+    assert binding and all(b["key"] is None or b["objective"] >= report["designs"][0]["forward"] for b in binding), binding
+    assert all(b["key"] is None or b["key"] in summary for b in binding), summary
     lost = sum(c["count"] for c in report["rejected"])
     assert lost + report["feasible"] == report["considered"]
     lines = (whole / "search.csv").read_text().splitlines()

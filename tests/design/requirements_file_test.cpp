@@ -136,9 +136,38 @@ TEST(RequirementsFile, MaterialsExtendATable) {
   EXPECT_FALSE(read_materials_text("[material.x]\npoisson_ratio = 3\n", "m.toml").has_value());
 }
 
+TEST(RequirementsFile, FiguresAreLimitsObjectivesAndWeights) {
+  const auto read = read_requirements_text(
+      kSmall +
+          "[limits]\nmass_max_kg = 0.8\nhunting = true\nphasing = \"sequential\"\nassembling_share_min = 0.99\n"
+          "tolerance_class = 7\naxis_tolerance_um = 10\n[motor]\ntorque_nm = 0.4\nmove_deg = 180\n"
+          "[search]\nobjectives = \"forward: 1, settling: 0.25\"\n",
+      "needs.toml");
+  ASSERT_TRUE(read.has_value()) << read.error().front().message << read.error().front().key;
+  EXPECT_EQ(read->figure_limits, (std::vector<FigureLimit>{{SearchObjective::kMass, 0.8}}));
+  EXPECT_TRUE(read->hunting && read->sequential);
+  EXPECT_EQ(read->assembling_share_min, 0.99);
+  EXPECT_EQ(read->tolerance->tolerance_class, 7);
+  EXPECT_EQ(read->tolerance->centre_distance_um, 10);
+  EXPECT_NEAR(read->motor.move_rad, kPi, 1e-12);
+  EXPECT_EQ(read->objectives, std::vector<SearchObjective>{SearchObjective::kWeighted});
+  EXPECT_EQ(read->weights, (std::vector<ObjectiveWeight>{{SearchObjective::kForward, 1.0},
+                                                         {SearchObjective::kSettling, 0.25}}));
+}
+
+TEST(RequirementsFile, FiguresWithoutWhatTheyNeedAreErrors) {
+  EXPECT_EQ(errors_of(kSmall + "[search]\nobjectives = \"settling\"\n")[0].key, "motor.torque_nm");
+  EXPECT_EQ(errors_of(kSmall + "[limits]\nstarting_torque_max_nm = 1\n")[0].key, "losses.drag_torque_nm");
+  EXPECT_EQ(errors_of(kSmall + "[limits]\nassembling_share_min = 0.9\n")[0].key, "limits.tolerance_class");
+  EXPECT_EQ(errors_of("format = 1\n[gearbox]\nkind = \"3k\"\nmodule_max_mm = 2\n[ratio]\nmin = 90\nmax = 100\n")[0].key,
+            "strength.output_torque_nm");
+  EXPECT_EQ(errors_of(kSmall + "[search]\nobjectives = \"forward: 1, mass\"\n")[0].key, "search.objectives");
+  EXPECT_EQ(errors_of(kSmall + "[search]\nobjectives = \"forward: -1\"\n")[0].key, "search.objectives");
+}
+
 TEST(RequirementsFile, EveryKeyHasItsPlaceInTheListOfTables) {
   const auto tables = requirements_tables();
-  EXPECT_EQ(tables.size(), 11u);
+  EXPECT_EQ(tables.size(), 12u);
   for (const RequirementsTable& table : tables) EXPECT_FALSE(table.rules.empty()) << table.name;
 }
 

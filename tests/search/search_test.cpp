@@ -198,7 +198,7 @@ TEST(Search, ADesignThatFailsACheckIsTightenedUntilItPasses) {
   const SearchReport report = conclude_search(requirements(), sets(), records(), strict);
   ASSERT_FALSE(report.designs.empty());
   bool any = false;
-  for (const FoundDesign& found : report.designs) any = any || found.tightened > 0.0;
+  for (const FoundDesign& found : report.designs) any = any || found.tightened() > 0.0;
   EXPECT_TRUE(any);
 }
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/search/search_relax.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "trueflank/search/search.h"
+#include "trueflank/search/search_values.h"
+
+namespace trueflank {
+namespace {
+
+/// A design this close to a limit stands on it: in modules, or as a share of a figure.
+constexpr double kStands = 1e-4;
+constexpr double kShiftStep = 0.1, kContactRatioStep = 0.05;
+constexpr double kFigureStep = 0.1;  ///< share of the figure
+constexpr double kRatioStep = 0.01;  ///< share of the ratio
+
+/// How a key is relaxed; no `apply`: it cannot be.
+struct Relaxation {
+  std::string key;
+  double value = kNaN, relaxed = kNaN;
+  std::function<void(SearchRequirements&, double)> apply;
+};
+
+Relaxation of_shift(const SearchRequirements& r, bool greatest) {
+  if (greatest)
+    return {"shift.max", r.shift_max, r.shift_max + kShiftStep,
+            [](SearchRequirements& q, double v) { q.shift_max = v; }};
+  return {"shift.min", r.shift_min, r.shift_min - kShiftStep,
+          [](SearchRequirements& q, double v) { q.shift_min = v; }};
+}
+
+/// Half of a clearance; what is 0 already is left to the teeth's own shape.
+Relaxation halved(const char* key, double value,
+                  std::function<void(SearchRequirements&, double)> apply) {
+  if (!(value > 0.0)) return {};
+  return {key, value, 0.5 * value, std::move(apply)};
+}
+
+Relaxation of_contact_ratio(const SearchRequirements& r, bool least) {
+  if (!least)
+    return {"limits.contact_ratio_max", r.contact_ratio_max, r.contact_ratio_max + kContactRatioStep,
+            [](SearchRequirements& q, double v) { q.contact_ratio_max = v; }};
+  if (r.contact_ratio_min <= 1.0) return {};  // contact would be interrupted
+  return {"limits.contact_ratio_min", r.contact_ratio_min,
+          std::max(1.0, r.contact_ratio_min - kContactRatioStep),
+          [](SearchRequirements& q, double v) { q.contact_ratio_min = v; }};
+}
+
+/// Of a margin; `upper`: the second of two of the same limit.
+Relaxation relaxation_of(const SearchRequirements& r, Limit limit, bool upper) {
+  switch (limit) {
+    case Limit::kShift:
+      return of_shift(r, upper);
+    case Limit::kContactRatio:
+      return of_contact_ratio(r, !upper);
+    case Limit::kFillet:
+    case Limit::kTrochoid:
+      return halved("limits.clearance_um", r.clearance_um,
+                    [](SearchRequirements& q, double v) { q.clearance_um = v; });
+    case Limit::kTipClearance:
+      return halved("limits.tip_clearance", r.tip_clearance,
+                    [](SearchRequirements& q, double v) { q.tip_clearance = v; });
+    case Limit::kTipThickness:
+      return halved("limits.tip_thickness", r.tip_thickness,
+                    [](SearchRequirements& q, double v) { q.tip_thickness = v; });
+    case Limit::kPlanetSpacing:
+      return halved("limits.planet_clearance_mm", r.planet_clearance_mm,
+                    [](SearchRequirements& q, double v) { q.planet_clearance_mm = v; });
+    case Limit::kRingTip:
+      break;
+  }
+  return {};
+}
+
+Relaxation relaxation_of(const FigureLimit& limit, std::size_t index, bool torque) {
+  const ObjectiveEntry& entry = objective_entry(limit.figure);
+  const double share = entry.larger_is_better ? 1.0 - kFigureStep : 1.0 + kFigureStep;
+  return {entry.limit_key, limit.value, share * limit.value, [=](SearchRequirements& q, double v) {
+            if (torque)
+              q.output_torque_nm = v;
+            else
+              q.figure_limits[index].value = v;
+          }};
+}
+
+/// The tooth numbers of a set alone.
+SearchRequirements of_set_alone(SearchRequirements r, const ToothSet& set) {
+  const auto only = [](int teeth) { return teeth ? ToothRange{teeth, teeth} : ToothRange{6, 6}; };
+  r.kinds = {set.train->kind()};
+  r.inputs = {set.train->input};
+  r.outputs = {set.train->output};
+  r.internal_wheels = set.train->internal_wheel;
+  r.external_wheels = !set.train->internal_wheel;
+  r.planets = {set.planets};
+  r.layer2_module_ratios = {set.layer2_module_ratio};
+  r.sun = only(set.sun), r.planet1 = only(set.planet1), r.ring1 = only(set.ring1);
+  r.planet2 = only(set.planet2), r.ring2 = only(set.ring2);
+  r.planet = r.ring = r.pinion = r.wheel = {};
+  return r;
+}
+
+/// The set with the centre distances that other requirements leave it.
+std::optional<ToothSet> within(const SearchRequirements& r, const ToothSet& set) {
+  const SetEnumeration found = enumerate_sets(of_set_alone(r, set));
+  if (found.sets.size() != 1) return std::nullopt;
+  return found.sets.front();
+}
+
+class Binding {
+ public:
+  Binding(const SearchRequirements& r, const ToothSet& set, const SearchCandidate& candidate,
+          const LimitReserve& reserve)
+      : r_(r), set_(set), candidate_(candidate), reserve_(reserve), values_(r, set, reserve) {}
+
+  std::vector<BindingLimit> run(bool costs) {
+    margins();
+    shifts();
+    figures();
+    for (std::size_t i = 0; costs && i < found_.size(); ++i) found_[i].objective = relaxed(relaxations_[i]);
+    return std::move(found_);
+  }
+
+ private:
+  void add(const std::string& limit, const std::string& where, Relaxation relaxation) {
+    for (BindingLimit& known : found_) {
+      if (known.limit != limit || known.key != relaxation.key) continue;
+      if ((", " + known.where + ",").find(", " + where + ",") == std::string::npos)
+        known.where += ", " + where;
+      return;
+    }
+    found_.push_back({limit, where, relaxation.key, relaxation.value, relaxation.relaxed});
+    relaxations_.push_back(std::move(relaxation));
+  }
+
+  void margins() {
+    std::vector<double> margins(kLimits);
+    values_.margins(values_.state(candidate_.free), margins.data());
+    const auto& limits = set_.train->limits;
+    std::size_t same = 0;  // how many of this limit at this place come before
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const bool again = i > 0 && limits[i].limit == limits[i - 1].limit && limits[i].where == limits[i - 1].where;
+      same = again ? same + 1 : 0;
+      if (margins[i] < kStands) add(to_text(limits[i].limit), limits[i].where, relaxation_of(r_, limits[i].limit, same == 1));
+    }
+  }
+
+  /// The free shifts' own bounds are in no margin.
+  void shifts() {
+    const GearboxDesign design = values_.model().design(candidate_.free);
+    for (const GearDesign& gear : design.gears) {
+      if (*gear.shift < r_.shift_min + kStands) add(to_text(Limit::kShift), gear.name, of_shift(r_, false));
+      if (*gear.shift > r_.shift_max - kStands) add(to_text(Limit::kShift), gear.name, of_shift(r_, true));
+    }
+  }
+
+  void figures() {
+    const auto asked = asked_limits(r_);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const double off = std::abs(candidate_.value(asked[i].figure) - asked[i].value);
+      const bool torque = r_.output_torque_nm && i == 0;
+      if (off < kStands * std::abs(asked[i].value))
+        add(to_text(asked[i].figure), "", relaxation_of(asked[i], torque ? 0 : i - (r_.output_torque_nm ? 1 : 0), torque));
+    }
+  }
+
+  double relaxed(const Relaxation& relaxation) const {
+    if (!relaxation.apply) return kNaN;
+    SearchRequirements other = r_;
+    relaxation.apply(other, relaxation.relaxed);
+    const auto set = within(other, set_);
+    if (!set) return kNaN;
+    const SetResult result = optimise_set(other, *set, reserve_);
+    if (result.candidates.empty()) return kNaN;
+    const SearchObjective objective = r_.objectives.front();
+    const SearchCandidate& best = result.candidates.front();
+    // the design itself keeps the wider limits too
+    return best.merit(objective) > candidate_.merit(objective) ? best.value(objective)
+                                                               : candidate_.value(objective);
+  }
+
+  const SearchRequirements& r_;
+  const ToothSet& set_;
+  const SearchCandidate& candidate_;
+  const LimitReserve& reserve_;
+  SetValues values_;
+  std::vector<BindingLimit> found_;
+  std::vector<Relaxation> relaxations_;
+};
+
+/// Of the sets of some requirements that may be better than a merit; NaN where none is.
+double best_of(SearchRequirements r, double than) {
+  r.listed = r.results = 1;
+  double best = kNaN;
+  const SetEnumeration enumeration = enumerate_sets(r);
+  for (const SearchRecords found = run_search(r, enumeration, {.threads = 1, .better_than = than});
+       const SearchRecord& record : found.optimised)
+    for (const SearchCandidate& c : record.result.candidates) {
+      const double value = c.value(r.objectives.front());
+      if (!(value <= best)) best = value;
+    }
+  return best;
+}
+
+/// The range of a gear in the requirements, with its keys' stem.
+struct NamedRange {
+  std::string name;
+  ToothRange SearchRequirements::* range;
+};
+
+}  // namespace
+
+std::vector<BindingLimit> binding_limits(const SearchRequirements& requirements, const ToothSet& set,
+                                         const SearchCandidate& candidate,
+                                         const LimitReserve& reserve, bool costs) {
+  return Binding(requirements, set, candidate, reserve).run(costs);
+}
+
+std::vector<BindingLimit> binding_ranges(const SearchRequirements& r, const ToothSet& set,
+                                         const SearchCandidate& candidate) {
+  std::vector<BindingLimit> found;
+  if (listed_sets(r) == 0) return found;
+  const double here = candidate.value(r.objectives.front());
+  const auto add = [&](BindingLimit limit, const SearchRequirements& beyond) {
+    limit.objective = best_of(beyond, here);
+    if (limit.objective > here) found.push_back(std::move(limit));
+  };
+  using R = SearchRequirements;
+  static const std::vector<NamedRange> kRanges{{"sun", &R::sun},
+                                               {"planet1", &R::planet1},
+                                               {"ring1", &R::ring1},
+                                               {"planet2", &R::planet2},
+                                               {"ring2", &R::ring2}};
+  for (std::size_t i = 0; i < kRanges.size(); ++i) {
+    const auto& [name, member] = kRanges[i];
+    const auto place = static_cast<TrainPlace>(i);
+    const int teeth = set.teeth()[i];
+    if (teeth == 0 || set.train->name_at(place) != name) continue;  // a range of its own
+    const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
+    const ToothRange asked = r.*member;
+    R beyond = r;
+    if (teeth == asked.max && teeth + set.planets <= 1000) {
+      beyond.*member = {teeth + 1, teeth + set.planets};
+      add({"teeth", name, "teeth." + name + "_max", 1.0 * teeth, 1.0 * (teeth + set.planets)}, beyond);
+    }
+    const int fewest = std::max(ring ? 6 : 4, teeth - set.planets);
+    if (teeth == asked.min && fewest < teeth) {
+      beyond.*member = {fewest, teeth - 1};
+      add({"teeth", name, "teeth." + name + "_min", 1.0 * teeth, 1.0 * fewest}, beyond);
+    }
+  }
+  const double ratio = std::abs(signed_ratio(set));
+  R beyond = r;
+  if (ratio < r.ratio_min * (1.0 + kRatioStep) && r.ratio_min * (1.0 - kRatioStep) > 1.0) {
+    beyond.ratio_max = std::nextafter(r.ratio_min, 0.0);
+    beyond.ratio_min = r.ratio_min * (1.0 - kRatioStep);
+    add({"ratio", "", "ratio.min", r.ratio_min, beyond.ratio_min}, beyond);
+  }
+  if (ratio > r.ratio_max * (1.0 - kRatioStep)) {
+    beyond.ratio_min = std::nextafter(r.ratio_max, 1e300);
+    beyond.ratio_max = r.ratio_max * (1.0 + kRatioStep);
+    add({"ratio", "", "ratio.max", r.ratio_max, beyond.ratio_max}, beyond);
+  }
+  return found;
+}
+
+}  // namespace trueflank
