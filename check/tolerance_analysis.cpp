@@ -304,7 +304,8 @@ Result<ToleranceOptions> parse_tolerance(const std::string& text) {
     else if (key == "tooth_thickness_um") options.tooth_thickness_um = value;
     else if (key == "runout_um") options.runout_um = value;
     else if (key == "pitch_um") options.pitch_um = value;
-    else if (key == "class" && value == std::floor(value)) options.tolerance_class = static_cast<int>(value);
+    else if (key == "class" && value == std::floor(value) && std::abs(value) < 100.0)
+      options.tolerance_class = static_cast<int>(value);
     else return fail(unreadable(part));
   }
   return options;

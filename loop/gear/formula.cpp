@@ -22,6 +22,10 @@ class FormulaParser {
     sum(0);
     skip_blanks();
     if (problem_.empty() && at_ < text_.size()) expected("an operator");
+    if (problem_.empty() && formula_.operations_.size() > Formula::kMostOperations) {
+      problem_ = "more than " + std::to_string(Formula::kMostOperations) + " numbers and operators";
+      where_ = text_.size();
+    }
     if (problem_.empty()) return std::move(formula_);
     return fail({.code = ErrorCode::kSyntax,
                  .message = problem_ + " at character " + std::to_string(where_ + 1),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,8 @@ class Formula {
     double number = 0.0;
     int variable = 0;
   };
+  /// Evaluated at every vertex of a corrected mesh and at every point of a scan.
+  static constexpr std::size_t kMostOperations = 4000;
   static constexpr int kDeepest = 64;  ///< of the stack, so that no text can exhaust it
 
   friend class FormulaParser;

@@ -106,6 +106,20 @@ class TableBuilder {
     bad.tell(table.notes);
   }
 
+  /// A value of index or runout is an observation of its own, 30 kB in the fit; a size has places on all teeth.
+  void refuse_too_many_single_values() {
+    constexpr std::size_t kMostValues = 20'000, kMostSizes = 2'000;
+    const auto refuse = [&](std::size_t count, std::size_t most, const std::string& of_what) {
+      if (count <= most) return;
+      errors.push_back({.code = ErrorCode::kUnsupported,
+                        .message = std::to_string(count) + " " + of_what + "; " + std::to_string(most) +
+                                   " are the most",
+                        .remedy = "means of repeated measurements"});
+    };
+    refuse(index_values_, kMostValues, "values of index and radial runout");
+    refuse(sizes_, kMostSizes, "sizes");
+  }
+
   void add_sizes(const SizeData& data, int source) {
     BadLines bad(data.file);
     ForeignRows foreign;
@@ -129,6 +143,8 @@ class TableBuilder {
 
  private:
   Observation& add_row(ObservationKind kind, double deviation_um, double sigma_um, int source) {
+    if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial) ++index_values_;
+    if (kind == ObservationKind::kSize) ++sizes_;
     Observation row;
     row.kind = kind;
     row.deviation_um = deviation_um;
@@ -308,6 +324,9 @@ class TableBuilder {
     const double cos_helix = std::cos(geometry_.base_helix_rad());
     switch (size.quantity) {
       case SizeQuantity::kSpan:
+        if (size.detail > geometry_.teeth() || size.detail != std::floor(size.detail))
+          return "a span over " + number_text(size.detail) + " teeth of a gear with " +
+                 std::to_string(geometry_.teeth());
         nominal = base_tangent_length_mm(geometry_.gear(), static_cast<int>(size.detail));
         roll = 0.5 * nominal * cos_helix;
         weight = 2.0;
@@ -346,6 +365,7 @@ class TableBuilder {
 
   const FlankGeometry& geometry_;
   ObservationOptions options_;
+  std::size_t index_values_ = 0, sizes_ = 0;
 };
 
 constexpr std::size_t kFewInPatch = 5;
@@ -467,6 +487,7 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, const M
   for (const InspectionData& inspection : data.inspections)
     builder.add_inspection(inspection, source++);
   for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
+  builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
   leave_out_outliers(geometry, builder.table);
   return std::move(builder.table);

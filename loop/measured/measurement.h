@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +13,13 @@
 
 // Measured data as files hold them, before anything is known about the gear.
 namespace trueflank::loop {
+
+/// No scanner reaches as far; beyond it whole turns of a helical tooth cannot be counted.
+constexpr double kFarthest_mm = 1e6;
+/// False where a coordinate is no number or lies farther off than any measurement.
+[[nodiscard]] inline bool is_measured_point(const std::array<double, 3>& p) {
+  return std::abs(p[0]) <= kFarthest_mm && std::abs(p[1]) <= kFarthest_mm && std::abs(p[2]) <= kFarthest_mm;
+}
 
 /// Points of a scan [mm]; sigma_um is empty or one value a point.
 struct ScanData {

@@ -69,8 +69,8 @@ Result<ScanData> read_scan_csv(const std::string& file, std::string_view text,
   while (rows.next()) {
     const std::array<double, 3> point{rows.number(x), rows.number(y), rows.number(z)};
     double sigma = kNaN;
-    if (!(std::isfinite(point[0] + point[1] + point[2]))) {
-      rows.bad.add(rows.line(), "x, y, z are not three numbers");
+    if (!is_measured_point(point)) {
+      rows.bad.add(rows.line(), "x, y, z are not three numbers, of a kilometre at most");
     } else if (!read_sigma(rows, sigma_column, sigma)) {
       rows.bad.add(rows.line(), "sigma_um is no positive number");
     } else {
@@ -99,9 +99,9 @@ Result<ScanData> read_xyz(const std::string& file, std::string_view text,
     if (fields.size() == 1 && scan.points_mm.empty() && !std::isnan(number_in(fields[0]))) continue;
     std::array<double, 3> point{kNaN, kNaN, kNaN};
     for (std::size_t i = 0; i < 3 && i < fields.size(); ++i) point[i] = number_in(fields[i]);
-    if (std::isfinite(point[0] + point[1] + point[2])) scan.points_mm.push_back(point);
+    if (is_measured_point(point)) scan.points_mm.push_back(point);
     else if (scan.points_mm.empty() && line == 1) continue;  // a header
-    else bad.add(line, "x, y, z are not three numbers");
+    else bad.add(line, "x, y, z are not three numbers, of a kilometre at most");
   }
   if (scan.points_mm.empty()) return fail(bad.error("the scan has no usable point"));
   bad.tell(notes);

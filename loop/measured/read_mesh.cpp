@@ -19,8 +19,6 @@ Error broken(const std::string& file, const std::string& what) {
 /// Long edges give a dozen points each.
 constexpr std::size_t kMostPoints = 60'000'000;
 
-bool finite(const Point& p) { return std::isfinite(p[0] + p[1] + p[2]); }
-
 Point cross3(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -56,6 +54,7 @@ class MeshSampler {
     add(surface_.vertices[vertex], n);
   }
   void add(const Point& p, const Point& n) {
+    if (!is_measured_point(p)) return;
     scan_.points_mm.push_back(p);
     scan_.normals.push_back({static_cast<float>(n[0]), static_cast<float>(n[1]),
                              static_cast<float>(n[2])});
@@ -99,11 +98,11 @@ Result<ScanData> read_scan_mesh(const std::string& file, std::string_view text,
     MeshSampler(surface, scan).run();
   } else {
     for (const Point& p : surface.vertices)
-      if (finite(p)) scan.points_mm.push_back(p);
+      if (is_measured_point(p)) scan.points_mm.push_back(p);
     if (scan.points_mm.size() < surface.vertices.size())
       notes.push_back(file + ": " +
                       std::to_string(surface.vertices.size() - scan.points_mm.size()) +
-                      " points without three numbers left out");
+                      " points without three numbers of a kilometre at most left out");
   }
   if (scan.points_mm.size() > kMostPoints)
     return fail(Error{.code = ErrorCode::kUnsupported,

@@ -77,7 +77,8 @@ TEST(Tolerance, TextIsReadOrRefused) {
   ASSERT_TRUE(o);
   EXPECT_EQ(o->centre_distance_um, 20.0);
   EXPECT_EQ(o->runout_um, 12.5);
-  for (const char* bad : {"", "seven", "runout=3", "runout_um=", "7.5", "class=7,", "runout_um=nan"})
+  for (const char* bad : {"", "seven", "runout=3", "runout_um=", "7.5", "class=7,", "runout_um=nan",
+                          "1e300", "class=-1e19"})
     EXPECT_FALSE(parse_tolerance(bad)) << bad;
 }
 

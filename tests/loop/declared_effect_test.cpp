@@ -52,6 +52,8 @@ TEST(Formula, EndsNestingThatHasNoEnd) {
   std::string sums = "x";
   for (int i = 0; i < 1000; ++i) sums += "+x";
   EXPECT_TRUE(loop::Formula::make(sums, {"x"}));
+  for (int i = 0; i < 1000; ++i) sums += "+x";
+  EXPECT_FALSE(loop::Formula::make(sums, {"x"}));
 }
 
 loop::DeclaredFamilies cooled() {

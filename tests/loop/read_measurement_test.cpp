@@ -31,6 +31,18 @@ TEST(ScanCsv, UsesTheGoodHalfAndSaysSo) {
   EXPECT_NE(notes[0].find("a.csv:3:"), std::string::npos);
 }
 
+TEST(ScanCsv, LeavesOutPointsFartherThanAnyMeasurement) {
+  Notes notes;
+  const auto scan = read_scan_csv("a.csv", "x_mm,y_mm,z_mm\n1,2,3\n1,2,1e300\n-2e6,0,0\n", notes);
+  ASSERT_TRUE(scan);
+  EXPECT_EQ(scan->points_mm.size(), 1u);
+  EXPECT_EQ(notes.size(), 2u);
+  EXPECT_EQ(read_xyz("a.xyz", "1 2 3\n1 1e7 3\n4 5 6\n", notes)->points_mm.size(), 2u);
+  const auto far = read_scan_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e30 0\nf 1 2 3\n", notes);
+  ASSERT_TRUE(far);
+  for (const auto& p : far->points_mm) EXPECT_TRUE(is_measured_point(p));
+}
+
 TEST(ScanCsv, WithoutAUsablePointNamesFileAndLine) {
   Notes notes;
   const auto scan = read_scan_csv("a.csv", "x_mm,y_mm,z_mm\n1,,3\n", notes);

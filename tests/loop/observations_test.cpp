@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/observations.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/geometry/tooth_span.h"
+
+namespace trueflank::test {
+namespace {
+
+ResultAll<loop::Observations> observed(const loop::MeasuredData& data) {
+  return loop::make_observations(geometry_of(spur(24)), data, {});
+}
+
+loop::MeasuredData index_values(int count) {
+  loop::MeasuredData data;
+  data.inspections.emplace_back();
+  for (int i = 0; i < count; ++i) {
+    loop::InspectionRow row;
+    row.record = loop::RecordKind::kIndex;
+    row.tooth = i % 24 + 1;
+    data.inspections.back().rows.push_back(row);
+  }
+  return data;
+}
+
+loop::MeasuredData spans(int count, double teeth) {
+  loop::MeasuredData data;
+  data.sizes.emplace_back();
+  const double value = base_tangent_length_mm(geometry_of(spur(24)).gear(), 3);
+  for (int i = 0; i < count; ++i)
+    data.sizes.back().rows.push_back(
+        {.quantity = loop::SizeQuantity::kSpan, .value_mm = value, .detail = teeth});
+  return data;
+}
+
+TEST(Observations, RepeatedSingleValuesAreRefusedBeforeTheyFillTheMemory) {
+  EXPECT_TRUE(observed(index_values(20'000)));
+  const auto index = observed(index_values(20'001));
+  ASSERT_FALSE(index);
+  EXPECT_EQ(index.error().front().code, ErrorCode::kUnsupported);
+  EXPECT_NE(index.error().front().message.find("20001 values"), std::string::npos);
+  EXPECT_TRUE(observed(spans(2'000, 3)));
+  EXPECT_FALSE(observed(spans(2'001, 3)));
+}
+
+TEST(Observations, ASpanOverMoreTeethThanThereAreIsRefused) {
+  EXPECT_TRUE(observed(spans(1, 3)));
+  for (const double teeth : {25.0, 3.5, 1e300}) {
+    const auto refused = observed(spans(1, teeth));
+    ASSERT_FALSE(refused) << teeth;
+    EXPECT_NE(refused.error().front().message.find("24"), std::string::npos) << teeth;
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test
