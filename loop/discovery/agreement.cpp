@@ -87,7 +87,15 @@ struct Agreement {
 
 void add_whole(Agreement& sum, const GroupMatrix& gram, const GroupVector& score,
                double information) {
-  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own(gram);
+  if (gram.rows() == 1) {  // its own direction
+    if (!(gram(0, 0) > kNone * information)) return;
+    sum.gram += gram;
+    sum.score += score;
+    sum.total += score[0] * score[0] / gram(0, 0);
+    ++sum.degrees;
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own{Eigen::MatrixXd(gram)};
   for (Eigen::Index k = 0; k < gram.rows(); ++k) {
     if (!(own.eigenvalues()[k] > kNone * information)) continue;
     const GroupVector direction = own.eigenvectors().col(k);
@@ -103,9 +111,10 @@ double p_of(const Agreement& sum, int fitted, double within) {
   const auto columns = static_cast<int>(sum.score.size());
   const int below = sum.degrees - columns - fitted;
   if (below < 1 || (below < 2 && !(within > 0.0))) return 1.0;
-  const Eigen::LDLT<GroupMatrix> gram(sum.gram);
+  const Eigen::LDLT<Eigen::MatrixXd> gram{Eigen::MatrixXd(sum.gram)};
   if (gram.info() != Eigen::Success || !gram.isPositive()) return 1.0;
-  const double explained = sum.score.dot(gram.solve(sum.score));
+  const Eigen::VectorXd score = sum.score;
+  const double explained = score.dot(gram.solve(score));
   const double left = std::max(sum.total - explained, 1e-12 * sum.total);
   const double own = within > 0.0 ? kOwnDegrees : 0.0;
   const double variance = (left + own * within) / (below + own);

@@ -2,13 +2,20 @@
 #include "trueflank/loop/discovery/block_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
+#include "trueflank/base/threads.h"
+
 namespace trueflank::loop {
+namespace {
+
+constexpr std::size_t kGroupsOfWork = 32;
+
+}  // namespace
 
 BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
     : problem_(problem),
-      candidates_(problem.candidates),
       value_(problem.value),
       model_(problem.nuisance) {
   for (int i = 0; i < value_.size(); ++i) {
@@ -33,77 +40,96 @@ void BlockStatistics::centre_on_zeros() {
   std::map<int, std::vector<int>> traces;
   for (const int i : order_)
     if (problem_.zero[i] >= 0) traces[problem_.zero[i]].push_back(i);
+  if (!traces.empty()) centred_ = problem_.candidates;
   for (const auto& [trace, rows] : traces) {
     double weight = 0.0, value = 0.0;
     Eigen::RowVectorXd model = Eigen::RowVectorXd::Zero(model_.cols());
-    Eigen::RowVectorXd candidate = Eigen::RowVectorXd::Zero(candidates_.cols());
+    Eigen::RowVectorXd candidate = Eigen::RowVectorXd::Zero(centred_.cols());
     for (const int i : rows) {
       const double w = problem_.weight[i];
       weight += w;
       value += w * value_[i];
       model += w * model_.row(i);
-      candidate += w * candidates_.row(i).cast<double>();
+      candidate += w * centred_.row(i).cast<double>();
     }
     model /= weight;
     const Eigen::RowVectorXf mean = (candidate / weight).cast<float>();
     for (const int i : rows) {
       value_[i] -= value / weight;
       model_.row(i) -= model;
-      candidates_.row(i) -= mean;
+      centred_.row(i) -= mean;
     }
   }
 }
 
 void BlockStatistics::sum_candidates() {
-  const auto columns = candidates_.cols();
-  const auto clear = [&](Sums& sums) { sums.candidate_value = Eigen::VectorXd::Zero(columns); };
+  const CandidateMatrix& candidates = this->candidates();
+  const auto clear = [&](Sums& sums) {
+    sums.candidate_value = Eigen::VectorXd::Zero(candidates.cols());
+  };
   for (Sums& sums : unit_sums_) clear(sums);
   for (Sums& sums : fold_sums_) clear(sums);
   clear(all_);
-  const std::size_t groups = problem_.groups.size();
-  group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
-  for (auto& fold : group_grams_)
-    for (std::size_t g = 0; g < groups; ++g)
-      fold[g] = Eigen::MatrixXd::Zero(problem_.groups[g].columns, problem_.groups[g].columns);
-  std::map<std::pair<int, int>, std::pair<double, Eigen::VectorXd>> trace_parts;
   std::map<int, double> trace_weight;
   for (const int i : order_) {
-    const double w = problem_.weight[i];
-    const int unit = problem_.unit[i], fold = problem_.fold[i];
-    const Eigen::VectorXd x = candidates_.row(i).transpose().cast<double>();
-    const double wy = w * value_[i];
-    unit_sums_[unit].candidate_value += wy * x;
-    fold_sums_[fold].candidate_value += wy * x;
-    for (Sums* sums : {&unit_sums_[unit], &fold_sums_[fold], &all_}) {
+    const double w = problem_.weight[i], wy = w * value_[i];
+    for (Sums* sums : {&unit_sums_[problem_.unit[i]], &fold_sums_[problem_.fold[i]], &all_}) {
       sums->value_value += wy * value_[i];
       sums->weight += w;
     }
-    for (std::size_t g = 0; g < groups; ++g) {
-      const CandidateGroup& group = problem_.groups[g];
-      const double* part = x.data() + group.first_column;
+    if (problem_.zero[i] >= 0) trace_weight[problem_.zero[i]] += w;
+  }
+  const std::size_t groups = problem_.groups.size();
+  group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
+  zero_loss_.resize(groups);
+  // Groups do not ask each other: the same sums on any number of processors.
+  for_each_piece((groups + kGroupsOfWork - 1) / kGroupsOfWork, [&](std::size_t piece) {
+    const std::size_t from = piece * kGroupsOfWork;
+    sum_groups(from, std::min(groups, from + kGroupsOfWork), trace_weight);
+  });
+}
+
+/// Sums of the columns of some groups, which stand beside each other.
+void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
+                                 const std::map<int, double>& trace_weight) {
+  const CandidateMatrix& candidates = this->candidates();
+  const std::vector<CandidateGroup>& groups = problem_.groups;
+  const int first = groups[from].first_column;
+  const int columns = groups[to - 1].first_column + groups[to - 1].columns - first;
+  for (auto& fold : group_grams_)
+    for (std::size_t g = from; g < to; ++g)
+      fold[g] = Eigen::MatrixXd::Zero(groups[g].columns, groups[g].columns);
+  std::map<std::pair<int, int>, Eigen::VectorXd> trace_parts;
+  Eigen::VectorXd x(columns);
+  for (const int i : order_) {
+    const double w = problem_.weight[i], wy = w * value_[i];
+    const int unit = problem_.unit[i], fold = problem_.fold[i];
+    x = candidates.row(i).segment(first, columns).transpose().cast<double>();
+    unit_sums_[unit].candidate_value.segment(first, columns) += wy * x;
+    fold_sums_[fold].candidate_value.segment(first, columns) += wy * x;
+    for (std::size_t g = from; g < to; ++g) {
+      const CandidateGroup& group = groups[g];
+      const double* part = x.data() + (group.first_column - first);
       Eigen::MatrixXd& gram = group_grams_[fold][g];
       for (int a = 0; a < group.columns; ++a)
         for (int b = 0; b < group.columns; ++b) gram(a, b) += w * part[a] * part[b];
     }
-    if (problem_.zero[i] >= 0) {
-      auto& [weight, sum] = trace_parts[{problem_.zero[i], unit}];
-      if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);
-      weight += w;
-      sum += w * x;
-      trace_weight[problem_.zero[i]] += w;
-    }
+    if (problem_.zero[i] < 0) continue;
+    Eigen::VectorXd& sum = trace_parts[{problem_.zero[i], unit}];
+    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);
+    sum += w * x;
   }
-  zero_loss_.resize(groups);
-  for (std::size_t g = 0; g < groups; ++g) {
-    const CandidateGroup& group = problem_.groups[g];
+  for (std::size_t g = from; g < to; ++g) {
+    const CandidateGroup& group = groups[g];
     zero_loss_[g] = Eigen::MatrixXd::Zero(group.columns, group.columns);
     for (const auto& [key, part] : trace_parts) {
-      const auto segment = part.second.segment(group.first_column, group.columns);
-      zero_loss_[g] += segment * segment.transpose() / trace_weight[key.first];
+      const auto segment = part.segment(group.first_column - first, group.columns);
+      zero_loss_[g] += segment * segment.transpose() / trace_weight.at(key.first);
     }
     for (int fold = 1; fold <= folds_; ++fold) group_grams_[0][g] += group_grams_[fold][g];
   }
-  for (const Sums& sums : unit_sums_) all_.candidate_value += sums.candidate_value;
+  for (const Sums& sums : unit_sums_)
+    all_.candidate_value.segment(first, columns) += sums.candidate_value.segment(first, columns);
 }
 
 int BlockStatistics::add_group(int group) {
@@ -111,14 +137,14 @@ int BlockStatistics::add_group(int group) {
   const int first = model_columns();
   model_.conservativeResize(Eigen::NoChange, first + added.columns);
   model_.rightCols(added.columns) =
-      candidates_.middleCols(added.first_column, added.columns).cast<double>();
+      candidates().middleCols(added.first_column, added.columns).cast<double>();
   add_model_sums(first);
   return first;
 }
 
 void BlockStatistics::add_model_sums(int first) {
   const int m = model_columns();
-  const auto p = candidates_.cols();
+  const auto p = candidates().cols();
   const auto grow = [&](Sums& sums) {
     sums.model_model.conservativeResize(m, m);
     sums.model_model.rightCols(m - first).setZero();
@@ -133,30 +159,52 @@ void BlockStatistics::add_model_sums(int first) {
   grow(all_);
   const int added = m - first;
   // One unit within one fold at a time, so that each value is added once.
-  Eigen::MatrixXd part_candidate(p, added);
-  for (std::size_t begin = 0; begin < order_.size();) {
+  struct Part {
+    std::size_t begin, end;
+    std::array<Sums*, 3> sums;
+  };
+  std::vector<Part> parts;
+  for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
     const int unit = problem_.unit[order_[begin]], fold = problem_.fold[order_[begin]];
-    part_candidate.setZero();
     Eigen::MatrixXd part_model = Eigen::MatrixXd::Zero(m, added);
     Eigen::VectorXd part_value = Eigen::VectorXd::Zero(added);
-    std::size_t end = begin;
     for (; end < order_.size(); ++end) {
       const int i = order_[end];
       if (problem_.unit[i] != unit || problem_.fold[i] != fold) break;
       for (int k = 0; k < added; ++k) {
         const double a = problem_.weight[i] * model_(i, first + k);
-        part_candidate.col(k) += a * candidates_.row(i).transpose().cast<double>();
         part_model.col(k) += a * model_.row(i).transpose();
         part_value[k] += a * value_[i];
       }
     }
-    for (Sums* sums : {&unit_sums_[unit], &fold_sums_[fold], &all_}) {
-      sums->model_candidate.bottomRows(added) += part_candidate.transpose();
+    parts.push_back({begin, end, {&unit_sums_[unit], &fold_sums_[fold], &all_}});
+    for (Sums* sums : parts.back().sums) {
       sums->model_model.rightCols(added) += part_model;
       sums->model_value.tail(added) += part_value;
     }
-    begin = end;
   }
+  // Candidates do not ask each other: the same sums on any number of processors.
+  const CandidateMatrix& candidates = this->candidates();
+  constexpr Eigen::Index kColumnsOfWork = 64;
+  for_each_piece(
+      static_cast<std::size_t>((p + kColumnsOfWork - 1) / kColumnsOfWork), [&](std::size_t piece) {
+        const Eigen::Index at = static_cast<Eigen::Index>(piece) * kColumnsOfWork;
+        const Eigen::Index columns = std::min(kColumnsOfWork, p - at);
+        Eigen::MatrixXd part_candidate(columns, added);
+        Eigen::VectorXd x(columns);
+        for (const Part& part : parts) {
+          part_candidate.setZero();
+          for (std::size_t r = part.begin; r < part.end; ++r) {
+            const int i = order_[r];
+            x = candidates.row(i).segment(at, columns).transpose().cast<double>();
+            for (int k = 0; k < added; ++k)
+              part_candidate.col(k) += problem_.weight[i] * model_(i, first + k) * x;
+          }
+          for (Sums* sums : part.sums)
+            sums->model_candidate.block(m - added, at, added, columns) +=
+                part_candidate.transpose();
+        }
+      });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "trueflank/loop/discovery/discovery.h"
@@ -22,7 +23,9 @@ class BlockStatistics {
   [[nodiscard]] const std::vector<int>& used() const { return order_; }
   [[nodiscard]] const Eigen::VectorXd& value() const { return value_; }
   [[nodiscard]] const Eigen::MatrixXd& model() const { return model_; }
-  [[nodiscard]] const CandidateMatrix& candidates() const { return candidates_; }
+  [[nodiscard]] const CandidateMatrix& candidates() const {
+    return centred_.size() > 0 ? centred_ : problem_.candidates;
+  }
   /// @}
   [[nodiscard]] int model_columns() const { return static_cast<int>(model_.cols()); }
   [[nodiscard]] int units() const { return units_; }
@@ -52,10 +55,11 @@ class BlockStatistics {
  private:
   void centre_on_zeros();
   void sum_candidates();
+  void sum_groups(std::size_t from, std::size_t to, const std::map<int, double>& trace_weight);
   void add_model_sums(int first);
 
   const DiscoveryProblem& problem_;
-  CandidateMatrix candidates_;
+  CandidateMatrix centred_;  ///< the candidates less their zeros; empty: there are none
   Eigen::VectorXd value_;
   Eigen::MatrixXd model_;
   std::vector<int> order_;  ///< values used, sorted by unit and fold

@@ -152,11 +152,14 @@ class CourseScan {
   /// `scale`: variance of the mean over that of one course.
   void judge(CourseFinding& best, Kind kind, int set, double scale, const VectorXd& mean,
              const VectorXd& variance, VectorXd form, double at, double width) {
+    const auto number = static_cast<std::size_t>(forms_);
     forms_ += 1.0;
     form.array() -= form.mean();
     const double norm = form.squaredNorm();
     const double score = form.dot(mean);
-    const double t = score / std::sqrt((basis_ * form).cwiseAbs2().dot(variance));
+    // Every set is asked for the same forms.
+    if (number == powers_.size()) powers_.emplace_back((basis_ * form).cwiseAbs2());
+    const double t = score / std::sqrt(powers_[number].dot(variance));
     const double p = student_two_sided(std::abs(t), degrees_);
     const double square = score * score / norm / scale;
     if (!is_better(p, square, best.p_value, best.square)) return;
@@ -286,6 +289,7 @@ class CourseScan {
   std::vector<VectorXd> mean_;
   MatrixXd basis_;
   VectorXd spectrum_;
+  std::vector<VectorXd> powers_;  ///< squared cosine coefficients of every form
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
   CourseFinding step_{Kind::kStep}, band_{Kind::kBand}, wave_{Kind::kWave};
   std::vector<CourseFinding> found_;

@@ -93,7 +93,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
   for (int e = 0; e < static_cast<int>(loop.effects().size()); ++e)
     if (!orders_alike(geometry, loop.table(), fit, e).empty()) {
-      result.measure_next.push_back(
+      result.measure_next.emplace_back(
           "trace more teeth, best all of them: those traced cannot tell whether what is found is "
           "alike on all teeth or comes in waves around the gear");
       break;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/measured_lands.h"
 #include "trueflank/loop/measured/text_table.h"
@@ -182,24 +184,45 @@ class TableBuilder {
     table.rows.reserve(most);  // growing would leave up to as much again unused
     table.places.reserve(table.places.size() + scan.points_mm.size());
     table.points_mm.reserve(most);
+    // Without normals, points at the very ends of the face may lie on the end faces.
+    const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
+    struct Placed {
+      std::array<double, 3> point_mm;
+      PlacedPoint on;
+      bool usable = false;
+    };
+    const auto placed = [&](std::size_t i) {
+      Placed one{pose(scan.points_mm[i]), {}};
+      const auto& p = one.point_mm;
+      one.on = geometry_.nearest(p, reach);
+      const Place& place = one.on.place;
+      one.usable = place.surface != Surface::kNone && p[2] > inside && p[2] < b - inside &&
+                   looks_outwards(scan, i, pose, place) &&
+                   !(place.surface == Surface::kFlank && lands.covers(place, p));
+      return one;
+    };
+    // Placed on all processors, some at a time; then taken in their order.
+    constexpr std::size_t kOfWork = 4096, kAtOnce = 16 * kOfWork;
+    std::vector<Placed> some(std::min(kAtOnce, scan.points_mm.size()));
     std::size_t unused = 0;
-    for (std::size_t i = 0; i < scan.points_mm.size(); ++i) {
-      const auto p = pose(scan.points_mm[i]);
-      const PlacedPoint placed = geometry_.nearest(p, reach);
-      // Without normals, points at the very ends of the face may lie on the end faces.
-      const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
-      const bool usable = placed.place.surface != Surface::kNone && p[2] > inside &&
-                          p[2] < b - inside && looks_outwards(scan, i, pose, placed.place) &&
-                          !(placed.place.surface == Surface::kFlank && lands.covers(placed.place, p));
-      if (!usable) {
-        ++unused;
-        continue;
+    for (std::size_t from = 0; from < scan.points_mm.size(); from += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, scan.points_mm.size() - from);
+      for_each_piece((count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
+        for (std::size_t k = piece * kOfWork; k < std::min(count, (piece + 1) * kOfWork); ++k)
+          some[k] = placed(from + k);
+      });
+      for (std::size_t k = 0; k < count; ++k) {
+        const Placed& one = some[k];
+        if (!one.usable) {
+          ++unused;
+          continue;
+        }
+        const double sigma = scan.sigma_um.empty() ? kNaN : scan.sigma_um[from + k];
+        Observation& row = add_row(kind_of(one.on.place.surface), um_from_mm(one.on.distance_mm),
+                                   sigma, source);
+        add_place(row, one.on.place, 1.0);
+        table.points_mm.push_back(one.point_mm);
       }
-      const double sigma = scan.sigma_um.empty() ? kNaN : scan.sigma_um[i];
-      Observation& row = add_row(kind_of(placed.place.surface), um_from_mm(placed.distance_mm),
-                                 sigma, source);
-      add_place(row, placed.place, 1.0);
-      table.points_mm.push_back(p);
     }
     if (10 * unused > 7 * scan.points_mm.size())
       table.notes.push_back(scan.file + ": " + std::to_string(unused) + " of " +
@@ -411,7 +434,8 @@ bool neighbours_agree(const Observations& table, const std::vector<std::size_t>&
 
 /// Leaves out what lies far from its neighbours on the same flank: an effect moves them together.
 void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
-  PatchRows patches;
+  std::vector<std::pair<std::array<int, 5>, std::vector<std::size_t>>> gathered;
+  std::unordered_map<std::uint64_t, std::size_t> numbers;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial ||
@@ -428,8 +452,18 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     const int tooth = place.surface == Surface::kBore
                           ? static_cast<int>(wrapped_rad(place.polar_rad) / kTwoPi * 16)
                           : place.tooth;
-    patches[{static_cast<int>(row.kind) * 64 + row.source, tooth, place.side, u, v}].push_back(i);
+    const std::array<int, 5> key{static_cast<int>(row.kind) * 64 + row.source, tooth, place.side,
+                                 u, v};
+    // side, u and v have less than eight values each
+    const std::uint64_t packed = (static_cast<std::uint64_t>(key[0]) << 32U) +
+                                 static_cast<std::uint64_t>(tooth) * 512U +
+                                 static_cast<std::uint64_t>((place.side + 1) * 64 + u * 8 + v);
+    const auto [number, is_new] = numbers.emplace(packed, gathered.size());
+    if (is_new) gathered.push_back({key, {}});
+    gathered[number->second].second.push_back(i);
   }
+  PatchRows patches(std::make_move_iterator(gathered.begin()),
+                    std::make_move_iterator(gathered.end()));
   gather_small_patches(patches);
   // One spread for each kind: the median of the patches' own.
   std::map<int, std::vector<double>> spreads;

@@ -10,7 +10,6 @@
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
-#include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
 
@@ -97,10 +96,10 @@ std::optional<Effect> PartLoop::name_like(const RemainderFinding& finding,
   if (names.empty()) return {};
   if (names.size() > kMostTried) names.resize(kMostTried);
   std::vector<Effect> with = beside;
-  const double none = TrialFit(geometry_, table_, patches_, with).residual_square();
+  const double none = fit_of(with)->residual_square();
   with.push_back(*finding.effect);
   refine_nearby(geometry_, table_, patches_, with);
-  const double form = TrialFit(geometry_, table_, patches_, with).residual_square();
+  const double form = fit_of(with)->residual_square();
   for (const Effect& name : names) {
     with = beside;
     with.push_back(name);
@@ -117,7 +116,11 @@ std::optional<Effect> PartLoop::name_like(const RemainderFinding& finding,
 bool PartLoop::is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const {
   std::vector<Effect> with = beside;
   with.push_back(effect);
-  return TrialFit(geometry_, table_, patches_, with).as_is(beside.size()).retained >= kToldApart;
+  const auto fit = fit_of(with);
+  const int first = fit->first_column(static_cast<int>(beside.size()));
+  for (int k = 0; k < effect.columns(); ++k)
+    if (!(fit->retained(first + k) >= kToldApart)) return false;
+  return true;
 }
 
 /// The finding enters the model, and all else is chosen anew beside it.
@@ -161,14 +164,14 @@ bool PartLoop::drop_idle_forms() {
   constexpr double kIdle = 25.0;  // chi-square: five standard errors
   bool any = false;
   while (!given_p_values_.empty()) {
-    const double full = TrialFit(geometry_, table_, patches_, effects_).residual_square();
+    const auto fit = fit_of(effects_);
     const std::size_t first = options_.given.size() - given_p_values_.size();
     std::size_t idle = 0;
     double least = 1e300;
     for (std::size_t e = first; e < options_.given.size(); ++e) {
-      std::vector<Effect> without = effects_;
-      without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
-      const double loss = TrialFit(geometry_, table_, patches_, without).residual_square() - full;
+      std::vector<bool> with(effects_.size(), true);
+      with[e] = false;
+      const double loss = fit->residual_square(with) - fit->residual_square();
       if (loss >= least) continue;
       least = loss;
       idle = e;

@@ -75,13 +75,14 @@ class PatchMaker {
 
  private:
   static constexpr int kProfileParts = 12, kTraceParts = 40;
+  static constexpr int kFinerParts = 8;  // of the lowest millimetre
   using Key = std::array<int, 7>;  // kind, source, zero, tooth, side, profile part, face part
 
   /// Height band; the lowest millimetre is cut finer, because first layers are.
   [[nodiscard]] int face_part(double z) const {
     const int part = part_of(geometry_.face_coordinate(z), face_parts_);
-    if (z >= 1.0) return part + 8;
-    return std::min(part, static_cast<int>(std::max(0.0, z) * 8.0));
+    if (z >= 1.0) return part + kFinerParts;
+    return std::min(part, static_cast<int>(std::max(0.0, z) * kFinerParts));
   }
 
   [[nodiscard]] Key key_of(const Observation& row, int number) const {
@@ -102,6 +103,19 @@ class PatchMaker {
     return key;
   }
 
+  /// How many there can be of one source.
+  [[nodiscard]] std::size_t patches_of_flanks() const {
+    return static_cast<std::size_t>(2 * geometry_.teeth() * kProfileParts *
+                                    (face_parts_ + kFinerParts));
+  }
+  [[nodiscard]] std::size_t place_in_list(const Key& key) const {
+    const int flank = (key[1] * geometry_.teeth() + key[3] - 1) * 2 + (key[4] > 0 ? 1 : 0);
+    const int in_flank = key[5] * (face_parts_ + kFinerParts) + key[6];
+    return static_cast<std::size_t>(flank) *
+               static_cast<std::size_t>(kProfileParts * (face_parts_ + kFinerParts)) +
+           static_cast<std::size_t>(in_flank);
+  }
+
   void gather() {
     struct Sum {
       double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
@@ -116,6 +130,8 @@ class PatchMaker {
       }
     };
     std::unordered_map<Key, int, HashOfKey> numbers;
+    // Patches of scanned flanks, nearly all there are, by their place in a list.
+    std::vector<int> of_flanks;
     std::vector<Sum> sums;
     result_.patch_of_row.assign(table_.rows.size(), -1);
     const double b = geometry_.face_width_mm();
@@ -127,8 +143,16 @@ class PatchMaker {
       // Tip and root serve as sizes: taken where face effects are small.
       if (circle && (place.z_mm < 0.3 * b || place.z_mm > 0.7 * b)) continue;
       const Key key = key_of(row, static_cast<int>(i));
-      const auto [found, is_new] = numbers.emplace(key, static_cast<int>(sums.size()));
-      if (is_new) {
+      int* known = nullptr;
+      if (row.kind == ObservationKind::kScanFlank) {
+        const auto at = place_in_list(key);
+        if (at >= of_flanks.size()) of_flanks.resize(at + patches_of_flanks(), -1);
+        known = &of_flanks[at];
+      } else {
+        known = &numbers.emplace(key, -1).first->second;
+      }
+      if (*known < 0) {
+        *known = static_cast<int>(sums.size());
         sums.emplace_back();
         Patches::Patch patch;
         patch.kind = row.kind;
@@ -139,8 +163,8 @@ class PatchMaker {
         result_.patches.push_back(std::move(patch));
         keys_.push_back(key);
       }
-      result_.patch_of_row[i] = found->second;
-      Sum& sum = sums[found->second];
+      result_.patch_of_row[i] = *known;
+      Sum& sum = sums[static_cast<std::size_t>(*known)];
       const double w = std::isnan(row.sigma_um) ? 1.0 : 1.0 / (row.sigma_um * row.sigma_um);
       sum.weight += w;
       sum.value += w * row.deviation_um;
@@ -149,7 +173,7 @@ class PatchMaker {
       sum.x += w * place.polar_direction[0];
       sum.y += w * place.polar_direction[1];
       sum.count += 1.0;
-      if (!is_single(row.kind)) keep_sample(found->second, place, sum.count);
+      if (!is_single(row.kind)) keep_sample(*known, place, sum.count);
       sum.z_low_mm = std::min(sum.z_low_mm, place.z_mm);
       sum.z_high_mm = std::max(sum.z_high_mm, place.z_mm);
     }

@@ -58,6 +58,7 @@ void PointFit::features(const Observation& row, double* values) const {
 void PointFit::average_zeros() {
   zero_means_.assign(2 * table_.traces, Eigen::VectorXd::Zero(columns_ + 1));
   whole_zero_means_.assign(table_.traces, Eigen::VectorXd::Zero(columns_ + 1));
+  if (table_.traces == 0) return;
   std::vector<double> weights(2 * table_.traces, 0.0);
   Eigen::VectorXd row(columns_ + 1);
   for (std::size_t i = 0; i < table_.rows.size(); i += stride_) {
@@ -284,6 +285,10 @@ PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
   if (observations_ > 0) result.rms_um = std::sqrt(std::max(0.0, all) / observations_);
   result.held_out_rms_um = held_out_ > 0 ? std::sqrt(std::max(0.0, held) / held_out_) : kNaN;
   return result;
+}
+
+double PointFit::residual_square(const std::vector<bool>& with_effect) const {
+  return square_error(all_, solution(all_, columns_with(with_effect)));
 }
 
 double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {

@@ -51,6 +51,8 @@ class PointFit {
   [[nodiscard]] double noise_um() const { return noise_um_; }
   /// Weighted residual square of the fit to all.
   [[nodiscard]] double residual_square() const { return residual_square_; }
+  /// The same with some effects left out and all else refitted.
+  [[nodiscard]] double residual_square(const std::vector<bool>& with_effect) const;
 
   /// Residual of every row [um]: as fitted with all effects, and with none.
   void residuals(std::vector<float>& before_um, std::vector<float>& after_um) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 
 namespace trueflank::loop {
@@ -79,17 +80,14 @@ class PoseSearch {
 
   Pose best() {
     const Eigen::Matrix3d directions = principal_directions(fine_);
-    Pose best;
-    double best_cost = 1e300;
-    for (int k = 0; k < 3; ++k) {
-      Pose pose = start(turn_onto_z(directions.col(k)));
-      const double cost = search_phase(pose);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = pose;
-      }
-    }
-    return refined(best, fine_, 12);
+    std::array<Pose, 3> poses;
+    std::array<double, 3> costs{};
+    for_each_piece(poses.size(), [&](std::size_t k) {
+      poses[k] = start(turn_onto_z(directions.col(static_cast<Eigen::Index>(k))));
+      costs[k] = search_phase(poses[k]);
+    });
+    const auto least = std::min_element(costs.begin(), costs.end()) - costs.begin();
+    return refined(poses[static_cast<std::size_t>(least)], fine_, 12);
   }
 
   /// Gauss-Newton with Tukey weights whose width follows the residual down.
@@ -217,28 +215,37 @@ class PoseSearch {
     return best;
   }
 
+  /// Distance of a point from its flank, NaN where it is far from any; what moves it.
+  struct Row {
+    double distance = kNaN;
+    Vector5 gradient = Vector5::Zero();
+  };
+  [[nodiscard]] Row row_of(const std::array<double, 3>& q, double width) const {
+    const PlacedPoint placed = geometry_.nearest_flank(q, 0.03);
+    if (placed.place.surface != Surface::kFlank || std::abs(placed.distance_mm) > width) return {};
+    const double cos_helix = geometry_.cos_base_helix();
+    const double nx = cos_helix * placed.place.normal_direction[0];
+    const double ny = cos_helix * placed.place.normal_direction[1];
+    const double nz = geometry_.normal_z(placed.place);
+    Row row{placed.distance_mm, {}};
+    row.gradient << nx, ny, q[1] * nz - q[2] * ny, q[2] * nx - q[0] * nz, q[0] * ny - q[1] * nx;
+    return row;
+  }
+
   /// Step (dx, dy, rotation vector) of one Gauss-Newton round; the width is the reach, then follows.
   Vector5 newton_step(const Pose& pose, const Points& points, double& width) const {
-    struct Row {
-      double distance;
-      Vector5 gradient;
-    };
-    std::vector<Row> rows;
-    std::vector<double> sizes;
-    const double cos_helix = geometry_.cos_base_helix();
-    for (const auto& p : points) {
-      const auto q = pose(p);
-      const PlacedPoint placed = geometry_.nearest_flank(q, 0.03);
-      if (placed.place.surface != Surface::kFlank || std::abs(placed.distance_mm) > width) continue;
-      const double nx = cos_helix * placed.place.normal_direction[0];
-      const double ny = cos_helix * placed.place.normal_direction[1];
-      const double nz = geometry_.normal_z(placed.place);
-      Vector5 g;
-      g << nx, ny, q[1] * nz - q[2] * ny, q[2] * nx - q[0] * nz, q[0] * ny - q[1] * nx;
-      rows.push_back({placed.distance_mm, g});
-      sizes.push_back(std::abs(placed.distance_mm));
-    }
+    std::vector<Row> rows(points.size());
+    constexpr std::size_t kPointsOfWork = 4096;
+    for_each_piece((points.size() + kPointsOfWork - 1) / kPointsOfWork, [&](std::size_t piece) {
+      const std::size_t end = std::min(points.size(), (piece + 1) * kPointsOfWork);
+      for (std::size_t i = piece * kPointsOfWork; i < end; ++i)
+        rows[i] = row_of(pose(points[i]), width);
+    });
+    std::erase_if(rows, [](const Row& row) { return std::isnan(row.distance); });
     if (rows.size() < 20) return Vector5::Zero();
+    std::vector<double> sizes;
+    sizes.reserve(rows.size());
+    for (const Row& row : rows) sizes.push_back(std::abs(row.distance));
     Matrix5 normal = Matrix5::Zero();
     Vector5 right = Vector5::Zero();
     for (const Row& row : rows) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "trueflank/export/input_file.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {
@@ -135,11 +136,32 @@ ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& path
   return data;
 }
 
-bool is_bench_file(const std::string& path) {
+namespace {
+
+/// The first line that says something; of a file on a disk its beginning alone is read.
+std::string header_line_of(const std::string& path) {
+  constexpr std::size_t kBeginning = 1U << 16;
+  io::InputFile file(path);
+  if (file.regular_size().value_or(0) > kBeginning) {
+    std::string beginning(kBeginning, '\0');
+    beginning.resize(file.fill(beginning.data(), beginning.size()));
+    const std::size_t last_line = beginning.rfind('\n');
+    beginning.resize(last_line == std::string::npos ? 0 : last_line);
+    const std::string_view text = beginning;
+    const std::string_view header =
+        header_of(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
+    if (!header.empty()) return std::string(header);
+  }
   const auto text = read_whole_file(path);
-  if (!text) return false;
+  return text ? std::string(header_of(*text)) : std::string();
+}
+
+}  // namespace
+
+bool is_bench_file(const std::string& path) {
+  const std::string header = header_line_of(path);
   std::vector<std::string_view> fields;
-  split_fields(header_of(*text), fields);
+  split_fields(header, fields);
   if (has_column(fields, "direction") || has_column(fields, "input_torque_nm")) return true;
   if (!has_column(fields, "quantity") || has_column(fields, "value_mm")) return false;
   return has_column(fields, "value");
