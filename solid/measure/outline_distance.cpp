@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "trueflank/base/units.h"
+#include "trueflank/solid/measure/segment_fan.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
@@ -14,6 +15,11 @@ namespace {
 
 /// Places where a curve's radii are taken.
 constexpr int kNodes = 33;
+/// The tooth in whose pitch a point is comes from a table; from an arc tangent near the middle of a gap, as
+/// a share of half a pitch, and where teeth are few.
+constexpr std::size_t kBinsPerTooth = 8;
+constexpr double kSurePitch = 0.999;
+constexpr int kLeastTeethLikely = 5;
 
 double parameter(const Curve& curve, double share) {
   return curve.begin + share * (curve.end - curve.begin);
@@ -97,6 +103,7 @@ OutlineDistance::OutlineDistance(const Outline& outline) {
     rotation_rad_ = toothed->rotation_rad;
     for (int k = 0; k < teeth_; ++k)
       directions_.push_back(unit_vector(rotation_rad_ + kTwoPi * k / teeth_));
+    find_likely_teeth();
     for (const ProfilePiece& piece : toothed->profile->pieces()) add(piece.curve);
   } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
     add({CircularArc{Point2::Zero(), circle->radius_mm}, 0.0, kTwoPi});
@@ -172,15 +179,40 @@ Point2 OutlineDistance::from_tooth(const Point2& p, std::size_t tooth) const {
   return p.x() * direction + p.y() * perpendicular(direction);
 }
 
+void OutlineDistance::find_likely_teeth() {
+  const std::size_t bins = kBinsPerTooth * directions_.size();
+  for (std::size_t i = 0; i < bins; ++i) {
+    const double turn = kDiamondTurn * (static_cast<double>(i) + 0.5) / static_cast<double>(bins);
+    const double share = turn - std::floor(turn);
+    Point2 there(1.0 - share, share);
+    for (int quarter = 0; quarter < static_cast<int>(turn); ++quarter) there = perpendicular(there);
+    likely_teeth_.push_back(nearest_direction(there));
+  }
+  if (teeth_ >= kLeastTeethLikely) sure_slope_ = std::tan(kSurePitch * kPi / teeth_);
+}
+
+std::size_t OutlineDistance::nearest_direction(const Point2& point) const {
+  const double pitch = kTwoPi / teeth_;
+  const double teeth_away = std::round(wrapped_rad(polar_angle_rad(point) - rotation_rad_) / pitch);
+  return static_cast<std::size_t>(teeth_away) % directions_.size();
+}
+
+std::size_t OutlineDistance::tooth_at(const Point2& point) const {
+  const auto bin = static_cast<std::size_t>(diamond_angle(point) / kDiamondTurn *
+                                            static_cast<double>(likely_teeth_.size()));
+  const std::size_t tooth = likely_teeth_[std::min(bin, likely_teeth_.size() - 1)];
+  const Point2& direction = directions_[tooth];
+  const bool sure = std::abs(cross(direction, point)) < sure_slope_ * direction.dot(point);
+  return sure ? tooth : nearest_direction(point);
+}
+
 OutlineFoot OutlineDistance::foot(const Point2& point) const {
   if (teeth_ == 0) {
     OutlineFoot result = foot_on_half_tooth(point - centre_);
     result.point += centre_;
     return result;
   }
-  const double pitch = kTwoPi / teeth_;
-  const double teeth_away = std::round(wrapped_rad(polar_angle_rad(point) - rotation_rad_) / pitch);
-  const std::size_t tooth = static_cast<std::size_t>(teeth_away) % directions_.size();
+  const std::size_t tooth = tooth_at(point);
   const Point2& direction = directions_[tooth];
   Point2 local(direction.dot(point), cross(direction, point));
   const bool below = local.y() < 0.0;
@@ -188,11 +220,6 @@ OutlineFoot OutlineDistance::foot(const Point2& point) const {
   OutlineFoot result = foot_on_half_tooth(local);
   result.point = from_tooth(below ? mirrored(result.point) : result.point, tooth);
   return result;
-}
-
-double OutlineDistance::to_box_mm2(std::size_t index, const Point2& point) const {
-  const Form& form = forms_[index];
-  return (form.low - point).cwiseMax(point - form.high).cwiseMax(0.0).squaredNorm();
 }
 
 OutlineFoot OutlineDistance::foot_on_half_tooth(const Point2& point) const {

@@ -51,7 +51,14 @@ class OutlineDistance {
   void finish();
   [[nodiscard]] Point2 from_tooth(const Point2& p, std::size_t tooth) const;
   [[nodiscard]] OutlineFoot foot_on_half_tooth(const Point2& point) const;
-  [[nodiscard]] double to_box_mm2(std::size_t index, const Point2& point) const;
+  [[nodiscard]] double to_box_mm2(std::size_t index, const Point2& point) const {
+    const Form& form = forms_[index];
+    return (form.low - point).cwiseMax(point - form.high).cwiseMax(0.0).squaredNorm();
+  }
+  void find_likely_teeth();
+  [[nodiscard]] std::size_t nearest_direction(const Point2& point) const;
+  /// The tooth in whose pitch a point is.
+  [[nodiscard]] std::size_t tooth_at(const Point2& point) const;
   [[nodiscard]] OutlineFoot foot_on_piece(std::size_t index, const Point2& point,
                                           double limit_mm) const;
 
@@ -59,6 +66,8 @@ class OutlineDistance {
   int teeth_ = 0;
   double rotation_rad_ = 0.0;
   std::vector<Point2> directions_;  ///< middles of the teeth
+  std::vector<std::size_t> likely_teeth_;  ///< by equal steps of the diamond angle
+  double sure_slope_ = 0.0;  ///< tangent of the angle from a tooth's middle that is surely in its pitch
   double inner_radius_mm_ = 0.0, outer_radius_mm_ = 0.0;
   std::vector<Piece> pieces_;
   std::vector<Form> forms_;

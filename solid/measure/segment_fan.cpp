@@ -18,17 +18,6 @@ double distance_to(const Segment& s, const Point2& p) {
   return (s.a + t * along - p).norm();
 }
 
-constexpr double kTurn = 4.0;
-
-/// Turns with the direction as an angle does, from 0 to 4 ("diamond angle"), and never faster than the
-/// angle in radians; without its arc tangent.
-double diamond_angle(const Point2& p) {
-  const double sum = std::abs(p.x()) + std::abs(p.y());
-  if (sum == 0.0) return 0.0;
-  if (p.y() >= 0.0) return p.x() >= 0.0 ? p.y() / sum : 1.0 - p.x() / sum;
-  return p.x() < 0.0 ? 2.0 - p.y() / sum : 3.0 + p.x() / sum;
-}
-
 }  // namespace
 
 SegmentFan::SegmentFan(std::vector<Segment> segments, const Point2& centre)
@@ -55,7 +44,7 @@ SegmentFan::SegmentFan(std::vector<Segment> segments, const Point2& centre)
 double SegmentFan::distance_mm(const Point2& p) const {
   double best = std::numeric_limits<double>::infinity();
   const double angle = diamond_angle(p - centre_), radius = (p - centre_).norm();
-  const double width = kTurn / static_cast<double>(bins_);
+  const double width = kDiamondTurn / static_cast<double>(bins_);
   const std::size_t home = bin_of(angle);
   const double into = angle - static_cast<double>(home) * width;
   for (std::size_t away = 0; 2 * away <= bins_; ++away) {
@@ -69,8 +58,8 @@ double SegmentFan::distance_mm(const Point2& p) const {
   return best;
 }
 
-std::size_t SegmentFan::bin_of(double diamond_angle) const {
-  const auto bin = static_cast<std::size_t>(diamond_angle / kTurn * static_cast<double>(bins_));
+std::size_t SegmentFan::bin_of(double angle) const {
+  const auto bin = static_cast<std::size_t>(angle / kDiamondTurn * static_cast<double>(bins_));
   return std::min(bin, bins_ - 1);
 }
 
