@@ -130,9 +130,9 @@ class Contradictions {
                lower = has("thickness_lower_um");
     if (!series && !upper && !lower) return;
     if (has("thinning_um"))
-      wrong("thinning_um", "the tooth thickness is told twice", "thinning_um or an allowance");
+      wrong("thinning_um", "the tooth thickness is given twice", "thinning_um or an allowance");
     if (series && (upper || lower))
-      wrong("thickness_allowance", "the allowance is told twice", "a series or numbers");
+      wrong("thickness_allowance", "the allowance is given twice", "a series or numbers");
     else if (upper != lower)
       wrong(upper ? "thickness_upper_um" : "thickness_lower_um", "the other allowance is missing",
             "both thickness_upper_um and thickness_lower_um");

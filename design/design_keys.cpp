@@ -273,7 +273,7 @@ const std::vector<DesignKey<BasicRack>>& rack_keys() {
        }},
       {{.name = "grinding_stock", .unit = "module", .lower = 0, .upper = 1, .by_default = "0",
         .meaning = "what the tool leaves on each flank for grinding, normal to it; the teeth are "
-                   "told and made as ground; less than the protuberance"},
+                   "reported and made as ground; less than the protuberance"},
        KeyPlace::kAnywhere,
        [](R& r, const KeyValue& v) { r.grinding_stock = number(v); },
        [](const R& r) { return unless(r.grinding_stock, 0.0); }},

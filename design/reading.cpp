@@ -17,7 +17,7 @@ void Reading::add_all(const TomlTable& table, const std::string& prefix) {
 void Reading::add_inches(const InchKey& key) {
   add(key.written, {.line = key.line, .value = key.value});
   if (key.twice)
-    contradiction(key.written, "told twice: " + key.metric + " is there too", "one of both keys");
+    contradiction(key.written, "given twice: " + key.metric + " is there too", "one of both keys");
   else
     inches_[key.metric] = key;
 }
