@@ -203,7 +203,7 @@ std::vector<std::string> with_help_asked(const CLI::App& program, int argc, char
   words.resize(std::min<std::size_t>(words.size(), words.empty() || words.front() == "help" ? 0 : 1));
   const auto commands = command_names(program);
   const bool known = words.empty() || std::find(commands.begin(), commands.end(), words.front()) != commands.end();
-  if (known) words.push_back("--help");  // else the word alone is told to be no command
+  if (known) words.push_back("--help");  // else the word alone is said to be no command
   return words;
 }
 

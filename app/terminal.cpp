@@ -132,7 +132,7 @@ void install_interrupt_handlers() {
   sigemptyset(&action.sa_mask);
   std::set_terminate(end_cleanly);
   for (int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  // a closed pipe and the limit of a file's size are errors of the write, told as such
+  // a closed pipe and the limit of a file's size are errors of the write, reported as such
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -45,7 +45,7 @@ struct MeshClearance {
 /// both profiles at every position. Gear 2 may be turned by an angle out of the centred position.
 /// Profiles may be sections whose halves differ (section_profile.h).
 /// Guarantees: contact of the involutes is exact; other places are found on a grid of 0.05 module and
-/// refined on the exact curves. |clearance| below 1e-9 mm is told as 0.
+/// refined on the exact curves. |clearance| below 1e-9 mm is reported as 0.
 /// Accuracy: 0.01 um at module 1 where the place is found; tests/check/mesh_clearance_test.cpp
 /// compares with an independent simulation.
 /// Requires: the pair has a working pressure angle.

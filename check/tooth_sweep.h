@@ -6,7 +6,7 @@
 
 namespace trueflank {
 
-/// Distances below this are told as 0.
+/// Distances below this are reported as 0.
 inline constexpr double kZero_mm = 1e-9;
 
 /// Which places of the moving tooth are looked at.

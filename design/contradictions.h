@@ -7,7 +7,7 @@
 namespace trueflank {
 
 /// Reports values of a design file that contradict each other. Only keys that are right of
-/// themselves are compared, so that one slip is told once. `kind_known`: design.kind is the file's.
+/// themselves are compared, so that one slip is reported once. `kind_known`: design.kind is the file's.
 void report_contradictions(const GearboxDesign& design, bool kind_known, Reading& reading);
 
 }  // namespace trueflank

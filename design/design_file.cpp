@@ -113,7 +113,7 @@ class DesignReader {
   }
 
   void report_no_table(const std::string& key) {
-    if (!reading_.good(key)) return;  // unreadable: told already
+    if (!reading_.good(key)) return;  // unreadable: reported already
     reading_.report({.code = ErrorCode::kWrongType,
                      .message = "not a table",
                      .key = key,
@@ -448,7 +448,7 @@ class DesignReader {
         misplaced = &key;
         continue;
       }
-      if (!reading_.good(dotted)) return;  // unreadable: told already
+      if (!reading_.good(dotted)) return;  // unreadable: reported already
       if (const auto value = take_value(key.rule, dotted, entry.value))
         key.set(target, *value);
       else

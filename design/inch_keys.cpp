@@ -50,7 +50,7 @@ void convert(TomlTable& table, const std::string& prefix, std::vector<InchKey>& 
     entry.value = entry.key == kPitch ? kInch_mm / *number : as_decimal(kInch_mm * *number);
     entry.key = metric;
   }
-  // what is told twice is told to the user, and taken once
+  // what is given twice is reported to the user, and taken once
   std::erase_if(table.entries, [&](const TomlEntry& entry) {
     return std::any_of(renamed.begin(), renamed.end(), [&](const InchKey& key) {
       return key.twice && key.written == prefix + entry.key;

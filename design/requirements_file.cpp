@@ -93,7 +93,7 @@ class RequirementsReader {
     for (const auto& key : keys) {
       known.emplace_back(key.rule.name);
       if (entry.key != key.rule.name) continue;
-      if (!reading_.good(dotted)) return;  // its line is already told
+      if (!reading_.good(dotted)) return;  // its line is already reported
       const auto value = take_value(key.rule, dotted, entry.value);
       if (!value) return reading_.report(value.error());
       if (std::string remedy = key.set(target, *value); !remedy.empty())

@@ -59,7 +59,7 @@ inline constexpr std::size_t kMostTomlErrors = 100;
 /// @}
 
 /// Reads a TOML 1.0 text. After a wrong line it goes on with the next that begins a key or a table,
-/// so that all wrong lines are told at once.
+/// so that all wrong lines are reported at once.
 /// Errors: kSyntax with line, dotted key, the value as written, and what would be right. Text that
 /// is no UTF-8 is one error.
 [[nodiscard]] TomlDocument parse_toml(std::string_view text);

@@ -228,7 +228,7 @@ class TomlParser {
     document_.errors.push_back(std::move(error));
   }
 
-  /// The next line that begins a table or a key, so that one slip is told once.
+  /// The next line that begins a table or a key, so that one slip is reported once.
   void skip_to_next_statement() {
     do {
       lexer_.skip_line();

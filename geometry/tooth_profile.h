@@ -27,7 +27,7 @@ struct ProfilePiece {
   Curve curve;
 };
 
-/// What the profile could not be as asked; each is told in the report.
+/// What the profile could not be as asked; each is named in the report.
 struct ProfileNotes {
   /// The tool cut into the involute (external): generating undercut. What a protuberance takes away
   /// on purpose does not count.

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity; a locked train's inertia is told as null beside self_locking.
+/// JSON has no infinity; a locked train's inertia is reported as null beside self_locking.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json drive_json(const DirectionEfficiency& drive) {

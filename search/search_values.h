@@ -91,7 +91,7 @@ class SetValues {
   /// An efficiency is that of the meshes: its best shifts are those with losses too.
   [[nodiscard]] double merit(const State& state, const FreeShifts& free,
                              SearchObjective objective) const;
-  /// Of a value that is told; an efficiency with its losses.
+  /// Of a value that is reported; an efficiency with its losses.
   [[nodiscard]] double told_merit(const State& state, const FreeShifts& free,
                                   SearchObjective objective) const;
 

@@ -33,7 +33,7 @@ struct CorrectedParts {
 
 /// The formats that can carry a correction: all but OpenSCAD; meshes only, where it is of the whole
 /// part, bends teeth too sharply for splines or is of compensated parts. What was asked for beside them
-/// is told in its text.
+/// is reported in its text.
 [[nodiscard]] std::vector<io::FileFormat> formats_of_corrected(
     const std::vector<io::FileFormat>& formats, bool compensated, CorrectedParts& corrected);
 

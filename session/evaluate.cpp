@@ -44,7 +44,7 @@ void add_drive(const Gearbox& gearbox, const StrengthOptions& strength_options, 
     report.plastic = std::move(*result);
   else if (auto iso = strength_iso6336(train, strength_options))
     report.iso6336 = std::move(*iso);
-  const auto& shapes = gearbox.parts();  // what does not fit is told where the parts are made
+  const auto& shapes = gearbox.parts();  // what does not fit is reported where the parts are made
   if (!shapes) return;
   const auto density_of = [&](const PartShape& part) {
     return material_of_part(train, strength_options, part).density_kg_m3;

@@ -10,7 +10,7 @@
 
 namespace trueflank {
 
-/// What make is about to do, told before it begins.
+/// What make is about to do, reported before it begins.
 struct JobSize {
   double facets = 0.0;        ///< of all parts that are meshed
   double file_bytes = 0.0;    ///< of all mesh files, the assembly's with every body

@@ -71,7 +71,7 @@ std::vector<double> clear_tips(const GearboxDesign& design, const std::vector<Tr
   for (const TrainMesh& mesh : meshes) {
     const auto &profile1 = profiles[static_cast<std::size_t>(mesh.gear1)],
                &profile2 = profiles[static_cast<std::size_t>(mesh.gear2)];
-    if (!profile1 || !profile2) continue;  // told where the train is laid out
+    if (!profile1 || !profile2) continue;  // reported where the train is laid out
     const GearPair pair{&*profile1, &*profile2, centre_distance_mm};
     if (!working_pressure_angle_rad(mesh_teeth(pair), centre_distance_mm)) continue;
     for (const bool of_gear1 : {true, false}) {

@@ -134,7 +134,7 @@ struct MadeDesign {
 };
 
 /// Losses beside the friction of the meshes as designed, as a bench found them (docs/drive-loop.md), and
-/// the point at which efficiencies are told. Torques are at the input shaft.
+/// the point at which efficiencies are reported. Torques are at the input shaft.
 struct LossesDesign {
   double load_nm = 1.0;          ///< at the output
   double input_speed_rpm = 0.0;

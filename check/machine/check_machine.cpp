@@ -17,7 +17,7 @@ namespace {
 
 /// A hub holds a shaft over one and a half of its diameters, over one at least (a rule of thumb).
 constexpr double kGrip = 1.5, kLeastGrip = 1.0;
-/// What turns and what does not stay this part of clearance_mm apart, or it is told.
+/// What turns and what does not stay this part of clearance_mm apart, or it is reported.
 constexpr double kLeastGap = 0.5;
 /// Between the seats of a planet's two bearings.
 constexpr double kBetweenSeats_mm = 1.0;

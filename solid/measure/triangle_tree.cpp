@@ -347,7 +347,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Point3& point, std::uint32_t h
   });
 }
 
-/// `enough` is told how many boxes and facets were looked at since it was asked last.
+/// `enough` is given how many boxes and facets were looked at since it was asked last.
 template <class Enough>
 TriangleTree::Nearest TriangleTree::search(const Point3& point, std::uint32_t hint,
                                            const Enough& enough) const {

@@ -34,7 +34,7 @@ class TriangleTree {
   struct Effort {
     std::size_t facets_left = 0;  ///< that may be looked at
     double near_enough_mm =
-        0.0;            ///< a distance that is not worth to be told from 0, once it takes long
+        0.0;            ///< a distance that need not be distinguished from 0, once it takes long
     bool exact = true;  ///< no question was cut short: else some distances are upper bounds
   };
   /// A distance up to `known_mm` is not sharpened further: it is an upper bound then.

@@ -5,7 +5,7 @@
 
 namespace trueflank {
 
-/// About how many facets a part's mesh will have, told without meshing it.
+/// About how many facets a part's mesh will have, estimated without meshing it.
 /// Accuracy: within a factor of three for parts of a thousand facets and more, tested in
 /// tests/solid/mesh_estimate_test.cpp. Cost: that of one section of a tooth.
 [[nodiscard]] double estimated_facets(const PartShape& shape, double tolerance_mm);

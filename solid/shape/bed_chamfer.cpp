@@ -18,7 +18,7 @@ namespace {
 constexpr double kShareOfWall = 0.5;
 /// Shallower chamfers are none that a printer shows.
 constexpr double kLeast_mm = 1e-3;
-/// Less than this much off what was asked for is not told.
+/// Less than this much off what was asked for is not reported.
 constexpr double kAsAsked = 1.0 - 1e-9;
 
 std::string text(double value) {
