@@ -419,9 +419,7 @@ class Contradictions {
 
   void check_machine() {
     const Topology& topology = design_.topology;
-    if (kind_known_ && !has_housing(topology))
-      reading_.contradiction("housing", "no housing is made for a kind without planets",
-                             "a kind with planets, or no [housing]");
+    if (kind_known_) check_housed(topology);
     check_motor(design_.machine->motor);
     for (const GearDesign& gear : design_.gears)
       if (gear.kind == GearKind::kInternal)
@@ -432,6 +430,27 @@ class Contradictions {
     if (reading_.has("carrier.bearing_diameter_mm"))
       reading_.contradiction("carrier.bearing_diameter_mm", "the carrier of a gearbox has no such seat",
                              "[bearings], or no [housing]");
+  }
+
+  /// Which trains a housing is made for, and what of its keys they have.
+  void check_housed(const Topology& topology) {
+    if (!has_housing(topology))
+      return reading_.contradiction("housing", "no housing is made for a single gear",
+                                    "another kind, or no [housing]");
+    const bool pair = !topology.has_planets();
+    if (reading_.has(pair ? "bearings.planet" : "bearings.wheel"))
+      reading_.contradiction(pair ? "bearings.planet" : "bearings.wheel",
+                             pair ? "a pair has no planets" : "only a pair has a wheel",
+                             pair ? "bearings.wheel, or nothing" : "bearings.planet, or nothing");
+    if (!pair) return;
+    const GearDesign& wheel = design_.gears.back();
+    if (wheel.kind == GearKind::kInternal)
+      reading_.contradiction("housing", "no housing is made for a pair whose wheel is internal",
+                             "an external wheel, kind simple with output = \"ring\", or no [housing]");
+    if (reading_.has(wheel.name + ".bore_mm") || reading_.has(wheel.name + ".bore_hex_mm"))
+      reading_.contradiction(wheel.name + (reading_.has(wheel.name + ".bore_mm") ? ".bore_mm" : ".bore_hex_mm"),
+                             "the wheel of a gearbox turns on a journal of its own",
+                             "no bore, or no [housing]");
   }
 
   void check_motor(const Motor& motor) {

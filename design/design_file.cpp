@@ -330,6 +330,8 @@ class DesignReader {
       take_element("bearings.output", "bearing", elements.bearings, machine.bearings.output);
     if (machine.bearings.planet)
       take_element("bearings.planet", "bearing", elements.bearings, *machine.bearings.planet);
+    if (machine.bearings.wheel)
+      take_element("bearings.wheel", "bearing", elements.bearings, *machine.bearings.wheel);
   }
 
   void read_motor(const TomlTable& table, Motor& motor) {

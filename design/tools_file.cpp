@@ -108,6 +108,14 @@ std::vector<ToolKey<Bearing>> bearing_tool_keys() {
           element_key<&B::width_mm, B>("width_mm", "width"),
           element_key<&B::dynamic_n, B>("dynamic_n", "dynamic load rating C [N]"),
           element_key<&B::static_n, B>("static_n", "static load rating C0 [N]"),
+          {{.name = "kind",
+            .type = KeyType::kChoice,
+            .choices = {"balls", "crossed-rollers"},
+            .meaning = "what rolls in it"},
+           [](B& b, const KeyValue& v) {
+             b.kind = std::get<std::string>(v) == "balls" ? BearingKind::kBalls
+                                                          : BearingKind::kCrossedRollers;
+           }},
           {{.name = "source", .type = KeyType::kText, .meaning = kSourceMeaning}, set_source<B>}};
 }
 

@@ -203,7 +203,9 @@ class Writer {
           "holes for the motor's screws are in line."};
     else if (p.name == "lid")
       step.lines = {
-          "Turn it until its screw holes are in line with those of the ring and the housing."};
+          train_.topology().has_planets()
+              ? "Turn it until its screw holes are in line with those of the ring and the housing."
+              : "Its rim goes into the housing; its screw holes are in line with the housing's."};
     else if (p.name == "retainer")
       step.lines = {
           "It holds the outer ring of the bearing; its holes are in line with the inserts of the "
@@ -272,13 +274,20 @@ class Writer {
     });
     if (teeth) {
       step.lines = {
-          "Grease the teeth. Lower it without force and turn it, or the sun, a little to and fro "
-          "until all teeth stand in their gaps."};
+          "Grease the teeth. Lower it without force and turn it, or the " + input_name() +
+          ", a little to and fro until all teeth stand in their gaps."};
+      if (first.from == 0.0)
+        step.lines = {"Herringbone teeth do not slide into each other along the axis: bring it to the " +
+                      input_name() + " from the side, and grease the teeth. Keep them together from "
+                      "here on."};
       if (is_helical()) step.lines.push_back("The teeth are helical: it turns as it goes in.");
       if (has_planet(first)) add_index(step);
     } else if (name == "housing" || name == "lid" || name == "output" || name.ends_with("top")) {
       step.lines = {"Turn it until its screw holes are in line with those below."};
     }
+  }
+  [[nodiscard]] std::string input_name() const {
+    return train_.topology().has_planets() ? "sun" : train_.topology().name_of(train_.topology().input);
   }
   [[nodiscard]] bool has_planet(const AssemblyStep& step) const {
     return std::any_of(step.bodies.begin(), step.bodies.end(),

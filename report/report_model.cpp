@@ -239,13 +239,21 @@ Json parts_json(const GearTrain& train, const PartShapes& shapes, double chord_e
 Json bodies_json(const GearTrain& train, const PartShapes& shapes) {
   Json list = Json::array();
   for (const Placement& body : shapes.assembly) {
-    const BodyMotion motion = motion_of(train, shapes.parts[static_cast<std::size_t>(body.part)].member);
+    const PartShape& part = shapes.parts[static_cast<std::size_t>(body.part)];
+    BodyMotion motion = motion_of(train, part.member);
+    // what is screwed to a gear beside its axis goes round that
+    Point2 pivot = Point2::Zero();
+    if (part.member != kNoMember && !part.bought.empty() && motion.orbit == 0.0) {
+      pivot = axis_centre_mm(train, train.phases, part.member);
+      motion.orbit = motion.turn;
+    }
     list.push_back({{"part", body.part},
                     {"name", body.name},
                     {"rotation", body.rotation_rad},
                     {"at", body.translation_mm},
                     {"turn", motion.turn},
                     {"orbit", motion.orbit}});
+    if (pivot.norm() > 0.0) list.back()["pivot"] = {pivot.x(), pivot.y()};
   }
   return list;
 }

@@ -208,9 +208,7 @@ class Wish {
   [[nodiscard]] SearchRequirements requirements() const {
     // around the larger ring's roots: seat, screws and three walls of the housing
     const Screw screw = *find_element(standard_elements().screws, "M3");
-    const bool housed =
-        motor_ && has_housing(train_topology(sets_->kind, sets_->output, sets_->input));
-    const double around = housed ? HousingDesign{}.clearance_mm + 3.0 * wall_mm() +
+    const double around = motor_ ? HousingDesign{}.clearance_mm + 3.0 * wall_mm() +
                                        0.5 * (screw.insert_hole_mm + screw.hole_mm) + 0.15
                                  : 0.0;
     SearchRequirements r;
@@ -224,7 +222,7 @@ class Wish {
     r.rack.root_radius = kRootRadius;
     r.rack.addendum = kAddendum;
     r.rack.dedendum = kDedendum;
-    if (housed) r.rim = 0.0;
+    if (motor_) r.rim = 0.0;
     r.outer_diameter_mm = wishes_.outer_diameter_mm - 2.0 * around;
     r.ratio_min = wishes_.ratio * (1.0 - kRatioTolerance);
     r.ratio_max = wishes_.ratio * (1.0 + kRatioTolerance);
@@ -363,12 +361,15 @@ class Wish {
     const std::string driven = design.topology.name_of(input);
     told.push_back("motor " + motor_->name + ": the bore of the " + driven +
                    " is that of its shaft");
-    if (!design.machine) {
-      told.push_back(
-          "no housing is made for this kind with this output: these are the gears alone");
+    const BearingsDesign& bearings = design.machine->bearings;
+    if (!design.topology.has_planets()) {
+      told.push_back(bearings.wheel
+                         ? "the wheel stands between bearing " + bearings.wheel->name +
+                               " in the floor and " + bearings.output.name + " in the lid"
+                         : "no room for a bearing under the wheel: two bearings " +
+                               bearings.output.name + " in the lid hold it");
       return told;
     }
-    const BearingsDesign& bearings = design.machine->bearings;
     told.push_back(bearings.planet
                        ? "bearings " + bearings.planet->name + " in the planets and " +
                              bearings.output.name +

@@ -11,7 +11,7 @@ namespace trueflank {
 namespace {
 
 /// The gears are scaled at most so often, to this much below the outer diameter asked for.
-constexpr int kScalings = 4;
+constexpr int kScalings = 6;
 constexpr double kSpare_mm = 0.05;
 /// Of planets without bearings; and what two bearings in a planet leave between them.
 constexpr double kPlainPin_mm = 4.0, kBetweenBearings_mm = 1.0;
@@ -52,9 +52,6 @@ void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
   bore.diameter_mm = kPlainPin_mm + CarrierDesign{}.pin_clearance_mm;
 }
 
-/// Room around a screw's head, as the parts have it.
-constexpr double kHeadRoom_mm = 0.3;
-
 /// Least wall between the output's screws, the inserts for the load, and what else is drilled into
 /// the carrier where that drives out.
 double wall_of_output_mm(const GearTrain& train, const MachineLayout& m) {
@@ -63,7 +60,7 @@ double wall_of_output_mm(const GearTrain& train, const MachineLayout& m) {
                head = 0.5 * screw.head_diameter_mm + kHeadRoom_mm;
   const double apart = (m.output_screws.at.front() - m.load_inserts.front()).norm();
   double wall = apart - std::max(head + 0.5 * screw.hole_mm, insert + 0.5 * screw.hole_mm);
-  if (m.output_gear >= 0) return wall;
+  if (m.output_gear >= 0 || m.wheel_gear >= 0) return wall;
   for (const Point2& at : m.output_screws.at) {
     for (const Point2& pillar : m.pillars)
       wall = std::min(wall,
@@ -74,6 +71,13 @@ double wall_of_output_mm(const GearTrain& train, const MachineLayout& m) {
     wall = std::min(wall, at.norm() - insert - m.stop_hole_radius_mm);
   }
   return wall;
+}
+
+/// What turns inside the lid reaches as far, from the output's axis.
+double inside_lid_mm(const GearTrain& train, const MachineLayout& m) {
+  if (m.wheel_gear >= 0)
+    return train.gear(m.wheel_gear).profile.tip_radius_mm() - m.wall_mm - m.fit_mm;
+  return std::max(m.cup_radius_mm, 0.5 * m.carrier.outer_diameter_mm);
 }
 
 /// The largest whose retainer is no wider than what turns inside the lid, and whose screws leave
@@ -89,7 +93,7 @@ void choose_output_bearing(GearboxDesign& design, double wall_mm) {
     train->design.machine = machine;
     const auto m = machine_layout(*train);
     return m && wall_of_output_mm(*train, *m) >= wall_mm &&
-           m->retainer_radius_mm <= std::max(m->cup_radius_mm, 0.5 * m->carrier.outer_diameter_mm);
+           m->retainer_radius_mm <= inside_lid_mm(*train, *m);
   };
   const int usual = OutputDesign{}.bolts;
   for (const char* screw : {"M3", "M2.5"})
@@ -99,12 +103,44 @@ void choose_output_bearing(GearboxDesign& design, double wall_mm) {
   fits("M3", "6804", usual);
 }
 
+/// Of a pair, under the wheel: the largest that leaves walls to the motor's collar and screws, and
+/// the inserts of the output's screws free.
+void choose_wheel_bearing(GearboxDesign& design, double wall_mm) {
+  MachineDesign& machine = *design.machine;
+  machine.bearings.wheel.reset();
+  machine.bearings.outputs = 1;
+  auto train = lay_out(design);
+  if (!train) return;
+  for (const char* name : {"608", "626", "688", "686", "625", "685", "624", "684"}) {
+    const Bearing& bearing = *find_element(standard_elements().bearings, name);
+    train->design.machine->bearings.wheel = bearing;
+    const auto m = machine_layout(*train);
+    const double seat = 0.5 * (bearing.outer_mm + m->fit_mm);
+    const double pilot = std::max(0.5 * (machine.motor.pilot_diameter_mm + m->fit_mm),
+                                  m->hub_radius_mm + m->clearance_mm);
+    double wall = m->output_axis.norm() - seat - pilot;
+    for (const Point2& at : m->motor_screws.at)
+      wall = std::min(wall, (m->output_axis - at).norm() - seat - kHeadRoom_mm -
+                                0.5 * m->motor_screws.screw.head_diameter_mm);
+    const double inserts =
+        m->output_screws.at.front().norm() - 0.5 * m->output_screws.screw.insert_hole_mm;
+    if (wall < wall_mm || inserts < m->stub.inner_shoulder_mm) continue;
+    machine.bearings.wheel = bearing;
+    return;
+  }
+  machine.bearings.outputs = 2;
+}
+
 /// Gears alike, so that the housing has the diameter asked for; the shifts stay.
 void scale(GearboxDesign& design, double factor) {
   design.module_mm *= factor;
   *design.centre_distance_mm *= factor;
 }
-double largest_root_diameter_mm(const GearTrain& train) {
+/// How much the housing grows with the gears: by this for twice their size. Round a pair stands the
+/// circle of the motor's screws too, which does not.
+double growing_diameter_mm(const GearTrain& train, const MachineLayout& m) {
+  if (m.wheel_gear >= 0)
+    return train.centre_distance_mm + train.gear(m.wheel_gear).profile.tip_radius_mm();
   double largest = 0.0;
   for (const TrainGear& gear : train.gears)
     largest = std::max(largest, 2.0 * gear.profile.root_radius_mm());
@@ -115,10 +151,6 @@ double largest_root_diameter_mm(const GearTrain& train) {
 
 GearboxDesign with_machine(GearboxDesign design, const Motor& motor, double outer_diameter_mm,
                            double wall_mm) {
-  if (!has_housing(design.topology)) {
-    shaft_gear(design, {.motor = motor});
-    return design;
-  }
   MachineDesign& machine = design.machine.emplace(MachineDesign{.motor = motor});
   machine.fasteners = {.housing = screw_of("M3"),
                        .carrier = screw_of("M3-short"),
@@ -128,14 +160,15 @@ GearboxDesign with_machine(GearboxDesign design, const Motor& motor, double oute
   machine.bearings = {.output = *find_element(standard_elements().bearings, "6804")};
   shaft_gear(design, machine);
   for (int turn = 0; turn < kScalings; ++turn) {
-    choose_planet_bearing(design, wall_mm);
+    if (design.topology.has_planets()) choose_planet_bearing(design, wall_mm);
     choose_output_bearing(design, wall_mm);
+    if (!design.topology.has_planets()) choose_wheel_bearing(design, wall_mm);
     const auto train = lay_out(design);
     const auto layout = train ? machine_layout(*train) : std::nullopt;
     if (!layout) return design;
     const double over = 2.0 * layout->least_outer_radius_mm - (outer_diameter_mm - kSpare_mm);
     if (std::abs(over) < kSpare_mm) return design;
-    scale(design, 1.0 - over / largest_root_diameter_mm(*train));
+    scale(design, 1.0 - over / growing_diameter_mm(*train, *layout));
   }
   return design;
 }

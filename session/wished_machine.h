@@ -6,9 +6,8 @@
 namespace trueflank {
 
 /// Gears with motor, housing, bearings and screws around them, scaled so that the housing has the
-/// outer diameter; shifts and face widths stay. Where no housing is made for the train, what is
-/// driven gets the bore of the motor's shaft and nothing else is changed. Guarantees nothing of
-/// walls, lengths and loads: the checks tell.
+/// outer diameter; shifts and face widths stay. Guarantees nothing of walls, lengths and loads: the
+/// checks tell. Requires: has_housing() of the train.
 [[nodiscard]] GearboxDesign with_machine(GearboxDesign design, const Motor& motor,
                                          double outer_diameter_mm, double wall_mm);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "trueflank/train/machine/crossed_rollers.h"
 
 namespace trueflank {
 namespace {
@@ -65,7 +64,7 @@ BearingLife ball_bearing_loads(const Bearing& bearing, const BearingLoad& load) 
 }  // namespace
 
 BearingLife bearing_life(const Bearing& bearing, const BearingLoad& load) {
-  const bool rollers = is_crossed_roller(bearing);
+  const bool rollers = bearing.kind == BearingKind::kCrossedRollers;
   BearingLife life =
       rollers ? crossed_roller_loads(bearing, load) : ball_bearing_loads(bearing, load);
   if (!(bearing.dynamic_n > 0.0)) return life;

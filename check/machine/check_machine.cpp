@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/machine/bearing_life.h"
+#include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/assembly_clearance.h"
 #include "trueflank/solid/measure/assembly_order.h"
-#include "trueflank/train/efficiency_balance.h"
-#include "trueflank/train/machine/crossed_rollers.h"
 
 namespace trueflank {
 namespace {
@@ -19,18 +17,6 @@ namespace {
 constexpr double kGrip = 1.5, kLeastGrip = 1.0;
 /// What turns and what does not stay this part of clearance_mm apart, or it is reported.
 constexpr double kLeastGap = 0.5;
-/// Between the seats of a planet's two bearings.
-constexpr double kBetweenSeats_mm = 1.0;
-
-Finding judged(Finding finding, double least) {
-  finding.margin = finding.value - finding.limit;
-  if (std::abs(finding.margin) < tolerance::kTouch_mm) finding.margin = 0.0;
-  finding.status = finding.margin >= 0.0    ? CheckStatus::kPass
-                   : finding.value >= least ? CheckStatus::kWarn
-                                            : CheckStatus::kFail;
-  if (finding.status == CheckStatus::kPass) finding.cure.clear();
-  return finding;
-}
 
 Finding housing_size(const MachineLayout& m) {
   const double needed = 2.0 * m.least_outer_radius_mm, value = 2.0 * m.asked_radius_mm;
@@ -41,7 +27,7 @@ Finding housing_size(const MachineLayout& m) {
        .limit = needed,
        .unit = "mm",
        .message =
-           "outer diameter " + mm_text(value) + ", ring, screws and walls need " + mm_text(needed),
+           "outer diameter " + mm_text(value) + ", gears, screws and walls need " + mm_text(needed),
        .cure = "outer_diameter_mm in [housing] of " + mm_text(std::ceil(10.0 * needed) / 10.0) +
                " at least, or smaller fasteners.housing"},
       needed);
@@ -106,7 +92,8 @@ Finding screw_access(const MachineLayout& m) {
   const ScrewGroup& group = m.motor_screws;
   double room = 1e300;
   for (const Point2& at : group.at)
-    room = std::min(room, m.cavity_radius_mm - at.norm() - 0.5 * group.screw.head_diameter_mm);
+    room = std::min(room, m.cavity_radius_mm - (at + group.axis - m.housing_axis).norm() -
+                              0.5 * group.screw.head_diameter_mm);
   return judged(
       {.id = "screw_access",
        .where = "motor",
@@ -145,99 +132,14 @@ Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
                       " does not go into the bore of " + mm_text(gear->bore.diameter_mm);
     finding.cure = "bore_mm in [" + gear->name + "] of more, or none: it follows from the shaft";
   }
-  return finding;
-}
-
-Findings bearing_seats(const GearTrain& train) {
-  Findings findings;
-  const auto& planet = train.design.machine->bearings.planet;
-  if (planet) {
-    double top = -1e300, bottom = 1e300;
-    for (std::size_t i = 0; i < train.gears.size(); ++i) {
-      if (!train.topology().is_planet_gear(i)) continue;
-      top = std::max(top, train.gears[i].z_lower_mm + train.gears[i].face_width_mm);
-      bottom = std::min(bottom, train.gears[i].z_lower_mm);
-    }
-    const double room = top - bottom - kBetweenSeats_mm;
-    findings.push_back(judged(
-        {.id = "bearing_seat",
-         .where = "planet",
-         .value = room,
-         .limit = 2.0 * planet->width_mm,
-         .unit = "mm",
-         .message = "two bearings " + planet->name + " are " + mm_text(2.0 * planet->width_mm) +
-                    " wide, the planet has " + mm_text(room) + " for them",
-         .cure = "wider gears, or a narrower bearing"},
-        2.0 * planet->width_mm));
-  }
-  return findings;
-}
-
-Finding judge_life(const std::string& where, const Bearing& bearing, const BearingLoad& load,
-                   double wanted_h) {
-  Finding finding{.id = "bearing_load", .where = where, .limit = wanted_h, .unit = "h"};
-  const BearingLife life = bearing_life(bearing, load);
-  const std::string force =
-      number_text(life.equivalent_n, 0) + " N at " + number_text(load.speed_rpm, 1) + " rpm";
-  if (std::isnan(life.life_h)) {
-    finding.status = CheckStatus::kNotApplicable;
-    finding.message = "bearing " + bearing.name + " has no load rating; it carries " + force;
-    return finding;
-  }
-  if (std::isinf(life.life_h)) {
-    finding.message = "bearing " + bearing.name + " carries nothing";
-    return finding;
-  }
-  finding.value = life.life_h;
-  finding.message = "bearing " + bearing.name + " carries " + force + ": " +
-                    number_text(life.life_h, 0) + " h (ISO 281), wanted " +
-                    number_text(wanted_h, 0) + " h";
-  finding.cure = "a larger bearing, or a smaller load";
-  finding = judged(std::move(finding), wanted_h);
-  if (life.static_safety < 1.0) {
-    finding.status = CheckStatus::kFail;
-    finding.message +=
-        "; its static rating is exceeded by " + number_text(1.0 / life.static_safety, 2) + " times";
-    finding.cure = "a larger bearing, or a smaller load";
+  const BoreDesign bore = gear ? gear->bore : shaft_bore(*train.design.machine);
+  if (finding.status != CheckStatus::kFail && bore.kind == BoreKind::kRound) {
+    finding.status = CheckStatus::kWarn;
+    finding.message += "; bore and shaft are round: glue alone carries the torque";
+    finding.cure = "a flat filed on the shaft, and flat_mm and flat_length_mm in [motor]; or retaining "
+                   "compound";
   }
   return finding;
-}
-
-/// The output's bearings share the load; two and more also carry its tilting moment.
-BearingLoad output_load(const MachineDesign& machine, const MachineLayout& m) {
-  const double width = machine.bearings.output.width_mm;
-  const int n = machine.bearings.outputs;
-  BearingLoad load{.radial_n = machine.output.radial_load_n,
-                   .axial_n = machine.output.axial_load_n,
-                   .speed_rpm = machine.output.speed_rpm};
-  const double arm = m.plate.upper_mm - m.bearings.upper_mm + 0.5 * width;
-  if (n == 1) {
-    load.tilting_nmm = load.radial_n * arm;
-  } else {
-    const double span = (n - 1) * width;
-    load.radial_n *= (arm + span) / span;
-  }
-  return load;
-}
-
-Findings bearing_loads(const GearTrain& train, const MachineLayout& m) {
-  const MachineDesign& machine = *train.design.machine;
-  const double wanted = machine.bearings.life_h;
-  Findings findings{judge_life("output", machine.bearings.output, output_load(machine, m), wanted)};
-  if (machine.output.radial_load_n > 0.0 && machine.bearings.outputs == 1 &&
-      !is_crossed_roller(machine.bearings.output)) {
-    findings.back().status = std::max(findings.back().status, CheckStatus::kWarn);
-    findings.back().cure =
-        "outputs = 2 in [bearings], or crossed rollers: one ball bearing alone holds no tilting "
-        "load";
-  }
-  if (!machine.bearings.planet) return findings;
-  const MachineLoads loads = machine_loads(train);
-  if (std::isnan(loads.pin_force_n)) return findings;
-  findings.push_back(judge_life(
-      "planet", *machine.bearings.planet,
-      {.radial_n = 0.5 * loads.pin_force_n, .speed_rpm = loads.planet_speed_rpm}, wanted));
-  return findings;
 }
 
 Finding collision(const GearTrain& train, const PartShapes& shapes) {
@@ -318,13 +220,13 @@ Finding order_of_assembly(const GearTrain& train, const PartShapes& shapes, bool
   const auto any_gear = [&](const auto& is) {
     return std::any_of(train.gears.begin(), train.gears.end(), is);
   };
-  const double plate_mm = 0.5 * carrier_layout(train)->outer_diameter_mm;
+  const auto carrier = carrier_layout(train);
   if (any_gear([](const TrainGear& gear) { return gear.twist.herringbone; }))
     finding.cure =
         "herringbone = false in [gearbox]: such teeth go in only where every ring is made in halves";
-  else if (any_gear([&](const TrainGear& gear) {
+  else if (carrier && any_gear([&](const TrainGear& gear) {
              return gear.profile.gear().kind == GearKind::kInternal &&
-                    gear.profile.tip_radius_mm() < plate_mm;
+                    gear.profile.tip_radius_mm() < 0.5 * carrier->outer_diameter_mm;
            }))
     finding.cure = "a smaller outer_diameter_mm in [carrier], or none: it follows from the rings";
   else if (collides)
@@ -336,43 +238,14 @@ Finding order_of_assembly(const GearTrain& train, const PartShapes& shapes, bool
 
 }  // namespace
 
-MachineLoads machine_loads(const GearTrain& train) {
-  MachineLoads loads;
-  const MachineDesign& machine = *train.design.machine;
-  const Topology& topology = train.topology();
-  std::vector<int> teeth;
-  for (const TrainGear& gear : train.gears)
-    teeth.push_back(gear.profile.gear().kind == GearKind::kInternal ? -gear.profile.gear().teeth
-                                                                    : gear.profile.gear().teeth);
-  const BalanceState state =
-      solve_balance(balance_train(topology, teeth), DriveDirection::kForward);
-  const auto output = static_cast<std::size_t>(topology.output),
-             input = static_cast<std::size_t>(topology.input);
-  const double ratio = std::abs(state.torque[output] / state.torque[input]);
-  loads.output_torque_nm = machine.output.torque_nm.value_or(machine.motor.torque_nm * ratio);
-  const double driving_nm = loads.output_torque_nm / ratio;
-  // on a planet: along each mesh's line of action, across the radius to the planet
-  double across = 0.0, along = 0.0;
-  for (std::size_t i = 0; i < train.meshes.size(); ++i) {
-    const TrainMesh& mesh = train.meshes[i];
-    const bool first = topology.is_planet_gear(static_cast<std::size_t>(mesh.gear1));
-    const TrainGear& planet = train.gear(first ? mesh.gear1 : mesh.gear2);
-    const double torque = (first ? state.meshes[i].torque1 : state.meshes[i].torque2) * driving_nm;
-    if (std::isnan(torque)) continue;
-    const double working = working_pressure_angle_rad(train.pair(mesh));
-    const double pitch_mm = base_radius_mm(planet.profile.gear()) / std::cos(working);
-    const double tangential = 1000.0 * torque / train.design.planets / pitch_mm;
-    const bool ring = train.gear(mesh.gear2).profile.gear().kind == GearKind::kInternal;
-    across += ring ? tangential : -tangential;
-    along += (ring ? -1.0 : 1.0) * std::abs(tangential) * std::tan(working);
-  }
-  loads.pin_force_n = std::hypot(across, along);
-  const int planet = topology.first_planet();
-  const auto& speed = state.speed;
-  const double relative = speed[static_cast<std::size_t>(planet)] -
-                          speed[static_cast<std::size_t>(topology.carrier_of(planet))];
-  loads.planet_speed_rpm = std::abs(relative / speed[output]) * machine.output.speed_rpm;
-  return loads;
+Finding judged(Finding finding, double least) {
+  finding.margin = finding.value - finding.limit;
+  if (std::abs(finding.margin) < tolerance::kTouch_mm) finding.margin = 0.0;
+  finding.status = finding.margin >= 0.0    ? CheckStatus::kPass
+                   : finding.value >= least ? CheckStatus::kWarn
+                                            : CheckStatus::kFail;
+  if (finding.status == CheckStatus::kPass) finding.cure.clear();
+  return finding;
 }
 
 Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
@@ -384,11 +257,10 @@ Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
   append(walls(train, m, shapes));
   for (const ScrewGroup* group : {&m.motor_screws, &m.housing_screws, &m.carrier_screws,
                                   &m.output_screws, &m.retainer_screws})
-    all.push_back(judge_screws(*group));
+    if (!group->at.empty()) all.push_back(judge_screws(*group));
   all.push_back(screw_access(m));
   all.push_back(shaft_grip(train, m));
-  append(bearing_seats(train));
-  append(bearing_loads(train, m));
+  append(check_bearings(train, m));
   all.push_back(collision(train, shapes));
   const bool collides = all.back().status == CheckStatus::kFail;
   all.push_back(order_of_assembly(train, shapes, collides));

@@ -93,9 +93,10 @@ GearboxPictures::GearboxPictures(const GearTrain& train, const PartShapes& shape
 /// What lies round the train's axis hides what is in it; the sun does not.
 bool GearboxPictures::is_cut(const Placement& placement) const {
   const PartShape& part = shapes_.parts[static_cast<std::size_t>(placement.part)];
-  if (!train_.topology().has_planets() || part.role == PartRole::kSun ||
-      part.role == PartRole::kPlanet)
-    return false;
+  if (part.role == PartRole::kSun || part.role == PartRole::kPlanet) return false;
+  if (!train_.topology().has_planets())  // a box alone, with its screws, hides what is in it
+    return part.role == PartRole::kCasing ||
+           (part.member == kNoMember && (part.bought.starts_with("ISO") || part.bought.starts_with("heat")));
   if (part.bought.empty()) return true;
   // pins and bearings of planets stay whole; screws and the output's bearing are cut with their
   // parts
@@ -135,7 +136,7 @@ Image GearboxPictures::cut_open(double towards_rad, const std::vector<Eigen::Vec
       .from = {towards_rad + kAside_rad, elevation_rad(2.0 * reach_mm(shapes_), high - low)},
       .framed = framed,
       .quick = quick};
-  if (train_.topology().has_planets()) {
+  if (train_.topology().has_planets() || train_.design.machine) {
     Cutaway cutaway;
     for (std::size_t i = 0; i < 2; ++i) {
       const double turn = towards_rad + (i == 0 ? -1.0 : 1.0) * (kHalfOpening_rad - 0.5 * kPi);

@@ -18,6 +18,7 @@ struct Body {
   int frame =
       kNoMember;  ///< bodies of one frame do not turn against each other about the train's axis
   std::vector<BodyLayer> layers;
+  std::vector<BodyLayer> turning;  ///< what they sweep about an axis of their own; empty: the train's
 };
 
 /// What a layer sweeps about the train's axis.
@@ -32,6 +33,17 @@ Sweep sweep_of(const BodyLayer& layer) {
   for (const Disc& hole : layer.holes)
     sweep.inner_mm = std::max(sweep.inner_mm, hole.radius_mm - hole.centre.norm());
   return sweep;
+}
+
+/// A layer of a body that turns about an axis beside the train's, as the ring that it sweeps.
+BodyLayer swept(const BodyLayer& layer, const Point2& axis) {
+  BodyLayer moved = layer;
+  moved.outer.centre -= axis;
+  for (Disc& hole : moved.holes) hole.centre -= axis;
+  const Sweep sweep = sweep_of(moved);
+  moved.outer = {axis, sweep.outer_mm};
+  moved.holes = {{axis, sweep.inner_mm}};
+  return moved;
 }
 
 double gap_in_turning_mm(const BodyLayer& a, const BodyLayer& b) {
@@ -49,6 +61,11 @@ Body body_of(const GearTrain& train, const PartShapes& shapes, const Placement& 
     if (std::find(fixed.begin(), fixed.end(), body.frame) != fixed.end()) body.frame = kNoMember;
   }
   body.layers = body_layers(part, placement);
+  if (topology.has_planets()) return body;
+  for (const BodyLayer& layer : body.layers)
+    body.turning.push_back(body.frame == kNoMember
+                               ? layer
+                               : swept(layer, axis_centre_mm(train, train.phases, body.frame)));
   return body;
 }
 
@@ -65,12 +82,13 @@ class Judge {
   void compare(const Body& a, const Body& b) {
     if (is_shaft_in_bore(train_, a, b) || is_shaft_in_bore(train_, b, a)) return;
     const bool turning = a.frame != b.frame;
+    const bool own_axes = turning && !a.turning.empty();
     double least = 1e300;
-    for (const BodyLayer& s : a.layers)
-      for (const BodyLayer& t : b.layers) {
+    for (const BodyLayer& s : own_axes ? a.turning : a.layers)
+      for (const BodyLayer& t : own_axes ? b.turning : b.layers) {
         if (s.teeth && t.teeth) continue;
         const double along = std::max(s.z.lower_mm - t.z.upper_mm, t.z.lower_mm - s.z.upper_mm);
-        const double across = turning ? gap_in_turning_mm(s, t) : gap_at_rest_mm(s, t);
+        const double across = turning && !own_axes ? gap_in_turning_mm(s, t) : gap_at_rest_mm(s, t);
         least = std::min(least, std::max(along, across));
       }
     if (least < -tolerance::kTouch_mm)

@@ -15,8 +15,9 @@ namespace {
 
 using Bodies = std::vector<std::size_t>;
 
-/// What herringbone planets and their sun are, once they stand round it.
+/// What herringbone planets and their sun are, once they stand round it; and a herringbone pair.
 constexpr const char* kSunAndPlanets = "sun_and_planets";
+constexpr const char* kPinionAndWheel = "pinion_and_wheel";
 
 /// A relation between things that are numbered.
 class Relation {
@@ -297,15 +298,24 @@ class Orderer {
   }
   void join_kin() { items_ = join_kin(std::move(items_)); }
 
+  /// "" where there is none.
   [[nodiscard]] std::string carrier() const {
     const Topology& topology = train_.topology();
-    return topology.name_of(topology.carrier_of(topology.first_planet()));
+    const int planet = topology.first_planet();
+    return planet == kNoMember ? "" : topology.name_of(topology.carrier_of(planet));
   }
-  /// Of the ring that drives out, or of the carrier's far plate: where the output's inserts sit.
+  /// The ring or the wheel that drives out, or the carrier's far plate: where the output's inserts
+  /// sit.
   [[nodiscard]] std::string driving_part() const {
     const Topology& topology = train_.topology();
-    const bool ring = !topology.is_carrier(topology.output);
-    return ring ? topology.name_of(topology.output) : carrier() + "_top";
+    const bool gear = !topology.is_carrier(topology.output);
+    return gear ? topology.name_of(topology.output) : carrier() + "_top";
+  }
+
+  [[nodiscard]] double height_of(const std::string& part) const {
+    for (std::size_t i = 0; i < shapes_.assembly.size(); ++i)
+      if (name_of(i) == part) return shapes_.assembly[i].translation_mm[2];
+    return 0.0;
   }
 
   void make_units() {
@@ -319,21 +329,32 @@ class Orderer {
                 }));
       });
     };
-    with_inserts("housing", {"housing"});
+    const double lid = height_of("lid");
+    const auto in_lid = [&](const Item& item) {
+      const std::size_t body = item.bodies.front();
+      return item.name.starts_with("bearing_") && member_of(body) == kNoMember &&
+             (carrier() != "" || shapes_.assembly[body].translation_mm[2] > lid);
+    };
+    make_unit_of("housing", {"housing", "insert_", "bearing_"}, [&](const Item& item) {
+      return item.name == "housing" ||
+             (item.name.starts_with("insert_") && ends_with(item.name, "_housing")) ||
+             (item.name.starts_with("bearing_") && member_of(item.bodies.front()) == kNoMember &&
+              !in_lid(item));
+    });
     with_inserts("output", {"load"});
     const std::string top = carrier() + "_top";
     if (driving_part() == top) {
       with_inserts(top, {"carrier", "output"});
     } else {
-      with_inserts(top, {"carrier"});
+      if (carrier() != "") with_inserts(top, {"carrier"});
       with_inserts(driving_part(), {"output"});
     }
     make_unit_of(
         "lid", {"lid", "insert_", "bearing_", "retainer", "screw_"}, [&](const Item& item) {
           return item.name == "lid" || item.name == "retainer" ||
-                 ends_with(item.name, "_retainer") ||
-                 (item.name.starts_with("bearing_") && member_of(item.bodies.front()) == kNoMember);
+                 ends_with(item.name, "_retainer") || in_lid(item);
         });
+    if (carrier() == "") return join_round_the_sun();
     make_planets();
     join_round_the_sun();
     const int arm = train_.topology().carrier_of(train_.topology().first_planet());
@@ -352,14 +373,17 @@ class Orderer {
     return name == "journal" || name == "output" || ends_with(name, "_output") ||
            ends_with(name, "_load");
   }
-  /// Herringbone planets go round their sun from the side, before anything else holds them: one
-  /// thing from then on. The planets' items may already be units of their own.
+  /// Herringbone planets go round their sun from the side, and a wheel to its pinion, before anything
+  /// else holds them: one thing from then on. The planets' items may already be units of their own.
   void join_round_the_sun() {
     const Topology& topology = train_.topology();
     const auto is_gear_of = [&](const Item& item, bool planet) {
       return std::any_of(item.bodies.begin(), item.bodies.end(), [&](std::size_t body) {
         const int member = member_of(body);
         if (member == kNoMember || topology.gears_of(member).empty()) return false;
+        if (!topology.has_planets())  // not what is screwed to the wheel
+          return name_of(body) == topology.name_of(member) &&
+                 topology.gears_of(member).front() == (planet ? 1 : 0);
         if (planet) return topology.is_planet(member);
         const auto first = static_cast<std::size_t>(topology.first_gear_of(member));
         return !topology.is_planet(member) && is_made(body) &&
@@ -372,7 +396,9 @@ class Orderer {
     for (const Item& item : items_)
       (is_gear_of(item, false) ? suns : is_gear_of(item, true) ? planets : rest).push_back(item);
     if (suns.size() != 1 || planets.empty()) return;
-    Item joined{.bodies = suns[0].bodies, .name = kSunAndPlanets, .unit = -1};
+    Item joined{.bodies = suns[0].bodies,
+                .name = topology.has_planets() ? kSunAndPlanets : kPinionAndWheel,
+                .unit = -1};
     AssemblyUnit unit{.name = joined.name, .steps = {{suns[0].bodies, suns[0].unit, 1.0}}};
     for (const Item& planet : planets) {
       joined.bodies.insert(joined.bodies.end(), planet.bodies.begin(), planet.bodies.end());

@@ -216,11 +216,13 @@ class CapBuilder {
     return triangles;
   }
 
-  /// Whether every hole has a sector of its own, seen from the centre.
+  /// Whether every hole has a sector of its own, seen from the centre, and lies outside the inner loop.
   [[nodiscard]] bool holes_stand_apart() const {
     const std::size_t n = side_holes_.size();
+    const double behind = inner_ring_ ? inner_ring_->outer_radius_mm : 0.0;
     for (std::size_t k = 0; k < n; ++k) {
       const SideHole &a = side_holes_[k], &b = side_holes_[(k + 1) % n];
+      if (!(a.distance_mm - a.radius_mm > behind)) return false;
       const double from = a.angle_rad + a.half_angle_rad();
       if (!(b.angle_rad + (k + 1 == n ? kTwoPi : 0.0) - b.half_angle_rad() > from)) return false;
     }

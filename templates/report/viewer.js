@@ -88,7 +88,8 @@ class Viewer {
       mesh.castShadow = mesh.receiveShadow = true;
       group.add(mesh, new LineSegments(edges, this.lineMaterial()));
       this.world.add(group);
-      return {...body, group, slabs, whole, radius, colour: part.colour, index: body.part, angle: Math.atan2(body.at[1], body.at[0])};
+      const pivot = body.pivot ?? [0, 0];
+      return {...body, group, slabs, whole, radius, colour: part.colour, index: body.part, arm: Math.hypot(body.at[0] - pivot[0], body.at[1] - pivot[1]), angle: Math.atan2(body.at[1] - pivot[1], body.at[0] - pivot[0]), pivot};
     });
     this.orderForExplosion();
   }
@@ -123,7 +124,7 @@ class Viewer {
     this.size = Math.max(...all.map((b) => b.r));
     // what turns about the axis is looked at there; a pair between its gears
     this.middle = [0, 0];
-    this.aboutAxis = !(this.bodies.some((b) => b.radius > 0) && this.bodies.every((b) => b.orbit === 0));
+    this.aboutAxis = !(this.bodies.some((b) => b.radius > 0) && this.bodies.every((b) => b.orbit === 0 || b.pivot[0] || b.pivot[1]));
     if (!this.aboutAxis) {
       const ends = [0, 1].map((k) => [Math.min(...this.bodies.map((b) => b.at[k] - size(b))), Math.max(...this.bodies.map((b) => b.at[k] + size(b)))]);
       this.middle = ends.map(([low, high]) => (low + high) / 2);
@@ -354,7 +355,7 @@ class Viewer {
     for (const body of this.bodies) {
       const orbit = body.angle + body.orbit * this.sun;
       const lift = this.exploded * this.lift[this.partGroup(body)];
-      body.group.position.set(body.radius * Math.cos(orbit), body.radius * Math.sin(orbit), body.at[2] + lift);
+      body.group.position.set(body.pivot[0] + body.arm * Math.cos(orbit), body.pivot[1] + body.arm * Math.sin(orbit), body.at[2] + lift);
       body.group.rotation.z = body.rotation + body.turn * this.sun;
     }
     this.section.update(this.bodies.filter((b) => b.cut && b.group.visible));

@@ -22,91 +22,11 @@
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/machine/print_plates.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "tests/check/machine_designs.h"
 #include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  if (at == std::string::npos) throw std::runtime_error("no " + what);
-  return text.replace(at, what.size(), by);
-}
-
-/// The teeth of examples/printed_actuator.
-const std::string k3k = R"(format = 1
-name = "actuator"
-[gearbox]
-kind = "3k"
-output = "ring2"
-planets = 3
-module_mm = 0.8
-centre_distance_mm = 20.5461
-backlash_mm = 0.15
-[sun]
-teeth = 12
-face_width_mm = 10
-[planet1]
-teeth = 39
-face_width_mm = 10
-[ring1]
-teeth = 90
-shift = 0.5225
-face_width_mm = 10
-[planet2]
-teeth = 32
-face_width_mm = 10
-[ring2]
-teeth = 81
-shift = 1.9967
-face_width_mm = 10
-)";
-const std::string kMachine = R"([housing]
-[motor]
-name = "nema17"
-[bearings]
-output = "6806"
-planet = "625"
-[fasteners]
-carrier = "M3-short"
-[made]
-process = "fdm-0.4"
-)";
-const std::string kSimple = R"(format = 1
-[gearbox]
-kind = "simple"
-planets = 3
-module_mm = 1
-backlash_mm = 0.15
-[sun]
-teeth = 18
-face_width_mm = 12
-[planet]
-teeth = 27
-face_width_mm = 12
-[ring]
-teeth = 72
-face_width_mm = 12
-)";
-const std::string kStepped = R"(format = 1
-[gearbox]
-kind = "stepped"
-planets = 3
-module_mm = 1
-backlash_mm = 0.15
-[sun]
-teeth = 15
-face_width_mm = 10
-[planet1]
-teeth = 39
-face_width_mm = 10
-[planet2]
-teeth = 30
-face_width_mm = 10
-[ring]
-teeth = 84
-face_width_mm = 10
-)";
 
 /// A sun wider than the circle of the motor's screws, and small planets.
 std::string large_sun() {
@@ -117,41 +37,6 @@ std::string large_sun() {
           kMachine,
       "planet = \"625\"", "planet = \"624\"");
 }
-
-GearboxDesign design_of(const std::string& text) {
-  const auto design = read_design_text(text, "machine.toml");
-  if (!design)
-    throw std::runtime_error(design.error().front().key + ": " + design.error().front().message);
-  return *design;
-}
-
-std::string first_key(const std::string& text) {
-  const auto design = read_design_text(text, "machine.toml");
-  return design ? "" : design.error().front().key;
-}
-
-struct Made {
-  explicit Made(const std::string& text) : train(*lay_out(design_of(text))) {
-    auto made = part_shapes(train);
-    if (!made)
-      throw std::runtime_error(made.error().front().key + ": " + made.error().front().message);
-    shapes = std::move(*made);
-    findings = check_machine(train, shapes);
-  }
-  [[nodiscard]] const PartShape& part(const std::string& name) const {
-    for (const PartShape& shape : shapes.parts)
-      if (shape.name == name) return shape;
-    throw std::runtime_error("no part " + name);
-  }
-  [[nodiscard]] const Finding& finding(const std::string& id, const std::string& where) const {
-    for (const Finding& f : findings)
-      if (f.id == id && f.where == where) return f;
-    throw std::runtime_error("no finding " + id + " of " + where);
-  }
-  GearTrain train;
-  PartShapes shapes;
-  Findings findings;
-};
 
 std::string type_two(const std::string& text) {
   return replaced(text, "output = \"ring2\"", "output = \"ring1\"");
@@ -214,7 +99,7 @@ TEST(MachineKeys, WhatDoesNotAgreeIsTold) {
 TEST(MachineKeys, AUsersElementsReplaceAndAdd) {
   const auto tools = read_tools_text(
       "[bearing.6806]\ndynamic_n = 1\n[motor.mine]\nshaft_diameter_mm = 4\n"
-      "[screw.M7]\ndiameter_mm = 7\n",
+      "[screw.M7]\ndiameter_mm = 7\n[bearing.XR20]\nbore_mm = 20\nkind = \"crossed-rollers\"\n",
       "tools.toml");
   ASSERT_TRUE(tools);
   const Bearing* bearing = find_element(tools->elements.bearings, "6806");
@@ -222,6 +107,9 @@ TEST(MachineKeys, AUsersElementsReplaceAndAdd) {
   EXPECT_EQ(bearing->outer_mm, 42.0);
   EXPECT_EQ(find_element(tools->elements.motors, "mine")->shaft_diameter_mm, 4.0);
   EXPECT_NE(find_element(tools->elements.screws, "M7"), nullptr);
+  EXPECT_EQ(find_element(tools->elements.bearings, "XR20")->kind, BearingKind::kCrossedRollers);
+  EXPECT_EQ(bearing->kind, BearingKind::kBalls);
+  EXPECT_FALSE(read_tools_text("[bearing.XR20]\nkind = \"rollers\"\n", "tools.toml"));
   EXPECT_FALSE(read_tools_text("[motor.mine]\nshaft_mm = 4\n", "tools.toml"));
 }
 
@@ -289,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Machine, EveryKind,
                          testing::Values(k3k + kMachine, type_two(k3k + kMachine),
                                          kSimple + kMachine, split_ring(k3k + kMachine),
                                          kStepped + kMachine, held_carrier(kSimple + kMachine),
-                                         held_carrier(kStepped + kMachine)));
+                                         held_carrier(kStepped + kMachine), kPair + kBox));
 
 TEST(MachineParts, TheMotorsShaftEndsFreeInASunThatIdles) {
   const Made made(idle_sun(k3k + kMachine));
@@ -378,6 +266,19 @@ TEST(MachineChecks, AShaftThatIsTooShortIsToldWithItsCure) {
   EXPECT_EQ(cured.finding("shaft_grip", "sun").status, CheckStatus::kPass);
 }
 
+TEST(MachineChecks, ARoundShaftThatGlueAloneHoldsIsTold) {
+  const std::string numbers =
+      "shaft_diameter_mm = 5\nshaft_length_mm = 24\nbolt_circle_diameter_mm = 43.8\n"
+      "thread_depth_mm = 4.5";
+  const Made round(replaced(k3k + kMachine, "name = \"nema17\"", numbers));
+  const Finding& told = round.finding("shaft_grip", "sun");
+  EXPECT_EQ(told.status, CheckStatus::kWarn);
+  EXPECT_NE(told.cure.find("flat_mm"), std::string::npos);
+  const Made flat(replaced(k3k + kMachine, "name = \"nema17\"",
+                           numbers + "\nflat_mm = 4.5\nflat_length_mm = 15"));
+  EXPECT_EQ(flat.finding("shaft_grip", "sun").status, CheckStatus::kPass);
+}
+
 TEST(MachineChecks, AHousingThatIsTooSmallFails) {
   const Made made(replaced(k3k + kMachine, "[housing]\n", "[housing]\nouter_diameter_mm = 84\n"));
   EXPECT_EQ(made.finding("housing_size", "housing").status, CheckStatus::kFail);
@@ -423,8 +324,7 @@ TEST(MachineChecks, ACarrierThatReachesIntoTheRingCollides) {
 
 /// Points inside the material of two bodies at once, at random, with the carrier and the output
 /// turned: another way to the same answer.
-TEST(MachineChecks, NoPointIsInTwoBodies) {
-  const Made made(k3k + kMachine);
+void expect_no_point_in_two_bodies(const Made& made, const Point2& middle, double width_mm) {
   struct Body {
     const Placement* placement;
     const PartShape* part;
@@ -458,7 +358,8 @@ TEST(MachineChecks, NoPointIsInTwoBodies) {
   };
   int hits = 0;
   for (int i = 0; i < 200000; ++i) {
-    const Point2 at(90.0 * (random() - 0.5), 90.0 * (random() - 0.5));
+    const Point2 at =
+        middle + width_mm * Point2(random() - 0.5, random() - 0.5);
     const double z = -20.0 + 80.0 * random();
     std::vector<std::string> here;
     for (const Body& body : bodies)
@@ -467,6 +368,11 @@ TEST(MachineChecks, NoPointIsInTwoBodies) {
     EXPECT_LE(here.size(), 1U) << here.front() << " and " << here.back();
   }
   EXPECT_GT(hits, 50000);
+}
+
+TEST(MachineChecks, NoPointIsInTwoBodies) {
+  expect_no_point_in_two_bodies(Made(k3k + kMachine), Point2::Zero(), 90.0);
+  expect_no_point_in_two_bodies(Made(kPair + kBox), Point2(22.0, 0.0), 112.0);
 }
 
 /// SKF's rolling bearings catalogue, the example of bearing 6309: C = 55.3 kN, 8 kN, 3000 rpm: 330
@@ -491,7 +397,12 @@ TEST(BearingLife, AnAxialLoadCountsBeyondItsLimit) {
 
 TEST(BearingLife, OneCrossedRollerBearingHoldsATiltingMoment) {
   const Bearing bearing{
-      .name = "RB4010", .bore_mm = 40, .outer_mm = 60, .dynamic_n = 10000, .static_n = 10000};
+      .name = "own",
+      .bore_mm = 40,
+      .outer_mm = 60,
+      .dynamic_n = 10000,
+      .static_n = 10000,
+      .kind = BearingKind::kCrossedRollers};
   // d_pw = 50 mm: 1000 Nmm count as 40 N across
   const BearingLife across =
       bearing_life(bearing, {.radial_n = 100, .axial_n = 210, .tilting_nmm = 1000, .speed_rpm = 1});
@@ -592,7 +503,8 @@ TEST(PrintPlates, HoldEveryPartThatIsMadeWithoutOverlap) {
 
 /// What hangs over at the bed's side: a part the right way up widens nowhere by more than a ledge.
 TEST(PrintPlates, PartsLieTheRightWayUp) {
-  for (const std::string& text : {k3k + kMachine, large_sun(), held_carrier(large_sun())}) {
+  for (const std::string& text :
+       {k3k + kMachine, large_sun(), held_carrier(large_sun()), kPair + kBox}) {
     const Made made(text);
     for (const PartShape& part : made.shapes.parts) {
       if (!part.bought.empty()) continue;
@@ -695,6 +607,7 @@ TEST(AssemblyOrder, EveryKindGoesTogetherBodyByBody) {
   expect_proved(Made(kStepped + kMachine), "stepped");
   expect_proved(Made(held_carrier(kSimple) + kMachine), "simple, held carrier");
   expect_proved(Made(held_carrier(kStepped) + kMachine), "stepped, held carrier");
+  expect_proved(Made(kPair + kBox), "pair");
 }
 
 TEST(AssemblyOrder, UnitsAreMadeByThemselves) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/train/machine/crossed_rollers.h"
 
-#include <algorithm>
-
 namespace trueflank {
 namespace {
 
@@ -17,6 +15,7 @@ Bearing crossed(const char* name, double d, double D, double B, double C, double
           .width_mm = B,
           .dynamic_n = C,
           .static_n = C0,
+          .kind = BearingKind::kCrossedRollers,
           .source = kSource};
 }
 
@@ -31,12 +30,6 @@ const std::vector<Bearing>& crossed_roller_bearings() {
       crossed("RB8016", 80, 120, 16, 30100, 42100),
   };
   return bearings;
-}
-
-bool is_crossed_roller(const Bearing& bearing) {
-  const auto& all = crossed_roller_bearings();
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Bearing& one) { return one.name == bearing.name; });
 }
 
 }  // namespace trueflank

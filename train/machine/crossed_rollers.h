@@ -7,10 +7,7 @@
 
 namespace trueflank {
 
-/// Crossed-roller bearings: one alone holds loads in every direction and tilting moments.
+/// The built-in crossed-roller bearings.
 [[nodiscard]] const std::vector<Bearing>& crossed_roller_bearings();
-
-/// Whether a bearing is one of them, by its name: a user's numbers for it may be others.
-[[nodiscard]] bool is_crossed_roller(const Bearing& bearing);
 
 }  // namespace trueflank

@@ -28,11 +28,15 @@ struct Motor {
   bool operator==(const Motor&) const = default;
 };
 
-/// A single-row deep-groove ball bearing.
+/// Deep-groove balls in one row; or crossed rollers: one such bearing alone holds loads in every
+/// direction and tilting moments.
+enum class BearingKind { kBalls, kCrossedRollers };
+
 struct Bearing {
   std::string name;
   double bore_mm = 0.0, outer_mm = 0.0, width_mm = 0.0;
   double dynamic_n = 0.0, static_n = 0.0;  ///< load ratings C and C0; 0: not known
+  BearingKind kind = BearingKind::kBalls;
   std::string source = {};
 
   bool operator==(const Bearing&) const = default;

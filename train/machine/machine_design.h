@@ -35,6 +35,7 @@ struct BearingsDesign {
   Bearing output = {};
   int outputs = 1;  ///< side by side
   std::optional<Bearing> planet = {};  ///< two in every planet; none: the planet turns on its pin
+  std::optional<Bearing> wheel = {};   ///< of a pair, in the floor under the wheel; none: the output's alone hold it
   double life_h = 1000.0;              ///< wanted of every bearing
 
   bool operator==(const BearingsDesign&) const = default;

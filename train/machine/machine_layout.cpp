@@ -4,67 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/train/machine/layout_steps.h"
+
 namespace trueflank {
 namespace {
 
-/// Free depth over a screw's head.
-constexpr double kHeadCover_mm = 0.2;
-/// Free height between the motor's collar and the hub on its shaft, and between sun and its stop.
-constexpr double kHubGap_mm = 0.5;
-/// The bearing's rings are touched up to this part of the ring section's height.
-constexpr double kShoulder = 0.1;
 /// Rim of a ring that drives out, of the module, and at least in mm.
 constexpr double kRim = 2.5, kLeastRim_mm = 2.0;
-/// A hub stays this part of the module inside the roots.
-constexpr double kHubInset = 0.1;
 /// The lid's lip reaches this far over the fixed ring.
 constexpr double kLidLip_mm = 2.0;
-/// A journal ends this much before its bearing, so that the bearing is clamped.
-constexpr int kRetainerScrews = 4;
-/// Under a screw's head there is this much of the material at least, of the thread's diameter.
-constexpr double kUnderHead = 0.8;
-
-std::vector<Point2> on_circle(double radius_mm, int count, double first_rad) {
-  std::vector<Point2> points;
-  for (int i = 0; i < count; ++i)
-    points.push_back(radius_mm * unit_vector(first_rad + kTwoPi * i / count));
-  return points;
-}
-
-/// The shortest stocked length that holds: the tip a diameter deep in the insert, not through the
-/// far face. Where none does, the head goes deeper, by at most `deeper_mm`; the insert moves with
-/// the tip.
-void choose_length(ScrewGroup& group, double clamped_mm, double deeper_mm) {
-  const Screw& screw = group.screw;
-  const double whole = std::abs(group.far_mm - group.head_mm);
-  group.shortest_mm = clamped_mm - deeper_mm + screw.diameter_mm;
-  group.longest_mm = whole;
-  double best = 1e300;
-  for (const double length : screw.lengths_mm()) {
-    const double deeper = std::max(0.0, clamped_mm + screw.diameter_mm - length);
-    if (deeper > deeper_mm || length > whole - deeper || deeper >= best) continue;
-    best = deeper;
-    group.length_mm = length;
-  }
-  if (!group.fits()) best = 0.0;
-  group.head_mm += group.way * best;
-  const double clamped = clamped_mm - best, reach = whole - best;
-  const double from = std::clamp(group.length_mm - screw.insert_length_mm, clamped,
-                                 std::max(clamped, reach - screw.insert_length_mm));
-  group.insert_mm = group.head_mm + group.way * from;
-}
 
 class Layout {
  public:
   Layout(const GearTrain& train, const MachineDesign& machine)
-      : train_(train), machine_(machine), design_(train.design) {}
+      : train_(train), machine_(machine) {}
 
   MachineLayout make() {
+    settle_walls(train_.design, m_);
     place_gears();
     place_carrier();
     place_pillars();
-    place_floor();
-    place_output();
+    place_floor(machine_, m_.near.lower_mm - m_.clearance_mm, 0.0, m_);
+    place_disc();
+    place_output(machine_, m_);
     place_walls();
     place_hub();
     return std::move(m_);
@@ -96,10 +58,6 @@ class Layout {
         train_.gear(m_.output_gear).z_lower_mm < train_.gear(m_.fixed_gear).z_lower_mm)
       m_.way = -1.0;
     if (m_.fixed_gear >= 0) m_.ring = heights(train_.gear(m_.fixed_gear));
-    const double least = design_.made.process ? design_.made.process->least_wall_mm : 0.0;
-    m_.wall_mm = machine_.housing.wall_mm.value_or(std::max(1.2, 1.5 * least));
-    m_.fit_mm = machine_.housing.fit_mm;
-    m_.clearance_mm = machine_.housing.clearance_mm;
   }
 
   void place_carrier() {
@@ -158,75 +116,33 @@ class Layout {
       m_.pillars.push_back(best);
       m_.pillar_room_mm = std::min(m_.pillar_room_mm, room);
     }
-    const double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
-    const double depth = screw.head_height_mm + kHeadCover_mm;
-    m_.carrier_screws = {.what = "carrier",
-                         .screw = screw,
-                         .at = m_.pillars,
-                         .head_mm = m_.near.lower_mm + depth,
-                         .way = 1.0,
-                         .far_mm = m_.far.upper_mm};
-    choose_length(m_.carrier_screws, m_.far.lower_mm - m_.carrier_screws.head_mm,
-                  std::max(0.0, m_.near.upper_mm - under - m_.carrier_screws.head_mm));
+    const double under = under_head_mm(screw, m_.wall_mm);
+    const double head = m_.near.lower_mm + head_depth_mm(screw);
+    m_.carrier_screws = with_length({.what = "carrier",
+                                     .screw = screw,
+                                     .at = m_.pillars,
+                                     .head_mm = head,
+                                     .way = 1.0,
+                                     .far_mm = m_.far.upper_mm},
+                                    m_.far.lower_mm - head,
+                                    std::max(0.0, m_.near.upper_mm - under - head));
   }
 
   // ------------------------------------------------------------------------------- motor's side
 
-  void place_floor() {
-    const Motor& motor = machine_.motor;
-    const Screw& screw = machine_.fasteners.motor;
-    const double over = screw.head_height_mm + kHeadCover_mm,
-                 cavity = m_.near.lower_mm - m_.clearance_mm;
-    double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
-    if (machine_.housing.floor_mm) under = *machine_.housing.floor_mm - over;
-    ScrewGroup& group = m_.motor_screws;
-    group = {.what = "motor",
-             .screw = screw,
-             .at = on_circle(0.5 * motor.bolt_circle_diameter_mm, motor.bolt_count,
-                             kPi / motor.bolt_count),
-             .way = -1.0};
-    // into the motor's threads, a diameter deep at least; or through its flange, for nuts
-    const bool threads = motor.thread_depth_mm > 0.0;
-    const double least = threads ? screw.diameter_mm : motor.flange_mm + screw.nut_height_mm;
-    const double most = threads ? motor.thread_depth_mm : least + 3.0 * screw.diameter_mm;
-    for (const double length : screw.lengths_mm()) {
-      if (length < under + least) continue;
-      group.length_mm = length;
-      if (length > under + most && !machine_.housing.floor_mm) under = length - most;
-      if (length > under + most) group.length_mm = 0.0;
-      break;
-    }
-    group.shortest_mm = under + least;
-    group.longest_mm = under + most;
-    m_.floor = {cavity - over - under, cavity};
-    group.head_mm = cavity - over;
-    group.far_mm = m_.floor.lower_mm;
-  }
-
   void place_hub() {
-    const Motor& motor = machine_.motor;
-    const double face = m_.floor.lower_mm;
-    m_.shaft_end_mm = face + motor.shaft_length_mm;
-    m_.flat_from_mm = motor.flat_mm > 0.0 ? m_.shaft_end_mm - motor.flat_length_mm : face;
+    place_shaft(machine_.motor, m_);
     HeightRange driven = m_.near;
-    m_.hub_radius_mm = 0.5 * motor.shaft_diameter_mm + std::max(2.0 * m_.wall_mm, 2.0);
-    m_.hub_room_mm = 1e300;
     if (m_.driven_gear >= 0) {
       const TrainGear& gear = train_.gear(m_.driven_gear);
       driven = heights(gear);
-      // as wide as the roots let it, and as the heads of the motor's screws do
-      const Screw& screw = machine_.fasteners.motor;
-      const double heads = 0.5 * (motor.bolt_circle_diameter_mm - screw.head_diameter_mm) -
-                           2.0 * m_.clearance_mm - m_.wall_mm;
-      m_.hub_radius_mm =
-          std::min(gear.profile.root_radius_mm() - kHubInset * gear.profile.gear().normal_module_mm,
-                   std::max(m_.hub_radius_mm, heads));
+      widen_hub(gear, machine_, m_);
       place_stop(gear, driven);
     } else if (m_.idle_gear >= 0) {
       place_stop(train_.gear(m_.idle_gear), heights(train_.gear(m_.idle_gear)));
     }
-    m_.hub = {std::min(face + motor.pilot_height_mm + kHubGap_mm, driven.lower_mm),
-              driven.lower_mm};
+    const double collar = m_.floor.lower_mm + machine_.motor.pilot_height_mm;
+    m_.hub = {std::min(collar + kHubGap_mm, driven.lower_mm), driven.lower_mm};
     for (std::size_t i = 0; i < train_.gears.size(); ++i)
       if (m_.driven_gear >= 0 && topology().is_planet_gear(i) &&
           heights(train_.gears[i]).lower_mm < driven.lower_mm)
@@ -255,11 +171,9 @@ class Layout {
 
   // ------------------------------------------------------------------------------- output's side
 
-  void place_output() {
+  /// What carries the output: the floor of a ring's cup, or the carrier's far plate.
+  void place_disc() {
     const Screw& screw = machine_.fasteners.output;
-    const Bearing& bearing = machine_.bearings.output;
-    const double head = screw.head_height_mm + kHeadCover_mm;
-    const double under = std::max(kUnderHead * screw.diameter_mm, m_.wall_mm);
     m_.disc = m_.far;
     if (m_.output_gear >= 0) {
       const TrainGear& ring = train_.gear(m_.output_gear);
@@ -270,51 +184,6 @@ class Layout {
       m_.disc.upper_mm =
           m_.disc.lower_mm + std::max(screw.insert_length_mm + 0.3, 2.0 * m_.wall_mm);
     }
-    m_.retainer.lower_mm = m_.disc.upper_mm + m_.clearance_mm;
-    m_.retainer.upper_mm = m_.retainer.lower_mm + head + under;
-    m_.bearings = {m_.retainer.upper_mm,
-                   m_.retainer.upper_mm + machine_.bearings.outputs * bearing.width_mm};
-    const double shoulder = kShoulder * (bearing.outer_mm - bearing.bore_mm);
-    m_.journal_radius_mm = 0.5 * (bearing.bore_mm - m_.fit_mm);
-    m_.inner_shoulder_mm = 0.5 * bearing.bore_mm + shoulder;
-    m_.outer_shoulder_mm = 0.5 * bearing.outer_mm - shoulder;
-    m_.roof = {m_.bearings.lower_mm, m_.bearings.upper_mm + std::max(2.0, m_.wall_mm)};
-    m_.plate.lower_mm = m_.roof.upper_mm + m_.clearance_mm;
-    m_.plate.upper_mm = m_.plate.lower_mm + head + under;
-    m_.plate_radius_mm = 0.5 * bearing.outer_mm;
-    place_output_screws(head);
-    place_retainer(head);
-  }
-
-  void place_output_screws(double head_mm) {
-    const Screw& screw = machine_.fasteners.output;
-    const int bolts = machine_.output.bolts;
-    const double circle = machine_.output.bolt_circle_diameter_mm
-                              ? 0.5 * *machine_.output.bolt_circle_diameter_mm
-                              : m_.journal_radius_mm - m_.wall_mm - 0.5 * screw.hole_mm;
-    m_.load_inserts = on_circle(circle, bolts, kPi / bolts);
-    m_.output_screws = {.what = "output",
-                        .screw = screw,
-                        .at = on_circle(circle, bolts, 0.0),
-                        .head_mm = m_.plate.upper_mm - head_mm,
-                        .way = -1.0,
-                        .far_mm = m_.disc.lower_mm};
-    choose_length(m_.output_screws, m_.output_screws.head_mm - m_.disc.upper_mm,
-                  std::max(0.0, m_.output_screws.head_mm - m_.plate.lower_mm));
-  }
-
-  void place_retainer(double head_mm) {
-    const Screw& screw = machine_.fasteners.output;
-    const double circle =
-        0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm + screw.insert_hole_mm) + m_.wall_mm;
-    m_.retainer_radius_mm = circle + 0.5 * screw.head_diameter_mm + m_.wall_mm + kHeadCover_mm;
-    m_.retainer_screws = {.what = "retainer",
-                          .screw = screw,
-                          .at = on_circle(circle, kRetainerScrews, kPi / kRetainerScrews),
-                          .head_mm = m_.retainer.lower_mm + head_mm,
-                          .way = 1.0,
-                          .far_mm = m_.roof.upper_mm};
-    choose_length(m_.retainer_screws, m_.roof.lower_mm - m_.retainer_screws.head_mm, 0.0);
   }
 
   // ------------------------------------------------------------------------------- walls
@@ -356,30 +225,33 @@ class Layout {
     m_.ring_radius_mm = m_.outer_radius_mm - lip;
     m_.seat_top_mm =
         std::max(m_.ring.upper_mm - kLidLip_mm, 0.5 * (m_.ring.lower_mm + m_.ring.upper_mm));
-    const double head = screw.head_height_mm + kHeadCover_mm;
-    m_.housing_screws = {.what = "housing",
-                         .screw = screw,
-                         .at = on_circle(circle, machine_.housing.screws, 0.0),
-                         .head_mm = m_.roof.upper_mm - head,
-                         .way = -1.0,
-                         .far_mm = m_.floor.lower_mm};
-    choose_length(m_.housing_screws, m_.housing_screws.head_mm - m_.ring.lower_mm + m_.wall_mm,
-                  m_.housing_screws.head_mm - m_.ring.upper_mm - screw.diameter_mm);
+    m_.screw_circle_mm = circle;
+    const double head = m_.roof.upper_mm - head_depth_mm(screw);
+    m_.housing_screws = with_length({.what = "housing",
+                                     .screw = screw,
+                                     .at = on_circle(circle, machine_.housing.screws, 0.0),
+                                     .head_mm = head,
+                                     .way = -1.0,
+                                     .far_mm = m_.floor.lower_mm},
+                                    head - m_.ring.lower_mm + m_.wall_mm,
+                                    head - m_.ring.upper_mm - screw.diameter_mm);
   }
 
   const GearTrain& train_;
   const MachineDesign& machine_;
-  const GearboxDesign& design_;
   MachineLayout m_;
 };
 
 }  // namespace
 
-bool has_housing(const Topology& topology) { return topology.has_planets(); }
+bool has_housing(const Topology& topology) {
+  return topology.has_planets() || topology.gears.size() == 2;
+}
 
 std::optional<MachineLayout> machine_layout(const GearTrain& train) {
   if (!train.design.machine) return std::nullopt;
-  return Layout(train, *train.design.machine).make();
+  const MachineDesign& machine = *train.design.machine;
+  return train.topology().has_planets() ? Layout(train, machine).make() : pair_layout(train, machine);
 }
 
 }  // namespace trueflank

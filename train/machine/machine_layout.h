@@ -7,27 +7,15 @@
 
 #include "trueflank/train/carrier.h"
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/machine/screw_group.h"
 
 namespace trueflank {
 
-/// Screws of one kind at one place. Heights as in MachineLayout.
-struct ScrewGroup {
-  std::string what;  ///< "housing", "carrier", ...
-  Screw screw = {};
-  double length_mm = 0.0;       ///< stocked; 0: none of the stocked lengths does
-  std::vector<Point2> at = {};  ///< in the frame of the body it is in
-  double head_mm = 0.0;         ///< where the head rests
-  double way = 1.0;             ///< +1: the shank points to the output, -1: to the motor
-  double far_mm = 0.0;  ///< the face through which the insert is pressed in, on the shank's side
-  double insert_mm =
-      kNaN;  ///< the insert's end nearer the head; NaN: none, the motor's own threads or nuts
-  double shortest_mm = 0.0,
-         longest_mm = 0.0;  ///< between these a length would do at the deepest head
-
-  [[nodiscard]] bool fits() const { return length_mm > 0.0; }
-  [[nodiscard]] double tip_mm() const { return head_mm + way * length_mm; }
-  [[nodiscard]] double head_top_mm() const { return head_mm - way * screw.head_height_mm; }
+/// Radii of the shoulders that touch a bearing's rings and no more.
+struct Shoulders {
+  double inner_mm = 0.0, outer_mm = 0.0;
 };
+[[nodiscard]] Shoulders shoulders_of(const Bearing& bearing);
 
 /// A gearbox sized: every radius and height of the parts around the gears, of a train with a
 /// machine. Heights grow from the motor to the output: they are the assembly's z where the motor
@@ -39,6 +27,9 @@ struct MachineLayout {
   int output_gear = -1;  ///< the ring that drives out; -1: the carrier does
   int driven_gear = -1;  ///< on the motor's shaft; -1: the carrier is
   int idle_gear = -1;    ///< a sun that nothing drives; -1: none
+  int wheel_gear = -1;   ///< of a pair: it drives out, on an axis of its own; -1: no pair
+  Point2 output_axis = Point2::Zero();   ///< of output, its bearings and the wheel
+  Point2 housing_axis = Point2::Zero();  ///< the middle of housing and lid; the motor's is the origin
 
   // housing and lid
   double outer_radius_mm = 0.0;
@@ -51,7 +42,17 @@ struct MachineLayout {
   double seat_top_mm = 0.0;    ///< where the lips of housing and lid meet, around the ring
   double lid_radius_mm = 0.0;  ///< inside the lid
   HeightRange roof;            ///< of the lid; its underside holds the bearing
+  double screw_circle_mm = 0.0;  ///< of the housing's screws, radius
   ScrewGroup housing_screws, motor_screws;
+
+  // pair
+  double lid_lower_mm = 0.0;  ///< where the lid reaches into the housing: over the gears
+  struct Stub {               ///< of the wheel, in its bearing in the floor
+    HeightRange bearing;      ///< empty: none
+    double relief_mm = 0.0;   ///< the floor is this deep round the journal's end
+    double journal_radius_mm = 0.0;
+    double inner_shoulder_mm = 0.0, outer_shoulder_mm = 0.0;  ///< radii
+  } stub;
 
   // carrier
   CarrierLayout carrier;
@@ -92,7 +93,7 @@ struct MachineLayout {
 };
 
 /// Whether a housing is made for such a train: one with planets, of which a ring or the carrier is
-/// held.
+/// held, or a pair of gears.
 [[nodiscard]] bool has_housing(const Topology& topology);
 
 /// Sizes the gearbox of a design with [housing]; nothing of another. What does not fit is in its

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
-#include "trueflank/train/machine/crossed_rollers.h"
 
 namespace trueflank {
 namespace {
@@ -38,7 +37,7 @@ std::string thread_text(const Screw& screw) { return "M" + short_number(screw.di
 
 void BoughtParts::place(const std::string& name, const std::string& designation,
                         std::vector<Layer> layers, const std::vector<Point2>& at, int member,
-                        double rotation_rad) {
+                        double rotation_rad, const Point2& axis) {
   double lower = 1e300;
   for (Layer& layer : layers) {
     const HeightRange z =
@@ -67,7 +66,7 @@ void BoughtParts::place(const std::string& name, const std::string& designation,
   int number = static_cast<int>(std::count_if(shapes_.assembly.begin(), shapes_.assembly.end(),
                                               [&](const Placement& p) { return p.part == index; }));
   for (const Point2& p : at) {
-    const Point2 there = rotated(p, rotation_rad);
+    const Point2 there = rotated(p, rotation_rad) + axis;
     shapes_.assembly.push_back({.part = index,
                                 .name = name + " " + std::to_string(++number),
                                 .rotation_rad = rotation_rad,
@@ -114,30 +113,30 @@ void BoughtParts::add_screws(const ScrewGroup& group, int member, double rotatio
           group.head_top_mm(),
           head,
           {BoreOutline{{.diameter_mm = screw.hex_mm, .kind = BoreKind::kHex}}}}},
-        group.at, member, rotation_rad);
+        group.at, member, rotation_rad, group.axis);
   if (!std::isnan(group.insert_mm)) {
     const double from =
         group.way > 0.0 ? group.insert_mm : group.insert_mm - screw.insert_length_mm;
-    add_inserts(screw, group.what, group.at, from, member, rotation_rad);
+    add_inserts(screw, group.what, group.at, from, member, rotation_rad, group.axis);
   }
 }
 
 void BoughtParts::add_inserts(const Screw& screw, const std::string& what,
-                              const std::vector<Point2>& at, double from_mm, int member,
-                              double rotation_rad) {
+                              const std::vector<Point2>& at, double from_mm, int member, double rotation_rad,
+                              const Point2& axis) {
   const std::string size = thread_text(screw) + "x" + short_number(screw.insert_length_mm);
   place("insert_" + file_text(size) + "_" + what, "heat-set insert " + size,
         {{from_mm,
           from_mm + screw.insert_length_mm,
           circle(0.5 * screw.insert_hole_mm),
           {circle(0.5 * screw.diameter_mm)}}},
-        at, member, rotation_rad);
+        at, member, rotation_rad, axis);
 }
 
 void BoughtParts::add_bearing(const Bearing& bearing, const std::vector<Point2>& at, double from_mm,
                               int member) {
   place("bearing_" + file_text(bearing.name),
-        (is_crossed_roller(bearing) ? "crossed-roller bearing " : "ball bearing ") + bearing.name +
+        (bearing.kind == BearingKind::kCrossedRollers ? "crossed-roller bearing " : "ball bearing ") + bearing.name +
             " (" + short_number(bearing.bore_mm) + "x" + short_number(bearing.outer_mm) + "x" +
             short_number(bearing.width_mm) + ")",
         {{from_mm,

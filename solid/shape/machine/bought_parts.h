@@ -19,7 +19,8 @@ class BoughtParts {
   /// Screws with their inserts, where they have some.
   void add_screws(const ScrewGroup& group, int member, double rotation_rad);
   void add_inserts(const Screw& screw, const std::string& what, const std::vector<Point2>& at,
-                   double from_mm, int member, double rotation_rad);
+                   double from_mm, int member, double rotation_rad,
+                   const Point2& axis = Point2::Zero());
   void add_bearing(const Bearing& bearing, const std::vector<Point2>& at, double from_mm,
                    int member);
   void add_pins(double diameter_mm, double length_mm, bool standard, const std::vector<Point2>& at,
@@ -32,9 +33,11 @@ class BoughtParts {
     Outline outer;
     std::vector<Outline> holes = {};
   };
-  /// The part of a name, made where it is not there yet; placed at each of these points.
+  /// The part of a name, made where it is not there yet; placed at each of these points about an
+  /// axis, which are turned.
   void place(const std::string& name, const std::string& designation, std::vector<Layer> layers,
-             const std::vector<Point2>& at, int member, double rotation_rad);
+             const std::vector<Point2>& at, int member, double rotation_rad,
+             const Point2& axis = Point2::Zero());
 
   PartShapes& shapes_;
   const MachineLayout& m_;

@@ -6,30 +6,20 @@
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/shape/machine/bought_parts.h"
+#include "trueflank/solid/shape/machine/machine_pieces.h"
 #include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
 
-/// Room around a screw's head.
-constexpr double kHeadRoom_mm = 0.3;
-/// A journal ends this much below its bearing's upper face: the bearing is clamped, not the
-/// journal.
-constexpr double kClamp_mm = 0.05;
 /// The lips of housing and lid stay this far apart.
 constexpr double kLipGap_mm = 0.2;
-/// A hub's bore is this much wider where the shaft is round, on the radius.
-constexpr double kRoundRoom_mm = 0.1;
-
-CircleOutline circle(double radius_mm, const Point2& centre = Point2::Zero()) {
-  return {.centre = centre, .radius_mm = radius_mm};
-}
-
 class MachineBuilder {
  public:
   MachineBuilder(const GearTrain& train, const MachineLayout& layout, PartShapes& shapes)
-      : train_(train), machine_(*train.design.machine), m_(layout), shapes_(shapes) {}
+      : train_(train), machine_(*train.design.machine), m_(layout), shapes_(shapes),
+        pieces_(machine_, layout, shapes) {}
 
   Errors build() {
     check_pins();
@@ -45,7 +35,7 @@ class MachineBuilder {
     add_carrier();
     add_housing();
     add_lid();
-    add_output();
+    pieces_.add_output(output_, output_turn_);
     add_bought();
     return {};
   }
@@ -63,37 +53,7 @@ class MachineBuilder {
          .remedy = "bearings.planet, or a bore_mm above the pin's diameter"});
   }
 
-  // ------------------------------------------------------------------------------- helpers
-
-  [[nodiscard]] HeightRange z(double from, double to) const {
-    return m_.z({std::min(from, to), std::max(from, to)});
-  }
-
-  /// Holes for screws in a body: over the head, along the shank, and for the insert from the far
-  /// face.
-  void drill(StackedBody& body, const ScrewGroup& group) const {
-    const double beyond = 1e4;  // out of the body on either side
-    const Screw& screw = group.screw;
-    const double insert = std::isnan(group.insert_mm) ? group.far_mm : group.insert_mm;
-    for (const Point2& at : group.at) {
-      body.drill(z(group.head_mm - group.way * beyond, group.head_mm),
-                 circle(0.5 * screw.head_diameter_mm + kHeadRoom_mm, at));
-      body.drill(z(group.head_mm, insert), circle(0.5 * screw.hole_mm, at));
-      if (!std::isnan(group.insert_mm))
-        body.drill(z(insert, group.far_mm), circle(0.5 * screw.insert_hole_mm, at));
-    }
-  }
-
-  PartShape& add_part(std::string name, const StackedBody& body, int member, PartRole role,
-                      double rotation_rad) {
-    shapes_.parts.push_back(
-        {.name = std::move(name), .slabs = body.slabs(), .member = member, .role = role});
-    shapes_.assembly.push_back({.part = static_cast<int>(shapes_.parts.size()) - 1,
-                                .name = shapes_.parts.back().name,
-                                .rotation_rad = rotation_rad,
-                                .translation_mm = {0.0, 0.0, body.heights().lower_mm}});
-    return shapes_.parts.back();
-  }
+  [[nodiscard]] HeightRange z(double from, double to) const { return pieces_.z(from, to); }
 
   // ------------------------------------------------------------------------------- gears
 
@@ -159,7 +119,7 @@ class MachineBuilder {
       made.add({slab}, at);
     }
     made.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
-    drill_shaft(made, find_gear(train_.design, part.name)->bore);
+    pieces_.drill_shaft(made, find_gear(train_.design, part.name)->bore);
     body = std::move(made);
   }
 
@@ -175,15 +135,6 @@ class MachineBuilder {
       body.add({slab}, at);
     }
     body.drill(z(m_.near.upper_mm, m_.shaft_end_mm + m_.clearance_mm), circle(free));
-  }
-
-  void drill_shaft(StackedBody& body, const BoreDesign& bore) const {
-    if (!(bore.diameter_mm > 0.0)) return;
-    const double beyond = 1e4;
-    const bool flat = bore.kind == BoreKind::kDFlat;
-    const double from = flat ? std::max(m_.flat_from_mm, m_.hub.lower_mm) : -beyond;
-    if (flat) body.drill(z(-beyond, from), circle(0.5 * bore.diameter_mm + kRoundRoom_mm));
-    body.drill(z(from, m_.driven_gear < 0 ? m_.near.upper_mm : beyond), BoreOutline{bore});
   }
 
   /// The ring's teeth, where one outline is all of them.
@@ -205,15 +156,7 @@ class MachineBuilder {
     }
     body.add(z(end, m_.disc.upper_mm), circle(m_.cup_radius_mm));
     body.drill(z(end, m_.disc.lower_mm), circle(m_.cup_inner_radius_mm));
-    drill_insert_ends(body, m_.output_screws);
-  }
-
-  /// Of screws whose insert alone is in the body.
-  void drill_insert_ends(StackedBody& body, const ScrewGroup& group) const {
-    for (const Point2& at : group.at) {
-      body.drill(z(m_.disc.upper_mm, group.insert_mm), circle(0.5 * group.screw.hole_mm, at));
-      body.drill(z(group.insert_mm, group.far_mm), circle(0.5 * group.screw.insert_hole_mm, at));
-    }
+    pieces_.drill_insert_ends(body, m_.output_screws);
   }
 
   // ------------------------------------------------------------------------------- carrier
@@ -233,7 +176,7 @@ class MachineBuilder {
     }
     if (m_.driven_gear < 0) {
       near.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
-      drill_shaft(near, shaft_bore(machine_));
+      pieces_.drill_shaft(near, shaft_bore(machine_));
     } else {
       near.drill(z(m_.near.lower_mm, m_.near.upper_mm),
                  circle(0.5 * m_.carrier.opening_diameter_mm));
@@ -243,16 +186,16 @@ class MachineBuilder {
     if (m_.stop_hole_radius_mm > 0.0)
       far.drill(z(m_.stop.lower_mm, m_.shaft_end_mm + m_.clearance_mm),
                 circle(m_.stop_hole_radius_mm));
-    drill(near, m_.carrier_screws);
-    if (m_.fixed_gear < 0) drill(near, m_.housing_screws);
-    drill(far, m_.carrier_screws);
-    if (m_.output_gear < 0) drill_insert_ends(far, m_.output_screws);
-    add_part(name, near, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.driven_gear < 0;
-    add_part(name + "_top", far, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.way > 0.0;
+    pieces_.drill(near, m_.carrier_screws);
+    if (m_.fixed_gear < 0) pieces_.drill(near, m_.housing_screws);
+    pieces_.drill(far, m_.carrier_screws);
+    if (m_.output_gear < 0) pieces_.drill_insert_ends(far, m_.output_screws);
+    pieces_.add_part(name, near, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.driven_gear < 0;
+    pieces_.add_part(name + "_top", far, carrier_, PartRole::kCarrier, 0.0).upside_down = m_.way > 0.0;
     pillar.add(z(m_.near.upper_mm, m_.far.lower_mm), circle(m_.pillar_radius_mm));
     pillar.drill(z(m_.near.upper_mm, m_.far.lower_mm),
                  circle(0.5 * m_.carrier_screws.screw.hole_mm));
-    add_part(name + "_pillar", pillar, carrier_, PartRole::kCarrier, 0.0);
+    pieces_.add_part(name + "_pillar", pillar, carrier_, PartRole::kCarrier, 0.0);
     place_copies(m_.pillars, name + "_pillar");
   }
 
@@ -282,9 +225,9 @@ class MachineBuilder {
     const double hub =
         std::max(m_.hub_radius_mm, 0.5 * machine_.motor.shaft_diameter_mm) + m_.clearance_mm;
     body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm), circle(std::max(pilot, hub)));
-    drill(body, m_.motor_screws);
-    drill(body, m_.housing_screws);
-    add_part("housing", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way < 0.0;
+    pieces_.drill(body, m_.motor_screws);
+    pieces_.drill(body, m_.housing_screws);
+    pieces_.add_part("housing", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way < 0.0;
   }
 
   void add_lid() {
@@ -293,57 +236,19 @@ class MachineBuilder {
     body.add(z(m_.seat_top_mm + kLipGap_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.seat_top_mm, m_.ring.upper_mm), circle(seat));
     body.drill(z(m_.ring.upper_mm, m_.roof.lower_mm), circle(m_.lid_radius_mm));
-    body.drill(z(m_.roof.lower_mm, m_.bearings.upper_mm),
-               circle(0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm)));
-    body.drill(z(m_.bearings.upper_mm, m_.roof.upper_mm), circle(m_.outer_shoulder_mm));
-    drill(body, m_.housing_screws);
-    drill(body, m_.retainer_screws);
-    add_part("lid", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way > 0.0;
-    StackedBody ring;
-    ring.add(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.retainer_radius_mm));
-    ring.drill(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.outer_shoulder_mm));
-    drill(ring, m_.retainer_screws);
-    add_part("retainer", ring, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way > 0.0;
-  }
-
-  // ------------------------------------------------------------------------------- output
-
-  void add_output() {
-    StackedBody journal, plate;
-    journal.add(z(m_.disc.upper_mm, m_.bearings.lower_mm), circle(m_.inner_shoulder_mm));
-    journal.add(z(m_.bearings.lower_mm, m_.bearings.upper_mm - kClamp_mm),
-                circle(m_.journal_radius_mm));
-    plate.add(z(m_.bearings.upper_mm, m_.plate.lower_mm), circle(m_.inner_shoulder_mm));
-    plate.add(z(m_.plate.lower_mm, m_.plate.upper_mm), circle(m_.plate_radius_mm));
-    drill(journal, m_.output_screws);
-    drill(plate, m_.output_screws);
-    const Screw& load = machine_.fasteners.output;
-    const double insert = std::min(m_.bearings.upper_mm + load.insert_length_mm, m_.plate.upper_mm);
-    for (const Point2& at : m_.load_inserts) {
-      plate.drill(z(m_.bearings.upper_mm, insert), circle(0.5 * load.insert_hole_mm, at));
-      plate.drill(z(insert, m_.plate.upper_mm), circle(0.5 * load.hole_mm, at));
-    }
-    add_part("journal", journal, output_, PartRole::kOutput, output_turn_).upside_down =
-        m_.way < 0.0;
-    add_part("output", plate, output_, PartRole::kOutput, output_turn_).upside_down = m_.way > 0.0;
+    pieces_.drill_seat(body, Point2::Zero());
+    pieces_.drill(body, m_.housing_screws);
+    pieces_.drill(body, m_.retainer_screws);
+    pieces_.add_part("lid", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way > 0.0;
+    pieces_.add_retainer(held_turn_);
   }
 
   // ------------------------------------------------------------------------------- bought
 
   void add_bought() {
     BoughtParts bought(shapes_, m_);
-    bought.add_motor(machine_.motor, held_turn_);
-    bought.add_screws(m_.motor_screws, kNoMember, held_turn_);
-    bought.add_screws(m_.housing_screws, kNoMember, held_turn_);
-    bought.add_screws(m_.retainer_screws, kNoMember, held_turn_);
+    pieces_.add_bought(bought, output_, held_turn_, output_turn_);
     bought.add_screws(m_.carrier_screws, carrier_, 0.0);
-    bought.add_screws(m_.output_screws, output_, output_turn_);
-    bought.add_inserts(machine_.fasteners.output, "load", m_.load_inserts, m_.bearings.upper_mm,
-                       output_, output_turn_);
-    const Bearing& bearing = machine_.bearings.output;
-    for (int i = 0; i < machine_.bearings.outputs; ++i)
-      bought.add_bearing(bearing, {Point2::Zero()}, m_.bearings.lower_mm + i * bearing.width_mm,
-                         kNoMember);
     std::vector<Point2> planets;
     for (const double angle : train_.phases.planet_position_rad)
       planets.push_back(train_.centre_distance_mm * unit_vector(angle));
@@ -372,6 +277,7 @@ class MachineBuilder {
   const MachineDesign& machine_;
   const MachineLayout& m_;
   PartShapes& shapes_;
+  MachinePieces pieces_;
   Errors errors_;
   int carrier_ = kNoMember, output_ = kNoMember;
   double held_turn_ = 0.0, output_turn_ = 0.0;
@@ -394,6 +300,7 @@ GearDesign machine_gear(const MachineLayout& layout, const GearTrain& train, int
 }
 
 Errors add_machine(const GearTrain& train, const MachineLayout& layout, PartShapes& shapes) {
+  if (layout.wheel_gear >= 0) return add_pair_machine(train, layout, shapes);
   return MachineBuilder(train, layout, shapes).build();
 }
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/solid/shape/machine/machine_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueflank {
+namespace {
+
+/// A journal ends this much below its bearing's upper face: the bearing is clamped, not the
+/// journal.
+constexpr double kClamp_mm = 0.05;
+/// A hub's bore is this much wider where the shaft is round, on the radius.
+constexpr double kRoundRoom_mm = 0.1;
+/// Out of any body, on either side.
+constexpr double kBeyond_mm = 1e4;
+
+}  // namespace
+
+HeightRange MachinePieces::z(double from, double to) const {
+  return m_.z({std::min(from, to), std::max(from, to)});
+}
+
+void MachinePieces::drill(StackedBody& body, const ScrewGroup& group, const Point2& axis) const {
+  const Screw& screw = group.screw;
+  const double insert = std::isnan(group.insert_mm) ? group.far_mm : group.insert_mm;
+  for (const Point2& place : group.at) {
+    const Point2 at = place + group.axis - axis;
+    body.drill(z(group.head_mm - group.way * kBeyond_mm, group.head_mm),
+               circle(0.5 * screw.head_diameter_mm + kHeadRoom_mm, at));
+    body.drill(z(group.head_mm, insert), circle(0.5 * screw.hole_mm, at));
+    if (!std::isnan(group.insert_mm))
+      body.drill(z(insert, group.far_mm), circle(0.5 * screw.insert_hole_mm, at));
+  }
+}
+
+void MachinePieces::drill_insert_ends(StackedBody& body, const ScrewGroup& group) const {
+  for (const Point2& at : group.at) {
+    body.drill(z(m_.disc.upper_mm, group.insert_mm), circle(0.5 * group.screw.hole_mm, at));
+    body.drill(z(group.insert_mm, group.far_mm), circle(0.5 * group.screw.insert_hole_mm, at));
+  }
+}
+
+void MachinePieces::drill_shaft(StackedBody& body, const BoreDesign& bore) const {
+  if (!(bore.diameter_mm > 0.0)) return;
+  const bool flat = bore.kind == BoreKind::kDFlat;
+  const double from = flat ? std::max(m_.flat_from_mm, m_.hub.lower_mm) : -kBeyond_mm;
+  if (flat) body.drill(z(-kBeyond_mm, from), circle(0.5 * bore.diameter_mm + kRoundRoom_mm));
+  body.drill(z(from, m_.driven_gear < 0 ? m_.near.upper_mm : kBeyond_mm), BoreOutline{bore});
+}
+
+PartShape& MachinePieces::add_part(std::string name, const StackedBody& body, int member,
+                                   PartRole role, double rotation_rad, const Point2& axis) {
+  shapes_.parts.push_back(
+      {.name = std::move(name), .slabs = body.slabs(), .member = member, .role = role});
+  shapes_.assembly.push_back({.part = static_cast<int>(shapes_.parts.size()) - 1,
+                              .name = shapes_.parts.back().name,
+                              .rotation_rad = rotation_rad,
+                              .translation_mm = {axis.x(), axis.y(), body.heights().lower_mm}});
+  return shapes_.parts.back();
+}
+
+void MachinePieces::add_retainer(double rotation_rad) {
+  StackedBody ring;
+  ring.add(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.retainer_radius_mm));
+  ring.drill(z(m_.retainer.lower_mm, m_.retainer.upper_mm), circle(m_.outer_shoulder_mm));
+  drill(ring, m_.retainer_screws, m_.output_axis);
+  add_part("retainer", ring, kNoMember, PartRole::kCasing, rotation_rad, m_.output_axis)
+      .upside_down = m_.way > 0.0;
+}
+
+void MachinePieces::drill_seat(StackedBody& lid, const Point2& axis) const {
+  const Point2 at = m_.output_axis - axis;
+  lid.drill(z(m_.roof.lower_mm, m_.bearings.upper_mm),
+            circle(0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm), at));
+  lid.drill(z(m_.bearings.upper_mm, m_.roof.upper_mm), circle(m_.outer_shoulder_mm, at));
+}
+
+void MachinePieces::add_output(int member, double rotation_rad) {
+  StackedBody journal, plate;
+  journal.add(z(m_.disc.upper_mm, m_.bearings.lower_mm), circle(m_.inner_shoulder_mm));
+  journal.add(z(m_.bearings.lower_mm, m_.bearings.upper_mm - kClamp_mm),
+              circle(m_.journal_radius_mm));
+  plate.add(z(m_.bearings.upper_mm, m_.plate.lower_mm), circle(m_.inner_shoulder_mm));
+  plate.add(z(m_.plate.lower_mm, m_.plate.upper_mm), circle(m_.plate_radius_mm));
+  drill(journal, m_.output_screws, m_.output_axis);
+  drill(plate, m_.output_screws, m_.output_axis);
+  const Screw& load = machine_.fasteners.output;
+  const double insert = std::min(m_.bearings.upper_mm + load.insert_length_mm, m_.plate.upper_mm);
+  for (const Point2& at : m_.load_inserts) {
+    plate.drill(z(m_.bearings.upper_mm, insert), circle(0.5 * load.insert_hole_mm, at));
+    plate.drill(z(insert, m_.plate.upper_mm), circle(0.5 * load.hole_mm, at));
+  }
+  add_part("journal", journal, member, PartRole::kOutput, rotation_rad, m_.output_axis)
+      .upside_down = m_.way < 0.0;
+  add_part("output", plate, member, PartRole::kOutput, rotation_rad, m_.output_axis).upside_down =
+      m_.way > 0.0;
+}
+
+void MachinePieces::add_bought(BoughtParts& bought, int output_member, double held_turn_rad,
+                               double output_turn_rad) const {
+  bought.add_motor(machine_.motor, held_turn_rad);
+  bought.add_screws(m_.motor_screws, kNoMember, held_turn_rad);
+  bought.add_screws(m_.housing_screws, kNoMember, held_turn_rad);
+  bought.add_screws(m_.retainer_screws, kNoMember, held_turn_rad);
+  bought.add_screws(m_.output_screws, output_member, output_turn_rad);
+  bought.add_inserts(machine_.fasteners.output, "load", m_.load_inserts, m_.bearings.upper_mm,
+                     output_member, output_turn_rad, m_.output_axis);
+  const Bearing& bearing = machine_.bearings.output;
+  for (int i = 0; i < machine_.bearings.outputs; ++i)
+    bought.add_bearing(bearing, {m_.output_axis}, m_.bearings.lower_mm + i * bearing.width_mm,
+                       kNoMember);
+}
+
+}  // namespace trueflank

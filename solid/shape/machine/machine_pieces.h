@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "trueflank/solid/shape/machine/bought_parts.h"
+#include "trueflank/solid/shape/machine/stacked_body.h"
+#include "trueflank/solid/shape/part_shape.h"
+#include "trueflank/train/machine/machine_layout.h"
+
+namespace trueflank {
+
+[[nodiscard]] inline CircleOutline circle(double radius_mm, const Point2& centre = Point2::Zero()) {
+  return {.centre = centre, .radius_mm = radius_mm};
+}
+
+/// What the gearboxes of all kinds are made of. Heights are the layout's.
+class MachinePieces {
+ public:
+  MachinePieces(const MachineDesign& machine, const MachineLayout& layout, PartShapes& shapes)
+      : machine_(machine), m_(layout), shapes_(shapes) {}
+
+  /// In the assembly.
+  [[nodiscard]] HeightRange z(double from, double to) const;
+
+  /// Holes for screws in a body that stands at an axis: over the head, along the shank, and for the
+  /// insert from the far face.
+  void drill(StackedBody& body, const ScrewGroup& group, const Point2& axis = Point2::Zero()) const;
+  /// The same of screws whose insert alone is in the body: it carries the output.
+  void drill_insert_ends(StackedBody& body, const ScrewGroup& group) const;
+  /// The bore on the motor's shaft; round where the shaft is.
+  void drill_shaft(StackedBody& body, const BoreDesign& bore) const;
+
+  /// Adds a part and places it.
+  PartShape& add_part(std::string name, const StackedBody& body, int member, PartRole role,
+                      double rotation_rad, const Point2& axis = Point2::Zero());
+  /// Holds the outer ring of the output's bearing in the lid.
+  void add_retainer(double rotation_rad);
+  /// The bearing's seat in the lid, open to the motor's side.
+  void drill_seat(StackedBody& lid, const Point2& axis) const;
+  /// `journal` and `output`.
+  void add_output(int member, double rotation_rad);
+  /// Motor, screws of housing, motor, retainer and output, inserts for the load, the output's bearings.
+  void add_bought(BoughtParts& bought, int output_member, double held_turn_rad,
+                  double output_turn_rad) const;
+
+ private:
+  const MachineDesign& machine_;
+  const MachineLayout& m_;
+  PartShapes& shapes_;
+};
+
+/// Makes a gearbox of a pair's parts: hub and stub are added to pinion and wheel; then come
+/// `housing`, `lid`, `retainer`, `journal`, `output`, and what is bought.
+[[nodiscard]] Errors add_pair_machine(const GearTrain& train, const MachineLayout& layout,
+                                      PartShapes& shapes);
+
+}  // namespace trueflank

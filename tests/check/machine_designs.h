@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "trueflank/check/machine/check_machine.h"
+#include "trueflank/design/design_file.h"
+#include "trueflank/solid/shape/part_shape.h"
+
+// Designs with a housing, as texts, and what is made of them.
+namespace trueflank {
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) throw std::runtime_error("no " + what);
+  return text.replace(at, what.size(), by);
+}
+
+/// The teeth of examples/printed_actuator.
+inline const std::string k3k = R"(format = 1
+name = "actuator"
+[gearbox]
+kind = "3k"
+output = "ring2"
+planets = 3
+module_mm = 0.8
+centre_distance_mm = 20.5461
+backlash_mm = 0.15
+[sun]
+teeth = 12
+face_width_mm = 10
+[planet1]
+teeth = 39
+face_width_mm = 10
+[ring1]
+teeth = 90
+shift = 0.5225
+face_width_mm = 10
+[planet2]
+teeth = 32
+face_width_mm = 10
+[ring2]
+teeth = 81
+shift = 1.9967
+face_width_mm = 10
+)";
+inline const std::string kMachine = R"([housing]
+[motor]
+name = "nema17"
+[bearings]
+output = "6806"
+planet = "625"
+[fasteners]
+carrier = "M3-short"
+[made]
+process = "fdm-0.4"
+)";
+inline const std::string kSimple = R"(format = 1
+[gearbox]
+kind = "simple"
+planets = 3
+module_mm = 1
+backlash_mm = 0.15
+[sun]
+teeth = 18
+face_width_mm = 12
+[planet]
+teeth = 27
+face_width_mm = 12
+[ring]
+teeth = 72
+face_width_mm = 12
+)";
+inline const std::string kStepped = R"(format = 1
+[gearbox]
+kind = "stepped"
+planets = 3
+module_mm = 1
+backlash_mm = 0.15
+[sun]
+teeth = 15
+face_width_mm = 10
+[planet1]
+teeth = 39
+face_width_mm = 10
+[planet2]
+teeth = 30
+face_width_mm = 10
+[ring]
+teeth = 84
+face_width_mm = 10
+)";
+
+inline const std::string kPair = R"(format = 1
+[gearbox]
+kind = "pair"
+module_mm = 1
+backlash_mm = 0.15
+[pinion]
+teeth = 18
+face_width_mm = 12
+[wheel]
+teeth = 60
+face_width_mm = 12
+)";
+/// Around a pair.
+inline const std::string kBox = R"([housing]
+[motor]
+name = "nema17"
+[bearings]
+output = "6806"
+wheel = "608"
+[made]
+process = "fdm-0.4"
+)";
+
+inline GearboxDesign design_of(const std::string& text) {
+  const auto design = read_design_text(text, "machine.toml");
+  if (!design)
+    throw std::runtime_error(design.error().front().key + ": " + design.error().front().message);
+  return *design;
+}
+
+inline std::string first_key(const std::string& text) {
+  const auto design = read_design_text(text, "machine.toml");
+  return design ? "" : design.error().front().key;
+}
+
+struct Made {
+  explicit Made(const std::string& text) : train(*lay_out(design_of(text))) {
+    auto made = part_shapes(train);
+    if (!made)
+      throw std::runtime_error(made.error().front().key + ": " + made.error().front().message);
+    shapes = std::move(*made);
+    findings = check_machine(train, shapes);
+  }
+  [[nodiscard]] const PartShape& part(const std::string& name) const {
+    for (const PartShape& shape : shapes.parts)
+      if (shape.name == name) return shape;
+    throw std::runtime_error("no part " + name);
+  }
+  [[nodiscard]] const Finding& finding(const std::string& id, const std::string& where) const {
+    for (const Finding& f : findings)
+      if (f.id == id && f.where == where) return f;
+    throw std::runtime_error("no finding " + id + " of " + where);
+  }
+  GearTrain train;
+  PartShapes shapes;
+  Findings findings;
+};
+
+}  // namespace trueflank
