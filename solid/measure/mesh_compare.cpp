@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,10 @@ constexpr std::size_t kLooksPerFacet = 400;
 /// tessellations that differ in everything take.
 constexpr std::size_t kEffortPerFacet = 1500;
 constexpr std::size_t kLeastEffort = 3'000'000;
-/// Distances below this share of the tolerance are not told apart once that takes long.
+/// Distances below this share of the tolerance, and not the largest, are not sharpened.
 constexpr double kNearEnough = 1e-2;
+/// Of the largest coordinate: a foot on a facet is rounded by less, in units of the last place.
+constexpr double kRoundings = 16.0;
 
 using Polygon = std::vector<Point3>;
 using Corners = std::span<const Point3>;  ///< of a polygon
@@ -75,20 +78,94 @@ Split split(const Polygon& polygon, const Point3& normal, double offset) {
   return parts;
 }
 
+std::array<Point3, 3> corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  return {Point3(mesh.vertices[t[0]].data()), Point3(mesh.vertices[t[1]].data()),
+          Point3(mesh.vertices[t[2]].data())};
+}
+
+/// The largest coordinate of any vertex that a facet has.
+double farthest_coordinate_mm(const TriangleMesh& mesh) {
+  double farthest = 0.0;
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      for (const double c : mesh.vertices[v]) farthest = std::max(farthest, std::abs(c));
+  return farthest;
+}
+
+/// The mesh from which distances are told. Of another copy of a mesh the facet in the same place of
+/// the list answers nearly every question: the tree is built when more than a few are left, and
+/// these go through all facets.
+class Facets {
+ public:
+  explicit Facets(const TriangleMesh& mesh) : mesh_(mesh) {}
+
+  [[nodiscard]] std::size_t size() const { return mesh_.triangles.size(); }
+  [[nodiscard]] std::array<Point3, 3> corners(std::uint32_t triangle) const {
+    return corners_of(mesh_, triangle);
+  }
+  [[nodiscard]] double distance_mm(const Point3& p, std::uint32_t triangle) const {
+    return (nearest_on_triangle(p, corners(triangle)) - p).norm();
+  }
+  [[nodiscard]] TriangleTree::Nearest nearest(const Point3& p, std::uint32_t hint,
+                                              TriangleTree::Effort& effort, double known_mm) {
+    if (!tree_ && asked_++ < kFew) return nearest_of_all(p, hint);
+    if (!tree_) tree_.emplace(mesh_);
+    return tree_->nearest(p, hint, effort, known_mm);
+  }
+
+ private:
+  static constexpr std::size_t kFew = 32;  ///< a tree costs as much as some more of them
+
+  [[nodiscard]] TriangleTree::Nearest nearest_of_all(const Point3& p, std::uint32_t hint) const {
+    TriangleTree::Nearest best{hint, distance_mm(p, hint)};
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (least_mm(p, t) >= best.distance_mm) continue;
+      const double distance = distance_mm(p, t);
+      if (distance < best.distance_mm) best = {t, distance};
+    }
+    return best;
+  }
+  /// How far a facet is at least: from its box, along one axis.
+  [[nodiscard]] double least_mm(const Point3& p, std::uint32_t triangle) const {
+    const auto& t = mesh_.triangles[triangle];
+    const auto &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+    double least = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = p[static_cast<Eigen::Index>(k)];
+      least = std::max({least, std::min({a[k], b[k], c[k]}) - at, at - std::max({a[k], b[k], c[k]})});
+    }
+    return least;
+  }
+
+  const TriangleMesh& mesh_;
+  std::optional<TriangleTree> tree_;
+  std::size_t asked_ = 0;
+};
+
 /// Distances of one mesh's surface from another mesh.
 class Directed {
  public:
-  Directed(const TriangleMesh& mesh, const TriangleTree& other, double tolerance_mm)
-      : mesh_(mesh), other_(other), tolerance_mm_(tolerance_mm) {
+  Directed(const TriangleMesh& mesh, const TriangleMesh& other, double tolerance_mm)
+      : mesh_(mesh),
+        other_(other),
+        tolerance_mm_(tolerance_mm),
+        rounding_mm_(kRoundings * std::numeric_limits<double>::epsilon() *
+                     std::max(farthest_coordinate_mm(mesh), farthest_coordinate_mm(other))) {
     effort_.facets_left = kLeastEffort + kEffortPerFacet * mesh.triangles.size();
-    effort_.near_enough_mm = kNearEnough * tolerance_mm;
+    effort_.near_enough_mm = std::max(kNearEnough * tolerance_mm, rounding_mm_);
   }
 
   SurfaceDistance run() {
     std::uint32_t hint = look_from_corners();
     looks_left_ = kLooksPerFacet * mesh_.triangles.size() + 100000;
-    for (const auto& t : mesh_.triangles) {
-      hint = settle(corners_of(t), hint);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto corners = corners_of(mesh_, t);
+      if (t < other_.size() && is_copied(corners, t)) {
+        hint = t;
+        continue;
+      }
+      hint = settle(corners, hint);
       while (!pending_.empty()) {
         const Polygon polygon = std::move(pending_.back());
         pending_.pop_back();
@@ -103,28 +180,51 @@ class Directed {
   }
 
  private:
-  [[nodiscard]] std::array<Point3, 3> corners_of(const std::array<std::uint32_t, 3>& t) const {
-    return {Point3(mesh_.vertices[t[0]].data()), Point3(mesh_.vertices[t[1]].data()),
-            Point3(mesh_.vertices[t[2]].data())};
-  }
-
   /// A corner matters where it is farther away than all before it. Where the other mesh is another
-  /// copy of this one the facet in the same place of the list says that it is not.
+  /// copy of this one the facet in the same place of the list says how far it is at most; those
+  /// that may be farthest are asked first, and soon none is left that may be farther.
   std::uint32_t look_from_corners() {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> facet_of(mesh_.vertices.size(), kNone);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       for (std::uint32_t v : mesh_.triangles[t]) facet_of[v] = std::min(facet_of[v], t);
+    struct Corner {
+      double at_most_mm;
+      std::uint32_t vertex;
+    };
+    std::vector<Corner> copied;
     std::uint32_t hint = 0;
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
       if (facet_of[v] == kNone) continue;
-      const Point3 p(mesh_.vertices[v].data());
-      if (facet_of[v] < other_.size() &&
-          (nearest_on_triangle(p, other_.corners(facet_of[v])) - p).norm() <= result_.largest_mm)
-        continue;
-      hint = look(p, hint, result_.largest_mm).triangle;
+      const double at_most_mm =
+          facet_of[v] < other_.size()
+              ? other_.distance_mm(Point3(mesh_.vertices[v].data()), facet_of[v])
+              : kInfinity;
+      if (at_most_mm <= std::max(result_.largest_mm, rounding_mm_)) continue;
+      if (at_most_mm <= tolerance_mm_)
+        copied.push_back({at_most_mm, v});
+      else
+        hint = look(Point3(mesh_.vertices[v].data()), hint, result_.largest_mm).triangle;
+    }
+    std::stable_sort(copied.begin(), copied.end(), [](const Corner& a, const Corner& b) {
+      return a.at_most_mm > b.at_most_mm;
+    });
+    for (const Corner& corner : copied) {
+      if (corner.at_most_mm <= result_.largest_mm) break;
+      look(Point3(mesh_.vertices[corner.vertex].data()), facet_of[corner.vertex],
+           result_.largest_mm);
     }
     return hint;
+  }
+
+  /// Settles a facet where the one in the same place of the other list lies as near as matters.
+  bool is_copied(const std::array<Point3, 3>& corners, std::uint32_t triangle) {
+    const double bound = reach_mm(corners, triangle);
+    if (bound > good_enough_mm()) return false;
+    const double distance = other_.distance_mm(centroid(corners), triangle);
+    if (distance > not_sharpened_mm()) return false;
+    done(corners, bound, distance);
+    return true;
   }
 
   /// Distance of one point, exactly where it is above `known_mm`.
@@ -137,13 +237,17 @@ class Directed {
     return nearest;
   }
 
+  /// Up to here a distance from above does for the mean, and is no new largest one.
+  [[nodiscard]] double not_sharpened_mm() const {
+    return std::min(effort_.near_enough_mm, std::max(result_.largest_mm, rounding_mm_));
+  }
   [[nodiscard]] double good_enough_mm() const {
-    return std::max(tolerance_mm_, kSharpness * result_.largest_mm);
+    return std::max({tolerance_mm_, kSharpness * result_.largest_mm, rounding_mm_});
   }
   /// Largest distance of a convex polygon from one triangle: that of a corner.
   [[nodiscard]] double reach_mm(Corners polygon, std::uint32_t triangle) const {
     double reach2 = 0.0;
-    const auto& corners = other_.corners(triangle);
+    const auto corners = other_.corners(triangle);
     for (const Point3& p : polygon)
       reach2 = std::max(reach2, (nearest_on_triangle(p, corners) - p).squaredNorm());
     return std::sqrt(reach2);
@@ -160,7 +264,8 @@ class Directed {
   /// Bounds a piece, or cuts it into pieces that will be; returns the triangle it lies over.
   std::uint32_t settle(Corners polygon, std::uint32_t hint) {
     const Point3 centre = centroid(polygon);
-    const TriangleTree::Nearest nearest = look(centre, hint);
+    const TriangleTree::Nearest nearest =
+        look(centre, hint, not_sharpened_mm());
     const double radius = radius_about(polygon, centre);
     const double bound =
         std::min(reach_mm(polygon, nearest.triangle), nearest.distance_mm + radius);
@@ -178,7 +283,7 @@ class Directed {
   /// Takes from a piece what lies over a triangle and is near enough to it; false where that is nothing.
   /// The piece may stick out beyond an edge by the slack, else it is cut off there.
   bool cut_along(const Polygon& polygon, std::uint32_t triangle, double distance_mm) {
-    const auto& c = other_.corners(triangle);
+    const auto c = other_.corners(triangle);
     const Point3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
     if (!(normal.squaredNorm() > 0.0)) return false;
     for (double share : kSlacks) {
@@ -229,8 +334,9 @@ class Directed {
   }
 
   const TriangleMesh& mesh_;
-  const TriangleTree& other_;
+  Facets other_;
   double tolerance_mm_;
+  double rounding_mm_;  ///< shorter distances cannot be told from 0
   std::vector<Polygon> pending_;
   std::size_t looks_left_ = 0;
   TriangleTree::Effort effort_;
@@ -281,8 +387,7 @@ MeshComparison compare_meshes(const TriangleMesh& golden, const TriangleMesh& ma
     return comparison;
   }
   const auto measure = [&](const TriangleMesh& mesh, const TriangleMesh& other) {
-    const TriangleTree tree(other);
-    return Directed(mesh, tree, options.tolerance_mm).run();
+    return Directed(mesh, other, options.tolerance_mm).run();
   };
   auto other_way = begun_beside([&] { return measure(made, golden); });
   comparison.from_golden = measure(golden, made);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <random>
@@ -144,6 +145,40 @@ TEST_F(MeshCompareParts, SwappingTheMeshesSwapsTheResult) {
   EXPECT_EQ(c.from_golden.largest_mm, d.from_new.largest_mm);
   EXPECT_EQ(c.from_new.bound_mm, d.from_golden.bound_mm);
   EXPECT_EQ(c.worst_is_on_golden(), !d.worst_is_on_golden());
+}
+
+TEST_F(MeshCompareParts, RoundedCopyIsAsFarAsItsFarthestCornerOrMiddle) {
+  const TriangleMesh golden = mesh(0, 1e-2);
+  TriangleMesh rounded = golden;
+  for (auto& v : rounded.vertices)
+    for (double& c : v) c = static_cast<float>(c);
+  const MeshComparison c = compare_meshes(golden, rounded);
+  const TriangleTree tree(golden);
+  double farthest_mm = 0.0;
+  const auto look = [&](const Point3& p) {
+    farthest_mm = std::max(farthest_mm, tree.nearest(p).distance_mm);
+  };
+  for (const auto& t : rounded.triangles) {
+    const Point3 a(rounded.vertices[t[0]].data()), b(rounded.vertices[t[1]].data()),
+        c(rounded.vertices[t[2]].data());
+    for (const Point3& p : {a, b, c, Point3((a + b + c) / 3.0)}) look(p);
+  }
+  EXPECT_GT(farthest_mm, 0.0);
+  EXPECT_NEAR(c.from_new.largest_mm, farthest_mm, 1e-9 * farthest_mm);
+  EXPECT_LE(c.from_new.rms_mm, farthest_mm);
+  EXPECT_TRUE(c.same);
+}
+
+TEST_F(MeshCompareParts, RoundingOfHugeCoordinatesIsNoDistance) {
+  TriangleMesh huge = mesh(0, 1e-2);
+  for (auto& v : huge.vertices)
+    for (double& c : v) c *= 1e20;
+  TriangleMesh turned = huge;
+  std::reverse(turned.triangles.begin(), turned.triangles.end());
+  const MeshComparison c = compare_meshes(huge, turned);
+  EXPECT_TRUE(c.from_golden.exact && c.from_new.exact);
+  EXPECT_LT(c.largest_mm(), 1e20 * 1e-12);
+  EXPECT_LT(c.from_new.bound_mm, 1e20 * 1e-12);
 }
 
 TEST_F(MeshCompareParts, EmptyMeshIsInfinitelyFar) {
