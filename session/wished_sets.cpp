@@ -65,6 +65,7 @@ const std::vector<WishedSets>& all_wished_sets() {
                                              .ratio_max = 8.0,
                                              .sun = {12, 30},
                                              .planet1 = {12, 96},
+                                             .face_width_mm = 15.0,  // shafts end below the lid
                                              .objective = SearchObjective::kTorque}};
   return kAll;
 }

@@ -40,6 +40,7 @@ class NewWishes(unittest.TestCase):
                 ("stepped", ("--kind", "stepped", *motor), 10),
                 ("held_stepped", ("--kind", "stepped", "--output", "ring", *motor), 9),
                 ("pair", ("--kind", "pair"), 3),
+                ("boxed_pair", ("--kind", "pair", *motor), 3),
                 ("split_ring", ("--input", "carrier", *motor), 40),
                 ("type_two", ("--output", "ring1", "--motor", "nema14"), 60)):
             with self.subTest(name):

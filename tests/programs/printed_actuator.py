@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The printed actuator in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
+"""The printed actuator and the boxed pair in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
 every part that bom.csv says is made, as often as it says."""
 import csv
 import os
@@ -24,20 +24,23 @@ def run(*command):
 
 
 class PrintedActuator(unittest.TestCase):
+    EXAMPLE, PLATES = "printed_actuator", 2
+
     @classmethod
     def setUpClass(cls):
-        code, cls.told = run(PROGRAM, "make", SOURCE / "examples/printed_actuator/design.toml", "-o", OUTPUT,
-                             "--formats", "3mf", "--tolerance-um", "20")
+        cls.design = SOURCE / "examples" / cls.EXAMPLE / "design.toml"
+        cls.folder = OUTPUT / cls.EXAMPLE
+        code, cls.told = run(PROGRAM, "make", cls.design, "-o", cls.folder, "--formats", "3mf", "--tolerance-um", "20")
         assert code == 0, cls.told
-        cls.plates = sorted(OUTPUT.glob("plate_*.3mf"))
+        cls.plates = sorted(cls.folder.glob("plate_*.3mf"))
 
     def test_nothing_warns(self):
-        _, text = run(PROGRAM, "check", SOURCE / "examples/printed_actuator/design.toml", "-v")
+        _, text = run(PROGRAM, "check", self.design, "-v")
         self.assertIn("verdict: pass", text)
         self.assertNotRegex(text, r"(?m)^(warn|fail)")
 
     def test_the_plates_hold_what_the_bill_says_is_made(self):
-        with open(OUTPUT / "bom.csv", encoding="utf-8") as file:
+        with open(self.folder / "bom.csv", encoding="utf-8") as file:
             wanted = {row["part"]: int(row["count"]) for row in csv.DictReader(file) if row["part"]}
         found = Counter()
         for plate in self.plates:
@@ -56,7 +59,7 @@ class PrintedActuator(unittest.TestCase):
             self.assertNotRegex(text, r"(?i)repair|edges_fixed|open edges")
 
     def test_prusa_slicer_slices_every_plate_without_a_warning(self):
-        self.assertGreaterEqual(len(self.plates), 2)
+        self.assertGreaterEqual(len(self.plates), self.PLATES)
         for plate in self.plates:
             gcode = plate.with_suffix(".gcode")
             code, text = run("prusa-slicer", "--export-gcode", "--dont-arrange", "--bed-shape", BED, *QUICK,
@@ -64,6 +67,10 @@ class PrintedActuator(unittest.TestCase):
             self.assertEqual(code, 0, text)
             self.assertNotRegex(text, r"(?i)warn|error|outside|unstable|empty layer", plate.name)
             self.assertGreater(gcode.stat().st_size, 1_000_000)
+
+
+class BoxedPair(PrintedActuator):
+    EXAMPLE, PLATES = "boxed_pair", 1
 
 
 if __name__ == "__main__":

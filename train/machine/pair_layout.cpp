@@ -57,6 +57,9 @@ class PairLayout {
   void place_pinion() {
     place_shaft(machine_.motor, m_);
     widen_hub(pinion_, machine_, m_);
+    // clear of the wheel's tips, as everything that turns against something else
+    m_.hub_radius_mm = std::min(m_.hub_radius_mm, m_.output_axis.norm() - m_.clearance_mm -
+                                                      wheel_.profile.tip_radius_mm());
     const HeightRange driven = heights(pinion_);
     m_.hub = {std::min(m_.floor.lower_mm + machine_.motor.pilot_height_mm + kHubGap_mm, driven.lower_mm),
               driven.lower_mm};
