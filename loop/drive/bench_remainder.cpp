@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
@@ -113,7 +114,22 @@ class Asking {
     ask("way of loading (rising or falling)", 1, together(way, direction));
     ask("load, otherwise in each direction,", 2, together(load, direction));
     ask("speed, otherwise in each direction,", 2, together(speed, direction));
+    if (table_.has_angle) {
+      ask("angle of the input", 1, sectors(1.0));
+      if (table_.turns > 1.01) ask("angle of the output", 1, sectors(1.0 / ratio_));
+    }
     ask("load and the speed together", 3, set_point_);
+  }
+
+  /// The part of a turn, so many times per turn of the input, in which every row lies.
+  [[nodiscard]] std::vector<int> sectors(double order) const {
+    constexpr double kParts = 12.0;
+    std::vector<int> part;
+    for (const BenchPoint& p : table_.points) {
+      const double turns = order * p.angle_rad / kTwoPi;
+      part.push_back(static_cast<int>(kParts * (turns - std::floor(turns))));
+    }
+    return part;
   }
 
   /// Sum over pairs of one cell, but for those so near in time that their errors may hang together.
@@ -352,6 +368,10 @@ class Asking {
                       speed = printed("%.4g", p.speed_rpm) + " rpm";
     if (q.what == "direction") return way;
     if (q.what == "file") return way + " in file " + std::to_string(p.file + 1);
+    if (q.what.starts_with("angle")) {
+      const double turns = p.angle_rad / (q.what.ends_with("output") ? ratio_ : 1.0) / kTwoPi;
+      return printed("at %.0f degrees", 30.0 * std::floor(12.0 * (turns - std::floor(turns))) + 15.0);
+    }
     if (q.what == "temperature") return "at " + printed("%.3g", p.temperature_c) + " C";
     if (q.what == "load") return "at " + load;
     if (q.what == "speed") return "at " + speed;

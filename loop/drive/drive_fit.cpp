@@ -219,7 +219,6 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
     if (p.fold == 0) continue;
     angle.push_back(p.angle_rad);
     size.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
-
     sum += size.back() * size.back();
   }
   const double n = static_cast<double>(angle.size());
@@ -257,8 +256,7 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
     }
     judge(order, c, s, cc, cs);
   }
-  // Poles, slots and teeth of the input's shaft: whole orders beyond.
-  for (double order = std::floor(kHighest) + 1.0; order <= kHighestWhole; order += 1.0) {
+  const auto judge_alone = [&](double order) {
     double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
     for (std::size_t i = 0; i < angle.size(); ++i) {
       const double x = std::cos(order * angle[i]), y = std::sin(order * angle[i]);
@@ -268,10 +266,21 @@ LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorX
       cs += x * y;
     }
     judge(order, c, s, cc, cs);
+  };
+  // Poles, slots and teeth of the input's shaft: whole orders beyond.
+  for (double order = std::floor(kHighest) + 1.0; order <= kHighestWhole; order += 1.0)
+    judge_alone(order);
+  const int tried = lines;
+  // Between the lines: over the whole run a wave of the nearest one falls out of step.
+  for (double off = 0.5 * step; !wrapped && best.order <= kHighest && off * table.turns > 1e-3;
+       off *= 0.5) {
+    const double middle = best.order;
+    judge_alone(middle - off);
+    judge_alone(middle + off);
   }
   // Every line tried could have been the highest.
   const double single = std::pow(std::max(0.0, 1.0 - highest / sum), 0.5 * (n - 3.0));
-  best.p_value = std::min(1.0, single * lines);
+  best.p_value = std::min(1.0, single * tried);
   return best;
 }
 

@@ -313,10 +313,77 @@ def ripple_of_motor(b, r):
     return "unknown", {"angle_periodic_friction"}, {}
 
 
+def coarse_sensor(b, r):
+    """The output's converter has few steps: they are as large as the noise."""
+    step = b.noise * b.full * 1.5
+    b.reads_out = lambda t, m: step * round(t / step)
+    return "nothing", set(), {}
+
+
+def jams_at_an_angle(b, r):
+    """A chip in the ring: more loss over a tenth of every turn of the input."""
+    size, at = b.full_in * r.uniform(0.03, 0.06), r.uniform(0.0, 1.0)
+    b.angles = True
+    b.loss = lambda m: size * ((m.turns - at) % 1.0 < 0.12)
+    return "unknown", {"angle_periodic_friction"}, {}
+
+
+def bearing_defect(b, r):
+    """A wave of no whole order: a ball passes."""
+    b.angles, b.style, order = True, "shuffled", r.uniform(2.2, 7.8)
+    a, phase = b.full_in * r.uniform(0.015, 0.03), r.uniform(0, 6.28)
+    b.loss = lambda m: a * math.cos(2 * math.pi * order * m.turns - phase)
+    return "unknown", {"angle_periodic_friction"}, {}
+
+
+def knocks(b, r):
+    """Backlash: at low load and high speed the teeth knock, a loss that scatters."""
+    size = b.full_in * r.uniform(0.05, 0.09)
+    b.loss = lambda m: size * (m.share < 0.25) * (m.speed > 700.0) * (1.0 + 0.3 * r.standard_normal())
+    return "unknown", {"drag_torque"}, {}
+
+
+def stick_slip(b, r):
+    """At creeping speed the output sticks and slips: a loss that scatters."""
+    size = b.full_in * r.uniform(0.06, 0.1)
+    b.loss = lambda m: size * (m.speed < 110.0) * (1.0 + 0.3 * r.standard_normal())
+    return "unknown", {"stribeck_friction", "mixed_friction", "drag_torque"}, {}
+
+
+def lubricant_regimes(b, r):
+    """The flanks' coefficient over the speed as Stribeck drew it: it falls, and rises again."""
+    low, rise, n0 = bench.RUBBING * r.uniform(0.8, 1.4), bench.RUBBING * r.uniform(0.6, 1.2), r.uniform(200.0, 400.0)
+    b.mu = lambda m: bench.RUBBING + low * math.exp(-m.speed / n0) + rise * (m.speed / 3000.0) ** 1.3
+    return "unknown", LOSSES, {}
+
+
+def warm_sensor(b, r):
+    """The output sensor's gain follows its temperature, which is logged."""
+    k = r.uniform(0.001, 0.002) * r.choice([-1, 1])
+    b.warm, b.style = True, "shuffled"
+    b.reads_out = lambda t, m: t * (1.0 + k * (m.celsius - 30.0))
+    return "unknown", {"torque_scale", "torque_drift", "temperature_drag"} | LOSSES_OVER_LOAD, {}
+
+
+def one_way_drag(b, r):
+    """A seal lip that rubs one way only."""
+    size = b.full_in * r.uniform(0.03, 0.06)
+    b.loss = lambda m: size * m.forward
+    return "unknown", {"drag_torque", "torque_offset"}, {}
+
+
+def one_way_gain(b, r):
+    """The output cell reads too much under one sign of its bending."""
+    f = 1.0 + r.choice([-1, 1]) * r.uniform(0.02, 0.04)
+    b.reads_out = lambda t, m: f * t if m.forward else t
+    return "unknown", {"torque_scale"} | LOSSES_OVER_LOAD, {}
+
+
 KINDS = [nothing, wild_rows, single_log, friction, drag, viscous, scale_out, scale_in, wrong_ratio, zero_off, zero_drifts,
          ripple_of_carrier, friction_at_low_speed, drag_at_low_speed, bent_load_loss, churning, warms_up,
          step_at_a_load, saturates, bent_sensor, hysteresis, resonance, corner, zero_jumps, zero_wanders, days_differ,
-         ripple_of_motor]
+         ripple_of_motor, coarse_sensor, jams_at_an_angle, bearing_defect, knocks, stick_slip, lubricant_regimes, warm_sensor,
+         one_way_drag, one_way_gain]
 
 
 class Case:
