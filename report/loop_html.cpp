@@ -93,7 +93,7 @@ std::string iso_table(const LoopResult& r) {
 
 std::string loop_html(const GearLoop& closed) {
   const LoopResult& r = closed.result;
-  return loop_page_opening(r, "What the measured " + r.gear + " tells") + remainder(closed) + charts(closed) + iso_table(r) +
+  return loop_page_opening(r, "What the measured " + r.gear + " shows") + remainder(closed) + charts(closed) + iso_table(r) +
          loop_page_end(r);
 }
 

@@ -181,7 +181,7 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
   html += "</details>";
   if (!e.confounded_with.empty())
-    html += "<p class='note'>These data cannot tell it from " + escaped(joined(e.confounded_with)) + ".</p>";
+    html += "<p class='note'>These data cannot distinguish it from " + escaped(joined(e.confounded_with)) + ".</p>";
   return html + "</div>";
 }
 

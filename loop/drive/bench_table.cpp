@@ -185,7 +185,7 @@ class TableMaker {
     table_.turns = turns;
     if (table_.has_angle && turns <= 1.0 && wrapped)
       table_.notes.push_back(
-          "input_angle_deg starts again every turn: only whole orders of the input can be told; an angle "
+          "input_angle_deg starts again every turn: only whole orders of the input can be found; an angle "
           "that counts on would show carrier, planets and output too");
   }
 

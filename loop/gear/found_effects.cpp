@@ -160,7 +160,7 @@ class Describer {
     std::string text = plain_sentence(found, effect);
     if (found.orders_alike.empty()) return text;
     return text + "; the " + std::to_string(traced_teeth(*sources_.table).size()) +
-           " teeth traced would show " + waves_in_words(found.orders_alike) + " alike: the simplest is told";
+           " teeth traced would show " + waves_in_words(found.orders_alike) + " alike: the simplest is reported";
   }
 
   std::string plain_sentence(const FoundEffect& found, int effect) const {

@@ -158,7 +158,7 @@ void ToldApart::say(std::vector<std::string>& sentences, const std::string& verb
   for (const auto& [measurement, pairs] : by_measurement_) {
     std::string told;
     for (const auto& [one, other] : pairs) told += (told.empty() ? "" : ", ") + one + " from " + other;
-    say_once(sentences, verb + " " + measurement + ": it tells " + told + ", which these data cannot");
+    say_once(sentences, verb + " " + measurement + ": it distinguishes " + told + ", which these data cannot");
   }
 }
 

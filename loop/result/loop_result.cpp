@@ -152,7 +152,7 @@ std::string effect_text(const FoundEffect& e, const std::string& unit) {
             unit + " larger\n";
   if (!e.cause.empty()) text += "    cause: " + e.cause + "\n";
   if (!e.correction.empty()) text += "    do: " + e.correction + "\n";
-  if (!e.confounded_with.empty()) text += "    cannot be told from: " + joined(e.confounded_with) + "\n";
+  if (!e.confounded_with.empty()) text += "    cannot be distinguished from: " + joined(e.confounded_with) + "\n";
   return text;
 }
 

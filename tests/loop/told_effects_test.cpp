@@ -140,7 +140,7 @@ TEST(ToldEffects, AMeasurementThatTellsIsSaidOnce) {
   std::vector<std::string> sentences;
   told.say(sentences, "measure");
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_EQ(sentences[0], "measure both flanks: it tells pitch_wave from lobing, pitch_wave from eccentricity, which "
+  EXPECT_EQ(sentences[0], "measure both flanks: it distinguishes pitch_wave from lobing, pitch_wave from eccentricity, which "
                           "these data cannot");
 }
 

@@ -29,7 +29,7 @@ DriveFamily mesh_friction() {
   f.detail = [](const DriveModel& model, const DriveShape& shape) {
     return " (" + model.meshes[static_cast<std::size_t>(shape[0]) - 1] + ")";
   };
-  const char* run = "a second ratio, or one layer locked: the two shafts alone cannot tell the meshes apart";
+  const char* run = "a second ratio, or one layer locked: the two shafts alone do not distinguish the meshes";
   f.told_from = {{"friction_coefficient", run}, {"direction_dependent_friction", run}};
   return f;
 }

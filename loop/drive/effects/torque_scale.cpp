@@ -11,7 +11,7 @@ DriveFamily torque_scale() {
   f.id = "torque_scale";
   f.description =
       "the output's torque reads this many times too much against the input's (or the input's as many "
-      "times too little: a bench of two sensors tells only their ratio)";
+      "times too little: a bench of two sensors shows only their ratio)";
   f.cause = "torque constant of a motor, calibration of a torque sensor, ratio of a belt";
   f.correction = "calibrate both torques against a lever and weights";
   f.parameters = {"factor"};
