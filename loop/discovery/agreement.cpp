@@ -189,7 +189,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     values.push_back(std::move(one));
   }
   // Groups do not ask each other: the same sums on any number of processors.
-  constexpr std::size_t kGroupsOfWork = 24;
+  constexpr std::size_t kGroupsOfWork = 96;
   for_each_piece((groups + kGroupsOfWork - 1) / kGroupsOfWork, [&](std::size_t piece) {
     const std::size_t from = piece * kGroupsOfWork;
     add_wholes(values, {problem, statistics, model, projected, observable}, from,

@@ -10,7 +10,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kGroupsOfWork = 32;
+constexpr std::size_t kGroupsOfWork = 128;
 
 }  // namespace
 
@@ -185,7 +185,7 @@ void BlockStatistics::add_model_sums(int first) {
   }
   // Candidates do not ask each other: the same sums on any number of processors.
   const CandidateMatrix& candidates = this->candidates();
-  constexpr Eigen::Index kColumnsOfWork = 64;
+  constexpr Eigen::Index kColumnsOfWork = 256;
   for_each_piece(
       static_cast<std::size_t>((p + kColumnsOfWork - 1) / kColumnsOfWork), [&](std::size_t piece) {
         const Eigen::Index at = static_cast<Eigen::Index>(piece) * kColumnsOfWork;
