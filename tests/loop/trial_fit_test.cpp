@@ -62,6 +62,16 @@ TEST_F(TrialFits, SquaresAndCoefficientsAreThoseOfTheWholeFit) {
   EXPECT_NEAR(trial.residual_square() / square(other), 1.0, 1e-9);
 }
 
+TEST_F(TrialFits, OneFitKnowsTheSquareWithoutAnyOfItsEffects) {
+  const std::vector<Effect> effects{{family("eccentricity"), loop::FlankChoice::kBoth, {}},
+                                    wave(3.3), wave(1.7)};
+  const loop::PointFit fit(geometry_, table_, patches_, effects);
+  EXPECT_EQ(fit.residual_square({true, true, true}), fit.residual_square());
+  EXPECT_NEAR(fit.residual_square({true, false, true}) / square({effects[0], effects[2]}), 1.0,
+              1e-9);
+  EXPECT_NEAR(fit.residual_square({false, false, false}) / square({}), 1.0, 1e-9);
+}
+
 TEST_F(TrialFits, TwoWavesDoNotMeetAtOneLength) {
   std::vector<Effect> effects{wave(3.0), wave(3.6)};
   EXPECT_TRUE(loop::refine_nearby(geometry_, table_, patches_, effects));
