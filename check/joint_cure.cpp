@@ -16,6 +16,7 @@
 #include "trueflank/check/contact_judgement.h"
 #include "trueflank/check/design_change.h"
 #include "trueflank/check/design_tolerances.h"
+#include "trueflank/check/farther_designs.h"
 #include "trueflank/check/joint_cure_moves.h"
 #include "trueflank/check/needed_changes.h"
 #include "trueflank/check/profile.h"
@@ -29,6 +30,7 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kMoreForHousing =
     1.0;  // dearer teeth are tried too: a housing may not take the first
+constexpr int kMostSets = 40, kMostPairs = 150;  // tooth counts tried of planetary sets and of pairs
 constexpr int kMostJudged = 6;                // candidates that every check judges
 
 struct Trial {
@@ -109,8 +111,41 @@ class Search {
     if (!result.cured())
       result.conflict = gears_pass(result.findings)
                             ? "the gears pass; what is around them has to follow by hand"
-                            : conflict_text();
+                            : conflict_text(result.findings);
     return result;
+  }
+
+  /// Every check of a design; nothing where it cannot be laid out or its parts cannot be made.
+  [[nodiscard]] std::optional<Findings> judged(const GearboxDesign& design) const {
+    const auto laid = lay_out(design);
+    if (!laid) return std::nullopt;
+    Findings findings = check_gearbox(*laid);
+    if (!around_) return findings;
+    const auto more = around_(*laid);
+    if (!more) return std::nullopt;
+    findings.insert(findings.end(), more->begin(), more->end());
+    return findings;
+  }
+
+  /// Without what the verdict does not need.
+  void reduce(JointCure& result) const {
+    const bool cured = result.cured();
+    const DesignJudge judge = [&](const GearboxDesign& d) {
+      return cured ? judged_where_gears_pass(d) : judged(d);
+    };
+    JudgedDesign needed =
+        with_needed_changes(train_, {std::move(result.design), std::move(result.findings)}, judge,
+                            options_.most_judged);
+    result.changed = !(needed.design == train_.design);
+    result.design = std::move(needed.design);
+    result.findings = std::move(needed.findings);
+  }
+
+  /// The verdict on the gears alone.
+  [[nodiscard]] bool gears_pass(const Findings& findings) const {
+    return std::none_of(findings.begin(), findings.end(), [&](const Finding& f) {
+      return f.status == CheckStatus::kFail && !ids_around_.contains(f.id);
+    });
   }
 
  private:
@@ -181,7 +216,7 @@ class Search {
       const auto laid = lay_out(changed_design(train_, change, fits_));
       ++designs_;
       if (!laid || !laid->assembly.equal_spacing || planets_collide(*laid)) continue;
-      if (++tried_sets > 40) return;
+      if (++tried_sets > (train_.design.planets < 2 ? kMostPairs : kMostSets)) return;
       DesignChange joint = change;
       for (const int layer : layers_) {
         std::optional<Trial> best;
@@ -253,18 +288,6 @@ class Search {
     if (!ids.empty()) ++failed_together_[ids];
   }
 
-  /// Every check of a design; nothing where it cannot be laid out or its parts cannot be made.
-  [[nodiscard]] std::optional<Findings> judged(const GearboxDesign& design) const {
-    const auto laid = lay_out(design);
-    if (!laid) return std::nullopt;
-    Findings findings = check_gearbox(*laid);
-    if (!around_) return findings;
-    const auto more = around_(*laid);
-    if (!more) return std::nullopt;
-    findings.insert(findings.end(), more->begin(), more->end());
-    return findings;
-  }
-
   /// The same, but no answer where the contact fails already.
   [[nodiscard]] std::optional<Findings> judged_where_gears_pass(const GearboxDesign& design) const {
     const auto laid = lay_out(design);
@@ -313,20 +336,6 @@ class Search {
     if (result.changed) reduce(result);
   }
 
-  /// Without what the verdict does not need.
-  void reduce(JointCure& result) const {
-    const bool cured = result.cured();
-    const DesignJudge judge = [&](const GearboxDesign& d) {
-      return cured ? judged_where_gears_pass(d) : judged(d);
-    };
-    JudgedDesign needed =
-        with_needed_changes(train_, {std::move(result.design), std::move(result.findings)}, judge,
-                            options_.most_judged);
-    result.changed = !(needed.design == train_.design);
-    result.design = std::move(needed.design);
-    result.findings = std::move(needed.findings);
-  }
-
   /// Shifts and centre distance as near to the old ones as the verdict allows.
   void shrink(Trial& trial) {
     const auto smaller = [&](const auto& change_at) {
@@ -346,18 +355,15 @@ class Search {
         smaller([layer](DesignChange& c, double factor) { c.shift_of_layer[layer] *= factor; });
   }
 
-  [[nodiscard]] bool gears_pass(const Findings& findings) const {
-    return std::none_of(findings.begin(), findings.end(), [&](const Finding& f) {
-      return f.status == CheckStatus::kFail && !ids_around_.contains(f.id);
-    });
-  }
-
-  [[nodiscard]] std::string conflict_text() const {
+  [[nodiscard]] std::string conflict_text(const Findings& left) const {
     std::vector<std::pair<std::set<std::string>, int>> sets(failed_together_.begin(), failed_together_.end());
     std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) {
       return a.first.size() != b.first.size() ? a.first.size() < b.first.size() : a.second > b.second;
     });
-    if (sets.empty()) return "";
+    if (sets.empty()) {  // no change of these teeth could even be laid out
+      const auto failing = std::find_if(left.begin(), left.end(), [](const Finding& f) { return f.status == CheckStatus::kFail; });
+      return failing == left.end() ? "" : "nothing near this design clears " + failing->id;
+    }
     if (sets.front().first.size() == 1) {
       const std::string first = *sets.front().first.begin();
       for (const auto& [ids, times] : sets)
@@ -394,7 +400,24 @@ JointCure joint_cure(const GearTrain& train, const JointCureOptions& options) {
 
 JointCure joint_cure(const GearTrain& train, const Findings& findings,
                      const JointCureOptions& options, const AroundGears& around) {
-  return Search(train, options, around).run(findings);
+  Search search(train, options, around);
+  JointCure near = search.run(findings);
+  if (near.cured() || !options.farther || search.gears_pass(near.findings)) return near;
+  // from a design that is farther away, with what is not needed of the way taken back
+  for (const GearboxDesign& start : farther_designs(train)) {
+    const auto laid = lay_out(start);
+    if (!laid) continue;
+    Search there(*laid, kCheckSearch, around);
+    auto judged = there.judged(start);
+    if (!judged) continue;
+    JointCure far = there.run(*judged);
+    if (!far.cured()) continue;
+    far.changed = true;
+    far.search_ended = near.search_ended;
+    search.reduce(far);
+    return far;
+  }
+  return near;
 }
 
 }  // namespace trueflank

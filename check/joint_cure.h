@@ -14,15 +14,16 @@ struct JointCureOptions {
   int most_designs = 4000;  ///< laid out at most
   int most_turned = 400;    ///< meshes turned at most
   int most_judged = 60;     ///< asked at most what of the change is needed
+  bool farther = true;      ///< where nothing near passes: another rack, then many more teeth (farther_designs.h)
 };
 
 /// What a check of a failing design may take: about a second, some seconds where flanks are modified
 /// (their meshes are turned at several heights). The change it finds is the smallest where the search
 /// ended, and verified in any case.
 inline constexpr JointCureOptions kCheckSearch{
-    .most_designs = 1500, .most_turned = 120, .most_judged = 40};
+    .most_designs = 1500, .most_turned = 120, .most_judged = 40, .farther = false};
 inline constexpr JointCureOptions kCheckSearchOfModified{
-    .most_designs = 1500, .most_turned = 120, .most_judged = 15};
+    .most_designs = 1500, .most_turned = 120, .most_judged = 15, .farther = false};
 
 /// Findings about what stands around the gears (a housing); nothing where its parts cannot be made.
 using AroundGears = std::function<std::optional<Findings>(const GearTrain&)>;

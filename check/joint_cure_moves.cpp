@@ -100,6 +100,14 @@ std::vector<DesignChange> teeth_moves(const GearTrain& train) {
     std::vector<int> steps(train.design.gears.size(), 0);
     add_teeth(train, steps, 0, steps.size() > 3 ? 4 : 6, planets, moves);
   }
+  if (train.design.planets < 2) {  // few teeth of a pair need room for shifts as well
+    const std::vector<DesignChange> at_their_distance = moves;
+    for (const double wider : {0.2, 0.4})
+      for (DesignChange move : at_their_distance) {
+        move.centre_distance = wider;
+        moves.push_back(std::move(move));
+      }
+  }
   sort_by_cost(moves);
   const double there = to_reference(train, train.meshes.front());
   if (std::abs(there) <= kFar) return moves;

@@ -42,6 +42,9 @@ std::vector<TakeOver> keys_of(const GearboxDesign& design) {
           [i, member](D& to, const D& from) { to.gears[i].*member = from.gears[i].*member; });
   };
   of_each_gear(&GearDesign::teeth);
+  keys.emplace_back([](D& to, const D& from) { to.rack = from.rack; });
+  keys.emplace_back([](D& to, const D& from) { to.rack.pressure_angle_rad = from.rack.pressure_angle_rad; });
+  keys.emplace_back([](D& to, const D& from) { to.rack.dedendum = from.rack.dedendum; });
   keys.emplace_back([](D& to, const D& from) { to.rack.addendum = from.rack.addendum; });
   keys.emplace_back([](D& to, const D& from) { to.rack.root_radius = from.rack.root_radius; });
   keys.emplace_back([](D& to, const D& from) { to.backlash_mm = from.backlash_mm; });
@@ -103,7 +106,9 @@ class Reduction {
   JudgedDesign run() {
     while (take_back_keys() && left_ > 0) {
     }
-    if (move_numbers()) take_back_keys();
+    if (!move_numbers()) return std::move(best_);
+    while (take_back_keys() && left_ > 0) {  // one key taken back may free another
+    }
     return std::move(best_);
   }
 
