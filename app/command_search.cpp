@@ -79,8 +79,7 @@ int run_search(const SearchOptions& options) {
   if (!records) return report_errors(records.error());
   if (part.parts == 1) return conclude(*task, *records, options);
 
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < task->enumeration.sets.size(); ++i) total += part.holds(i);
+  const std::size_t total = part.size(task->enumeration.sets.size());
   if (!options.quiet)
     if (auto ok = print("part " + options.shard + ": " + std::to_string(records->sets()) + " of " +
                         std::to_string(total) + " tooth sets in " +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/app/command_shifts.h"
 
-#include <algorithm>
+#include <optional>
 #include <filesystem>
 
 #include "trueflank/app/error_text.h"
@@ -17,10 +17,13 @@ int run_shifts(const ShiftsOptions& options) {
   const auto task = prepare_search(options.requirements);
   if (!task) return report_errors(task.error());
   const auto& sets = task->enumeration.sets;
-  const auto set = std::find_if(sets.begin(), sets.end(), [&](const ToothSet& s) {
-    return teeth_text(s) == options.teeth;
-  });
-  if (set == sets.end())
+  std::optional<ToothSet> set;
+  for (const ToothSet& s : sets) {
+    if (teeth_text(s) != options.teeth) continue;
+    set = s;
+    break;
+  }
+  if (!set)
     return report_errors({{.code = ErrorCode::kUsage,
                            .message = "no tooth set of these requirements",
                            .key = "--teeth",

@@ -55,8 +55,7 @@ int run_rank(SearchOptions options, int rank, int ranks) {
 
   std::string lines;
   for (const SearchRecord& record : records->optimised) lines += journal_line(record) + "\n";
-  std::size_t own = 0;
-  for (std::size_t i = 0; i < task->enumeration.sets.size(); ++i) own += part.holds(i);
+  const std::size_t own = part.size(task->enumeration.sets.size());
   if (records->sets() == own) lines += journal_end(part) + "\n";
   const std::string all = gathered(lines, rank, ranks);
   if (rank == 0) {

@@ -101,7 +101,7 @@ void journal(std::string_view bytes) {
   static const SearchRequirements requirements;
   static const SetEnumeration sets = [] {
     SetEnumeration some;
-    some.sets.resize(5);
+    some.sets = std::vector<ToothSet>(5);
     return some;
   }();
   // a fuzzer does not find the digest of the header

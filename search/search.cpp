@@ -75,9 +75,10 @@ class Judging {
   /// nothing where no distance mends it.
   std::optional<FoundDesign> judge(const RankedCandidate& ranked,
                                    std::optional<RankedCandidate>& again) {
-    const ToothSet& set = enumeration_.sets[ranked.set_index];
+    const ToothSet set = enumeration_.sets[ranked.set_index];
     const SearchModel model(r_, set);
     FoundDesign found{
+        .set_index = ranked.set_index,
         .set = set, .candidate = ranked.candidate,
         .design = model.design(ranked.candidate.free, ranked.candidate.dimensions)};
     ++report_.judged;

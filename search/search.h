@@ -38,6 +38,11 @@ struct SearchPart {
   [[nodiscard]] bool holds(std::size_t index) const {
     return index % static_cast<std::size_t>(parts) == static_cast<std::size_t>(part - 1);
   }
+  /// Of so many sets.
+  [[nodiscard]] std::size_t size(std::size_t sets) const {
+    const auto first = static_cast<std::size_t>(part - 1), step = static_cast<std::size_t>(parts);
+    return sets > first ? (sets - first + step - 1) / step : 0;
+  }
   bool operator==(const SearchPart&) const = default;
 };
 
@@ -88,6 +93,7 @@ struct RankedCandidate {
 
 /// A design that passed the checks.
 struct FoundDesign {
+  std::size_t set_index = 0;
   ToothSet set;
   SearchCandidate candidate;
   GearboxDesign design;

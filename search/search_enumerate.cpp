@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
+#include "trueflank/base/contract.h"
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/scalar_root.h"
 
@@ -148,12 +150,8 @@ std::vector<SetClass> empty_classes() {
 class Enumerator {
  public:
   Enumerator(const SearchRequirements& requirements, std::vector<const SearchTrain*> trains,
-             int planets, SetEnumeration& result)
-      : r_(requirements),
-        trains_(std::move(trains)),
-        planets_(planets),
-        distances_(requirements),
-        result_(result) {
+             int planets)
+      : r_(requirements), trains_(std::move(trains)), planets_(planets), distances_(requirements) {
     two_layers_ = trains_.front()->layers.size() > 1;
     const std::size_t ratios = two_layers_ ? r_.layer2_module_ratios.size() : 1;
     for (const TrainPlace place : trains_.front()->places())
@@ -162,12 +160,28 @@ class Enumerator {
                      static_cast<long long>(ratios * trains_.size());
   }
 
-  void run() {
-    const ToothRange suns = range(TrainPlace::kSun), planets = range(TrainPlace::kPlanet1),
-                     rings = range(TrainPlace::kRing1);
+  /// What one choice of sun and planet1 gives.
+  struct Piece {
+    long long considered = 0;
+    std::array<long long, kReasons> rejected{};
+    std::vector<ToothSet> sets;
+  };
+
+  /// The pieces in their order, each with its sun and planet1.
+  template <class Take>
+  void run(const Take& take) {
+    const ToothRange suns = range(TrainPlace::kSun), planets = range(TrainPlace::kPlanet1);
     for (int z_s = suns.min; z_s <= suns.max; ++z_s)
-      for (int z_p = planets.min; z_p <= planets.max; ++z_p)
-        for (int z_r = rings.min; z_r <= rings.max; ++z_r) layer1(z_s, z_p, z_r);
+      for (int z_p = planets.min; z_p <= planets.max; ++z_p) take(z_s, z_p, piece(z_s, z_p));
+  }
+
+  const Piece& piece(int z_s, int z_p) {
+    piece_.considered = 0;
+    piece_.rejected.fill(0);
+    piece_.sets.clear();
+    const ToothRange rings = range(TrainPlace::kRing1);
+    for (int z_r = rings.min; z_r <= rings.max; ++z_r) layer1(z_s, z_p, z_r);
+    return piece_;
   }
 
  private:
@@ -177,11 +191,11 @@ class Enumerator {
   }
 
   void reject(Reason reason, long long count) {
-    result_.rejected[static_cast<std::size_t>(reason)].count += count;
+    piece_.rejected[static_cast<std::size_t>(reason)] += count;
   }
 
   void layer1(int z_s, int z_p, int z_r) {
-    result_.considered += behind_layer1_;
+    piece_.considered += behind_layer1_;
     ToothSet set{
         .sun = z_s, .planet1 = z_p, .ring1 = z_r, .train = trains_.front(), .planets = planets_};
     if (!set.train->accepts_planets(set.teeth(), planets_))
@@ -258,14 +272,14 @@ class Enumerator {
       return reject(kIdentical, 1);
     if (r_.hunting && !has_hunting_teeth(set)) return reject(kHunting, 1);
     if (r_.sequential && !engages_in_sequence(set)) return reject(kPhasing, 1);
-    result_.sets.push_back(set);
+    piece_.sets.push_back(set);
   }
 
   const SearchRequirements& r_;
   std::vector<const SearchTrain*> trains_;
   int planets_;
   CentreDistances distances_;
-  SetEnumeration& result_;
+  Piece piece_;
   std::array<ToothRange, kTrainPlaces> ranges_{};
   bool two_layers_ = false;
   long long behind_layer1_ = 0;  ///< sets behind each choice of layer 1
@@ -370,9 +384,71 @@ bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements) {
   return std::abs(ratio) >= requirements.ratio_min && std::abs(ratio) <= requirements.ratio_max;
 }
 
-SetEnumeration enumerate_sets(const SearchRequirements& requirements) {
+/// Its pieces are those of the enumeration that have sets.
+class ToothSets::Source {
+ public:
+  explicit Source(SearchRequirements requirements) : r_(std::move(requirements)) {}
+
+  const SearchRequirements& requirements() const { return r_; }
+  Enumerator& add(std::vector<const SearchTrain*> trains, int planets) {
+    enumerators_.push_back(std::make_unique<Enumerator>(r_, std::move(trains), planets));
+    return *enumerators_.back();
+  }
+  void add_piece(int z_s, int z_p, std::size_t sets) {
+    pieces_.push_back({size_, static_cast<int>(enumerators_.size()) - 1, z_s, z_p});
+    size_ += sets;
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  ToothSet at(std::size_t index) const {
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), index,
+                                        [](std::size_t i, const Piece& p) { return i < p.first; });
+    const auto piece = after - 1;
+    const std::lock_guard lock(mutex_);
+    if (made_ != piece->first) {
+      sets_ = enumerators_[static_cast<std::size_t>(piece->enumerator)]->piece(piece->sun, piece->planet1).sets;
+      made_ = piece->first;
+    }
+    return sets_[index - piece->first];
+  }
+
+ private:
+  struct Piece {
+    std::size_t first = 0;
+    int enumerator = 0, sun = 0, planet1 = 0;
+  };
+  SearchRequirements r_;
+  std::vector<std::unique_ptr<Enumerator>> enumerators_;
+  std::vector<Piece> pieces_;
+  std::size_t size_ = 0;
+  mutable std::mutex mutex_;
+  mutable std::size_t made_ = static_cast<std::size_t>(-1);  ///< first index of the piece in sets_
+  mutable std::vector<ToothSet> sets_;
+};
+
+std::size_t ToothSets::size() const { return source_ ? source_->size() : kept_.size(); }
+
+ToothSet ToothSets::operator[](std::size_t index) const {
+  TRUEFLANK_EXPECTS(index < size());
+  return source_ ? source_->at(index) : kept_[index];
+}
+
+SetEnumeration enumerate_sets(const SearchRequirements& requirements, std::size_t most_kept) {
   SetEnumeration result;
   result.rejected = empty_classes();
+  const auto source = std::make_shared<ToothSets::Source>(requirements);
+  std::vector<ToothSet> kept;
+  const auto take = [&](int z_s, int z_p, const Enumerator::Piece& piece) {
+    result.considered += piece.considered;
+    for (std::size_t reason = 0; reason < kReasons; ++reason)
+      result.rejected[reason].count += piece.rejected[reason];
+    if (piece.sets.empty()) return;
+    source->add_piece(z_s, z_p, piece.sets.size());
+    if (source->size() <= most_kept)
+      kept.insert(kept.end(), piece.sets.begin(), piece.sets.end());
+    else
+      kept = {};
+  };
   const std::vector<const SearchTrain*> trains = searched_trains(requirements);
   for (std::size_t i = 0; i < trains.size();) {
     std::vector<const SearchTrain*> alike;
@@ -380,8 +456,9 @@ SetEnumeration enumerate_sets(const SearchRequirements& requirements) {
       alike.push_back(trains[i]);
     const std::vector<int> planets =
         alike.front()->has_planets() ? requirements.planets : std::vector<int>{1};
-    for (const int count : planets) Enumerator(requirements, alike, count, result).run();
+    for (const int count : planets) source->add(alike, count).run(take);
   }
+  result.sets = source->size() <= most_kept ? ToothSets(std::move(kept)) : ToothSets(source);
   return result;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,17 +57,64 @@ struct SetClass {
   long long count = 0;
 };
 
+/// Tooth sets by their index: kept, or where they are many made again piece by piece when they are
+/// asked for. Neighbours are cheap, a place far from the last one asked for takes the time of a piece.
+class ToothSets {
+ public:
+  /// Makes a piece of them again: those from its first index on.
+  class Source;
+
+  ToothSets() = default;
+  ToothSets(std::vector<ToothSet> sets) : kept_(std::move(sets)) {}
+  explicit ToothSets(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  /// Requires: index < size(). Any number of threads may ask.
+  [[nodiscard]] ToothSet operator[](std::size_t index) const;
+  [[nodiscard]] ToothSet front() const { return (*this)[0]; }
+
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = ToothSet;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = ToothSet;
+    Iterator(const ToothSets* sets, std::size_t index) : sets_(sets), index_(index) {}
+    ToothSet operator*() const { return (*sets_)[index_]; }
+    Iterator& operator++() { return ++index_, *this; }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    const ToothSets* sets_;
+    std::size_t index_;
+  };
+  [[nodiscard]] Iterator begin() const { return {this, 0}; }
+  [[nodiscard]] Iterator end() const { return {this, size()}; }
+
+ private:
+  std::vector<ToothSet> kept_;
+  std::shared_ptr<const Source> source_;  ///< where they are not kept
+};
+
+/// So many sets are kept at most: 20 MB.
+inline constexpr std::size_t kMostSetsKept = 250000;
+
 struct SetEnumeration {
   long long considered = 0;        ///< every combination within the tooth limits
   std::vector<SetClass> rejected;  ///< in the order of the tests; their counts and the size of
                                    ///< `sets` add up to `considered`
-  std::vector<ToothSet> sets;      ///< in a fixed order
+  ToothSets sets;                  ///< in a fixed order
 };
 
 /// Every tooth set within the limits that passes what can be decided from whole numbers and shift
 /// bounds alone: exact conditions, and for colliding planets a bound that no choice of shifts
 /// passes. Guarantees: no set that has a solution is left out (tested against plain enumeration).
-[[nodiscard]] SetEnumeration enumerate_sets(const SearchRequirements& requirements);
+/// More than `most_kept` sets are not kept but enumerated again where they are asked for, so that
+/// memory does not grow with their number.
+[[nodiscard]] SetEnumeration enumerate_sets(const SearchRequirements& requirements,
+                                            std::size_t most_kept = kMostSetsKept);
 
 [[nodiscard]] bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements);
 

@@ -241,6 +241,7 @@ std::vector<BindingLimit> binding_ranges(const SearchRequirements& r, const Toot
     if (teeth == 0 || set.train->name_at(place) != name) continue;  // a range of its own
     const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
     const ToothRange asked = r.*member;
+    if (asked.min == asked.max) continue;  // wished, no limit
     R beyond = r;
     if (teeth == asked.max && teeth + set.planets <= 1000) {
       beyond.*member = {teeth + 1, teeth + set.planets};

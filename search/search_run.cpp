@@ -55,12 +55,13 @@ class Threshold {
   std::multiset<double> best_;
 };
 
-enum class Known { kNothing, kOutlines, kProfiles };
+enum class Known { kNothing, kOutlines, kAll };
 
 /// A set that waits for its next step.
 struct Waiting {
   double bound = std::numeric_limits<double>::infinity();
   std::size_t index = 0;
+  ToothSet set;
   Known known = Known::kNothing;
   bool operator<(const Waiting& other) const {
     return bound != other.bound ? bound < other.bound : index > other.index;
@@ -70,22 +71,34 @@ struct Waiting {
 /// The sets of a run that wait, best first. Not for several threads at a time.
 class WaitingSets {
  public:
-  WaitingSets(std::vector<std::size_t> open, bool bounded)
-      : open_(std::move(open)), bounded_(bounded) {}
+  using Records = std::map<std::size_t, SearchRecord>;
+  WaitingSets(const ToothSets& sets, const SearchPart& part, bool bounded)
+      : sets_(sets), part_(part), bounded_(bounded), next_(static_cast<std::size_t>(part.part - 1)) {}
 
-  /// The next one whose bound is not below the threshold.
-  std::optional<Waiting> next(double threshold) {
+  /// The next one whose bound is not below the threshold; what is `done` is left out.
+  std::optional<Waiting> next(double threshold, const Records& done) {
     while (true) {
-      while (!heap_.empty() && heap_.top().bound < threshold) drop_all();
-      if (heap_.empty() || heap_.top().bound < 0.0)
-        if (take_batch()) continue;
-      if (heap_.empty()) return std::nullopt;
-      const Waiting first = heap_.top();
-      heap_.pop();
-      return first;
+      if (!heap_.empty() && heap_.top().bound < threshold) drop_all();
+      if (threshold >= 0.0) drop_infeasible();
+      if (heap_.empty() && take_batch(done)) continue;
+      if (!heap_.empty()) {
+        const Waiting first = heap_.top();
+        heap_.pop();
+        return first;
+      }
+      if (infeasible_.empty()) return std::nullopt;
+      const std::size_t index = infeasible_.back();
+      infeasible_.pop_back();
+      return Waiting{.bound = -1.0, .index = index, .set = sets_[index], .known = Known::kAll};
     }
   }
-  void put_back(const Waiting& waiting) { heap_.push(waiting); }
+  /// Those that a bound calls infeasible wait as indices alone: mostly they are all that there is.
+  void put_back(const Waiting& waiting) {
+    if (waiting.bound < 0.0)
+      infeasible_.push_back(waiting.index);
+    else
+      heap_.push(waiting);
+  }
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
 
  private:
@@ -93,18 +106,26 @@ class WaitingSets {
     dropped_ += heap_.size();
     heap_ = {};
   }
-  bool take_batch() {
-    const std::size_t end = std::min(open_.size(), taken_ + kBatch);
-    if (taken_ == end) return false;
-    for (; taken_ < end; ++taken_)
-      heap_.push({.index = open_[taken_], .known = bounded_ ? Known::kNothing : Known::kProfiles});
-    return true;
+  void drop_infeasible() {
+    dropped_ += infeasible_.size();
+    infeasible_ = {};
+  }
+  bool take_batch(const Records& done) {
+    std::size_t taken = 0;
+    for (; next_ < sets_.size() && taken < kBatch; next_ += static_cast<std::size_t>(part_.parts)) {
+      if (done.contains(next_)) continue;
+      ++taken;
+      heap_.push({.index = next_, .set = sets_[next_], .known = bounded_ ? Known::kNothing : Known::kAll});
+    }
+    return taken > 0;
   }
 
-  std::vector<std::size_t> open_;
+  const ToothSets& sets_;
+  SearchPart part_;
   bool bounded_;
-  std::size_t taken_ = 0, dropped_ = 0;
+  std::size_t next_, dropped_ = 0;
   std::priority_queue<Waiting> heap_;
+  std::vector<std::size_t> infeasible_;
 };
 
 class Run {
@@ -112,10 +133,14 @@ class Run {
   Run(const SearchRequirements& requirements, const SetEnumeration& enumeration,
       const SearchRunOptions& options)
       : r_(requirements),
-        enumeration_(enumeration),
         options_(options),
         threshold_(requirements, listed_sets(requirements), options.better_than),
-        waiting_(open_sets(), listed_sets(requirements) > 0) {}
+        waiting_(enumeration.sets, options.part, listed_sets(requirements) > 0) {
+    for (const SearchRecord& record : options_.done)
+      if (options_.part.holds(record.index) && records_.insert({record.index, record}).second)
+        threshold_.add(record);
+    total_ = options_.part.size(enumeration.sets.size());
+  }
 
   SearchRecords run() {
     const auto work = [this] { this->work(); };
@@ -131,28 +156,14 @@ class Run {
   }
 
  private:
-  /// Counts the part's sets, takes what is done of them; the others.
-  std::vector<std::size_t> open_sets() {
-    for (const SearchRecord& record : options_.done)
-      if (options_.part.holds(record.index) && records_.insert({record.index, record}).second)
-        threshold_.add(record);
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < enumeration_.sets.size(); ++i) {
-      if (!options_.part.holds(i)) continue;
-      ++total_;
-      if (!records_.contains(i)) open.push_back(i);
-    }
-    return open;
-  }
-
   void work() {
     try {
       while (const auto waiting = next()) {
-        const ToothSet& set = enumeration_.sets[waiting->index];
-        if (waiting->known == Known::kProfiles)
-          keep({waiting->index, optimise_set(r_, set)});
-        else
-          put_back(bounded(*waiting, set));
+        if (waiting->known != Known::kAll) {
+          put_back(bounded(*waiting));
+          continue;
+        }
+        keep({waiting->index, optimise_set(r_, waiting->set)});
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -164,7 +175,7 @@ class Run {
   std::optional<Waiting> next() {
     const std::lock_guard lock(mutex_);
     // a stop that comes when nothing is left is none
-    auto waiting = stopped_ ? std::nullopt : waiting_.next(threshold_.merit());
+    auto waiting = stopped_ ? std::nullopt : waiting_.next(threshold_.merit(), records_);
     if (waiting && options_.stop && options_.stop->load()) {
       stopped_ = true;
       return std::nullopt;
@@ -172,15 +183,16 @@ class Run {
     return waiting;
   }
 
-  [[nodiscard]] Waiting bounded(Waiting waiting, const ToothSet& set) const {
-    const bool outlines = waiting.known == Known::kNothing;
+  [[nodiscard]] Waiting bounded(Waiting waiting) const {
+    const BoundBy by =
+        waiting.known == Known::kNothing ? BoundBy::kOutlines : BoundBy::kProfiles;
     const DriveDirection direction = r_.objectives.front() == SearchObjective::kForward
                                          ? DriveDirection::kForward
                                          : DriveDirection::kBackward;
     const double bound =
-        efficiency_bound(r_, set, direction, outlines ? BoundBy::kOutlines : BoundBy::kProfiles);
+        efficiency_bound(r_, waiting.set, direction, by);
     waiting.bound = std::min(waiting.bound, bound);
-    waiting.known = outlines && bound >= 0.0 ? Known::kOutlines : Known::kProfiles;
+    waiting.known = by == BoundBy::kOutlines ? Known::kOutlines : Known::kAll;
     return waiting;
   }
 
@@ -198,7 +210,6 @@ class Run {
   }
 
   const SearchRequirements& r_;
-  const SetEnumeration& enumeration_;
   const SearchRunOptions& options_;
   std::map<std::size_t, SearchRecord> records_;
   std::size_t total_ = 0;

@@ -36,25 +36,36 @@ void add_limits(const SearchTrain& train, int number, std::vector<LimitEntry>& l
   const auto mesh = [&](int index) {
     return train.topology.mesh_name(train.topology.meshes[at(index)]);
   };
-  const auto add = [&](Limit limit, const std::string& where, int times = 1) {
-    for (int i = 0; i < times; ++i) limits.push_back({limit, number, where});
+  const auto add = [&](Limit limit, const std::string& where,
+                       const std::vector<std::string>& each = {""}) {
+    for (const std::string& which : each) limits.push_back({limit, number, where, which});
+  };
+  const std::vector<std::string> ends{"least", "greatest"};
+  const auto tips = [&](int index) {
+    const TopologyMesh& m = train.topology.meshes[at(index)];
+    return std::vector<std::string>{"tip of " + gear(m.gear1), "tip of " + gear(m.gear2)};
+  };
+  const auto roots = [&](int index) {
+    const TopologyMesh& m = train.topology.meshes[at(index)];
+    return std::vector<std::string>{"root of " + gear(m.gear1), "root of " + gear(m.gear2)};
   };
   const bool sun = layer.sun >= 0, ring = layer.ring >= 0;
   const std::string planet = gear(layer.planet);
-  if (sun) add(kShift, gear(layer.sun), 2);
-  if (ring) add(kShift, planet, 2);  // the last gear's own bounds are the optimiser's
+  if (sun) add(kShift, gear(layer.sun), ends);
+  if (ring) add(kShift, planet, ends);  // the last gear's own bounds are the optimiser's
   add(kPlanetSpacing, planet);
   if (sun) add(kTipThickness, gear(layer.sun));
   add(kTipThickness, planet);
   if (ring) add(kTipThickness, gear(layer.ring)), add(kRingTip, gear(layer.ring));
   const std::string outer = sun ? mesh(layer.sun_planet) : "",
                     inner = ring ? mesh(layer.planet_ring) : "";
-  if (sun) add(kContactRatio, outer, 2);
-  if (ring) add(kContactRatio, inner, 2);
-  if (sun) add(kTipClearance, outer, 2);
-  if (ring) add(kTipClearance, inner, 2), add(kTrochoid, inner);
-  if (sun) add(kFillet, outer, 2), add(kContactRatio, outer);
-  if (ring) add(kFillet, inner, 2), add(kContactRatio, inner);
+  if (sun) add(kContactRatio, outer, ends);
+  if (ring) add(kContactRatio, inner, ends);
+  if (sun) add(kTipClearance, outer, tips(layer.sun_planet));
+  if (ring) add(kTipClearance, inner, tips(layer.planet_ring)), add(kTrochoid, inner);
+  const std::vector<std::string> left{"least after roots"};
+  if (sun) add(kFillet, outer, roots(layer.sun_planet)), add(kContactRatio, outer, left);
+  if (ring) add(kFillet, inner, roots(layer.planet_ring)), add(kContactRatio, inner, left);
 }
 
 SearchTrain search_train(Topology topology, std::string output, std::string input,

@@ -30,6 +30,7 @@ struct LimitEntry {
   Limit limit;
   int layer;
   std::string where;  ///< gear or mesh
+  std::string which = {};  ///< of several of this limit there: "least", "root of ring1"; else empty
 };
 /// The most limits a layer, a train can have: a layer of sun, planet and ring, and one of planet
 /// and ring.

@@ -25,7 +25,8 @@ SetValues::SetValues(const SearchRequirements& requirements, const ToothSet& set
     : r_(requirements), model_(requirements, set), reserve_(reserve) {
   const double clearance = mm_from_um(requirements.clearance_um) / model_.least_module_mm();
   for (std::size_t i = 0; i < model_.limits(); ++i) {
-    const auto& [limit, layer, where] = model_.train().limits[i];
+    const Limit limit = model_.train().limits[i].limit;
+    const int layer = model_.train().limits[i].layer;
     const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
     const double kept =
         std::max(kCornerReserve, layer == 2 ? clearance / set.layer2_module_ratio : clearance);

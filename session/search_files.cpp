@@ -138,14 +138,12 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
   std::map<std::pair<std::size_t, double>, std::string> files;
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& found = report.designs[i];
-    const auto it =
-        std::find(task.enumeration.sets.begin(), task.enumeration.sets.end(), found.set);
-    files[{static_cast<std::size_t>(it - task.enumeration.sets.begin()),
+    files[{found.set_index,
            found.candidate.free.centre_distance}] = design_stem(i) + ".toml";
   }
   for (std::size_t i = 0; i < report.ranking.size(); ++i) {
     const RankedCandidate& ranked = report.ranking[i];
-    const ToothSet& set = task.enumeration.sets[ranked.set_index];
+    const ToothSet set = task.enumeration.sets[ranked.set_index];
     const SearchCandidate& c = ranked.candidate;
     text += std::to_string(i + 1);
     for (const int teeth : set.teeth())

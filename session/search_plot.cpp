@@ -61,7 +61,7 @@ std::vector<Dot> dots_of(const SearchTask& task, const SearchReport& report) {
   };
   std::vector<Dot> dots;
   for (const RankedCandidate& r : report.ranking) {
-    const ToothSet& set = task.enumeration.sets[r.set_index];
+    const ToothSet set = task.enumeration.sets[r.set_index];
     dots.push_back({place(set, r.candidate), shown(objectives[0], r.candidate), false, ""});
   }
   for (const FoundDesign& f : report.designs)

@@ -44,12 +44,6 @@ Status write_designs(const SearchReport& report, const std::filesystem::path& fo
   return {};
 }
 
-std::size_t sets_of(const SearchTask& task, const SearchPart& part) {
-  std::size_t sets = 0;
-  for (std::size_t i = 0; i < task.enumeration.sets.size(); ++i) sets += part.holds(i);
-  return sets;
-}
-
 /// Also by the share of sets that assemble, where tolerances are asked for.
 DesignVerdict judged_within_tolerance(const SearchRequirements& r, const GearTrain& train) {
   DesignVerdict verdict = judged_by_checks(train);
@@ -103,7 +97,7 @@ ResultAll<SearchRecords> run_search_part(const SearchTask& task,
   JournalFile journal;
   auto done = JournalFile::open(task, journal_path(options.folder, options.part), options.resume, journal);
   if (!done) return fail_all({done.error()});
-  const std::size_t sets = sets_of(task, options.part);
+  const std::size_t sets = options.part.size(task.enumeration.sets.size());
   if (std::find(done->ended.begin(), done->ended.end(), options.part) != done->ended.end())
     return listed_records(task.requirements, std::move(done->records), sets);
   SearchRunOptions run{

@@ -33,7 +33,8 @@ std::string title_of(const ToothSet& set, MapAxis axis) {
 
 std::string limit_text(const ToothSet& set, std::size_t limit) {
   const LimitEntry& entry = set.train->limits[limit];
-  return std::string(to_text(entry.limit)) + ": " + entry.where;
+  return std::string(to_text(entry.limit)) + ": " + entry.where +
+         (entry.which.empty() ? "" : " (" + entry.which + ")");
 }
 
 /// From dark blue (least) over green to yellow.

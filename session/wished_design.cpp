@@ -165,21 +165,21 @@ class Wish {
 
   /// Lot by lot, until one holds a design without a warning; where none does, one that warns least.
   SearchReport searched(const SearchRequirements& asked) {
-    SetEnumeration all = enumerate_sets(asked);
+    const SetEnumeration found = enumerate_sets(asked);
+    std::vector<ToothSet> all(found.sets.begin(), found.sets.end());
     const auto off = [this](const ToothSet& set) {
       return std::abs(std::abs(signed_ratio(set)) - wishes_.ratio);
     };
-    std::stable_sort(all.sets.begin(), all.sets.end(),
+    std::stable_sort(all.begin(), all.end(),
                      [&](const ToothSet& a, const ToothSet& b) { return off(a) < off(b); });
     const auto judge = [this](const GearTrain& train) { return judged(train); };
-    SetEnumeration tried;
+    std::vector<ToothSet> tried;
     SearchRecords records;
-    for (std::size_t from = 0; from < all.sets.size() && tried.sets.size() < kMostSets;
-         from += kLot) {
+    for (std::size_t from = 0; from < all.size() && tried.size() < kMostSets; from += kLot) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(from),
+                 end = all.begin() + static_cast<std::ptrdiff_t>(std::min(from + kLot, all.size()));
       SetEnumeration lot;
-      lot.sets.assign(
-          all.sets.begin() + static_cast<std::ptrdiff_t>(from),
-          all.sets.begin() + static_cast<std::ptrdiff_t>(std::min(from + kLot, all.sets.size())));
+      lot.sets = std::vector<ToothSet>(begin, end);
       const SearchRecords own = run_search(asked, lot);
       do {
         begin_judging();
@@ -187,17 +187,19 @@ class Wish {
         if (!report.designs.empty()) return report;
       } while (tolerate_what_all_warn());
       for (SearchRecord record : own.optimised) {
-        record.index += tried.sets.size();
+        record.index += tried.size();
         records.optimised.push_back(std::move(record));
       }
-      tried.sets.insert(tried.sets.end(), lot.sets.begin(), lot.sets.end());
+      tried.insert(tried.end(), begin, end);
     }
+    SetEnumeration all_tried;
+    all_tried.sets = std::move(tried);
     // those whose sun is undercut, then those that only warn
     SearchReport report;
     for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
       allowed_ = allowed;
       begin_judging();
-      report = conclude_search(asked, tried, records, judge);
+      report = conclude_search(asked, all_tried, records, judge);
       if (!report.designs.empty()) break;
     }
     return report;

@@ -88,6 +88,25 @@ TEST(SearchEnumerate, EverySetConsideredIsKeptOrFellForOneReason) {
   }
 }
 
+TEST(SearchEnumerate, SetsThatAreNotKeptAreMadeAgainAlike) {
+  SearchRequirements r = small_requirements();
+  r.identical_planets = false;
+  r.kinds = {"3k", "simple", "stepped"};
+  r.outputs = {"any"};
+  r.planets = {3, 4};
+  r.ratio_min = 1.5;
+  const SetEnumeration kept = enumerate_sets(r), made = enumerate_sets(r, 0);
+  ASSERT_GT(kept.sets.size(), 100u);
+  ASSERT_EQ(made.sets.size(), kept.sets.size());
+  EXPECT_EQ(made.considered, kept.considered);
+  std::size_t i = 0;
+  for (const ToothSet& set : made.sets) EXPECT_EQ(set, kept.sets[i++]);
+  for (i = 0; i < kept.sets.size(); i += 7) {  // back and forth
+    const std::size_t other = kept.sets.size() - 1 - i;
+    EXPECT_EQ(made.sets[other], kept.sets[other]);
+  }
+}
+
 /// Tooth numbers that could be of any train: plausible, and different at every place.
 ToothSet some_set(const SearchTrain& train, int variant) {
   ToothSet set{.train = &train,

@@ -216,7 +216,7 @@ TEST(SearchRelax, LimitsThatBindAreNamedAndRelaxingThemHelps) {
 TEST(SearchRelax, ARangeOfTeethThatEndsTooEarlyIsNamed) {
   SearchRequirements r = needs("3k");
   r.losses.reset();
-  r.sun = {14, 14};
+  r.sun = {13, 14};
   r.ring1 = {60, 75};
   const SetEnumeration sets = enumerate_sets(r);
   const SearchReport report = conclude_search(r, sets, run_search(r, sets), {});

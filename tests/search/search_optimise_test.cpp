@@ -41,7 +41,7 @@ ToothSet set_of(const SearchRequirements& base, int s, int p1, int r1, int p2, i
   r.identical_planets = false;
   const SetEnumeration found = enumerate_sets(r);
   EXPECT_EQ(found.sets.size(), 1u);
-  return found.sets.at(0);
+  return found.sets.front();
 }
 
 TEST(SearchModel, HasTheEfficiencyOfTheLaidOutTrainByEitherModel) {

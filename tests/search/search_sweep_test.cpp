@@ -34,7 +34,7 @@ ToothSet set_of(SearchRequirements r, int s, int p1, int r1, int p2, int r2) {
   r.ring2 = {r2, r2};
   const SetEnumeration found = enumerate_sets(r);
   EXPECT_EQ(found.sets.size(), 1u);
-  return found.sets.at(0);
+  return found.sets.front();
 }
 
 /// Plain exhaustion, zoomed around its best points: an account of the optimum that shares nothing
@@ -155,7 +155,7 @@ TEST(SearchSweep, ReachesExhaustionOnRandomSetsOfEveryKind) {
     const SetEnumeration found = enumerate_sets(r);
     ASSERT_FALSE(found.sets.empty()) << round;
     for (int k = 0; k < 4; ++k) {
-      const ToothSet& set = found.sets[random() % found.sets.size()];
+      const ToothSet set = found.sets[random() % found.sets.size()];
       SetValues values(r, set, {});
       const SweepResult result = sweep(values, DriveDirection::kForward);
       const double best = Exhaustion(r, set).best();

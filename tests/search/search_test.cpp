@@ -117,6 +117,11 @@ TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
   EXPECT_EQ(sum, short_list.considered);
 }
 
+TEST(Search, SetsThatAreNotKeptGiveTheSameRecords) {
+  EXPECT_EQ(text_of(run_search(listing(3), enumerate_sets(requirements(), 0), {.threads = 2})),
+            text_of(run_search(listing(3), sets())));
+}
+
 TEST(Search, PartsOfAShortListPutTogetherAreTheWhole) {
   std::vector<SearchRecord> all;
   for (int part = 1; part <= 3; ++part) {
