@@ -4,7 +4,7 @@
 bench/stages.json, and processor time against `cp` of the same files, in one run.
 
 Instructions do not depend on what else the machine does; a stage that takes 5 % more than the kept
-figure fails the bench and is named. Needs valgrind.
+figure, or a job whose files hold more facets, fails the bench and is named. Needs valgrind.
 
   python3 bench/stages.py [PROGRAM] [--update] [--job NAME]
 
@@ -36,7 +36,9 @@ STAGES = {
     "cure of corner contact": r"trueflank::.*corner_contact_cure|trueflank::.*cure_of_corner",
     "meshing": r"trueflank::part_mesh\(",
     "measuring meshes": r"trueflank::measure_accuracy\(",
+    "meshes turned through": r"std::__future_base::_Async_state_impl<.*mesh_states.*::_M_run",
     "packing": r"trueflank::io::deflated?\(|trueflank::io::packed",
+    "reading back": r"trueflank::io::visit_facets\(",
     "unpacking": r"libdeflate_(zlib|deflate)_decompress_ex|trueflank::io::inflated?\(",
     "exact bodies": r"trueflank::brep_of\(",
     "STEP": r"trueflank::io::.*write_step|trueflank::io::step_",
@@ -151,6 +153,9 @@ def compared(now, kept, name):
     slower = []
     rows = [("whole", now["total"], kept.get("total"))]
     rows += [(stage, n, kept.get("stages", {}).get(stage)) for stage, n in now["stages"].items()]
+    facets, before = now.get("facets", 0), kept.get("facets")
+    if before and facets > before:
+        slower.append(f"{name}: {facets} facets in its files, {before} before")
     for stage, count, before in rows:
         ratio = count / before if before else math.nan
         print(f"  {stage:28} {count / 1e6:9.1f} M  {count / now['total']:6.1%}"
@@ -180,6 +185,9 @@ def main():
             ratio = f", {seconds / max(copy_seconds(folder, out), 1e-3):.1f} x cp" if out else ""
             print(f"{name}: {1e3 * seconds:.0f} ms of processor time{ratio}", flush=True)
             now = instructions(command, folder)
+            report = out / "report.json" if out else None
+            if report and report.exists():
+                now["facets"] = sum(file.get("triangles") or 0 for file in json.loads(report.read_text())["files"])
             slower += compared(now, {} if arguments.update else kept.get(name, {}), name)
             if arguments.update:
                 kept[name] = now

@@ -14,9 +14,8 @@ namespace {
 
 using Point3 = Eigen::Vector3d;
 
-/// Columns start at this share of the tolerance where the surface differs from the screw of the
-/// section: a deviation that bends the flank a little need not split every chord.
-constexpr double kRoomForDeviation = 0.95;
+/// Parts that an edge is cut into at once: few, as it may bend in one of them alone.
+constexpr int kFewParts = 8;
 /// Facets are cut for this share of the tolerance: their error is taken from the middles of edges,
 /// right to a percent.
 constexpr double kAim = 0.985;
@@ -62,8 +61,8 @@ std::vector<double> sorted_heights(std::vector<double> heights) {
   return heights;
 }
 
-int parts_for(double error_mm, double tolerance_mm) {
-  return std::clamp(static_cast<int>(std::ceil(std::sqrt(error_mm / tolerance_mm) - 1e-3)), 2, 8);
+int parts_for(double error_mm, double tolerance_mm, int most = kFewParts) {
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(error_mm / tolerance_mm) - 1e-3)), 2, most);
 }
 
 }  // namespace
@@ -79,16 +78,26 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr &&
                   !(deviates && toothing_.deviation->varies_along_face);
   const double aim = kAim * tolerance_mm;
-  start_columns(plain_ ? aim : kRoomForDeviation * aim);
-  start_layers(plain_ ? aim : kRoomForDeviation * aim);
-  if (!plain_) {
-    refine_columns(aim);
-    refine_layers(aim);
-  }
-  if (plain_ && heights_mm_.size() > breaks_mm_.size()) try_net(aim);
-  if (patches_.empty())
-    for (int round = 0; cut(aim) > aim && round < kRounds; ++round) add_where_charged(aim);
+  if (plain_) lay_plain(aim);
+  else lay_modified(tolerance_mm, aim);
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
+}
+
+void ToothingGrid::lay_plain(double aim_mm) {
+  start_columns(aim_mm);
+  start_layers(aim_mm);
+  if (heights_mm_.size() > breaks_mm_.size()) try_net(aim_mm);
+  if (patches_.empty()) cut_in_rounds(aim_mm);
+}
+
+std::vector<bool> ToothingGrid::cut_in_rounds(double aim_mm) {
+  std::vector<bool> crowded(toothing_.profile->pieces().size(), false);
+  for (int round = 0; cut(aim_mm) > aim_mm && round < kRounds; ++round) {
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      if (column_error_mm_[i] > aim_mm) crowded[edges_[i].piece] = true;
+    add_where_charged(aim_mm);
+  }
+  return crowded;
 }
 
 ToothingGrid::Point ToothingGrid::at(const Place& place, int tooth, double z_mm) const {
@@ -106,19 +115,23 @@ std::vector<int> ToothingGrid::some_teeth() const {
 
 void ToothingGrid::start_columns(double tolerance_mm) {
   const HalfToothPolyline half = tessellate(*toothing_.profile, tolerance_mm);
-  const auto& pieces = toothing_.profile->pieces();
   for (const HalfToothPolyline::Edge& e : half.edges)
     edges_.push_back({static_cast<std::size_t>(e.piece), e.from, e.to});
   vertex_at_tooth_middle_ = half.vertex_at_tooth_middle;
   vertex_at_gap_middle_ = half.vertex_at_gap_middle;
   section_error_mm_ = half.chord_error_mm;
   add_roll_breaks(tolerance_mm);
+  find_ends();
+  place_columns();
+}
+
+void ToothingGrid::find_ends() {
+  const auto& pieces = toothing_.profile->pieces();
   // the end of a piece too short for an edge of its own is the half tooth's end all the same
   first_ = {1, edges_.front().piece, edges_.front().from};
   last_ = {1, edges_.back().piece, edges_.back().to};
   if (vertex_at_tooth_middle_) first_ = {1, 0, pieces.front().curve.begin};
   if (vertex_at_gap_middle_) last_ = {1, pieces.size() - 1, pieces.back().curve.end};
-  place_columns();
 }
 
 void ToothingGrid::add_roll_breaks(double tolerance_mm) {
@@ -271,7 +284,7 @@ double ToothingGrid::layer_error_mm(double lower_mm, double upper_mm, int sample
   return error;
 }
 
-void ToothingGrid::refine_layers(double tolerance_mm) {
+void ToothingGrid::refine_layers(double tolerance_mm, int most_parts) {
   if (layers_alike_) return;
   const double tall = 0.1 * toothing_.twist.face_width_mm;
   for (int round = 0; round < kRounds; ++round) {
@@ -280,7 +293,7 @@ void ToothingGrid::refine_layers(double tolerance_mm) {
       const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
       const double error = layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
       const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
-      const int parts = split ? parts_for(error, tolerance_mm) : 1;
+      const int parts = split ? parts_for(error, tolerance_mm, most_parts) : 1;
       for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
       heights.push_back(upper);
     }

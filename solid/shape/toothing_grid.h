@@ -75,13 +75,27 @@ class ToothingGrid {
   [[nodiscard]] bool is_even(std::size_t middle) const {
     return chord_middles_[middle].parameter == middles_[middle].parameter;
   }
+  void lay_plain(double aim_mm);
+  /// Where rows and columns share the tolerance, as it takes the fewest facets.
+  void lay_modified(double tolerance_mm, double aim_mm);
+  /// What rows may have of the tolerance, so that the longest layer is cut into whole parts and fewer facets
+  /// than `fewest` (points by rows) are promised. Leaves columns that must be laid again.
+  [[nodiscard]] std::vector<double> shares_of_rows(double aim_mm, const std::vector<bool>& crowded,
+                                                   std::size_t fewest);
+  /// Rows have an error of their own, columns of crowded pieces the rest; 0: all the whole tolerance.
+  void lay_columns(double aim_mm, double rows_mm, const std::vector<bool>& crowded);
+  void lay_rows(double aim_mm, double rows_mm);
+  void crowd_columns(const std::vector<bool>& crowded, double tolerance_mm);
+  /// Cuts, and adds where that does not keep the tolerance; returns the pieces that needed more columns.
+  std::vector<bool> cut_in_rounds(double aim_mm);
   void start_columns(double tolerance_mm);
   void add_roll_breaks(double tolerance_mm);
+  void find_ends();
   void place_columns();
   void start_layers(double tolerance_mm);
   bool split_columns(const std::vector<double>& error_mm, double tolerance_mm);
   void refine_columns(double tolerance_mm);
-  void refine_layers(double tolerance_mm);
+  void refine_layers(double tolerance_mm, int most_parts);
   [[nodiscard]] double layer_error_mm(double lower_mm, double upper_mm, int samples) const;
   [[nodiscard]] ToothRow tooth_row(int tooth, double z_mm) const;
   /// Cuts all quadrilaterals along the better diagonal and returns the largest error left; what is
