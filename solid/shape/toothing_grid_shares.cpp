@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How rows and columns of modified teeth share the tolerance. Source: docs/theory/helical-facets.md.
+// How rows and columns of modified teeth share the tolerance. Source:
+// docs/theory/helical-facets.md.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -15,8 +16,9 @@ namespace {
 /// Columns start at this share of the tolerance where the surface differs from the screw of the
 /// section: a deviation that bends the flank a little need not split every chord.
 constexpr double kRoomForDeviation = 0.95;
-/// Where the errors of rows and columns add up (domes: crowned flanks), what rows may have of the tolerance,
-/// how many numbers of rows are looked at, and how many of those with the fewest facets are tried.
+/// Where the errors of rows and columns add up (domes: crowned flanks), what rows may have of the
+/// tolerance, how many numbers of rows are looked at, and how many of those with the fewest facets
+/// are tried.
 constexpr double kLeastOfRows = 0.2, kMostOfRows = 0.7;
 constexpr double kMostLookedAt = 16.0;
 constexpr std::size_t kMostTrials = 3;
@@ -66,7 +68,8 @@ std::vector<double> ToothingGrid::shares_of_rows(double aim_mm, const std::vecto
   }
   std::sort(promised.begin(), promised.end());
   std::vector<double> shares_mm;
-  for (std::size_t i = 0; i < std::min(promised.size(), kMostTrials); ++i) shares_mm.push_back(promised[i].second);
+  for (std::size_t i = 0; i < std::min(promised.size(), kMostTrials); ++i)
+    shares_mm.push_back(promised[i].second);
   return shares_mm;
 }
 
