@@ -30,6 +30,8 @@ ALLOWED = 1.05
 # A stage smaller than this share of its job is told with the rest.
 LEAST_SHARE = 0.01
 
+# A thread's share of work that is done in pieces on all processors: which pieces differs from run to run.
+BESIDE = r"std::thread::_State_impl<.*trueflank::for_each_piece<"
 # Inclusive instructions of these functions, threads added up. What one stage calls of another counts in both.
 STAGES = {
     "check": r"trueflank::check_gearbox\(",
@@ -43,13 +45,20 @@ STAGES = {
     "exact bodies": r"trueflank::brep_of\(",
     "STEP": r"trueflank::io::.*write_step|trueflank::io::step_",
     "reading measured files": r"trueflank::loop::read_measured_files\(",
-    "points to observations": r"trueflank::loop::make_observations\(",
+    "points to observations": r"trueflank::loop::make_observations\(|" + BESIDE +
+                              r"trueflank::loop::\(anonymous namespace\)::(TableBuilder|PoseSearch)",
     "patches": r"trueflank::loop::make_patches\(",
-    "discovery": r"trueflank::loop::discover\(",
-    "fits to points": r"trueflank::loop::PointFit::PointFit\(",
+    "columns of candidates": r"std::_Function_handler<bool \(\), trueflank::loop::set_candidates\(",
+    "discovery": r"trueflank::loop::discover\(|" + BESIDE +
+                 r"trueflank::loop::(BlockStatistics|agreement_of_wholes)",
+    "what is left": r"trueflank::loop::look_at_remainder\(",
+    "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE + r"trueflank::loop::linearise_at",
+    "fits to points": r"trueflank::loop::PointFit::sums_of\(",
     "reading meshes": r"trueflank::io::read_mesh\(",
+    "testing that meshes are closed": r"trueflank::mesh_validity\(",
     "tree of facets": r"trueflank::TriangleTree::TriangleTree\(",
-    "distances": r"trueflank::TriangleTree::Nearest trueflank::TriangleTree::search<",
+    "distances of corners": r"trueflank::\(anonymous namespace\)::Directed::look_from_corners\(",
+    "searches for the nearest facet": r"trueflank::TriangleTree::Nearest trueflank::TriangleTree::search<",
 }
 
 PAIR = """format = 1
