@@ -252,6 +252,9 @@ class CourseScan {
     for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
       std::vector<double> all;
       std::vector<MatrixXd> windows;
+      std::vector<double> spreads;  // of each set: one may be noisier
+      constexpr double kEnough = 40.0;
+      const double apart_each = static_cast<double>(m_) / static_cast<double>(width);
       for (std::size_t s = 0; s < sets_.size(); ++s) {
         const MatrixXd apart =
             clipped_[s].colwise() - (clipped_[s].cols() > 2 ? mean_[s] : VectorXd::Zero(m_));
@@ -259,13 +262,17 @@ class CourseScan {
         for (Index i = 0; i + width <= m_; ++i)
           sums.row(i) = apart.middleRows(i, width).colwise().mean();
         all.insert(all.end(), sums.data(), sums.data() + sums.size());
+        spreads.push_back(static_cast<double>(sums.cols()) * apart_each < kEnough
+                              ? 0.0
+                              : spread_of({sums.data(), sums.data() + sums.size()}));
         windows.push_back(std::move(sums));
       }
       // Too few windows apart from each other tell no spread.
-      if (courses_ * static_cast<double>(m_) / static_cast<double>(width) < 40.0) break;
+      if (courses_ * apart_each < kEnough) break;
       tests += static_cast<double>(all.size());
-      const double spread = spread_of(std::move(all));
-      for (int s = 0; s < static_cast<int>(windows.size()) && spread > 0.0; ++s) {
+      const double of_all = spread_of(std::move(all));
+      for (int s = 0; s < static_cast<int>(windows.size()) && of_all > 0.0; ++s) {
+        const double own = spreads[static_cast<std::size_t>(s)], spread = own > 0.0 ? own : of_all;
         Index row = 0, column = 0;
         if (windows[s].size() == 0) continue;
         const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);

@@ -94,7 +94,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   for (int e = 0; e < static_cast<int>(loop.effects().size()); ++e)
     if (!orders_alike(geometry, loop.table(), fit, e).empty()) {
       result.measure_next.emplace_back(
-          "trace more teeth, best all of them: those traced cannot tell whether what is found is "
+          "trace more teeth, best all of them: those traced do not show whether what is found is "
           "alike on all teeth or comes in waves around the gear");
       break;
     }
@@ -102,7 +102,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.verdict = Verdict::kPartlyExplained;
   else
     result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
-  if (result.verdict == Verdict::kExplained && is_more_than_noise(result)) {
+  if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result)) {
     result.verdict = Verdict::kPartlyExplained;
     result.structure_left = printed(
         "what is left, %.3g um on held-out data, is more than the measurement's own noise of %.3g "

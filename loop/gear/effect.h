@@ -69,6 +69,8 @@ struct EffectFamily : EffectFacts {
   /// never is. From the second order on.
   double doubt_share = 0.0;
   bool doubted_by_any_order = false;
+  /// Begins anew at one tooth: where its zero lies, and slow waves beside it, are parts of one drift.
+  bool is_drift = false;
   bool of_traces_only = false;  ///< scans cannot have it
   bool tells_order_along_profile = false;  ///< few teeth tell its orders apart
   bool shows_in_sizes = false;    ///< span, over pins, diameters tell it

@@ -2,6 +2,7 @@
 #include "trueflank/loop/gear/flank_spots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -20,6 +21,8 @@ double spread_of(std::vector<float> values) {
   return 1.4826 * static_cast<double>(*middle);
 }
 
+std::size_t side_index(int side) { return side > 0 ? 1 : 0; }
+
 /// Sums over the cells before a corner, so that every window is four look-ups.
 struct Field {
   std::vector<double> sum, count, plain;
@@ -35,19 +38,21 @@ class SpotSearch {
   SpotSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
              const std::vector<float>& row_um)
       : geometry_(geometry) {
-    std::vector<float> all;
+    std::array<std::vector<float>, 2> of_side;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       if (table.rows[i].kind != ObservationKind::kScanFlank || patches.patch_of_row[i] < 0)
         continue;
       rows.push_back(i);
-      all.push_back(row_um[i]);
+      of_side[side_index(table.place(table.rows[i]).side)].push_back(row_um[i]);
     }
     const std::size_t per_flank = rows.size() / static_cast<std::size_t>(2 * geometry.teeth());
     if (per_flank < kFewestPoints) return;
     cells_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(per_flank) / 2.5)),
                         kFewestCells, kMostCells);
-    const double limit = kClip * spread_of(std::move(all));
+    // A probe may be noisier on one flank than on the other.
+    const std::array<double, 2> limits{kClip * spread_of(std::move(of_side[0])),
+                                       kClip * spread_of(std::move(of_side[1]))};
     for (const std::size_t i : rows) {
       const Place& place = table.place(table.rows[i]);
       Field& field = *at_flank(place.tooth, place.side);
@@ -55,7 +60,7 @@ class SpotSearch {
         field.sum = field.count = field.plain = std::vector<double>(corners(), 0.0);
       const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
                                     cell(geometry.face_coordinate(place.z_mm)) + 1);
-      const double um = row_um[i];
+      const double um = row_um[i], limit = limits[side_index(place.side)];
       field.sum[at] += std::clamp(um, -limit, limit);
       field.plain[at] += um;
       field.count[at] += 1.0;
@@ -125,7 +130,7 @@ class SpotSearch {
     const int du = window.profile > 0 ? window.profile : cells_,
               dv = window.face > 0 ? window.face : cells_;
     constexpr double kFewestInWindow = 4.0;
-    std::vector<float> all;
+    std::array<std::vector<float>, 2> of_side;
     const auto each = [&](auto visit) {
       for (const auto& [key, field] : fields_)
         for (int u = 0; u + du <= cells_; ++u)
@@ -135,15 +140,17 @@ class SpotSearch {
               visit(key, field, u, v, count, within(field.sum, u, v, du, dv) / std::sqrt(count));
           }
     };
-    each([&](auto&, auto&, int, int, double, double score) {
-      all.push_back(static_cast<float>(score));
+    each([&](const auto& key, auto&, int, int, double, double score) {
+      of_side[side_index(key.second)].push_back(static_cast<float>(score));
     });
-    const auto tests = static_cast<double>(all.size());
-    const double spread = spread_of(std::move(all));
-    if (!(spread > 0.0)) return 0.0;
+    const auto tests = static_cast<double>(of_side[0].size() + of_side[1].size());
+    const std::array<double, 2> spreads{spread_of(std::move(of_side[0])),
+                                        spread_of(std::move(of_side[1]))};
     const double mm_u = (geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm()) / cells_;
     const double mm_v = geometry_.face_width_mm() / cells_;
     each([&](const auto& key, const Field& field, int u, int v, double count, double score) {
+      const double spread = spreads[side_index(key.second)];
+      if (!(spread > 0.0)) return;
       const double p = std::erfc(std::abs(score) / spread / std::sqrt(2.0));
       FlankSpot& spot = best[key];
       if (!(p < spot.p_value)) return;

@@ -17,8 +17,8 @@ struct FlankSpot {
 };
 
 /// The most certain spot of every flank with p below 1, at most a few. Windows of several sizes
-/// over every flank; how far their means scatter over all flanks says what is usual, so that errors
-/// that hang together are no finding; wild points count no more than 3.5 spreads. `row_um`:
+/// over every flank; how far their means scatter over all flanks of that side says what is usual, so
+/// that errors that hang together, or a side that is noisier, are no finding; wild points count no more than 3.5 spreads. `row_um`:
 /// residuals of the table's rows.
 [[nodiscard]] std::vector<FlankSpot> spots_of_scans(const FlankGeometry& geometry,
                                                     const Observations& table,

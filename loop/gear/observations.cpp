@@ -411,12 +411,28 @@ void gather_small_patches(PatchRows& patches) {
   patches.merge(gathered);
 }
 
+/// The values of a thin patch of a scan and of those around it: a scratch runs through several.
+std::vector<std::size_t> with_patches_beside(const PatchRows& patches,
+                                             const PatchRows::value_type& patch) {
+  constexpr std::size_t kThin = 40;
+  const std::array<int, 5>& key = patch.first;
+  std::vector<std::size_t> rows = patch.second;
+  if (rows.size() > kThin || key[3] < 0) return rows;
+  for (int du = -1; du <= 1; ++du)
+    for (int dv = -1; dv <= 1; ++dv) {
+      const auto beside = patches.find({key[0], key[1], key[2], key[3] + du, key[4] + dv});
+      if ((du != 0 || dv != 0) && beside != patches.end() && key[3] + du >= 0 && key[4] + dv >= 0)
+        rows.insert(rows.end(), beside->second.begin(), beside->second.end());
+    }
+  return rows;
+}
+
 /// True where the nearest values of a patch lie off as one of them does: a burr or a spot, no accident.
 template <class Predicate>
 bool neighbours_agree(const Observations& table, const std::vector<std::size_t>& patch, std::size_t i,
                       Predicate agrees) {
   const bool trace = table.rows[i].kind != ObservationKind::kScanFlank;
-  const std::size_t asked = trace ? 3 : 4, needed = trace ? 2 : 3;
+  const std::size_t asked = trace ? 3 : 4, needed = 2;
   if (patch.size() <= asked) return false;
   const Place& place = table.place(table.rows[i]);
   std::vector<std::pair<double, std::size_t>> near;
@@ -492,9 +508,11 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     // Many that agree with each other are no accident: a step runs through the patch.
     const bool step = far.size() >= 3 && 4 * far.size() > patch.size() &&
                       centre_and_spread(far).second < 0.5 * limit;
+    const std::vector<std::size_t> beside =
+        far.empty() ? patch : with_patches_beside(patches, {key, patch});
     const auto above = [&, middle = centre](std::size_t i) { return table.rows[i].deviation_um - middle; };
     for (const std::size_t i : far)
-      out[i] = !step && !neighbours_agree(table, patch, i, [&](std::size_t other) {
+      out[i] = !step && !neighbours_agree(table, beside, i, [&](std::size_t other) {
         return std::abs(above(other)) > 0.5 * limit && (above(other) > 0.0) == (above(i) > 0.0);
       });
   }

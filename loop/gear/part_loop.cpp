@@ -80,11 +80,16 @@ void PartLoop::run() {
   look_at_sizes();
   drop_impossible();
   drop_what_mends_a_shape();
+  if (scan_for_more) drop_doubtful_names();
   join_flanks();
   if (scan_for_more) tell_parts_of_a_form();
   if (!is_rounding() && !options_.joined) look_at_neighbours();
   veto();
-  if (scan_for_more) remainder_ = remainder_of(effects_, RemainderOf::kAll);
+  if (!scan_for_more) return;
+  remainder_ = remainder_of(effects_, RemainderOf::kAll);
+  if (!structure_is_left()) return;
+  doubt_names_below_what_is_left();
+  remainder_ = remainder_of(effects_, RemainderOf::kAll);
 }
 
 void PartLoop::explain() {
@@ -220,11 +225,12 @@ void PartLoop::select() {
 
 void PartLoop::leave_out_across_steps() {
   kept_.valid = false;
-  for (const Effect& effect : effects_) {
-    if (!effect.family->shape_is_step) continue;
-    patches_.leave_out_across(effect.shape[0]);
-    forget_fits();
-  }
+  std::vector<double> heights_mm;
+  for (const Effect& effect : effects_)
+    if (effect.family->shape_is_step) heights_mm.push_back(effect.shape[0]);
+  const bool some_were = !patches_.left_out.empty();
+  patches_.leave_out_across(heights_mm);
+  if (some_were || !patches_.left_out.empty()) forget_fits();
 }
 
 /// True where a shape moved noticeably.
@@ -286,6 +292,7 @@ std::vector<std::string> PartLoop::not_observable() const {
 /// was.
 bool PartLoop::ban_misnamed() {
   bool any = ban_impossible();
+  any = ban_waves_of_a_drift() || any;
   const auto ban = [&](std::size_t group) {
     any = any || !banned_[group];
     banned_[group] = true;
@@ -307,6 +314,24 @@ bool PartLoop::ban_misnamed() {
           ban(g);
     }
   }
+  return any;
+}
+
+/// Beside a drift around the gear that is larger, waves are what its even course leaves: no cause of
+/// their own. True where any was banned.
+bool PartLoop::ban_waves_of_a_drift() {
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.family->is_drift; }))
+    return false;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  double drift_um = 0.0;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].family->is_drift)
+      drift_um = std::max(drift_um, fit.effect_size_um(static_cast<int>(e)));
+  bool any = false;
+  for (std::size_t e = options_.given.size(); e < effects_.size(); ++e)
+    if (effects_[e].family->named && effects_[e].family->doubt_share > 0.0 &&
+        fit.effect_size_um(static_cast<int>(e)) < drift_um)
+      any = ban_alike(effects_[e]) || any;
   return any;
 }
 
@@ -437,7 +462,8 @@ double PartLoop::structure_left_p_value() const {
 }
 
 std::string PartLoop::structure_left() const {
-  if (neighbours_share()) return words_for(neighbours_);
+  if (neighbours_share())
+    return words_for(neighbours_) + (remainder_.empty() ? "" : "; and " + remainder_.front().text);
   if (!remainder_.empty()) return remainder_.front().text;
   if (!structure_is_left() || discovery_.likest_left < 0)
     return "nothing beyond the measurement's own noise was found";

@@ -75,11 +75,15 @@ class PartLoop {
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool ban_misnamed();
   [[nodiscard]] bool ban_impossible();
+  [[nodiscard]] bool ban_waves_of_a_drift();
   void drop_impossible();
   void drop_what_mends_a_shape();
+  void drop_doubtful_names();
   void join_flanks();
   void tell_parts_of_a_form();
   void tell_level_of_forms();
+  void doubt_names_below_what_is_left();
+  [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;
   void look_at_single_teeth();
   void look_at_sizes();
   void look_at_neighbours();

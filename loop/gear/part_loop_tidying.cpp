@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
+#include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
 
@@ -55,6 +58,30 @@ void PartLoop::drop_what_mends_a_shape() {
     effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(least));
     discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least));
     refine_shapes(geometry_, table_, patches_, effects_, options_.given.size());
+  }
+}
+
+/// What a form without a name leaves looks a little like many things: beside one, a name must be as
+/// sure as flips can say, or stand far above its error.
+void PartLoop::drop_doubtful_names() {
+  constexpr double kSure = 0.002, kFar = 36.0;  // chi-square a column: six standard errors
+  const auto drop = [&](std::size_t e) {
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+  };
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) {
+        return e.is_term() && e.family->shapes && e.family->form_word.empty();
+      }))
+    return;
+  for (std::size_t e = effects_.size(); e-- > options_.given.size();) {
+    if (!effects_[e].family->named || effects_[e].family->local ||
+        !(discovery_.chosen[e].p_value > kSure / options_.tables))
+      continue;
+    std::vector<Effect> without = effects_;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+    const double loss = TrialFit(geometry_, table_, patches_, without).residual_square() -
+                        TrialFit(geometry_, table_, patches_, effects_).residual_square();
+    if (loss < kFar * effects_[e].columns()) drop(e);
   }
 }
 
@@ -214,6 +241,14 @@ void PartLoop::tell_parts_of_a_form() {
   tell_level_of_forms();
 }
 
+/// The form without a name of an effect, or of one that the data cannot tell from it.
+const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
+  if (const EffectFamily* own = find_form(effects_[e].family->form_word)) return own;
+  for (const int group : discovery_.chosen[e].confounded)
+    if (const EffectFamily* other = find_form(candidates_[group].family->form_word)) return other;
+  return nullptr;
+}
+
 /// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
 /// mean of its own.
 void PartLoop::tell_level_of_forms() {
@@ -226,20 +261,77 @@ void PartLoop::tell_level_of_forms() {
   if (named.size() == effects_.size() || named.empty()) return;
   const auto kept_without = fit_of(named);
   const PointFit& without = *kept_without;
+  // A drift around the gear, with the waves that bend it, from its first tooth to its last.
+  bool drifts = false;
+  double drift_um = 0.0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    drifts = drifts || effects_[e].family->is_drift;
+    if (effects_[e].is_term())
+      drift_um = std::hypot(drift_um, 2.0 * std::sqrt(3.0) * fit.effect_size_um(static_cast<int>(e)));
+  }
   int own = 0;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     Effect& effect = effects_[e];
     if (effect.is_term() && effect.order() == 0.0) continue;
     const int at = own++;
     const EffectFamily* form =
-        effect.family->named && !effect.family->local ? find_form(effect.family->form_word) : nullptr;
+        effect.family->named && !effect.family->local ? form_of_level(e) : nullptr;
     if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     const double b0 = without.coefficients()[without.first_column(at)];
     const bool level = course_of(geometry_, fit, e, true).norm() <= 1e-9 * std::abs(b) &&
                        course_of(geometry_, fit, e, false).norm() <= 1e-9 * std::abs(b);
-    if (level && std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)))
+    if (level && (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
+                  (drifts && std::abs(b) < drift_um)))
       effect.family = form;
+  }
+}
+
+/// While structure is left, a name that does less than what is left, in every kind of record that
+/// shows it, is as likely a part of that: it is told as a form, or not at all.
+void PartLoop::doubt_names_below_what_is_left() {
+  constexpr double kLess = 0.25, kShows = 0.01;  // of squares
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  if (effects_.size() == told) return;
+  std::vector<float> before_um, after_um;
+  const PointFit fit(geometry_, table_, patches_, effects_);
+  fit.residuals(before_um, after_um);
+  std::map<ObservationKind, double> left, with;
+  for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, after_um, false)) {
+    with[kind] = error.square / error.count;
+    left[kind] = std::max(0.0, error.square - error.random_square) / error.count;
+  }
+  const bool sizes = std::any_of(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+    return row.kind == ObservationKind::kSize;
+  });
+  for (std::size_t e = effects_.size(); e-- > told;) {
+    const EffectFamily& family = *effects_[e].family;
+    if (!family.named || family.local || (sizes && family.shows_in_sizes)) continue;
+    std::vector<Effect> without = effects_;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+    std::vector<float> bare_um;
+    PointFit(geometry_, table_, patches_, without).residuals(before_um, bare_um);
+    // What it takes out beside the others: two that undo each other take out nothing.
+    std::map<ObservationKind, double> taken;
+    double most = 0.0;
+    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, bare_um, false)) {
+      taken[kind] = error.square / error.count - with[kind];
+      most = std::max(most, taken[kind]);
+    }
+    const bool stands = std::any_of(taken.begin(), taken.end(), [&](const auto& of_kind) {
+      return of_kind.second > kShows * most && of_kind.second >= kLess * left[of_kind.first];
+    });
+    if (stands) continue;
+    if (const EffectFamily* form = find_form(effects_[e].family->form_word)) {
+      effects_[e].family = form;
+      continue;
+    }
+    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+    if (e < options_.given.size()) {
+      options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(e));
+      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(e - told));
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/discovery/discovery.h"
@@ -28,10 +29,23 @@ struct Patches {
   std::vector<int> patch_of_row;
   int units = 0;
 
+  std::vector<std::pair<std::size_t, double>> left_out;  ///< patches, and the weight they had
+
   /// Takes the weight from patches with values on both sides of a step: their mean is on neither.
-  void leave_out_across(double z_mm) {
-    for (Patch& patch : patches)
-      if (patch.z_low_mm <= z_mm && patch.z_high_mm > z_mm) patch.weight *= 1e-6;
+  /// Those left out for other heights before get theirs back.
+  void leave_out_across(const std::vector<double>& heights_mm) {
+    constexpr double kNearlyNothing = 1e-6;
+    for (const auto& [patch, weight] : left_out) patches[patch].weight = weight;
+    left_out.clear();
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      Patch& patch = patches[i];
+      for (const double z_mm : heights_mm) {
+        if (!(patch.z_low_mm <= z_mm && patch.z_high_mm > z_mm)) continue;
+        left_out.emplace_back(i, patch.weight);
+        patch.weight *= kNearlyNothing;
+        break;
+      }
+    }
   }
 };
 

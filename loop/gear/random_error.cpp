@@ -82,6 +82,28 @@ Eigen::VectorXd spectrum(const Whole& whole) {
   return result;
 }
 
+/// Sum of a spectrum in which a line counts as what stands beside it: waves of one length that every
+/// trace has in a phase of its own are no random error, whose spectrum is smooth.
+double sum_without_lines(const std::vector<double>& level) {
+  constexpr int kNear = 4, kFar = 10;
+  constexpr double kLine = 3.0;
+  const auto n = static_cast<int>(level.size());
+  double sum = 0.0;
+  for (int k = 0; k < n; ++k) {
+    std::vector<double> before, after;
+    for (int off = kNear; off <= kFar; ++off) {
+      if (k - off >= 0) before.push_back(level[static_cast<std::size_t>(k - off)]);
+      if (k + off < n) after.push_back(level[static_cast<std::size_t>(k + off)]);
+    }
+    const double own = level[static_cast<std::size_t>(k)];
+    // A line stands above both sides; the rise to long waves is above one.
+    const bool both = before.size() > 2 && after.size() > 2;
+    const double beside = both ? std::max(median(before), median(after)) : own;
+    sum += own > kLine * beside ? beside : own;
+  }
+  return sum;
+}
+
 /// Variance of traces over the same wavelengths.
 double variance_of_traces(std::vector<Whole>& wholes, double lost) {
   constexpr int kBeside = 2;
@@ -102,8 +124,8 @@ double variance_of_traces(std::vector<Whole>& wholes, double lost) {
   }
   if (spectra.empty()) return 0.0;
   // Wavelengths in shares of the shortest course; k = 0 is the trace's zero.
-  double sum = 0.0;
   const auto n = static_cast<int>(shortest);
+  std::vector<double> level;
   for (int k = 1; k < n; ++k) {
     std::vector<double> squares;
     for (const Eigen::VectorXd& s : spectra)
@@ -112,9 +134,9 @@ double variance_of_traces(std::vector<Whole>& wholes, double lost) {
             static_cast<Eigen::Index>(std::lround((k + off) * static_cast<double>(s.size()) / n));
         if (k + off >= 1 && at >= 1 && at < s.size()) squares.push_back(s[at]);
       }
-    sum += median(squares) / kMedianOfSquare;
+    level.push_back(median(squares) / kMedianOfSquare);
   }
-  return lost * sum / (n - 1);
+  return lost * sum_without_lines(level) / (n - 1);
 }
 
 double variance_of_flank(const Whole& whole, bool with_form) {
@@ -149,6 +171,22 @@ double variance_of_scan(std::vector<Whole>& wholes, double lost) {
   return lost * median(variances) * mean_over_median(degrees);
 }
 
+/// Mean square of the usual flank, whatever its form.
+double usual_square(const std::vector<Whole*>& flank) {
+  std::vector<double> squares;
+  double values = 0.0;
+  for (const Whole* whole : flank) {
+    if (whole->size() < 12) continue;
+    double sum = 0.0;
+    for (const Sample& s : *whole) sum += s.um * s.um;
+    squares.push_back(sum / static_cast<double>(whole->size()));
+    values += static_cast<double>(whole->size());
+  }
+  if (squares.empty()) return 0.0;
+  const double degrees = values / static_cast<double>(squares.size());
+  return median(squares) * mean_over_median(degrees);
+}
+
 /// One value a tooth: second differences around the gear, each flank apart.
 double variance_around(const std::map<int, double>& by_tooth) {
   std::vector<double> squares;
@@ -175,33 +213,45 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
     return nothing_left || !(around > 0.0) ? plain : std::min(plain, around);
   }
   const bool scan = kind == ObservationKind::kScanFlank;
-  if (scan && nothing_left) return plain;
   std::array<std::vector<Whole*>, 2> of_flank;
   for (auto& [key, whole] : data.wholes)
     of_flank[static_cast<std::size_t>(key.first)].push_back(&whole);
-  double lost = 0.0, flanks = 0.0;
-  for (std::vector<Whole*>& flank : of_flank) {
+  // Either flank by itself: a probe may be noisier on one.
+  double sum = 0.0, values = 0.0, usual = 0.0;
+  for (std::size_t side = 0; side < of_flank.size(); ++side) {
+    std::vector<Whole*>& flank = of_flank[side];
     if (flank.empty()) continue;
     std::size_t longest = 0;
-    for (const Whole* whole : flank) longest = std::max(longest, whole->size());
+    double count = 0.0;
+    for (const Whole* whole : flank) {
+      longest = std::max(longest, whole->size());
+      count += static_cast<double>(whole->size());
+    }
     const int places = static_cast<int>(std::min<std::size_t>(longest, 256));
-    flanks += 1.0;
-    lost += scan                                ? take_common_off(flank, 12, 12)
-            : kind == ObservationKind::kProfile ? take_common_off(flank, places, 1)
-                                                : take_common_off(flank, 1, places);
+    if (scan) usual += count * usual_square(flank);
+    const double lost = scan                                ? take_common_off(flank, 12, 12)
+                        : kind == ObservationKind::kProfile ? take_common_off(flank, places, 1)
+                                                            : take_common_off(flank, 1, places);
+    std::vector<Whole> wholes;
+    for (Whole* whole : flank) wholes.push_back(std::move(*whole));
+    const double variance = scan ? variance_of_scan(wholes, lost) : variance_of_traces(wholes, lost);
+    if (!(variance > 0.0)) return plain;
+    sum += count * variance;
+    values += count;
   }
-  std::vector<Whole> wholes;
-  for (auto& [key, whole] : data.wholes) wholes.push_back(std::move(whole));
-  const double variance =
-      scan ? variance_of_scan(wholes, lost / flanks) : variance_of_traces(wholes, lost / flanks);
-  return variance > 0.0 ? variance : plain;
+  if (!(values > 0.0)) return plain;
+  // What stands on a few flanks is in their mean square and not in the usual flank.
+  constexpr double kUsual = 1.21;
+  return scan && nothing_left && plain < kUsual * usual / values ? plain : sum / values;
 }
 
 }  // namespace
 
-double random_error_um(const FlankGeometry& geometry, const Observations& table,
-                       const Patches& patches, const std::vector<float>& row_um,
-                       bool nothing_left) {
+std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geometry,
+                                                     const Observations& table,
+                                                     const Patches& patches,
+                                                     const std::vector<float>& row_um,
+                                                     bool nothing_left) {
   std::map<Class, Gathered> classes;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
@@ -219,7 +269,6 @@ double random_error_um(const FlankGeometry& geometry, const Observations& table,
       data.around[static_cast<std::size_t>(side)][place.tooth] = um;
       continue;
     }
-    if (nothing_left && row.kind == ObservationKind::kScanFlank) continue;
     // A trace runs along one direction; the other stands still.
     const bool profile = row.kind == ObservationKind::kProfile,
                helix = row.kind == ObservationKind::kHelix;
@@ -227,11 +276,23 @@ double random_error_um(const FlankGeometry& geometry, const Observations& table,
     data.wholes[{side, key}].push_back({helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
                                         profile ? 0.0 : geometry.face_coordinate(place.z_mm), um});
   }
-  double sum = 0.0, count = 0.0;
+  std::map<ObservationKind, KindError> errors;
   for (auto& [key, data] : classes) {
-    const double values = data.count;
-    sum += values * variance_of(key.kind, data, nothing_left);
-    count += values;
+    KindError& error = errors[key.kind];
+    error.count += data.count;
+    error.square += data.squares;
+    error.random_square += data.count * variance_of(key.kind, data, nothing_left);
+  }
+  return errors;
+}
+
+double random_error_um(const FlankGeometry& geometry, const Observations& table,
+                       const Patches& patches, const std::vector<float>& row_um,
+                       bool nothing_left) {
+  double sum = 0.0, count = 0.0;
+  for (const auto& [kind, error] : errors_of_kinds(geometry, table, patches, row_um, nothing_left)) {
+    sum += error.random_square;
+    count += error.count;
   }
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }

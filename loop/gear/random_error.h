@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "trueflank/loop/gear/patches.h"
 
 namespace trueflank::loop {
+
+/// Sums over the values of one kind of record [um^2]: residuals, and the random error among them.
+struct KindError {
+  double count = 0.0, square = 0.0, random_square = 0.0;
+};
+
+/// As random_error_um, each kind of record apart.
+[[nodiscard]] std::map<ObservationKind, KindError> errors_of_kinds(
+    const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+    const std::vector<float>& row_um, bool nothing_left);
+
 
 /// Standard deviation [um] of the random error of the values that errors are made of, all kinds
 /// together, from the data's own neighbourhood. Traces: their spectrum, at every wavelength the

@@ -94,5 +94,24 @@ TEST_F(TrialFits, WhatStandsBeforeTheFirstStaysAsItIs) {
   EXPECT_NE(effects[1].shape[0], 1.5);
 }
 
+TEST(Patches, LeftOutForOneStepGetTheirWeightBackForAnother) {
+  loop::Patches patches;
+  for (const double z : {1.0, 2.0, 3.0}) {
+    loop::Patches::Patch patch;
+    patch.weight = 4.0;
+    patch.z_low_mm = z - 0.4;
+    patch.z_high_mm = z + 0.4;
+    patches.patches.push_back(patch);
+  }
+  for (int round = 0; round < 3; ++round) patches.leave_out_across({1.1});
+  EXPECT_DOUBLE_EQ(patches.patches[0].weight, 4e-6);
+  patches.leave_out_across({2.1, 1.9});
+  EXPECT_DOUBLE_EQ(patches.patches[0].weight, 4.0);
+  EXPECT_DOUBLE_EQ(patches.patches[1].weight, 4e-6);
+  EXPECT_DOUBLE_EQ(patches.patches[2].weight, 4.0);
+  patches.leave_out_across({});
+  EXPECT_DOUBLE_EQ(patches.patches[1].weight, 4.0);
+}
+
 }  // namespace
 }  // namespace trueflank::test

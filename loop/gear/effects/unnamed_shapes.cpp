@@ -225,6 +225,7 @@ const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
 EffectFamily unnamed_ramp() {
   EffectFamily f = described("unnamed_ramp",
                              {"first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.is_drift = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
