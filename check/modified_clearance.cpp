@@ -71,19 +71,19 @@ bool is_modified(const GearTrain& train, const TrainMesh& mesh) {
          !gear_of(train, mesh.gear2).deviation.empty();
 }
 
-MeshSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z_mm) {
+PairSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z_mm) {
   const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
   return {section_profile(gear1.toothing(), z_mm - gear1.z_lower_mm).profile,
           section_profile(gear2.toothing(), z_mm - gear2.z_lower_mm).profile,
           train.centre_distance_mm, z_mm};
 }
 
-std::vector<MeshSection> decisive_sections(const GearTrain& train, const TrainMesh& mesh) {
+std::vector<PairSection> decisive_sections(const GearTrain& train, const TrainMesh& mesh) {
   if (!is_modified(train, mesh)) {
     const GearPair pair = train.pair(mesh);
     return {{*pair.profile1, *pair.profile2, pair.centre_distance_mm, kNaN}};
   }
-  std::vector<MeshSection> sections;
+  std::vector<PairSection> sections;
   for (double z : decisive_heights(train, mesh)) sections.push_back(mesh_section(train, mesh, z));
   return sections;
 }
@@ -93,22 +93,22 @@ MeshState modified_state(const GearTrain& train, const TrainMesh& mesh) {
   const double r_b2 = base_radius_mm(gear_of(train, mesh.gear2).profile.gear());
   const bool drives = play.ccw_play_mm > kNoPlay_mm && play.cw_play_mm > kNoPlay_mm;
   MeshState state;
-  const std::vector<MeshSection> sections = decisive_sections(train, mesh);
-  for (const MeshSection& section : sections) {
+  const std::vector<PairSection> sections = decisive_sections(train, mesh);
+  for (const PairSection& section : sections) {
     MeshState here = mesh_state(section.pair(), drives ? play.ccw_play_mm / r_b2 : 0.0,
                                 drives ? play.cw_play_mm / r_b2 : 0.0);
     keep_lower(state.centred, std::move(here.centred), section.z_mm);
     if (drives) keep_lower(state.driving, std::move(here.driving), section.z_mm);
   }
-  for (const MeshSection& section : sections)
+  for (const PairSection& section : sections)
     if (section.z_mm == state.centred.z_mm) add_exact_verdict(section.pair(), state.centred);
   return state;
 }
 
 RadialRemoval modified_removal(const GearTrain& train, const TrainMesh& mesh) {
-  const std::vector<MeshSection> sections = decisive_sections(train, mesh);
+  const std::vector<PairSection> sections = decisive_sections(train, mesh);
   std::vector<GearPair> pairs;
-  for (const MeshSection& section : sections) pairs.push_back(section.pair());
+  for (const PairSection& section : sections) pairs.push_back(section.pair());
   return radial_removal(pairs, twist_over_face_rad(train, mesh));
 }
 
@@ -116,14 +116,14 @@ double worst_margin_rad(const GearTrain& train, const TrainMesh& mesh,
                         double (*margin_rad)(const GearPair&)) {
   if (!is_modified(train, mesh)) return margin_rad(train.pair(mesh));
   double worst = kNaN;
-  for (const MeshSection& section : decisive_sections(train, mesh))
+  for (const PairSection& section : decisive_sections(train, mesh))
     worst = std::fmin(worst, margin_rad(section.pair()));
   return worst;
 }
 
 double modified_clearance_mm(const GearTrain& train, const TrainMesh& mesh) {
   double least = 1e300;
-  for (const MeshSection& section : decisive_sections(train, mesh))
+  for (const PairSection& section : decisive_sections(train, mesh))
     least = std::min(least, sweep_clearance_mm(section.pair()));
   return least;
 }

@@ -13,7 +13,7 @@ namespace trueflank {
 [[nodiscard]] bool is_modified(const GearTrain& train, const TrainMesh& mesh);
 
 /// Both gears of a mesh at one height, in the frame of their designs' sections.
-struct MeshSection {
+struct PairSection {
   ToothProfile profile1, profile2;
   double centre_distance_mm = kNaN;
   double z_mm = kNaN;  ///< in the assembly
@@ -22,11 +22,11 @@ struct MeshSection {
 };
 
 /// The sections at one height; of unmodified gears those of the design.
-[[nodiscard]] MeshSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z_mm);
+[[nodiscard]] PairSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z_mm);
 
 /// The sections that decide: at every height that another does not outdo in material on every flank. What
 /// only gets worse with material is judged on them for the whole face. One where nothing is modified.
-[[nodiscard]] std::vector<MeshSection> decisive_sections(const GearTrain& train,
+[[nodiscard]] std::vector<PairSection> decisive_sections(const GearTrain& train,
                                                          const TrainMesh& mesh);
 
 /// The mesh turned in its decisive sections; `z_mm` of the results says where. The driving position is
