@@ -43,7 +43,7 @@ Status write_mesh_pictures(const GearTrain& train, const std::string& folder) {
     const bool modified = is_modified(train, mesh);
     const MeshClearance nearest =
         modified ? modified_state(train, mesh).centred : mesh_clearance(train.pair(mesh));
-    std::optional<MeshSection> section;
+    std::optional<PairSection> section;
     if (modified) section = mesh_section(train, mesh, nearest.z_mm);
     const std::string svg = mesh_picture_svg(
         section ? section->pair() : train.pair(mesh), nearest,
