@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Sets `source` to the generated definitions of trueflank/export/scad_template_texts.h.
+# Sets `source` to the generated definitions of trueflank/export/scad/scad_template_texts.h.
 function(trueflank_scad_templates source)
   set(folder ${PROJECT_SOURCE_DIR}/templates/openscad)
   set(texts "")
@@ -18,7 +18,7 @@ function(trueflank_scad_templates source)
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/scad_template_texts.cpp)
   add_custom_command(OUTPUT ${generated}
     COMMAND ${CMAKE_COMMAND} -D OUTPUT=${generated} -D NAMESPACE=trueflank::io::scad_template
-      -D HEADER=trueflank/export/scad_template_texts.h -D TEXTS=${texts} -P ${script}
+      -D HEADER=trueflank/export/scad/scad_template_texts.h -D TEXTS=${texts} -P ${script}
     DEPENDS ${files} ${script}
     COMMENT "Embedding the OpenSCAD templates" VERBATIM)
   set(${source} ${generated} PARENT_SCOPE)

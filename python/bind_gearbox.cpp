@@ -11,7 +11,7 @@
 #include "trueflank/design/new_design.h"
 #include "trueflank/export/export_parts.h"
 #include "trueflank/export/scene.h"
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 #include "trueflank/geometry/polyline.h"
 #include "trueflank/session/evaluate.h"
 #include "trueflank/solid/brep/brep.h"

@@ -11,7 +11,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/export_parts.h"
 #include "trueflank/export/number_text.h"
-#include "trueflank/export/scad_templates.h"
+#include "trueflank/export/scad/scad_templates.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
 #include "trueflank/report/render/gearbox_pictures.h"
 #include "trueflank/report/report_html.h"

@@ -3,7 +3,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/dxf_document.h"
+#include "trueflank/export/section/dxf_document.h"
 #include "trueflank/report/drawing/sheet.h"
 
 namespace trueflank::io {

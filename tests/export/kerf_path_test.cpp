@@ -2,7 +2,7 @@
 //
 // Paths of a wire against an offset of the dense polygon, both ways, by plain distances of points and
 // segments: nothing of the library's own offset curves or distances is used.
-#include "trueflank/export/kerf_path.h"
+#include "trueflank/export/section/kerf_path.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include "tests/export/sample_scene.h"
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
-#include "trueflank/export/dxf_writer.h"
+#include "trueflank/export/section/dxf_writer.h"
 #include "trueflank/export/input_file.h"
-#include "trueflank/export/section_contour.h"
-#include "trueflank/export/svg_writer.h"
+#include "trueflank/export/section/section_contour.h"
+#include "trueflank/export/section/svg_writer.h"
 
 namespace trueflank::io {
 namespace {

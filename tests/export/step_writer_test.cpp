@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "trueflank/base/contract.h"
-#include "trueflank/export/step_entities.h"
+#include "trueflank/export/step/step_entities.h"
 
 namespace trueflank::io {
 namespace {

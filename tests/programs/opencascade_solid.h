@@ -23,7 +23,7 @@
 #include <string>
 
 #include "tests/support/sample_parts.h"
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 
 // OpenCASCADE reads our STEP text and judges the solid it finds.
 namespace trueflank::test {

@@ -20,7 +20,7 @@
 
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 
 namespace trueflank {
 namespace {

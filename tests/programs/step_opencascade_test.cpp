@@ -8,7 +8,7 @@
 #include "tests/support/sample_gears.h"
 #include "tests/support/sample_parts.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank {

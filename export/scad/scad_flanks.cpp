@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/scad_flanks.h"
+#include "trueflank/export/scad/scad_flanks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "trueflank/base/units.h"
-#include "trueflank/export/scad_text.h"
+#include "trueflank/export/scad/scad_text.h"
 
 namespace trueflank::io {
 namespace {

@@ -2,7 +2,7 @@
 //
 // The least that readers of AC1015 demand: all nine tables, the two spaces as blocks, a root
 // dictionary, a handle and an owner for everything. AutoCAD's DXF Reference, 2000.
-#include "trueflank/export/dxf_document.h"
+#include "trueflank/export/section/dxf_document.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/scad_writer.h"
+#include "trueflank/export/scad/scad_writer.h"
 
 namespace trueflank::io {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Which faces of a solid a dimension is about.
-#include "trueflank/export/step_pmi.h"
+#include "trueflank/export/step/step_pmi.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "trueflank/base/units.h"
-#include "trueflank/export/step_pmi.h"
+#include "trueflank/export/step/step_pmi.h"
 
 namespace trueflank::io {
 namespace {

@@ -3,14 +3,14 @@
 // Half an outline is enough: teeth and bores are mirror images in a line through the axis. Each smooth
 // piece of it has an offset curve, each corner that opens an arc about it; the parts of these that
 // are nearer to the outline than half the kerf are cut off, and what is left joins at crossings.
-#include "trueflank/export/kerf_path.h"
+#include "trueflank/export/section/kerf_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "trueflank/base/units.h"
-#include "trueflank/export/kerf_element.h"
+#include "trueflank/export/section/kerf_element.h"
 #include "trueflank/geometry/biarc.h"
 #include "trueflank/geometry/scalar_root.h"
 #include "trueflank/geometry/section_profile.h"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/export/step_entities.h"
+#include "trueflank/export/step/step_entities.h"
 
 namespace trueflank::io {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/dxf_writer.h"
+#include "trueflank/export/section/dxf_writer.h"
 
 #include <algorithm>
 
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/dxf_document.h"
+#include "trueflank/export/section/dxf_document.h"
 
 namespace trueflank::io {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/scad_writer.h"
+#include "trueflank/export/scad/scad_writer.h"
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/file_formats.h"
-#include "trueflank/export/scad_flanks.h"
-#include "trueflank/export/scad_text.h"
+#include "trueflank/export/scad/scad_flanks.h"
+#include "trueflank/export/scad/scad_text.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {

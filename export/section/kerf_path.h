@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/section_contour.h"
+#include "trueflank/export/section/section_contour.h"
 
 // The way of a wire or beam of some width around an outline.
 namespace trueflank::io {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/step_entities.h"
+#include "trueflank/export/step/step_entities.h"
 
 #include <algorithm>
 #include <charconv>

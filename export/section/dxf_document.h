@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/section_contour.h"
+#include "trueflank/export/section/section_contour.h"
 
 // What every DXF file of ours has around its entities.
 namespace trueflank::io {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/kerf_element.h"
+#include "trueflank/export/section/kerf_element.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/svg_writer.h"
+#include "trueflank/export/section/svg_writer.h"
 
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"

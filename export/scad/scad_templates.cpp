@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/scad_templates.h"
+#include "trueflank/export/scad/scad_templates.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/scad_template_texts.h"
+#include "trueflank/export/scad/scad_template_texts.h"
 #include "trueflank/train/carrier.h"
 #include "trueflank/train/planet_phase.h"
 

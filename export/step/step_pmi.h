@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trueflank/export/part_dimensions.h"
-#include "trueflank/export/step_entities.h"
+#include "trueflank/export/step/step_entities.h"
 #include "trueflank/solid/brep/brep.h"
 
 // Product and manufacturing information of a part that a program can read: sizes with limits, the

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/scad_text.h"
-#include "trueflank/export/scad_writer.h"
+#include "trueflank/export/scad/scad_text.h"
+#include "trueflank/export/scad/scad_writer.h"
 #include "trueflank/export/scene.h"
 
 namespace trueflank::io {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "trueflank/base/units.h"
-#include "trueflank/export/kerf_path.h"
+#include "trueflank/export/section/kerf_path.h"
 
 namespace trueflank::io {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/step_writer.h"
+#include "trueflank/export/step/step_writer.h"
 
 #include "trueflank/base/contract.h"
 #include <cmath>
 #include "trueflank/base/units.h"
-#include "trueflank/export/step_entities.h"
+#include "trueflank/export/step/step_entities.h"
 
 namespace trueflank::io {
 namespace {

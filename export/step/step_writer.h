@@ -7,7 +7,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/export/file_formats.h"
-#include "trueflank/export/step_pmi.h"
+#include "trueflank/export/step/step_pmi.h"
 #include "trueflank/solid/brep/brep.h"
 #include "trueflank/solid/shape/part_shape.h"
 

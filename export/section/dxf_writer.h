@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/section_contour.h"
+#include "trueflank/export/section/section_contour.h"
 
 namespace trueflank::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/section_contour.h"
+#include "trueflank/export/section/section_contour.h"
 
 #include <algorithm>
 #include <cmath>
