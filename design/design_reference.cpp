@@ -32,7 +32,7 @@ face_width_mm = 8
 bore_mm = 5
 ```
 
-`trueflank check FILE` reads it and tells **all** errors at once: file, line, key, the value found
+`trueflank check FILE` reads it and reports **all** errors at once: file, line, key, the value found
 and what would be right. Unknown keys are errors, so a misspelt one is never passed over; the
 nearest known key is named. Nothing is repaired silently. Whole numbers are taken where numbers are
 wanted; `nan` and `inf` never are. Ranges are wide: they keep out slips (a misplaced decimal point,
