@@ -451,6 +451,7 @@ bool neighbours_agree(const Observations& table, const std::vector<std::size_t>&
 /// Leaves out what lies far from its neighbours on the same flank: an effect moves them together.
 void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
   std::vector<std::pair<std::array<int, 5>, std::vector<std::size_t>>> gathered;
+  constexpr int kMostSources = 1 << 24;  // more files than anybody gives, so that kinds stay apart
   std::unordered_map<std::uint64_t, std::size_t> numbers;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
@@ -468,8 +469,8 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
     const int tooth = place.surface == Surface::kBore
                           ? static_cast<int>(wrapped_rad(place.polar_rad) / kTwoPi * 16)
                           : place.tooth;
-    const std::array<int, 5> key{static_cast<int>(row.kind) * 64 + row.source, tooth, place.side,
-                                 u, v};
+    const std::array<int, 5> key{static_cast<int>(row.kind) * kMostSources + row.source, tooth,
+                                 place.side, u, v};
     // side, u and v have less than eight values each
     const std::uint64_t packed = (static_cast<std::uint64_t>(key[0]) << 32U) +
                                  static_cast<std::uint64_t>(tooth) * 512U +

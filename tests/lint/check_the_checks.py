@@ -8,6 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import check_layers
+import check_names
 import check_nodiscard
 
 LICENCE = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
@@ -96,6 +97,23 @@ class Layers(Tree):
         self.write("base/text.h", HEADER + "\n" * 400)
         complaints, warnings = check_layers.check(self.root)
         self.assertEqual((complaints, len(warnings)), ([], 1))
+
+
+class Names(Tree):
+    def complaints(self, first, second):
+        self.write("base/x.h", LICENCE + first)
+        self.write("geometry/y.cpp", LICENCE + second)
+        return [c.split()[0] for c in check_names.check(self.root)]
+
+    def test_one_name_for_two_types_is_found(self):
+        self.assertEqual(self.complaints("namespace a::b {\nstruct S {\n};\n}  // namespace a::b\n",
+                                         "namespace a::b {\nclass S : public T {\n};\n}  // namespace a::b\n"), ["a::b::S"])
+
+    def test_what_is_not_one_name_passes(self):
+        self.assertEqual(self.complaints(
+            "namespace a {\nclass S;\nstruct T {\n};\nnamespace {\nstruct U {\n};\n}  // namespace\n}  // namespace a\n",
+            "namespace a {\nclass S {\n};\nstruct T::Part {\n};\n}  // namespace a\nnamespace c {\nstruct T {\n};\n"
+            "struct U {\n};\n}  // namespace c\n"), [])
 
 
 class Nodiscard(Tree):
