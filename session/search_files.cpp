@@ -70,6 +70,16 @@ std::string binding_json(const std::vector<BindingLimit>& binding) {
   return "[" + text + "]";
 }
 
+/// What a reader would relax: each key once; what has no key, by the limit's name.
+std::string binding_csv(const std::vector<BindingLimit>& binding) {
+  std::vector<std::string> names;
+  for (const BindingLimit& b : binding) {
+    const std::string& name = b.key.empty() ? b.limit : b.key;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return joined(names, " ");
+}
+
 std::string design_json(const FoundDesign& found, std::size_t rank) {
   const ToothSet& set = found.set;
   std::string text = "{\"file\": " + json_string(design_stem(rank) + ".toml");
@@ -134,12 +144,11 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
       "planets,teeth,gap,face_width_mm,module_mm";
   for (const SearchObjective figure : other_figures())
     text += std::string(",") + objective_entry(figure).column;
-  text += ",score,hunting,phasing,on_front,file\n";
-  std::map<std::pair<std::size_t, double>, std::string> files;
+  text += ",score,hunting,phasing,binding,on_front,file\n";
+  std::map<std::pair<std::size_t, double>, std::size_t> designs;
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& found = report.designs[i];
-    files[{found.set_index,
-           found.candidate.free.centre_distance}] = design_stem(i) + ".toml";
+    designs[{found.set_index, found.candidate.free.centre_distance}] = i;
   }
   for (std::size_t i = 0; i < report.ranking.size(); ++i) {
     const RankedCandidate& ranked = report.ranking[i];
@@ -161,9 +170,11 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
             "," + csv_number(d.module_mm == d.module_mm ? d.module_mm : SearchModel(task.requirements, set).module_mm(c.free));
     for (const SearchObjective figure : other_figures()) text += "," + figure_number(c.value(figure));
     text += "," + csv_number(c.score) + (has_hunting_teeth(set) ? ",1," : ",0,") + phasing_of(set);
-    const auto file = files.find({ranked.set_index, c.free.centre_distance});
-    text += std::string(ranked.on_front ? ",1," : ",0,") +
-            (file == files.end() ? std::string() : file->second) + "\n";
+    const auto design = designs.find({ranked.set_index, c.free.centre_distance});
+    const bool written = design != designs.end();
+    text += "," + (written ? binding_csv(report.designs[design->second].binding) : std::string()) +
+            (ranked.on_front ? ",1," : ",0,") +
+            (written ? design_stem(design->second) + ".toml" : std::string()) + "\n";
   }
   return text;
 }

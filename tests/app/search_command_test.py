@@ -74,6 +74,19 @@ results = 30
 """
 
 
+def every_limit_is_named(folder, report):
+    """`binding` of search.csv: each key of search.json's once, the limit where it has none; of written designs alone."""
+    rows = list(csv.DictReader((folder / "search.csv").open()))
+    by_file = {row["file"]: row["binding"].split() for row in rows if row["file"]}
+    for design in report["designs"]:
+        named = [b["key"] or b["limit"] for b in design["binding"]]
+        told = by_file[design["file"]]
+        assert set(told) == set(named) and len(told) == len(set(told)), (design["file"], told, named)
+    assert "shift.max" in by_file["design-001.toml"], by_file
+    others = [row for row in rows if not row["file"]]
+    assert others and all(row["binding"] == "" for row in others), others
+
+
 def every_kind():
     """Several kinds in one search: the same bytes however it runs, designs that check takes, files that say the kind."""
     needs = OUTPUT / "kinds.toml"
@@ -182,6 +195,7 @@ def main():
     binding = report["designs"][0]["binding"]
     assert binding and all(b["key"] is None or b["objective"] >= report["designs"][0]["forward"] for b in binding), binding
     assert all(b["key"] is None or b["key"] in summary for b in binding), summary
+    every_limit_is_named(whole, report)
     lost = sum(c["count"] for c in report["rejected"])
     assert lost + report["feasible"] == report["considered"]
     lines = (whole / "search.csv").read_text().splitlines()
