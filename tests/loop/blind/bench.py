@@ -377,10 +377,15 @@ class Case:
         a = self.answer
         if a is None:
             return f"WRONG {self.label()}: {self.why}"
-        told = "; ".join(e["id"] + (" ~" + ",".join(e["confounded_with"]) if e["confounded_with"] else "") + " " +
-                         " ".join(f"{k} {p['value']:.4g} [{p['ci95'][0]:.4g}, {p['ci95'][1]:.4g}]"
-                                  for k, p in e["parameters"].items()) for e in a["effects"])
-        return f"{'' if self.right else 'WRONG '}{self.label()}: {self.why} {a['verdict']} {told}; truth {self.truth}"
+        return (f"{'' if self.right else 'WRONG '}{self.label()}: {self.why} {a['verdict']} {found_text(a)}; "
+                f"truth {self.truth}")
+
+
+def found_text(answer):
+    """The effects of a loop.json with their figures, in one line."""
+    return "; ".join(e["id"] + (" ~" + ",".join(e["confounded_with"]) if e["confounded_with"] else "") + " " +
+                     " ".join(f"{k} {p['value']:.4g} [{p['ci95'][0]:.4g}, {p['ci95'][1]:.4g}]"
+                              for k, p in e["parameters"].items()) for e in answer["effects"])
 
 
 def campaign(kinds, case_of):

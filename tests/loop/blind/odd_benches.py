@@ -461,11 +461,8 @@ class Case:
         a = self.answer
         if a is None:
             return f"WRONG {self.label()}: {self.why}"
-        told = "; ".join(e["id"] + (" ~" + ",".join(e["confounded_with"]) if e["confounded_with"] else "") + " " +
-                         " ".join(f"{k} {p['value']:.4g} [{p['ci95'][0]:.4g}, {p['ci95'][1]:.4g}]"
-                                  for k, p in e["parameters"].items()) for e in a["effects"])
         return (f"{'' if self.right else 'WRONG '}{self.label()}: {self.why} | {a['verdict']} "
-                f"left {a['after']['rms_nm'] / self.noise:.2f} noise {a['data']['noise_nm'] / self.noise:.2f} | {told} | "
+                f"left {a['after']['rms_nm'] / self.noise:.2f} noise {a['data']['noise_nm'] / self.noise:.2f} | {bench.found_text(a)} | "
                 f"{a['structure_left']['description'][:200]} | truth {self.truth}")
 
 
