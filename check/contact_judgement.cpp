@@ -8,10 +8,10 @@
 #include "trueflank/check/axial.h"
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
 #include "trueflank/check/contact_ratio.h"
 #include "trueflank/check/corner_contact.h"
 #include "trueflank/check/mesh_clearance.h"
-#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/tip_clearance.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/cure/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/train/mesh_face.h"

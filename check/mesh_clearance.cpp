@@ -5,10 +5,10 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/threads.h"
-#include "trueflank/check/modified_clearance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/clearance/tooth_crossing.h"
+#include "trueflank/check/clearance/tooth_sweep.h"
 #include "trueflank/check/quantity_text.h"
-#include "trueflank/check/tooth_crossing.h"
-#include "trueflank/check/tooth_sweep.h"
 #include "trueflank/train/mesh_face.h"
 
 namespace trueflank {

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "trueflank/base/tolerance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
 #include "trueflank/check/mesh_clearance.h"
 #include "trueflank/check/mesh_findings.h"
-#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/train/mesh_face.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/cure/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
-#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/check/ring_criteria.h"
 

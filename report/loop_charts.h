@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "trueflank/loop/gear/residual_grid.h"
+#include "trueflank/loop/gear/local/residual_grid.h"
 
 // The classical inspection charts as SVG with their values for the pointer (loop_page.h), styled by the page's classes: one flank each, deviation
 // positive where there is too much material. Same input, same bytes.

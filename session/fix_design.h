@@ -7,7 +7,7 @@
 
 namespace trueflank {
 
-/// A design file with the smallest joint change after which every check passes (check/joint_cure.h).
+/// A design file with the smallest joint change after which every check passes (check/cure/joint_cure.h).
 struct FixedDesign {
   bool cured = false;       ///< false: the nearest that was found, which still fails
   std::string design_text;  ///< the file with its comments and layout kept

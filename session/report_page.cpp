@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "trueflank/check/modified_clearance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
 #include "trueflank/check/tolerance_analysis.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/report/mesh_picture.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "trueflank/check/clearance/modified_clearance.h"
 #include "trueflank/check/machine/check_machine.h"
-#include "trueflank/check/modified_clearance.h"
 #include "trueflank/design/design_edit.h"
 #include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/train/efficiency.h"

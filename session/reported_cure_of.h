@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include "trueflank/check/joint_cure.h"
+#include "trueflank/check/cure/joint_cure.h"
 #include "trueflank/report/reported_cure.h"
 
 namespace trueflank {

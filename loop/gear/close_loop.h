@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "trueflank/base/result.h"
+#include "trueflank/loop/gear/local/patches.h"
 #include "trueflank/loop/result/loop_result.h"
-#include "trueflank/loop/gear/patches.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/process.h"
 

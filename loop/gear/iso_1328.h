@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/loop/gear/residual_grid.h"
+#include "trueflank/loop/gear/local/residual_grid.h"
 
 namespace trueflank::loop {
 

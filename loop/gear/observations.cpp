@@ -8,7 +8,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/tooth_span.h"
-#include "trueflank/loop/gear/measured_lands.h"
+#include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
-#include "trueflank/loop/gear/neighbour_teeth.h"
+#include "trueflank/loop/gear/local/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/remainder.h"
 

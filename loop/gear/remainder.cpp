@@ -10,8 +10,8 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/ring_scan.h"
-#include "trueflank/loop/gear/dents.h"
-#include "trueflank/loop/gear/flank_spots.h"
+#include "trueflank/loop/gear/local/dents.h"
+#include "trueflank/loop/gear/local/flank_spots.h"
 
 namespace trueflank::loop {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/loop/gear/patches.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
 

@@ -10,7 +10,7 @@
 #include "tests/check/mesh_simulation.h"
 #include "tests/check/random_pairs.h"
 #include "trueflank/check/check_gearbox.h"
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/cure/interference_cure.h"
 
 namespace trueflank {
 namespace {

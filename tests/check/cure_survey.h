@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "trueflank/check/joint_cure.h"
+#include "trueflank/check/cure/joint_cure.h"
 
 // The joint cure on random designs that fail.
 namespace trueflank::test {

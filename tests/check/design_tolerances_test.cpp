@@ -7,7 +7,7 @@
 
 #include "tests/check/check_designs.h"
 #include "trueflank/check/check_gearbox.h"
-#include "trueflank/check/joint_cure.h"
+#include "trueflank/check/cure/joint_cure.h"
 
 namespace trueflank::test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "check_designs.h"
 #include "trueflank/check/assembly.h"
-#include "trueflank/check/gear_distance.h"
+#include "trueflank/check/clearance/gear_distance.h"
 
 namespace trueflank {
 namespace {

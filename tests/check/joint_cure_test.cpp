@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/joint_cure.h"
+#include "trueflank/check/cure/joint_cure.h"
 
 #include <gtest/gtest.h>
 

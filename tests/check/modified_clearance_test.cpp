@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/modified_clearance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "check_designs.h"
 #include "trueflank/check/check_gearbox.h"
-#include "trueflank/check/gear_distance.h"
+#include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/train/mesh_face.h"
 
 namespace trueflank {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/overlap.h"
+#include "trueflank/check/clearance/overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/check/check_designs.h"
 #include "trueflank/check/check_gearbox.h"
-#include "trueflank/check/gear_distance.h"
+#include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/ring_criteria.h"
 
 namespace trueflank::test {

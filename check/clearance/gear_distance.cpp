@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/gear_distance.h"
+#include "trueflank/check/clearance/gear_distance.h"
 
 #include <algorithm>
 #include <cmath>

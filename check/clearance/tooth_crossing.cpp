@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Exact predicates on double coordinates suffice: nothing is constructed, so nothing is rounded.
-#include "trueflank/check/tooth_crossing.h"
+#include "trueflank/check/clearance/tooth_crossing.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>

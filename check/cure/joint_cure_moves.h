@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "trueflank/check/design_change.h"
+#include "trueflank/check/cure/design_change.h"
 
 // What the joint cure tries, each list from small to large.
 namespace trueflank {

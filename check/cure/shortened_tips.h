@@ -2,7 +2,7 @@
 #pragma once
 
 #include "trueflank/check/contact_judgement.h"
-#include "trueflank/check/design_change.h"
+#include "trueflank/check/cure/design_change.h"
 
 // Tips of a changed design, made as short as its complaints ask; the joint cure's. Each returns
 // whether any changed.

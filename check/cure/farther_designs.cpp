@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/farther_designs.h"
+#include "trueflank/check/cure/farther_designs.h"
 
 #include <algorithm>
 #include <cmath>

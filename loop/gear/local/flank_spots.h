@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "trueflank/loop/gear/patches.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
 

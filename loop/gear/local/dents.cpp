@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/dents.h"
+#include "trueflank/loop/gear/local/dents.h"
 
 #include <algorithm>
 #include <array>

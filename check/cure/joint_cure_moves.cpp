@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/joint_cure_moves.h"
+#include "trueflank/check/cure/joint_cure_moves.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/check/cure/shortened_tips.h"
 #include "trueflank/check/planet_spacing.h"
-#include "trueflank/check/shortened_tips.h"
 
 namespace trueflank {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "trueflank/loop/gear/patches.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/measured_lands.h"
+#include "trueflank/loop/gear/local/measured_lands.h"
 
 #include <algorithm>
 #include <cmath>

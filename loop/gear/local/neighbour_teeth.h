@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/loop/gear/patches.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/needed_changes.h"
+#include "trueflank/check/cure/needed_changes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/shortened_tips.h"
+#include "trueflank/check/cure/shortened_tips.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/cure/interference_cure.h"
 #include "trueflank/check/mesh_clearance.h"
 
 namespace trueflank {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "trueflank/check/gear_distance.h"
+#include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/mesh_clearance.h"
 
 namespace trueflank {

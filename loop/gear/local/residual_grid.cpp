@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/residual_grid.h"
+#include "trueflank/loop/gear/local/residual_grid.h"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/overlap.h"
+#include "trueflank/check/clearance/overlap.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/cure/interference_cure.h"
 #include "trueflank/check/mesh_findings.h"
-#include "trueflank/check/modified_clearance.h"
 #include "trueflank/check/quantity_text.h"
 
 namespace trueflank {

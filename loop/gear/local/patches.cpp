@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/patches.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 #include <algorithm>
 #include <cmath>

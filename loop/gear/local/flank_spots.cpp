@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/flank_spots.h"
+#include "trueflank/loop/gear/local/flank_spots.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // Candidates in the order of their size. For every set of common values (centre distance, backlash, rack) each
 // layer seeks the smallest shift of its leading gear by itself; tips follow, as short as the mates ask. What
 // needs no turning sorts most candidates out; the best are judged by every check.
-#include "trueflank/check/joint_cure.h"
+#include "trueflank/check/cure/joint_cure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/contact_judgement.h"
-#include "trueflank/check/design_change.h"
+#include "trueflank/check/cure/design_change.h"
+#include "trueflank/check/cure/farther_designs.h"
+#include "trueflank/check/cure/joint_cure_moves.h"
+#include "trueflank/check/cure/needed_changes.h"
+#include "trueflank/check/cure/shortened_tips.h"
 #include "trueflank/check/design_tolerances.h"
-#include "trueflank/check/farther_designs.h"
-#include "trueflank/check/joint_cure_moves.h"
-#include "trueflank/check/needed_changes.h"
 #include "trueflank/check/profile.h"
-#include "trueflank/check/shortened_tips.h"
 #include "trueflank/check/tip_thickness.h"
 #include "trueflank/check/undercut.h"
 

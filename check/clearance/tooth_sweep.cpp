@@ -3,7 +3,7 @@
 // One tooth passes the whole mesh: every point of its counter-clockwise half, at every position,
 // against the mate. First on a grid, then the lowest places of every kind are refined on the exact
 // curves.
-#include "trueflank/check/tooth_sweep.h"
+#include "trueflank/check/clearance/tooth_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "trueflank/base/tolerance.h"
-#include "trueflank/check/scalar_minimum.h"
+#include "trueflank/check/clearance/scalar_minimum.h"
 
 namespace trueflank {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/modified_clearance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
 
 #include <algorithm>
 #include <cmath>

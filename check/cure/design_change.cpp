@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/design_change.h"
+#include "trueflank/check/cure/design_change.h"
 
 #include <algorithm>
 #include <cmath>

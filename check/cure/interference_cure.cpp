@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/check/interference_cure.h"
+#include "trueflank/check/cure/interference_cure.h"
 
 #include <algorithm>
 #include <cmath>
