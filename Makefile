@@ -6,7 +6,7 @@ DEPENDENCIES ?= scripts/install-dependencies
 DEMO := build/demo/bilateral_drive
 PRINTED := build/demo/printed_actuator
 
-.PHONY: all demo test bench asan fuzz clean
+.PHONY: all demo test bench asan fuzz campaign clean
 
 # Dependencies and the program, build/trueflank.
 all:
@@ -39,6 +39,13 @@ asan:
 	@cmake --preset asan
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan
+
+# Every random trial with the day's seed. It decides nothing; it shows whether the tests' limits hold elsewhere.
+campaign:
+	@$(DEPENDENCIES) build test
+	@cmake --preset release
+	@cmake --build build -j $(JOBS)
+	@scripts/campaign build/trueflank build/campaign
 
 # Needs clang-14 and libclang-rt-14-dev.
 MINUTES ?= 10
