@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "trueflank/export/assimp_reader.h"
 #include "trueflank/export/atomic_file.h"
+#include "trueflank/export/file_formats.h"
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_parsers.h"
 
@@ -64,6 +66,14 @@ bool is_finite(const std::array<double, 3>& p) {
 }
 
 }  // namespace
+
+bool is_mesh_extension(std::string_view extension) {
+  const std::string ending = lower_case(extension);
+  if (is_assimp_extension(ending)) return true;
+  return std::any_of(file_formats().begin(), file_formats().end(), [&](FileFormat format) {
+    return is_mesh(format) && ending == "." + std::string(to_text(format));
+  });
+}
 
 tl::unexpected<Error> syntax_error(std::string message, int line) {
   return fail(Error{.code = ErrorCode::kSyntax, .message = std::move(message), .line = line});
@@ -174,7 +184,9 @@ Result<Bodies> parsed(std::string_view content, std::string_view extension, Read
   if (may_be_text && lower_case(take_word(rest)) == "solid" && content.find("facet") != content.npos)
     return parse_text_stl(content, reading);
   if (ending == ".stl") return parse_binary_stl(content, reading);  // which says what is wrong
-  return syntax_error("this is no mesh of a format known here (STL, OBJ, PLY, 3MF, GLB)");
+  if (is_assimp_extension(ending)) return parse_by_assimp(content, ending, reading);
+  return syntax_error("this is no mesh of a format known here (STL, OBJ, PLY, 3MF, GLB; by their endings " +
+                      assimp_extensions(", ") + ")");
 }
 
 TriangleMesh merged(Bodies&& bodies) {

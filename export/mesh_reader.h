@@ -12,13 +12,16 @@
 #include "trueflank/solid/mesh/triangle_mesh.h"
 
 // Meshes from files: our own, other programs' and scans. Told by content, not by the file's name (but
-// for OBJ, which has no mark of its own).
+// for OBJ, which has no mark of its own, and for what assimp reads: assimp_reader.h).
 namespace trueflank::io {
 
 struct MeshBody {
   std::string name;  ///< may be empty
   TriangleMesh mesh; ///< in the file's common frame [mm]
 };
+
+/// Whether files with this ending (".stl", ".dae", in any case) are read as meshes.
+[[nodiscard]] bool is_mesh_extension(std::string_view extension);
 
 /// STL (binary, text), OBJ, PLY (text, binary of both byte orders), 3MF (components, transforms, units,
 /// several model parts), GLB (node transforms). One body a solid, object or node; polygons become

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "trueflank/export/input_file.h"
+#include "trueflank/export/mesh_reader.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {
@@ -28,8 +29,7 @@ enum class FileKind { kScanCsv, kXyz, kMesh, kInspection, kSizes, kMka, kGde, kU
 
 FileKind kind_of(const std::string& path, std::string_view text) {
   const std::string ending = lowered(std::filesystem::path(path).extension().string());
-  for (const char* mesh : {".ply", ".stl", ".obj", ".3mf", ".glb"})
-    if (ending == mesh) return FileKind::kMesh;
+  if (io::is_mesh_extension(ending)) return FileKind::kMesh;
   if (ending == ".xyz" || ending == ".asc" || ending == ".pts") return FileKind::kXyz;
   if (ending == ".mka") return FileKind::kMka;
   if (ending == ".gde" || ending == ".xml") return FileKind::kGde;

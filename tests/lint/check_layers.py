@@ -43,7 +43,7 @@ THIRD_PARTY = {
     "tl::expected": (r"tl/expected", ["base"], ["base"]),
     "Eigen": (r"Eigen/", [f for f in EVERY if f != "base"], [f for f in EVERY if f != "base"]),
     "CGAL": (r"CGAL/", ["check", "solid"], []),
-    "assimp": (r"assimp/", [], []),  # tests only: an independent reader
+    "assimp": (r"assimp/", ["export"], []),  # loaded when a file asks for it
     "libdeflate": (r"libdeflate\.h", ["export"], []),
     "libharu": (r"hpdf", ["report"], []),
     # linked into tests only (33 ms at every start): tests/programs
