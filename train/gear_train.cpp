@@ -245,6 +245,90 @@ Error centre_distance_error(const GearboxDesign& design, const std::vector<Train
           .remedy = "near that of the teeth without shifts: " + unshifted};
 }
 
+/// Of the gears whose tooth thickness has an allowance.
+struct AllThinningLimits {
+  std::vector<std::optional<ThinningLimits>> limits;
+  Errors errors;
+};
+AllThinningLimits all_thinning_limits(const GearboxDesign& design, const std::vector<Gear>& gears) {
+  AllThinningLimits all{.limits = std::vector<std::optional<ThinningLimits>>(gears.size()), .errors = {}};
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    if (!design.gears[i].thickness) continue;
+    auto found = thinning_limits(*design.gears[i].thickness, gears[i]);
+    if (found) {
+      all.limits[i] = *found;
+    } else {
+      found.error().key = design.gears[i].name + ".thickness_allowance";
+      all.errors.push_back(std::move(found.error()));
+    }
+  }
+  return all;
+}
+
+/// Teeth that cannot be made because of what the file does not say itself: the shift or the tip that the centre
+/// distance asks for.
+bool follows_from_centre_distance(const Error& error, const GearboxDesign& design, const GearDesign& gear) {
+  const bool unwritten = error.key == "shift" || error.key == "teeth" ||
+                         (error.key == "tip_diameter_mm" && !gear.tip_diameter_mm);
+  const bool of_the_teeth = error.code == ErrorCode::kInfeasible || error.key == "tip_diameter_mm";
+  return of_the_teeth && unwritten && !gear.shift && design.centre_distance_mm;
+}
+
+Error of_gear(Error error, const GearDesign& gear) {
+  error.message = gear.name + ": " + error.message;
+  if (!error.key.starts_with("rack.")) error.key = gear.name + "." + error.key;  // the rack is everybody's
+  return error;
+}
+
+Error profile_error(Error error, const GearDesign& gear) {
+  if (error.key == "tip_diameter_mm" && !gear.tip_diameter_mm && gear.cutter) {
+    error.message += ", and its tip circle of diameter " + error.value + " mm lies inside that";
+    error.key = "cutter.teeth";
+    error.value = std::to_string(gear.cutter->teeth);
+  }
+  return of_gear(std::move(error), gear);
+}
+
+/// All gears with their profiles and modifications. Errors: theirs, after those of the thinning.
+ResultAll<std::vector<TrainGear>> made_gears(const GearTrain& train, const std::vector<Gear>& gears,
+                                             const AllThinningLimits& thinning,
+                                             const std::vector<double>& shortened_mm) {
+  const GearboxDesign& design = train.design;
+  std::vector<TrainGear> made;
+  std::vector<std::size_t> impossible;
+  Errors errors = thinning.errors;
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    const GearDesign& d = design.gears[i];
+    auto profile = ToothProfile::make(gears[i]);
+    if (!profile && follows_from_centre_distance(profile.error(), design, d)) {
+      impossible.push_back(i);
+      continue;
+    }
+    if (!profile) {
+      errors.push_back(profile_error(std::move(profile.error()), d));
+      continue;
+    }
+    const FaceTwist twist = face_twist(gears[i], d.face_width_mm, design.herringbone, design.relief_groove_mm);
+    auto deviation = design_deviation(d.modifications, *profile, twist);
+    if (!deviation) {
+      for (Error& error : deviation.error()) errors.push_back(of_gear(std::move(error), d));
+      continue;
+    }
+    made.push_back({.name = d.name,
+                    .profile = std::move(*profile),
+                    .shift = gears[i].shift,
+                    .face_width_mm = d.face_width_mm,
+                    .twist = twist,
+                    .deviation = std::move(*deviation),
+                    .edge_chamfer_mm = d.modifications.edge_chamfer_mm,
+                    .tip_shortened_mm = shortened_mm[i],
+                    .thinning_limits = thinning.limits[i]});
+  }
+  if (!impossible.empty()) errors.push_back(centre_distance_error(design, train.meshes, gears, impossible));
+  if (!errors.empty()) return fail_all(std::move(errors));
+  return made;
+}
+
 }  // namespace
 
 ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
@@ -265,72 +349,15 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
   std::vector<Gear> gears = gears_without_tips(design, *solution);
   for (std::size_t k = 0; k < train.meshes.size(); ++k)
     train.meshes[k].implied_backlash_mm = solution->implied_backlash_mm[k];
-  Errors errors;
-  std::vector<std::optional<ThinningLimits>> limits(gears.size());
-  for (std::size_t i = 0; i < gears.size(); ++i) {
-    if (!design.gears[i].thickness) continue;
-    auto found = thinning_limits(*design.gears[i].thickness, gears[i]);
-    if (found) {
-      limits[i] = *found;
-    } else {
-      found.error().key = design.gears[i].name + ".thickness_allowance";
-      errors.push_back(std::move(found.error()));
-    }
-  }
-  share_thinning(design, train.meshes, limits, train.centre_distance_mm, gears);
+  const AllThinningLimits thinning = all_thinning_limits(design, gears);
+  share_thinning(design, train.meshes, thinning.limits, train.centre_distance_mm, gears);
   set_tip_circles(design, train.meshes, train.centre_distance_mm, gears);
-  std::vector<double> shortened(gears.size(), 0.0);
+  std::vector<double> shortened_mm(gears.size(), 0.0);
   if (design.tips == TipCircles::kClear)
-    shortened = clear_tips(design, train.meshes, train.centre_distance_mm, gears);
-
-  std::vector<std::size_t> impossible;
-  for (std::size_t i = 0; i < gears.size(); ++i) {
-    auto profile = ToothProfile::make(gears[i]);
-    const GearDesign& d = design.gears[i];
-    if (!profile) {
-      Error error = profile.error();
-      const bool unwritten = error.key == "shift" || error.key == "teeth" ||
-                             (error.key == "tip_diameter_mm" && !d.tip_diameter_mm);
-      const bool of_the_teeth = error.code == ErrorCode::kInfeasible || error.key == "tip_diameter_mm";
-      if (of_the_teeth && unwritten && !d.shift && design.centre_distance_mm) {
-        impossible.push_back(i);
-        continue;
-      }
-      if (error.key == "tip_diameter_mm" && !d.tip_diameter_mm && d.cutter) {
-        error.message += ", and its tip circle of diameter " + error.value + " mm lies inside that";
-        error.key = "cutter.teeth";
-        error.value = std::to_string(d.cutter->teeth);
-      }
-      const bool of_rack = error.key.starts_with("rack.");
-      if (!of_rack) error.key = d.name + "." + error.key;
-      error.message = d.name + ": " + error.message;
-      errors.push_back(std::move(error));
-      continue;
-    }
-    const FaceTwist twist = face_twist(gears[i], d.face_width_mm, design.herringbone,
-                                       design.relief_groove_mm);
-    auto deviation = design_deviation(d.modifications, *profile, twist);
-    if (!deviation) {
-      for (Error& error : deviation.error()) {
-        error.key = d.name + "." + error.key;
-        error.message = d.name + ": " + error.message;
-        errors.push_back(std::move(error));
-      }
-      continue;
-    }
-    train.gears.push_back({.name = d.name,
-                           .profile = std::move(*profile),
-                           .shift = gears[i].shift,
-                           .face_width_mm = d.face_width_mm,
-                           .twist = twist,
-                           .deviation = std::move(*deviation),
-                           .edge_chamfer_mm = d.modifications.edge_chamfer_mm,
-                           .tip_shortened_mm = shortened[i],
-                           .thinning_limits = limits[i]});
-  }
-  if (!impossible.empty())
-    errors.push_back(centre_distance_error(design, train.meshes, gears, impossible));
-  if (!errors.empty()) return fail_all(std::move(errors));
+    shortened_mm = clear_tips(design, train.meshes, train.centre_distance_mm, gears);
+  auto made = made_gears(train, gears, thinning, shortened_mm);
+  if (!made) return fail_all(std::move(made.error()));
+  train.gears = std::move(*made);
 
   for (TrainMesh& mesh : train.meshes)
     mesh.backlash_mm = circumferential_backlash_mm(train.pair(mesh));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "trueflank/base/units.h"
@@ -121,6 +122,42 @@ Result<EffectFamily> declared_family_of(const Json& item) {
   return std::move(*family);
 }
 
+Error too_many(const std::string& what, const std::string& key, std::size_t count) {
+  return {.code = ErrorCode::kOutOfRange,
+          .message = "more " + what + " than any loop finds",
+          .key = key,
+          .value = std::to_string(count),
+          .remedy = std::to_string(kMostEffects) + " at most"};
+}
+
+/// An effect without a name: its terms, each an effect of its own.
+struct CorrectableTerms {
+  std::vector<Correction::Part> parts;
+  std::vector<std::string> left;
+  bool any = false;
+};
+Result<CorrectableTerms> correctable_terms(const std::string& id, const Json& item, const EffectFamily& family) {
+  CorrectableTerms found;
+  const auto terms = item.find("terms");
+  if (terms == item.end() || !terms->is_array()) {
+    found.left.push_back(id + ": " + item.value("description", std::string("no terms")) + "; inspect or reject the part");
+    return found;
+  }
+  if (terms->size() > kMostEffects) return fail(too_many("terms", "effects.terms", terms->size()));
+  for (const Json& term : *terms) {
+    Correction::Part part;
+    part.effect.family = family_of_term(term, family);
+    if (part.effect.family == nullptr || !read_term(term, *part.effect.family, part.effect.shape, part.coefficients))
+      return fail(broken("a term without its numbers", "effects.terms"));
+    if (part.effect.family->correctable != Correctable::kGeometry)
+      found.left.push_back(id + ": " + part.effect.family->description);
+    else
+      found.parts.push_back(std::move(part));
+  }
+  found.any = true;
+  return found;
+}
+
 }  // namespace
 
 Result<std::string> Correction::gear_of(std::string_view loop_json) {
@@ -137,12 +174,7 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
   const auto effects = json->find("effects");
   if (effects == json->end() || !effects->is_array())
     return fail(broken("loop.json has no list of effects", "effects"));
-  if (effects->size() > kMostEffects)
-    return fail({.code = ErrorCode::kOutOfRange,
-                 .message = "more effects than any loop finds",
-                 .key = "effects",
-                 .value = std::to_string(effects->size()),
-                 .remedy = std::to_string(kMostEffects) + " at most"});
+  if (effects->size() > kMostEffects) return fail(too_many("effects", "effects", effects->size()));
   Correction result(geometry);
   for (const Json& item : *effects) {
     if (!item.is_object() || !item.contains("id") || !item["id"].is_string())
@@ -171,32 +203,11 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
       continue;
     }
     if (!family->named) {
-      const auto terms = item.find("terms");
-      const bool of_one_tooth = !item.value("correctable", true);
-      if (of_one_tooth || terms == item.end() || !terms->is_array()) {
-        result.left_.push_back(id + ": " + item.value("description", std::string("no terms")) +
-                               "; inspect or reject the part");
-        continue;
-      }
-      if (terms->size() > kMostEffects)
-        return fail({.code = ErrorCode::kOutOfRange,
-                     .message = "more terms than any loop finds",
-                     .key = "effects.terms",
-                     .value = std::to_string(terms->size()),
-                     .remedy = std::to_string(kMostEffects) + " at most"});
-      for (const Json& term : *terms) {
-        Part part;
-        part.effect.family = family_of_term(term, *family);
-        if (part.effect.family == nullptr ||
-            !read_term(term, *part.effect.family, part.effect.shape, part.coefficients))
-          return fail(broken("a term without its numbers", "effects.terms"));
-        if (part.effect.family->correctable != Correctable::kGeometry) {
-          result.left_.push_back(id + ": " + part.effect.family->description);
-          continue;
-        }
-        result.parts_.push_back(std::move(part));
-      }
-      result.corrected_.push_back(id);
+      auto terms = correctable_terms(id, item, *family);
+      if (!terms) return fail(std::move(terms.error()));
+      std::move(terms->parts.begin(), terms->parts.end(), std::back_inserter(result.parts_));
+      std::move(terms->left.begin(), terms->left.end(), std::back_inserter(result.left_));
+      if (terms->any) result.corrected_.push_back(id);
       continue;
     }
     if (family->correctable != Correctable::kGeometry) {

@@ -161,7 +161,9 @@ TEST(EfficiencyBalance, PowerInIsPowerOutAndLossesInEveryKindAndDirection) {
       EXPECT_NEAR(power, losses, 1e-12);
       EXPECT_NEAR(1.0 - state.efficiency, losses, 1e-12);
       // external torques balance about the central axis, where there is but one
-      if (train.topology.has_planets()) EXPECT_NEAR(torque, 0.0, 1e-9);
+      if (train.topology.has_planets()) {
+        EXPECT_NEAR(torque, 0.0, 1e-9);
+      }
     }
   }
 }
