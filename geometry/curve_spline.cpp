@@ -26,34 +26,72 @@ struct Cubic {
 
 }  // namespace
 
+/// The nodes of a curve cut into n pieces at equal steps of its parameter, each computed when it is
+/// first asked for.
+class CurveSpline::Nodes {
+ public:
+  Nodes(const Curve& curve, int n)
+      : curve_(curve), pieces_(n), step_((curve.end - curve.begin) / n), nodes_(static_cast<std::size_t>(n) + 1) {}
+
+  /// How far the cubic of a piece is from the curve, at its middle; only across the curve counts.
+  [[nodiscard]] double error_of(int piece) {
+    const Node a = at(piece), b = at(piece + 1);
+    const Cubic x(a.place.x(), b.place.x(), a.derivative.x(), b.derivative.x());
+    const Cubic y(a.place.y(), b.place.y(), a.derivative.y(), b.derivative.y());
+    const Point2 exact = point_at(curve_, curve_.begin + step_ * (piece + 0.5));
+    const Point2 along = Point2(x.first(0.5), y.first(0.5)).normalized();
+    return std::abs(cross(along, exact - Point2(x.at(0.5), y.at(0.5))));
+  }
+  /// A piece that is farther off than the limit, sought from one near a share of the way on: errors
+  /// peak at the same place however many pieces there are.
+  [[nodiscard]] std::optional<int> piece_beyond(double limit, double& share) {
+    const int first = std::min(static_cast<int>(share * pieces_), pieces_ - 1);
+    for (int i = 0; i < pieces_; ++i) {
+      const int piece = (first + i) % pieces_;
+      if (!(error_of(piece) >= limit)) continue;
+      share = (piece + 0.5) / pieces_;
+      return piece;
+    }
+    return std::nullopt;
+  }
+  void move_to(CurveSpline& spline) {
+    for (int i = 0; i <= pieces_; ++i) {
+      const Node& node = at(i);
+      spline.x_.push_back(node.place.x());
+      spline.y_.push_back(node.place.y());
+      spline.dx_.push_back(node.derivative.x());
+      spline.dy_.push_back(node.derivative.y());
+    }
+  }
+
+ private:
+  struct Node {
+    Point2 place, derivative;
+  };
+  const Node& at(int i) {
+    std::optional<Node>& node = nodes_[static_cast<std::size_t>(i)];
+    if (node) return *node;
+    const double h = 1e-3 * step_, t = curve_.begin + step_ * i;
+    const Point2 derivative = (8.0 * (point_at(curve_, t + h) - point_at(curve_, t - h)) -
+                               (point_at(curve_, t + 2.0 * h) - point_at(curve_, t - 2.0 * h))) *
+                              (step_ / (12.0 * h));
+    return node.emplace(Node{point_at(curve_, t), derivative});
+  }
+
+  const Curve& curve_;
+  int pieces_;
+  double step_;
+  std::vector<std::optional<Node>> nodes_;
+};
+
 CurveSpline::CurveSpline(const Curve& curve) {
-  const double span = curve.end - curve.begin;
   const double scale = (curve.end_point() - curve.start_point()).norm();
+  double worst = 0.0;  // where on the curve the last cut was too coarse
   for (int n = kFewestPieces;; n *= 2) {
-    x_.clear(), y_.clear(), dx_.clear(), dy_.clear();
-    const double step = span / n, h = 1e-3 * step;
-    for (int i = 0; i <= n; ++i) {
-      const double t = curve.begin + step * i;
-      const Point2 p = point_at(curve, t);
-      const Point2 d = (8.0 * (point_at(curve, t + h) - point_at(curve, t - h)) -
-                        (point_at(curve, t + 2.0 * h) - point_at(curve, t - 2.0 * h))) *
-                       (step / (12.0 * h));
-      x_.push_back(p.x());
-      y_.push_back(p.y());
-      dx_.push_back(d.x());
-      dy_.push_back(d.y());
-    }
-    double error = 0.0;
-    for (int i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Cubic x(x_[k], x_[k + 1], dx_[k], dx_[k + 1]);
-      const Cubic y(y_[k], y_[k + 1], dy_[k], dy_[k + 1]);
-      const Point2 exact = point_at(curve, curve.begin + step * (i + 0.5));
-      // only the distance across the curve counts
-      const Point2 along = Point2(x.first(0.5), y.first(0.5)).normalized();
-      error = std::max(error, std::abs(cross(along, exact - Point2(x.at(0.5), y.at(0.5)))));
-    }
-    if (error < kSplineError * std::min(scale, 1.0) || n >= kMostPieces) break;
+    Nodes nodes(curve, n);
+    if (n < kMostPieces && nodes.piece_beyond(kSplineError * std::min(scale, 1.0), worst)) continue;
+    nodes.move_to(*this);
+    break;
   }
   const auto [low_x, high_x] = std::minmax_element(x_.begin(), x_.end());
   const auto [low_y, high_y] = std::minmax_element(y_.begin(), y_.end());

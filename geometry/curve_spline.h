@@ -26,6 +26,7 @@ class CurveSpline {
   [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const;
 
  private:
+  class Nodes;
   void keep_radii();
   [[nodiscard]] std::size_t nearest_node(const Point2& point) const;
   std::vector<double> x_, y_, dx_, dy_;  ///< nodes at equal steps of the parameter, derivatives a step

@@ -8,6 +8,17 @@
 #include "trueflank/base/units.h"
 
 namespace trueflank {
+namespace {
+
+/// The polar angle of a point within 45 degrees of +x, to kRoughAngle_rad.
+double rough_angle_rad(double x, double y) {
+  const double t = y / x, square = t * t;
+  return t * (0.995354 + square * (-0.288679 + square * 0.079331));
+}
+constexpr double kRoughAngle_rad = 1e-3;
+
+}  // namespace
+
 GearDistance::GearDistance(const ToothProfile& profile)
     : pitch_rad_(kTwoPi / profile.gear().teeth),
       outward_(profile.gear().kind == GearKind::kExternal ? 1.0 : -1.0),
@@ -62,9 +73,20 @@ void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& hal
       {pieces.back().curve.end_point(), last + image, static_cast<int>(pieces.size()) - 1});
 }
 
+/// The tooth in whose pitch a point lies. A mesh is turned on the mate's +x side: there a rough angle
+/// tells the tooth of all points but those next to the middle of a gap.
+int GearDistance::tooth_at(const Point2& point) const {
+  if (point.x() > std::abs(point.y())) {
+    const double pitches = rough_angle_rad(point.x(), point.y()) / pitch_rad_;
+    const int tooth = static_cast<int>(pitches + std::copysign(0.5, pitches));
+    if (std::abs(pitches - tooth) < 0.5 - kRoughAngle_rad / pitch_rad_) return tooth;
+  }
+  return static_cast<int>(std::nearbyint(polar_angle_rad(point) / pitch_rad_));
+}
+
 GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
   const auto teeth = static_cast<int>(axes_.size());
-  const int tooth = static_cast<int>(std::nearbyint(polar_angle_rad(point) / pitch_rad_));
+  const int tooth = tooth_at(point);
   const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth) % teeth)];
   const double across = cross(axis, point);
   bool clockwise = across < 0.0;
@@ -125,12 +147,20 @@ void GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) cons
           arc.centre + from_centre * (radial > 0.0 ? arc.radius / radial : 0.0)};
 }
 
+/// The rough angle tells it of most points whose foot is not on the flank.
+bool GearDistance::surely_outside(const Point2& e, const Flank& flank) {
+  if (!(e.x() > std::abs(e.y()))) return false;
+  const double roll = flank.sense * (rough_angle_rad(e.x(), e.y()) - flank.half_angle);
+  return roll < flank.from - kRoughAngle_rad || roll > flank.to + kRoughAngle_rad;
+}
+
 void GearDistance::measure_flank(const Flank& flank, const Point2& q, Best& best) const {
   const double r_b = flank.base_radius, square = q.squaredNorm();
   if (square < r_b * r_b) return;
   // the normal through the point touches the base circle in the direction e, at tau
   const double r = std::sqrt(square), length = std::sqrt((r - r_b) * (r + r_b));
   const Point2 e = (r_b * q + flank.sense * length * perpendicular(q)) / square;
+  if (surely_outside(e, flank)) return;
   const double roll = flank.sense * (polar_angle_rad(e) - flank.half_angle);
   if (roll < flank.from || roll > flank.to) return;
   const double beyond = -flank.sense * (length - r_b * roll);

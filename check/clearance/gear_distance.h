@@ -72,8 +72,10 @@ class GearDistance {
     std::vector<Spline> splines;
   };
 
+  [[nodiscard]] int tooth_at(const Point2& point) const;
   [[nodiscard]] Half half_of(const std::vector<ProfilePiece>& pieces) const;
   void add_joints(const std::vector<ProfilePiece>& pieces, Half& half) const;
+  [[nodiscard]] static bool surely_outside(const Point2& e, const Flank& flank);
   /// Takes over what lies nearer than `best`.
   void measure(const Half& half, const Point2& q, Best& best) const;
   void measure_neighbours(const Point2& q, Best& best, bool& clockwise) const;

@@ -27,6 +27,8 @@ constexpr std::size_t kMostRefined = 24;
 /// Clearances and angles this near are equal, far above rounding and below what anybody reads.
 constexpr double kSame_mm = 1e-9, kSame_rad = 1e-7;
 
+double norm_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// A point of the half tooth that is swept.
 struct Sample {
   Point2 point;
@@ -116,13 +118,22 @@ class Sweep {
   [[nodiscard]] MeshPlace describe(const Place& place) const;
 
  private:
-  /// The point in the mate's frame with the mover's tooth turned by an angle from the mesh.
-  [[nodiscard]] Point2 in_mate(const Point2& p, double angle) const {
-    const Point2 rel = rotated(p, angle) - Point2(axis_, 0.0);
-    return rotated(rel, half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_);
+  /// The mover's tooth turned by an angle from the mesh, and the mate with it.
+  struct Position {
+    Point2 mover, mate;  ///< cosine and sine of their turns
+  };
+  [[nodiscard]] Position position_at(double angle) const {
+    return {unit_vector(angle),
+            unit_vector(half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_)};
   }
-  [[nodiscard]] double clearance(const Point2& p, double angle) const {
-    return mate_.nearest(in_mate(p, angle)).distance_mm;
+  /// The point in the mate's frame.
+  [[nodiscard]] Point2 in_mate(const Point2& p, const Position& at) const {
+    const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
+    const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
+    return {c2 * x - s2 * y, s2 * x + c2 * y};
+  }
+  [[nodiscard]] double clearance(const Point2& p, const Position& at) const {
+    return mate_.nearest(in_mate(p, at)).distance_mm;
   }
   [[nodiscard]] double reach_rad() const;
   [[nodiscard]] Place refined(const Place& start, double step) const;
@@ -185,7 +196,7 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
 
-  std::vector<double> grid(samples.size() * columns);
+  std::vector<double> grid(samples.size() * columns, std::numeric_limits<double>::infinity());
   const std::size_t mate_pieces =
       std::max(mate_profile_.pieces().size(), mate_profile_.clockwise_pieces().size());
   std::vector<Place> best_of_kind(mover_.pieces().size() * mate_pieces * 4);
@@ -195,20 +206,17 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   // A distance falls by no more than its point moves: columns within which it cannot come down to
   // what is looked for are passed over, with a value that is surely too high.
   std::vector<std::size_t> next_column(samples.size(), 0);
-  for (std::size_t j = 0; j < columns; ++j) {
+  for (std::size_t j = 0; j < columns;
+       j = std::max(j + 1, *std::min_element(next_column.begin(), next_column.end()))) {
     const double angle = -reach + step * static_cast<double>(j);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double turn = half_pitch_mate_ - mate_faces_ - ratio_ * angle - mate_turn_;
-    const double c2 = std::cos(turn), s2 = std::sin(turn);
+    const Position at = position_at(angle);
+    const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
     for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (j < next_column[i]) continue;
       double& value = grid[i * columns + j];
-      if (j < next_column[i]) {
-        value = std::numeric_limits<double>::infinity();
-        continue;
-      }
       const Point2& p = samples[i].point;
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
-      const double from_pitch_point = std::hypot(x + axis_ - pitch_radius, y);
+      const double from_pitch_point = norm_of(x + axis_ - pitch_radius, y);
       const auto pass_over = [&](double distance_mm) {
         next_column[i] =
             j + 1 +
@@ -216,7 +224,7 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
                             step * turning * from_pitch_point, step * step * turning * p.norm());
       };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
-      const double beyond = mate_outward * (std::hypot(x, y) - mate_tip);
+      const double beyond = mate_outward * (norm_of(x, y) - mate_tip);
       if (beyond > lowest + kRefineBand * m) {
         value = beyond;
         pass_over(beyond);
@@ -266,11 +274,12 @@ Sweep::Place Sweep::refined(const Place& start, double step) const {
   const Curve& curve = mover_.pieces()[static_cast<std::size_t>(start.sample.piece)].curve;
   Place best = start;
   const auto at_angle = [&](double angle) {
-    if (start.sample.low == start.sample.high) return clearance(start.sample.point, angle);
+    const Position at = position_at(angle);
+    if (start.sample.low == start.sample.high) return clearance(start.sample.point, at);
     const double low = std::min(start.sample.low, start.sample.high);
     const double high = std::max(start.sample.low, start.sample.high);
     const ScalarMinimum inner =
-        find_minimum([&](double u) { return clearance(point_at(curve, u), angle); }, low, high,
+        find_minimum([&](double u) { return clearance(point_at(curve, u), at); }, low, high,
                      1e-6 * (high - low));
     if (inner.value < best.clearance) {
       best.clearance = inner.value;
@@ -290,7 +299,7 @@ Sweep::Place Sweep::refined(const Place& start, double step) const {
 }
 
 MeshPlace Sweep::describe(const Place& place) const {
-  const auto near = mate_.nearest(in_mate(place.sample.point, place.angle));
+  const auto near = mate_.nearest(in_mate(place.sample.point, position_at(place.angle)));
   const double mover_angle = gear1_moves_ ? place.angle : place.angle + mate_faces_;
   // the mate's tooth 1 stands half a pitch from the gap that faces the mover
   double mate_angle = ratio_ * place.angle + mate_turn_ - half_pitch_mate_;
