@@ -2,14 +2,13 @@
 #include "trueflank/check/tolerance_analysis.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <random>
 
 #include "trueflank/base/tolerance.h"
+#include "trueflank/check/clearance/clearance_field.h"
 #include "trueflank/check/clearance/modified_clearance.h"
-#include "trueflank/check/mesh_clearance.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
@@ -19,11 +18,6 @@ namespace trueflank {
 namespace {
 
 constexpr double kTolerableShare = 0.0027;  // outside of three standard deviations
-
-/// What one gear may be off by [mm].
-struct GearSpread {
-  double thickness_mm = 0.0, eccentricity_mm = 0.0, pitch_mm = 0.0;
-};
 
 Result<std::vector<GearSpread>> gear_spreads(const GearTrain& train, const ToleranceOptions& o) {
   std::vector<GearSpread> spreads;
@@ -43,80 +37,6 @@ Result<std::vector<GearSpread>> gear_spreads(const GearTrain& train, const Toler
     spreads.push_back({mm_from_um(o.tooth_thickness_um), 0.5 * mm_from_um(runout), mm_from_um(pitch)});
   }
   return spreads;
-}
-
-/// A mesh with its centre distance and the thickness of its teeth changed.
-struct ChangedPair {
-  double backlash_mm = kNaN, clearance_mm = kNaN;
-};
-
-/// The same with modified flanks: the modifications go with the flanks, and the sections decide.
-ChangedPair changed_modified(const GearTrain& train, const TrainMesh& mesh, const GearPair& pair) {
-  GearTrain other = train;
-  other.centre_distance_mm = pair.centre_distance_mm;
-  other.gears[static_cast<std::size_t>(mesh.gear1)].profile = *pair.profile1;
-  other.gears[static_cast<std::size_t>(mesh.gear2)].profile = *pair.profile2;
-  TrainMesh changed = mesh;
-  changed.backlash_mm = circumferential_backlash_mm(pair);
-  return {modified_mesh(other, changed).backlash_mm, modified_clearance_mm(other, changed)};
-}
-
-Result<ChangedPair> changed(const GearTrain& train, const TrainMesh& mesh, double distance_mm,
-                            double thickness1_mm, double thickness2_mm) {
-  const GearPair pair = train.pair(mesh);
-  Gear gear1 = pair.gear1(), gear2 = pair.gear2();
-  gear1.thinning_mm -= thickness1_mm;
-  gear2.thinning_mm -= thickness2_mm;
-  const auto profile1 = ToothProfile::make(gear1), profile2 = ToothProfile::make(gear2);
-  if (!profile1) return fail(profile1.error());
-  if (!profile2) return fail(profile2.error());
-  const GearPair other{&*profile1, &*profile2, pair.centre_distance_mm + distance_mm};
-  if (std::isnan(working_pressure_angle_rad(other)))
-    return fail({.code = ErrorCode::kOutOfRange,
-                 .message = "at centre distance " + mm_text(other.centre_distance_mm) +
-                            " the teeth no longer mesh",
-                 .remedy = "a smaller tolerance of the centre distance"});
-  if (is_modified(train, mesh)) return changed_modified(train, mesh, other);
-  return ChangedPair{circumferential_backlash_mm(other), sweep_clearance_mm(other)};
-}
-
-/// Clearance of a mesh over its tolerance field, from sweeps on a grid of 3 x 3.
-struct ClearanceField {
-  double distance_mm = 0.0;   ///< half width: centre distance and both eccentricities
-  double thickness_mm = 0.0;  ///< half width: both thicknesses and both pitches
-  std::array<std::array<ChangedPair, 3>, 3> at{};
-
-  /// Bilinear within a quarter of the field.
-  [[nodiscard]] double clearance(double distance, double thickness) const {
-    const auto place = [](double value, double half) {
-      const double u = half > 0.0 ? std::clamp(value / half, -1.0, 1.0) + 1.0 : 1.0;
-      const int cell = std::min(static_cast<int>(u), 1);
-      return std::pair{static_cast<std::size_t>(cell), u - cell};
-    };
-    const auto [i, u] = place(distance, distance_mm);
-    const auto [k, v] = place(thickness, thickness_mm);
-    return (1.0 - u) * ((1.0 - v) * at[i][k].clearance_mm + v * at[i][k + 1].clearance_mm) +
-           u * ((1.0 - v) * at[i + 1][k].clearance_mm + v * at[i + 1][k + 1].clearance_mm);
-  }
-};
-
-Result<ClearanceField> clearance_field(const GearTrain& train, const TrainMesh& mesh,
-                                       const std::vector<GearSpread>& spreads, double distance_mm) {
-  const GearSpread& s1 = spreads[static_cast<std::size_t>(mesh.gear1)];
-  const GearSpread& s2 = spreads[static_cast<std::size_t>(mesh.gear2)];
-  ClearanceField field;
-  field.distance_mm = distance_mm + s1.eccentricity_mm + s2.eccentricity_mm;
-  const double half1 = s1.thickness_mm + s1.pitch_mm, half2 = s2.thickness_mm + s2.pitch_mm;
-  field.thickness_mm = half1 + half2;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const auto pair = changed(train, mesh, (i - 1) * field.distance_mm, (k - 1) * half1,
-                                (k - 1) * half2);
-      if (!pair) return fail(pair.error());
-      field.at[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = *pair;
-    }
-  }
-  return field;
 }
 
 /// Normal deviates cut off at three standard deviations; the same on every machine.
@@ -147,7 +67,7 @@ GearError draw(const GearSpread& spread, Normal& normal) {
 }
 
 void draw_sets(const GearTrain& train, const ToleranceOptions& options,
-               const std::vector<GearSpread>& spreads, const std::vector<ClearanceField>& fields,
+               const std::vector<GearSpread>& spreads, std::vector<ClearanceField>& fields,
                ToleranceResult& result) {
   Normal normal(options.seed);
   const std::size_t planets = std::max<std::size_t>(train.phases.planet_position_rad.size(), 1);
@@ -167,8 +87,8 @@ void draw_sets(const GearTrain& train, const ToleranceOptions& options,
         const GearError& e2 = errors[static_cast<std::size_t>(train.meshes[m].gear2)];
         const double wobble = e1.eccentricity + e2.eccentricity;
         const double thickness = e1.thickness + e2.thickness;
-        const double clearance = std::min(fields[m].clearance(pin - wobble, thickness),
-                                          fields[m].clearance(pin + wobble, thickness));
+        const double clearance = std::min(fields[m].clearance_mm(pin - wobble, thickness),
+                                          fields[m].clearance_mm(pin + wobble, thickness));
         if (clearance < -tolerance::kTouch_mm) jammed[m] = true;
       }
     }
@@ -205,24 +125,26 @@ Result<ToleranceResult> analyse_tolerances(const GearTrain& train, const Toleran
   ToleranceResult result;
   std::vector<ClearanceField> fields;
   for (const TrainMesh& mesh : train.meshes) {
-    auto field =
-        clearance_field(train, mesh, *spreads, mm_from_um(options.centre_distance_um));
+    auto field = ClearanceField::make(train, mesh, (*spreads)[static_cast<std::size_t>(mesh.gear1)],
+                                      (*spreads)[static_cast<std::size_t>(mesh.gear2)],
+                                      mm_from_um(options.centre_distance_um));
     if (!field) {
       Error error = field.error();
       error.message = mesh.name + " at the limits of its tolerances: " + error.message;
       return fail(std::move(error));
     }
-    const ChangedPair& nominal = field->at[1][1];
+    const ChangedPair& nominal = field->at(1, 1);
     const double backlash =
         is_modified(train, mesh) ? nominal.backlash_mm : mesh.backlash_mm;
     MeshTolerance smallest{backlash, backlash, nominal.clearance_mm, 0.0};
-    for (const auto& row : field->at)
-      for (const ChangedPair& pair : row) {
+    for (int i = 0; i < ClearanceField::kPlaces; ++i)
+      for (int k = 0; k < ClearanceField::kPlaces; ++k) {
+        const ChangedPair& pair = field->at(i, k);
         smallest.smallest_backlash_mm = std::min(smallest.smallest_backlash_mm, pair.backlash_mm);
         smallest.smallest_clearance_mm = std::min(smallest.smallest_clearance_mm, pair.clearance_mm);
       }
     result.meshes.push_back(smallest);
-    fields.push_back(*field);
+    fields.push_back(std::move(*field));
   }
   draw_sets(train, options, *spreads, fields, result);
   return result;

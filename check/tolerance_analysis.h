@@ -44,7 +44,8 @@ struct ToleranceResult {
 /// Worst case by the real profiles at the corners of the tolerance field; share by drawing sets: every
 /// error normal with its tolerance at three standard deviations, cut off there; eccentricities meet
 /// in their worst phase, as they do when the gears turn. A set jams where profiles penetrate with
-/// their play centred. Clearances between the corners are interpolated. Of modified flanks the sections
+/// their play centred. Clearances are interpolated between places of the field
+/// (clearance/clearance_field.h). Of modified flanks the sections
 /// that decide are turned at every corner, and backlash is the smallest over the face.
 /// Errors: kOutOfRange where a gear is outside the scope of ISO 1328-1 (tolerance_class), for negative
 /// tolerances, or where the parts at their limits do not exist.

@@ -55,33 +55,35 @@ class ToothPolygon {
   [[nodiscard]] int teeth() const { return teeth_; }
   [[nodiscard]] double tip_reach() const { return external_ ? high_ : low_; }
 
-  /// Signed distance of a point in the gear's frame, cut off at +- the window.
-  [[nodiscard]] double signed_distance(const Point2& p) const {
+  /// Signed distance of a point in the gear's frame, cut off at +- the window. What is farther out than
+  /// `least` may be told as anything that is not less.
+  [[nodiscard]] double signed_distance(const Point2& p, double least) const {
     const double r = p.norm();
-    if (r < low_ - window()) return external_ ? -window() : window();
-    if (r > high_ + window()) return external_ ? window() : -window();
-    const double pitch = 2.0 * M_PI / teeth_;
-    double angle = std::atan2(p.y(), p.x());
-    angle -= pitch * std::round(angle / pitch);
-    const double x = r * std::cos(angle), y = r * std::sin(angle);
+    if (external_ ? r > high_ + least : r < low_ - least) return window();
+    if (external_ ? r < low_ - window() : r > high_ + window()) return -window();
+    const auto tooth = static_cast<int>(std::round(std::atan2(p.y(), p.x()) * teeth_ / (2.0 * M_PI)));
+    const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth_) % teeth_)];
+    const double x = axis.dot(p), y = axis.x() * p.y() - axis.y() * p.x();
     const auto cell_index = static_cast<std::size_t>(
         std::clamp(static_cast<int>(std::floor((r - low_) / cell())), 0,
                    static_cast<int>(cells_.size()) - 1));
-    double nearest = window() * window();
+    double nearest = window() * window(), reach = square_of(window() + longest_);
     int crossings = 0;
-    for (std::size_t i : cells_[cell_index]) {
-      const Point2 &a = points_[i], &b = points_[i + 1];
-      const double ex = b.x() - a.x(), ey = b.y() - a.y();
-      const double dx = x - a.x(), dy = y - a.y();
-      const double square = ex * ex + ey * ey;
-      const double u = square > 0.0 ? std::clamp((dx * ex + dy * ey) / square, 0.0, 1.0) : 0.0;
-      const double ox = dx - u * ex, oy = dy - u * ey;
-      nearest = std::min(nearest, ox * ox + oy * oy);
+    for (const Edge& edge : cells_[cell_index]) {
+      const double dx = x - edge.ax, dy = y - edge.ay;
       // edges that the circle of radius r crosses between the tooth's middle and the point
-      if ((radii_[i] > r) != (radii_[i + 1] > r)) {
-        const double v = (r - radii_[i]) / (radii_[i + 1] - radii_[i]);
-        const double at = std::atan2(a.y() + v * ey, a.x() + v * ex);
-        if ((at > 0.0) == (angle > 0.0) && std::abs(at) < std::abs(angle)) ++crossings;
+      if ((edge.radius_a > r) != (edge.radius_b > r)) {
+        const double v = (r - edge.radius_a) / (edge.radius_b - edge.radius_a);
+        const double at_x = edge.ax + v * edge.ex, at_y = edge.ay + v * edge.ey;
+        const double ahead = at_x * y - at_y * x;
+        if (y > 0.0 ? at_y > 0.0 && ahead > 0.0 : at_y <= 0.0 && ahead < 0.0) ++crossings;
+      }
+      if (dx * dx + dy * dy > reach) continue;
+      const double u = edge.square > 0.0 ? std::clamp((dx * edge.ex + dy * edge.ey) / edge.square, 0.0, 1.0) : 0.0;
+      const double ox = dx - u * edge.ex, oy = dy - u * edge.ey;
+      if (const double square = ox * ox + oy * oy; square < nearest) {
+        nearest = square;
+        reach = square_of(std::sqrt(nearest) + longest_);
       }
     }
     // at the tooth's middle there is material up to the tip circle
@@ -94,7 +96,14 @@ class ToothPolygon {
   explicit ToothPolygon(const Gear& gear)
       : teeth_(gear.teeth),
         external_(gear.kind == GearKind::kExternal),
-        module_(gear.normal_module_mm) {}
+        module_(gear.normal_module_mm) {
+    for (int k = 0; k < teeth_; ++k)
+      axes_.push_back({std::cos(2.0 * M_PI * k / teeth_), std::sin(2.0 * M_PI * k / teeth_)});
+  }
+  struct Edge {
+    double ax, ay, ex, ey, square, radius_a, radius_b;
+  };
+  [[nodiscard]] static double square_of(double value) { return value * value; }
 
   /// Both halves counter-clockwise; the clockwise one is mirrored here.
   void set_points(const std::vector<Point2>& half, const std::vector<Point2>& clockwise) {
@@ -102,20 +111,24 @@ class ToothPolygon {
       points_.push_back({p->x(), -p->y()});
     for (std::size_t i = half.front().y() == 0.0 ? 1 : 0; i < half.size(); ++i)
       points_.push_back(half[i]);
+    std::vector<double> radii;
     low_ = 1e300;
     for (const Point2& p : points_) {
-      radii_.push_back(p.norm());
-      low_ = std::min(low_, radii_.back());
-      high_ = std::max(high_, radii_.back());
+      radii.push_back(p.norm());
+      low_ = std::min(low_, radii.back());
+      high_ = std::max(high_, radii.back());
     }
     const int count = static_cast<int>(std::ceil((high_ - low_) / cell())) + 1;
     cells_.resize(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-      const double reach_low = std::min(radii_[i], radii_[i + 1]) - window() - low_;
-      const double reach_high = std::max(radii_[i], radii_[i + 1]) + window() - low_;
+      const Point2 along = points_[i + 1] - points_[i];
+      const Edge edge{points_[i].x(), points_[i].y(), along.x(), along.y(), along.squaredNorm(), radii[i], radii[i + 1]};
+      longest_ = std::max(longest_, along.norm());
+      const double reach_low = std::min(radii[i], radii[i + 1]) - window() - low_;
+      const double reach_high = std::max(radii[i], radii[i + 1]) + window() - low_;
       const int from = std::max(0, static_cast<int>(std::floor(reach_low / cell())));
       const int to = std::min(count - 1, static_cast<int>(std::floor(reach_high / cell())));
-      for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(i);
+      for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(edge);
     }
   }
 
@@ -126,9 +139,9 @@ class ToothPolygon {
   bool external_;
   double module_;
   std::vector<Point2> points_;
-  std::vector<double> radii_;
-  double low_ = 0.0, high_ = 0.0;
-  std::vector<std::vector<std::size_t>> cells_;
+  std::vector<Point2> axes_;  // directions of the teeth
+  double low_ = 0.0, high_ = 0.0, longest_ = 0.0;
+  std::vector<std::vector<Edge>> cells_;
 };
 
 Point2 turned_by(const Point2& p, double angle) {
@@ -154,7 +167,7 @@ double smallest(const ToothPolygon& mover, double mover_turn, const Point2& move
     for (const Point2& p : mover.points()) {
       const double x = mover_axis.x() + c * p.x() - s * p.y() - mate_axis.x();
       const double y = mover_axis.y() + s * p.x() + c * p.y() - mate_axis.y();
-      best = std::min(best, mate.signed_distance({c2 * x - s2 * y, s2 * x + c2 * y}));
+      best = std::min(best, mate.signed_distance({c2 * x - s2 * y, s2 * x + c2 * y}, best));
     }
   }
   return best;

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/check/check_designs.h"
+#include "trueflank/check/clearance/clearance_field.h"
+#include "trueflank/check/mesh_clearance.h"
 
 namespace trueflank::test {
 namespace {
@@ -53,6 +56,27 @@ TEST(Tolerance, MorePlanetsJamMoreOften) {
   const double three = analysed(laid_out(d), options).jam_share;
   d.planets = 1;
   EXPECT_GT(three, analysed(laid_out(d), options).jam_share);
+}
+
+TEST(Tolerance, ClearancesAreThoseOfTheTurnedTeethWhereSetsBeginToJam) {
+  const GearTrain train = laid_out(paper_design(0.05));
+  double worst_um = 0.0;
+  int near = 0;
+  for (const TrainMesh& mesh : train.meshes) {
+    const GearPair pair = train.pair(mesh);
+    constexpr double kWidth_mm = 0.15;
+    auto field = ClearanceField::make(train, mesh, {}, {}, kWidth_mm);
+    ASSERT_TRUE(field);
+    for (int i = -30; i <= 30; ++i) {
+      const double off_mm = kWidth_mm * i / 30.0;
+      const double turned_um = 1e3 * sweep_clearance_mm({pair.profile1, pair.profile2, pair.centre_distance_mm + off_mm});
+      if (std::abs(turned_um) > 5.0) continue;
+      ++near;
+      worst_um = std::max(worst_um, std::abs(1e3 * field->clearance_mm(off_mm, 0.0) - turned_um));
+    }
+  }
+  EXPECT_GT(near, 5);
+  EXPECT_LT(worst_um, 0.4);  // 4.5 with the nine places alone
 }
 
 TEST(Tolerance, TheSameSeedGivesTheSameShare) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The share of sets that jam within their tolerances, drawn anew: tolerances_drawn.py [CASES] [SEED].
 
-Teeth are rolled from a rack (rolled_gears.py) and turned as points at nine centre distances; sets are drawn as
+Teeth are rolled from a rack (rolled_gears.py) and turned as points at 17 centre distances; sets are drawn as
 docs/checks.md states: errors normal with the tolerance at three standard deviations and cut off there, eccentricities
 in line, sun and rings one part each, planets each their own on their own pin. Pairs, and 3K sets with three planets."""
 import json
@@ -20,9 +20,10 @@ PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 SETS, TOLD_SETS = 40000, 20000
 STEPS = 24
-# Between the nine places that the program turns clearances are interpolated. Over the centre distance they are the
-# smallest of several curves, so the line between two places lies below: of 3K sets so many more are said to jam.
-INTERPOLATED = {"pair": 0.003, "3k": 0.02}
+INTERPOLATED = 0.003  # of the sets: the program interpolates clearances between the places it turns
+# The program's sets are the same draws for every design: their luck (0.36 % of the sets in a share of a third) does not
+# average out. Interpolation on nine places alone makes it 1 % for 3K sets.
+MEAN = 0.006
 MESHES = {"pair": [("pinion", "wheel")], "3k": [("sun", "planet1"), ("planet1", "ring1"), ("planet2", "ring2")]}
 
 
@@ -66,7 +67,7 @@ def drawn(rng):
 
 def clearances(gear1, gear2, distance, half_width):
     """By how much gear 2 can be turned out of the middle of the play, either way, over centre distances [rad]."""
-    places = distance + np.linspace(-half_width, half_width, 9)
+    places = distance + np.linspace(-half_width, half_width, 17)
     return places, np.array([Mesh(gear1, gear2, a).plays(STEPS, False).min() for a in places])
 
 
@@ -100,6 +101,7 @@ def main():
     rng, dice = np.random.default_rng(seed), random.Random(seed)
     OUTPUT.mkdir(parents=True, exist_ok=True)
     compared, between, wrong, worst = 0, 0, 0, 0.0
+    off = {kind: [] for kind in MESHES}
     while compared < cases:
         design = drawn(dice)
         if design is None:
@@ -123,11 +125,15 @@ def main():
         compared += 1
         between += 0.005 < mine < 0.995
         worst = max(worst, abs(mine - told))
-        bad = not mine - chance - INTERPOLATED["pair"] < told < mine + chance + INTERPOLATED[kind]
+        off[kind].append(told - mine)
+        bad = abs(told - mine) > chance + INTERPOLATED
         wrong += bad
         if bad or os.environ.get("TELL"):
             print(f"{kind} {teeth} a {distance} {t}: drawn {100 * mine:.2f} %, told {100 * told:.2f} %")
-    print(f"{compared} designs, of {between} some sets jam and some run; largest difference {100 * worst:.2f} % of the sets; {wrong} wrong")
+    means = {kind: float(np.mean(values)) if values else 0.0 for kind, values in off.items()}
+    wrong += sum(abs(mean) > MEAN for mean in means.values())
+    print(f"{compared} designs, of {between} some sets jam and some run; largest difference {100 * worst:.2f} % of the sets, on average "
+          + ", ".join(f"{100 * mean:+.2f} % ({kind})" for kind, mean in means.items()) + f"; {wrong} wrong")
     sys.exit(1 if wrong or between < cases / 3 else 0)
 
 
