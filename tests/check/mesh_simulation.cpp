@@ -51,7 +51,14 @@ class ToothPolygon {
   }
 
   [[nodiscard]] double window() const { return 0.08 * module_; }
+  [[nodiscard]] double slack() const { return 0.002 * module_; }  // far above rounding
   [[nodiscard]] const std::vector<Point2>& points() const { return points_; }
+  /// Points next to each other, all within a radius of the one in their middle.
+  struct Run {
+    std::size_t first, middle, end;
+    double radius;
+  };
+  [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
   [[nodiscard]] int teeth() const { return teeth_; }
   [[nodiscard]] double tip_reach() const { return external_ ? high_ : low_; }
 
@@ -111,6 +118,14 @@ class ToothPolygon {
       points_.push_back({p->x(), -p->y()});
     for (std::size_t i = half.front().y() == 0.0 ? 1 : 0; i < half.size(); ++i)
       points_.push_back(half[i]);
+    constexpr std::size_t kRun = 8;
+    for (std::size_t first = 0; first < points_.size(); first += kRun) {
+      Run run{first, 0, std::min(first + kRun, points_.size()), 0.0};
+      run.middle = (run.first + run.end) / 2;
+      for (std::size_t i = run.first; i < run.end; ++i)
+        run.radius = std::max(run.radius, (points_[i] - points_[run.middle]).norm());
+      runs_.push_back(run);
+    }
     std::vector<double> radii;
     low_ = 1e300;
     for (const Point2& p : points_) {
@@ -139,6 +154,7 @@ class ToothPolygon {
   bool external_;
   double module_;
   std::vector<Point2> points_;
+  std::vector<Run> runs_;
   std::vector<Point2> axes_;  // directions of the teeth
   double low_ = 0.0, high_ = 0.0, longest_ = 0.0;
   std::vector<std::vector<Edge>> cells_;
@@ -164,10 +180,17 @@ double smallest(const ToothPolygon& mover, double mover_turn, const Point2& move
     const double slack = 0.8 * pitch * mover.tip_reach() + mate.window();
     if (mate_is_ring ? away < mate.tip_reach() - slack : away > mate.tip_reach() + slack) continue;
     const double c = std::cos(turn), s = std::sin(turn);
-    for (const Point2& p : mover.points()) {
+    const auto distance_of = [&](std::size_t i, double least) {
+      const Point2& p = mover.points()[i];
       const double x = mover_axis.x() + c * p.x() - s * p.y() - mate_axis.x();
       const double y = mover_axis.y() + s * p.x() + c * p.y() - mate_axis.y();
-      best = std::min(best, mate.signed_distance({c2 * x - s2 * y, s2 * x + c2 * y}, best));
+      return mate.signed_distance({c2 * x - s2 * y, s2 * x + c2 * y}, least);
+    };
+    for (const ToothPolygon::Run& run : mover.runs()) {
+      // no distance differs from another by more than its point does
+      const double beyond = best + run.radius + mate.slack();
+      if (beyond < mate.window() && distance_of(run.middle, beyond) > beyond) continue;
+      for (std::size_t i = run.first; i < run.end; ++i) best = std::min(best, distance_of(i, best));
     }
   }
   return best;
