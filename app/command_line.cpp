@@ -216,8 +216,10 @@ std::string joined(const std::vector<std::string>& words) {
 /// An error about a word that is no command: the nearest one, or all.
 Error no_such_command(const CLI::App& program, const std::string& word) {
   const std::vector<std::string> commands = command_names(program);
+  std::vector<std::string> known = commands;
+  known.emplace_back("help");
   Error error{.code = ErrorCode::kUsage, .message = "no such command", .key = word};
-  if (const std::string nearest = nearest_word(word, commands); !nearest.empty())
+  if (const std::string nearest = nearest_word(word, known); !nearest.empty())
     error.message += "; did you mean " + nearest + "?";
   else if (word.ends_with(".toml"))
     error.message += "; did you mean trueflank check " + word + "?";

@@ -76,7 +76,7 @@ class Terminal(unittest.TestCase):
         return path
 
     def test_a_mistyped_command_is_answered_with_the_one_that_was_meant(self):
-        for typed, meant in [("chek", "check"), ("cehck", "check"), ("mak", "make"), ("serach", "search"),
+        for typed, meant in [("halp", "help"), ("chek", "check"), ("cehck", "check"), ("mak", "make"), ("serach", "search"),
                              ("compair", "compare"), ("loops", "loop")]:
             result = run(typed, DESIGN)
             self.assertEqual((result.returncode, result.stdout), (2, ""))
