@@ -157,7 +157,7 @@ const std::vector<DesignKey<HousingDesign>>& housing_keys() {
         .upper = 2,
         .by_default = "0.1",
         .meaning = "diametral clearance of every seat: bearings, ring, pins, the motor's collar "
-                   "and shaft"},
+                   "and shaft; 0: classes of ISO 286, H7 holes and g6 journals"},
        KeyPlace::kAnywhere,
        [](H& h, const KeyValue& v) { h.fit_mm = number(v); },
        [](const H& h) { return Value(h.fit_mm); }},

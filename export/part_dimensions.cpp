@@ -11,6 +11,7 @@
 #include "trueflank/export/number_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/machine/fit_class.h"
 
 namespace trueflank::io {
 namespace {
@@ -23,14 +24,38 @@ double at_size(const SizeTable& table, double size_mm) {
   return kNaN;
 }
 
-/// Limits of H7. Source: ISO 286-1, IT7 up to 500 mm.
-SizeLimits h7_limits(double diameter_mm) {
-  static const SizeTable kIt7_um = {{3, 10},  {6, 12},   {10, 15},  {18, 18},  {30, 21},
-                                    {50, 25}, {80, 30},  {120, 35}, {180, 40}, {250, 46},
-                                    {315, 52}, {400, 57}, {500, 63}};
-  const double um = at_size(kIt7_um, diameter_mm);
-  if (std::isnan(um)) return general_limits(diameter_mm);
-  return {.lower_mm = 0.0, .upper_mm = um / 1000.0, .fit = "H7"};
+/// Limits of a class of ISO 286-1; of a size beyond them the general ones.
+SizeLimits class_limits(const std::string& fit, double diameter_mm) {
+  const auto limits = fit_limits(fit, diameter_mm);
+  if (!limits) return general_limits(diameter_mm);
+  return {.lower_mm = limits->lower_mm, .upper_mm = limits->upper_mm, .fit = fit};
+}
+
+/// A size of which a gearbox has a fitted seat or journal.
+struct FittedSize {
+  double made_mm = 0.0, nominal_mm = 0.0;
+  bool hole = true;
+};
+
+/// Of a gearbox whose seats have classes (fit_mm = 0).
+std::vector<FittedSize> fitted_sizes(const GearTrain& train) {
+  const auto& machine = train.design.machine;
+  if (!machine || machine->housing.fit_mm > 0.0 || additive(train)) return {};
+  std::vector<FittedSize> sizes;
+  const auto add = [&](double nominal_mm, bool hole) {
+    if (fit_limits(hole ? kSeatClass : kJournalClass, nominal_mm))
+      sizes.push_back({hole ? seat_mm(nominal_mm, 0.0) : journal_mm(nominal_mm, 0.0), nominal_mm, hole});
+  };
+  add(machine->motor.shaft_diameter_mm, true);
+  add(machine->motor.pilot_diameter_mm, true);
+  add(machine->bearings.output.outer_mm, true);
+  add(machine->bearings.output.bore_mm, false);
+  if (machine->bearings.planet) add(machine->bearings.planet->outer_mm, true);
+  if (machine->bearings.wheel) {
+    add(machine->bearings.wheel->outer_mm, true);
+    add(machine->bearings.wheel->bore_mm, false);
+  }
+  return sizes;
 }
 
 bool is_toothed(const Outline& outline) { return std::holds_alternative<ToothedOutline>(outline); }
@@ -51,7 +76,8 @@ bool same_outer(const Outline& a, const Outline& b) {
 }
 
 /// A circle about the axis, the tips of a toothing, or a bore.
-std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool printed) {
+std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool printed,
+                                        const std::vector<FittedSize>& sizes) {
   PartDiameter d{.hole = hole};
   if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
     d.diameter_mm = 2.0 * teeth->profile->tip_radius_mm();
@@ -65,15 +91,22 @@ std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool 
     d.diameter_mm = d.bore->diameter_mm;
   }
   const bool fitted = d.bore && d.bore->kind != BoreKind::kHex && !printed;
-  d.limits = fitted ? h7_limits(d.diameter_mm) : general_limits(d.diameter_mm);
+  d.limits = fitted ? class_limits("H7", d.diameter_mm) : general_limits(d.diameter_mm);
+  for (const FittedSize& size : sizes) {
+    if (size.hole != hole || d.tip || std::abs(size.made_mm - d.diameter_mm) > 1e-6) continue;
+    d.diameter_mm = size.nominal_mm;  // drawings give the nominal size and its class
+    d.limits = class_limits(hole ? kSeatClass : kJournalClass, size.nominal_mm);
+    break;
+  }
   return d;
 }
 
-std::vector<PartDiameter> diameters_of(const PartShape& part, bool printed) {
+std::vector<PartDiameter> diameters_of(const PartShape& part, bool printed,
+                                       const std::vector<FittedSize>& sizes) {
   std::vector<PartDiameter> diameters;
   std::set<long> seen;  // in 1e-4 mm
   const auto add = [&](const Outline& outline, const Slab& slab, bool hole) {
-    auto diameter = diameter_of(outline, hole, printed);
+    auto diameter = diameter_of(outline, hole, printed, sizes);
     if (!diameter || !seen.insert(std::lround(diameter->diameter_mm * 1e4)).second) return;
     diameter->z_mm = slab.z_lower_mm;
     diameters.push_back(std::move(*diameter));
@@ -163,7 +196,7 @@ const PartDiameter* PartDimensions::datum() const {
 }
 
 PartDimensions part_dimensions(const GearTrain& train, const PartShape& part, int tolerance_class) {
-  PartDimensions dimensions{.diameters = diameters_of(part, additive(train)),
+  PartDimensions dimensions{.diameters = diameters_of(part, additive(train), fitted_sizes(train)),
                             .widths = widths_of(part),
                             .bolt_circles = bolt_circles_of(part),
                             .tip_runouts = {},

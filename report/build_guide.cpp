@@ -8,6 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/quantity_text.h"
+#include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank::io {
 namespace {
@@ -257,10 +258,30 @@ class Writer {
     step.lines = {machine_.motor.flat_mm > 0.0
                       ? "The flat of its bore lies on the flat of the shaft."
                       : "The shaft is round: fix it with retaining compound."};
+    add_set_screw(step);
     if (p.member != train_.topology().input) {
       step.title = "Put the " + words(p.name) + " between the planets";
       step.lines = {"It idles: it keeps the planets apart."};
     }
+  }
+
+  /// Of the gear on the motor's shaft.
+  void add_set_screw(GuideStep& step) const {
+    const auto layout = machine_layout(train_);
+    if (!layout || !layout->set_screw.is_there()) return;
+    const auto& screw = layout->set_screw;
+    step.lines = {set_screw_operation(*layout)};
+    if (screw.nut)
+      step.lines.push_back(
+          "Slide the nut into its pocket from the motor's side. The hub stands " +
+          number_text(layout->hub.lower_mm - layout->floor.lower_mm, 1) +
+          " mm above the motor's face.");
+    step.lines.push_back("Tighten the set screw now: the housing goes over the gear next.");
+    for (const std::string& item : bought_for_set_screw(screw)) step.needs.push_back({item, 1, false});
+    step.tool = "drill of " +
+                number_text(screw.nut ? screw.drill_mm : screw.screw.diameter_mm - screw.screw.diameter_mm / 6.0, 1) +
+                (screw.nut ? " mm, " : " mm, tap, ") + "hex key of " +
+                number_text(set_screw_key_mm(screw), 1) + " mm";
   }
 
   void describe_unit(const AssemblyStep& first, GuideStep& step) const {

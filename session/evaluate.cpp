@@ -9,6 +9,7 @@
 #include "trueflank/solid/measure/mass_properties.h"
 #include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/train/flank_modifications.h"
+#include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank {
 
@@ -67,6 +68,9 @@ void add_machine(const Gearbox& gearbox, const StrengthOptions& strength_options
     const Material& material = material_of_part(train, strength_options, part);
     return PartMaterial{material.name, material.density_kg_m3};
   });
+  if (const auto layout = machine_layout(train))
+    for (const std::string& designation : bought_for_set_screw(layout->set_screw))
+      add_bought(report.bill, designation);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/train/gear_train.h"
+#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
@@ -42,7 +43,7 @@ void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
       design.gears[static_cast<std::size_t>(planet_with_bore(design) - design.gears.data())].bore;
   for (const char* name : {"608", "626", "625", "624", "623", "684"}) {
     const Bearing& bearing = *find_element(standard_elements().bearings, name);
-    if (0.5 * (bearing.outer_mm + machine.housing.fit_mm) + wall_mm > root) continue;
+    if (0.5 * seat_mm(bearing.outer_mm, machine.housing.fit_mm) + wall_mm > root) continue;
     if (2.0 * bearing.width_mm + kBetweenBearings_mm > upper - lower) continue;
     machine.bearings.planet = bearing;
     bore.diameter_mm = bore_between(bearing);
@@ -115,10 +116,8 @@ void choose_wheel_bearing(GearboxDesign& design, double wall_mm) {
     const Bearing& bearing = *find_element(standard_elements().bearings, name);
     train->design.machine->bearings.wheel = bearing;
     const auto m = machine_layout(*train);
-    const double seat = 0.5 * (bearing.outer_mm + m->fit_mm);
-    const double pilot = std::max(0.5 * (machine.motor.pilot_diameter_mm + m->fit_mm),
-                                  m->hub_radius_mm + m->clearance_mm);
-    double wall = m->output_axis.norm() - seat - pilot;
+    const double seat = 0.5 * seat_mm(bearing.outer_mm, m->fit_mm);
+    double wall = m->output_axis.norm() - seat - m->floor_hole_radius_mm;
     for (const Point2& at : m->motor_screws.at)
       wall = std::min(wall, (m->output_axis - at).norm() - seat - kHeadRoom_mm -
                                 0.5 * m->motor_screws.screw.head_diameter_mm);
@@ -152,6 +151,8 @@ double growing_diameter_mm(const GearTrain& train, const MachineLayout& m) {
 GearboxDesign with_machine(GearboxDesign design, const Motor& motor, double outer_diameter_mm,
                            double wall_mm) {
   MachineDesign& machine = design.machine.emplace(MachineDesign{.motor = motor});
+  // what is machined has fits of ISO 286
+  if (design.made.process && !(design.made.process->layer_mm > 0.0)) machine.housing.fit_mm = 0.0;
   machine.fasteners = {.housing = screw_of("M3"),
                        .carrier = screw_of("M3-short"),
                        .output = screw_of("M3"),

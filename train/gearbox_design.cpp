@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "trueflank/train/machine/fit_class.h"
+
 namespace trueflank {
 
 const GearDesign* find_gear(const GearboxDesign& design, const std::string& name) {
@@ -25,11 +27,10 @@ const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear) {
 
 BoreDesign shaft_bore(const MachineDesign& machine) {
   const Motor& motor = machine.motor;
-  const double fit = machine.housing.fit_mm;
-  BoreDesign bore{.diameter_mm = motor.shaft_diameter_mm + fit};
+  BoreDesign bore{.diameter_mm = seat_mm(motor.shaft_diameter_mm, machine.housing.fit_mm)};
   if (motor.flat_mm > 0.0) {
     bore.kind = BoreKind::kDFlat;
-    bore.d_flat_mm = motor.flat_mm + fit;
+    bore.d_flat_mm = motor.flat_mm + bore.diameter_mm - motor.shaft_diameter_mm;
   }
   return bore;
 }

@@ -6,6 +6,8 @@
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/machine/check_bearings.h"
+#include "trueflank/check/machine/check_fits.h"
+#include "trueflank/check/machine/check_shaft.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/assembly_clearance.h"
 #include "trueflank/solid/measure/assembly_order.h"
@@ -13,8 +15,6 @@
 namespace trueflank {
 namespace {
 
-/// A hub holds a shaft over one and a half of its diameters, over one at least (a rule of thumb).
-constexpr double kGrip = 1.5, kLeastGrip = 1.0;
 /// What turns and what does not stay this part of clearance_mm apart, or it is reported.
 constexpr double kLeastGap = 0.5;
 
@@ -108,40 +108,6 @@ Finding screw_access(const MachineLayout& m) {
       0.0);
 }
 
-Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
-  const Motor& motor = train.design.machine->motor;
-  const std::string where = train.topology().name_of(train.topology().input);
-  const double grip = m.gripped.upper_mm - m.gripped.lower_mm,
-               wanted = kGrip * motor.shaft_diameter_mm;
-  Finding finding =
-      judged({.id = "shaft_grip",
-              .where = where,
-              .value = grip,
-              .limit = wanted,
-              .unit = "mm",
-              .message = "the motor's shaft is " + mm_text(std::max(0.0, grip)) + " deep in the " +
-                         where + ", one and a half diameters are " + mm_text(wanted),
-              .cure = "a motor whose shaft_length_mm is longer by " + mm_text(wanted - grip) +
-                      ", or thinner floor and carrier plate"},
-             kLeastGrip * motor.shaft_diameter_mm);
-  const GearDesign* gear =
-      m.driven_gear < 0 ? nullptr : &train.design.gears[static_cast<std::size_t>(m.driven_gear)];
-  if (gear && !(gear->bore.diameter_mm > motor.shaft_diameter_mm)) {
-    finding.status = CheckStatus::kFail;
-    finding.message = "the motor's shaft of " + mm_text(motor.shaft_diameter_mm) +
-                      " does not go into the bore of " + mm_text(gear->bore.diameter_mm);
-    finding.cure = "bore_mm in [" + gear->name + "] of more, or none: it follows from the shaft";
-  }
-  const BoreDesign bore = gear ? gear->bore : shaft_bore(*train.design.machine);
-  if (finding.status != CheckStatus::kFail && bore.kind == BoreKind::kRound) {
-    finding.status = CheckStatus::kWarn;
-    finding.message += "; bore and shaft are round: glue alone carries the torque";
-    finding.cure = "a flat filed on the shaft, and flat_mm and flat_length_mm in [motor]; or retaining "
-                   "compound";
-  }
-  return finding;
-}
-
 Finding collision(const GearTrain& train, const PartShapes& shapes) {
   const AssemblyClearance clearance = assembly_clearance(train, shapes);
   Finding finding{.id = "collision",
@@ -160,9 +126,12 @@ Finding collision(const GearTrain& train, const PartShapes& shapes) {
     finding.limit = wanted;
     finding.margin = clearance.least_gap_mm - wanted;
     finding.message += ": they may rub";
-    finding.cure =
-        "a gap of " + mm_text(wanted) +
-        ": where a planet stands against a ring's cup, a face_width_mm of the ring that is larger";
+    finding.cure = "a gap of " + mm_text(wanted) + ": other sizes of the two";
+    const auto is_planet = [](const std::string& body) { return body.starts_with("planet"); };
+    if (is_planet(clearance.body1) || is_planet(clearance.body2))
+      finding.cure = "a gap of " + mm_text(wanted) +
+                     ": where a planet stands against a ring's cup, a face_width_mm of the ring that "
+                     "is larger";
     return finding;
   }
   finding.status = CheckStatus::kFail;
@@ -261,6 +230,7 @@ Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
   all.push_back(screw_access(m));
   all.push_back(shaft_grip(train, m));
   append(check_bearings(train, m));
+  append(check_fits(train));
   all.push_back(collision(train, shapes));
   const bool collides = all.back().status == CheckStatus::kFail;
   all.push_back(order_of_assembly(train, shapes, collides));

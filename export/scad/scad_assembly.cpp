@@ -25,14 +25,22 @@ std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
   text += "]\n\n";
   for (const PartShape& part : shapes.parts) text += "use <" + part.name + ".scad>\n";
   text += "\nangle = turn + 360*$t;\n"
-          "module body(part, orbit, place, rotation, shift)\n"
+          "module body(part, orbit, place, rotation, shift, axis = [0, 0, 0])\n"
           "  if (show == \"all\" || show == part)\n"
-          "    rotate(orbit*angle) translate(place + [0, 0, shift*explode]) rotate(rotation) children();\n\n";
+          "    translate(axis) rotate(orbit*angle) translate(place - axis + [0, 0, shift*explode]) "
+          "rotate(rotation) children();\n\n";
   for (const Placement& body : shapes.assembly) {
     const std::string& part = shapes.parts[body.part].name;
     const PartShape& shape = shapes.parts[body.part];
     // about its own axis a body turns by what it turns more than that goes round
-    const BodyMotion motion = motion_of(train, shape.member);
+    BodyMotion motion = motion_of(train, shape.member);
+    // what is screwed to a body goes round with it
+    std::string axis;
+    if (!shape.bought.empty() && shape.member != kNoMember && motion.orbit == 0.0) {
+      motion.orbit = motion.turn;
+      if (const Point2 at = axis_centre_mm(train, train.phases, shape.member); at.norm() > 0.0)
+        axis = ", axis = " + list(number(at.x()), number(at.y()), number(0.0));
+    }
     const auto& move = body.translation_mm;
     const std::string rotation = degrees(centred_rad(body.rotation_rad));
     const bool upper = move[2] > 0.0;
@@ -42,7 +50,7 @@ std::string assembly_text(const GearTrain& train, const PartShapes& shapes) {
             number(motion.orbit) + ", " +
             list(number(move[0]), number(move[1]), number(move[2])) + ",\n  " +
             rotation + " + " + number(motion.turn - motion.orbit) + "*angle, " +
-            std::to_string(layer) + ") " + part + "();  // " + body.name + "\n";
+            std::to_string(layer) + axis + ") " + part + "();  // " + body.name + "\n";
   }
   return text;
 }

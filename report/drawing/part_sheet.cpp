@@ -9,6 +9,7 @@
 #include "trueflank/report/drawing/drawn_part.h"
 #include "trueflank/report/drawing/sheet_frame.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
+#include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank::io {
 namespace {
@@ -275,6 +276,9 @@ class PartSheet {
       for (const TrainGear* gear : gears_)
         if (std::string text = modification_text(*model_.train, gear->name); !text.empty()) all.push_back(text);
     }
+    if (const auto layout = machine_layout(*model_.train);
+        layout && part_.bought.empty() && part_.member == model_.train->topology().input && !gears_.empty())
+      if (std::string text = set_screw_operation(*layout); !text.empty()) all.push_back(text);
     if (!additive(*model_.train)) all.push_back("Edges broken 0.1 to 0.3.");
     return all;
   }

@@ -9,6 +9,7 @@
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/measure/body_layers.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -445,7 +446,11 @@ class Orderer {
     std::string held = carrier();
     for (const int member : topology.fixed)
       if (!topology.gears_of(member).empty()) held = topology.name_of(member);
-    return {"motor",     "housing", "insert_",      "*_motor", topology.name_of(topology.input),
+    // a set screw is tightened before the housing goes over the gear
+    const auto layout = machine_layout(train_);
+    const std::string first =
+        layout && layout->set_screw.is_there() ? topology.name_of(topology.input) : "motor";
+    return {"motor",     "=" + first, "housing", "insert_",      "*_motor", topology.name_of(topology.input),
             held,        carrier(), driving_part(), "journal", "lid",
             "*_housing", "output",  "*_output"};
   }

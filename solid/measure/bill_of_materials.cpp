@@ -44,6 +44,15 @@ BillOfMaterials bill_of_materials(
   return bill;
 }
 
+void add_bought(BillOfMaterials& bill, const std::string& designation) {
+  auto line = bill.begin();
+  while (line != bill.end() && (line->designation.empty() || line->designation < designation)) ++line;
+  if (line != bill.end() && line->designation == designation)
+    ++line->count;
+  else
+    bill.insert(line, {.designation = designation, .count = 1});
+}
+
 std::string bill_csv(const BillOfMaterials& bill) {
   std::string text = "part,designation,count,material,mass_g,mass_all_g\n";
   for (const BillLine& line : bill)

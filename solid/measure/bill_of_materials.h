@@ -30,6 +30,9 @@ struct PartMaterial {
 [[nodiscard]] BillOfMaterials bill_of_materials(const PartShapes& shapes,
                                                 const std::function<PartMaterial(const PartShape&)>& material_of);
 
+/// Adds one of what is bought and is no body of the assembly, in its place.
+void add_bought(BillOfMaterials& bill, const std::string& designation);
+
 /// The bill as a table for other programs (docs/gearbox.md).
 [[nodiscard]] std::string bill_csv(const BillOfMaterials& bill);
 

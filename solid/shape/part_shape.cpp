@@ -11,6 +11,7 @@
 #include "trueflank/solid/shape/machine/machine_parts.h"
 #include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/ring_rim.h"
 
 namespace trueflank {
@@ -342,7 +343,7 @@ class ShapeBuilder {
     const double bore = largest_radius_mm(bore_through(top_gear));
     if (!layout_ || !train_.design.machine->bearings.planet) return bore;
     return std::max(bore,
-                    0.5 * (train_.design.machine->bearings.planet->outer_mm + layout_->fit_mm));
+                    0.5 * seat_mm(train_.design.machine->bearings.planet->outer_mm, layout_->fit_mm));
   }
 
   /// Blind holes in the upper face, as many as the body's number; in a gearbox they leave its

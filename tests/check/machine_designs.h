@@ -115,6 +115,18 @@ wheel = "608"
 process = "fdm-0.4"
 )";
 
+/// On a motor whose shaft has no flat.
+inline std::string round_shaft(const std::string& text) {
+  return replaced(text, "name = \"nema17\"",
+                  "shaft_diameter_mm = 5\nshaft_length_mm = 24\nbolt_circle_diameter_mm = 43.8\n"
+                  "pilot_diameter_mm = 22\npilot_height_mm = 2\nthread_depth_mm = 4.5\n"
+                  "torque_nm = 0.4");
+}
+/// Of metal, with fits of ISO 286.
+inline std::string machined(const std::string& text) {
+  return replaced(replaced(text, "\"fdm-0.4\"", "\"hobbing\""), "[housing]", "[housing]\nfit_mm = 0");
+}
+
 inline GearboxDesign design_of(const std::string& text) {
   const auto design = read_design_text(text, "machine.toml");
   if (!design)

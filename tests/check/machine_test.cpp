@@ -177,7 +177,13 @@ INSTANTIATE_TEST_SUITE_P(Machine, EveryKind,
                          testing::Values(k3k + kMachine, type_two(k3k + kMachine),
                                          kSimple + kMachine, split_ring(k3k + kMachine),
                                          kStepped + kMachine, held_carrier(kSimple + kMachine),
-                                         held_carrier(kStepped + kMachine), kPair + kBox));
+                                         held_carrier(kStepped + kMachine), kPair + kBox,
+                                         round_shaft(k3k + kMachine),
+                                         round_shaft(type_two(k3k + kMachine)),
+                                         round_shaft(held_carrier(kStepped + kMachine)),
+                                         round_shaft(kPair + kBox), machined(k3k + kMachine),
+                                         machined(round_shaft(kStepped + kMachine)),
+                                         machined(round_shaft(kPair + kBox))));
 
 TEST(MachineParts, TheMotorsShaftEndsFreeInASunThatIdles) {
   const Made made(idle_sun(k3k + kMachine));
@@ -264,19 +270,6 @@ TEST(MachineChecks, AShaftThatIsTooShortIsToldWithItsCure) {
   const std::string longer = std::to_string(6.0 + missing + 0.001);
   const Made cured(replaced(text, "shaft_length_mm = 6", "shaft_length_mm = " + longer));
   EXPECT_EQ(cured.finding("shaft_grip", "sun").status, CheckStatus::kPass);
-}
-
-TEST(MachineChecks, ARoundShaftThatGlueAloneHoldsIsTold) {
-  const std::string numbers =
-      "shaft_diameter_mm = 5\nshaft_length_mm = 24\nbolt_circle_diameter_mm = 43.8\n"
-      "thread_depth_mm = 4.5";
-  const Made round(replaced(k3k + kMachine, "name = \"nema17\"", numbers));
-  const Finding& told = round.finding("shaft_grip", "sun");
-  EXPECT_EQ(told.status, CheckStatus::kWarn);
-  EXPECT_NE(told.cure.find("flat_mm"), std::string::npos);
-  const Made flat(replaced(k3k + kMachine, "name = \"nema17\"",
-                           numbers + "\nflat_mm = 4.5\nflat_length_mm = 15"));
-  EXPECT_EQ(flat.finding("shaft_grip", "sun").status, CheckStatus::kPass);
 }
 
 TEST(MachineChecks, AHousingThatIsTooSmallFails) {
@@ -608,6 +601,8 @@ TEST(AssemblyOrder, EveryKindGoesTogetherBodyByBody) {
   expect_proved(Made(held_carrier(kSimple) + kMachine), "simple, held carrier");
   expect_proved(Made(held_carrier(kStepped) + kMachine), "stepped, held carrier");
   expect_proved(Made(kPair + kBox), "pair");
+  expect_proved(Made(round_shaft(k3k + kMachine)), "type I, round shaft");
+  expect_proved(Made(round_shaft(kPair + kBox)), "pair, round shaft");
 }
 
 TEST(AssemblyOrder, UnitsAreMadeByThemselves) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/layout_steps.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void place_output_screws(const MachineDesign& machine, double head_mm, MachineLa
 void place_retainer(const MachineDesign& machine, double head_mm, MachineLayout& m) {
   const Screw& screw = machine.fasteners.output;
   const double circle =
-      0.5 * (machine.bearings.output.outer_mm + m.fit_mm + screw.insert_hole_mm) + m.wall_mm;
+      0.5 * (seat_mm(machine.bearings.output.outer_mm, m.fit_mm) + screw.insert_hole_mm) + m.wall_mm;
   m.retainer_radius_mm = circle + 0.5 * screw.head_diameter_mm + m.wall_mm + kHeadCover_mm;
   const double head = m.retainer.lower_mm + head_mm;
   m.retainer_screws = with_length({.what = "retainer",
@@ -116,7 +117,7 @@ void place_output(const MachineDesign& machine, MachineLayout& m) {
   m.retainer.upper_mm = m.retainer.lower_mm + head + under;
   m.bearings = {m.retainer.upper_mm,
                 m.retainer.upper_mm + machine.bearings.outputs * bearing.width_mm};
-  m.journal_radius_mm = 0.5 * (bearing.bore_mm - m.fit_mm);
+  m.journal_radius_mm = 0.5 * journal_mm(bearing.bore_mm, m.fit_mm);
   const Shoulders shoulders = shoulders_of(bearing);
   m.inner_shoulder_mm = shoulders.inner_mm;
   m.outer_shoulder_mm = shoulders.outer_mm;

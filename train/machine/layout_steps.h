@@ -24,6 +24,15 @@ void place_floor(const MachineDesign& machine, double cavity_mm, double least_mm
 void place_shaft(const Motor& motor, MachineLayout& m);
 void widen_hub(const TrainGear& gear, const MachineDesign& machine, MachineLayout& m);
 
+/// The set screw of a gear on a round shaft, where the floor has room for it in a hole of at most
+/// this radius; its heights follow with the hub. And the least floor that it wants.
+void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& m);
+[[nodiscard]] double floor_of_set_screw_mm(const Motor& motor, const MachineLayout& m);
+/// Puts it into the hub, and sizes the hole in the floor that collar and hub go through. Requires: the hub.
+void place_set_screw(const GearTrain& train, MachineLayout& m);
+/// Radius that the heads of the motor's screws leave for that hole.
+[[nodiscard]] double room_of_hole_mm(const MachineDesign& machine, const MachineLayout& m);
+
 /// From the disc that carries it: retainer, bearings, roof of the lid, plate, and their screws.
 /// Requires: m.disc, m.output_axis.
 void place_output(const MachineDesign& machine, MachineLayout& m);

@@ -24,7 +24,9 @@ class Layout {
     place_gears();
     place_carrier();
     place_pillars();
-    place_floor(machine_, m_.near.lower_mm - m_.clearance_mm, 0.0, m_);
+    plan_set_screw(train_, room_of_hole_mm(machine_, m_), m_);
+    place_floor(machine_, m_.near.lower_mm - m_.clearance_mm,
+                floor_of_set_screw_mm(machine_.motor, m_), m_);
     place_disc();
     place_output(machine_, m_);
     place_walls();
@@ -143,6 +145,7 @@ class Layout {
     }
     const double collar = m_.floor.lower_mm + machine_.motor.pilot_height_mm;
     m_.hub = {std::min(collar + kHubGap_mm, driven.lower_mm), driven.lower_mm};
+    place_set_screw(train_, m_);
     for (std::size_t i = 0; i < train_.gears.size(); ++i)
       if (m_.driven_gear >= 0 && topology().is_planet_gear(i) &&
           heights(train_.gears[i]).lower_mm < driven.lower_mm)

@@ -74,6 +74,23 @@ struct MachineLayout {
   double hub_room_mm = 0.0;  ///< beyond the clearance, to planets that it passes
   double flat_from_mm = 0.0, shaft_end_mm = 0.0;
   HeightRange gripped;  ///< of the shaft, in hub and gear
+  /// Across the hub of the driven gear; it turns in the floor's hole.
+  struct SetScrew {
+    Screw screw = {};            ///< of its thread; no name: none
+    bool nut = false;            ///< it turns in a square nut in a pocket open to the motor; else in the hub
+    double length_mm = 0.0;
+    HeightRange foot;            ///< what it is in
+    double foot_radius_mm = 0.0;
+    double flat_mm = 0.0;         ///< of the foot, from the axis: the drill starts there; 0: none
+    HeightRange pocket;
+    double axis_mm = 0.0;        ///< height of the screw's axis
+    double pocket_width_mm = 0.0, pocket_end_mm = 0.0;  ///< its floor, from the axis
+    double pocket_bore_mm = 0.0;  ///< diameter of the bore there: wider than the nut
+    double drill_mm = 0.0, through_mm = 0.0;  ///< diameter, and how much there is to drill through
+    std::string missing = {};    ///< why a round shaft has none
+    [[nodiscard]] bool is_there() const { return !screw.name.empty(); }
+  } set_screw;
+  double floor_hole_radius_mm = 0.0;  ///< collar and hub go through it
 
   // output
   double cup_radius_mm = 0.0;  ///< outside, of a ring that drives out

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/layout_steps.h"
 
 namespace trueflank {
@@ -19,7 +20,7 @@ constexpr double kRelief_mm = 0.5;
 class PairLayout {
  public:
   PairLayout(const GearTrain& train, const MachineDesign& machine)
-      : machine_(machine), pinion_(train.gear(0)), wheel_(train.gear(1)) {
+      : train_(train), machine_(machine), pinion_(train.gear(0)), wheel_(train.gear(1)) {
     m_.driven_gear = 0;
     m_.wheel_gear = 1;
     m_.output_axis = {train.centre_distance_mm, 0.0};
@@ -44,12 +45,20 @@ class PairLayout {
   void place_under_the_wheel() {
     const double cavity = std::min(heights(pinion_).lower_mm, heights(wheel_).lower_mm) - m_.clearance_mm;
     const auto& bearing = machine_.bearings.wheel;
-    place_floor(machine_, cavity, bearing ? bearing->width_mm + kRelief_mm + m_.wall_mm : 0.0, m_);
+    double room = room_of_hole_mm(machine_, m_);
+    if (bearing)
+      room = std::min(room, m_.output_axis.norm() - m_.wall_mm -
+                                0.5 * seat_mm(bearing->outer_mm, m_.fit_mm));
+    plan_set_screw(train_, room, m_);
+    place_floor(machine_, cavity,
+                std::max(bearing ? bearing->width_mm + kRelief_mm + m_.wall_mm : 0.0,
+                         floor_of_set_screw_mm(machine_.motor, m_)),
+                m_);
     if (!bearing) return;
     const Shoulders shoulders = shoulders_of(*bearing);
     m_.stub = {.bearing = {cavity - bearing->width_mm, cavity},
                .relief_mm = cavity - bearing->width_mm - kRelief_mm,
-               .journal_radius_mm = 0.5 * (bearing->bore_mm - m_.fit_mm),
+               .journal_radius_mm = 0.5 * journal_mm(bearing->bore_mm, m_.fit_mm),
                .inner_shoulder_mm = shoulders.inner_mm,
                .outer_shoulder_mm = shoulders.outer_mm};
   }
@@ -63,6 +72,7 @@ class PairLayout {
     const HeightRange driven = heights(pinion_);
     m_.hub = {std::min(m_.floor.lower_mm + machine_.motor.pilot_height_mm + kHubGap_mm, driven.lower_mm),
               driven.lower_mm};
+    place_set_screw(train_, m_);
     m_.gripped = {m_.hub.lower_mm, std::min(driven.upper_mm, m_.shaft_end_mm)};
   }
 
@@ -110,6 +120,7 @@ class PairLayout {
         std::max(0.0, head - m_.seat_top_mm - under_head_mm(screw, m_.wall_mm)));
   }
 
+  const GearTrain& train_;
   const MachineDesign& machine_;
   const TrainGear &pinion_, &wheel_;
   MachineLayout m_;

@@ -9,6 +9,7 @@
 #include "trueflank/solid/shape/machine/machine_pieces.h"
 #include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/machine/fit_class.h"
 
 namespace trueflank {
 namespace {
@@ -103,7 +104,7 @@ class MachineBuilder {
     if (!machine_.bearings.planet) return;
     const Bearing& bearing = *machine_.bearings.planet;
     const HeightRange all = body.heights();
-    const CircleOutline seat = circle(0.5 * (bearing.outer_mm + m_.fit_mm));
+    const CircleOutline seat = circle(0.5 * seat_mm(bearing.outer_mm, m_.fit_mm));
     body.drill({all.lower_mm, all.lower_mm + bearing.width_mm}, seat);
     body.drill({all.upper_mm - bearing.width_mm, all.upper_mm}, seat);
   }
@@ -118,8 +119,7 @@ class MachineBuilder {
                     [](const Outline& hole) { return std::holds_alternative<BoreOutline>(hole); });
       made.add({slab}, at);
     }
-    made.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
-    pieces_.drill_shaft(made, find_gear(train_.design, part.name)->bore);
+    pieces_.add_hub(made, find_gear(train_.design, part.name)->bore);
     body = std::move(made);
   }
 
@@ -217,14 +217,11 @@ class MachineBuilder {
 
   void add_housing() {
     StackedBody body;
-    const double seat = m_.ring_radius_mm + 0.5 * m_.fit_mm;
+    const double seat = 0.5 * seat_mm(2.0 * m_.ring_radius_mm, m_.fit_mm);
     body.add(z(m_.floor.lower_mm, m_.seat_top_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.floor.upper_mm, m_.ring.lower_mm), circle(m_.cavity_radius_mm));
     body.drill(z(m_.ring.lower_mm, m_.seat_top_mm), circle(seat));
-    const double pilot = 0.5 * (machine_.motor.pilot_diameter_mm + m_.fit_mm);
-    const double hub =
-        std::max(m_.hub_radius_mm, 0.5 * machine_.motor.shaft_diameter_mm) + m_.clearance_mm;
-    body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm), circle(std::max(pilot, hub)));
+    pieces_.drill_floor(body, Point2::Zero());
     pieces_.drill(body, m_.motor_screws);
     pieces_.drill(body, m_.housing_screws);
     pieces_.add_part("housing", body, kNoMember, PartRole::kCasing, held_turn_).upside_down = m_.way < 0.0;
@@ -232,7 +229,7 @@ class MachineBuilder {
 
   void add_lid() {
     StackedBody body;
-    const double seat = m_.ring_radius_mm + 0.5 * m_.fit_mm;
+    const double seat = 0.5 * seat_mm(2.0 * m_.ring_radius_mm, m_.fit_mm);
     body.add(z(m_.seat_top_mm + kLipGap_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.seat_top_mm, m_.ring.upper_mm), circle(seat));
     body.drill(z(m_.ring.upper_mm, m_.roof.lower_mm), circle(m_.lid_radius_mm));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/solid/shape/machine/machine_pieces.h"
+#include "trueflank/train/machine/fit_class.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,33 @@ void MachinePieces::drill_insert_ends(StackedBody& body, const ScrewGroup& group
   }
 }
 
+void MachinePieces::drill_floor(StackedBody& body, const Point2& axis) const {
+  body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm), circle(m_.floor_hole_radius_mm, -axis));
+}
+
+void MachinePieces::add_hub(StackedBody& body, const BoreDesign& bore) const {
+  const auto& s = m_.set_screw;
+  if (!s.is_there()) {
+    body.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
+    return drill_shaft(body, bore);
+  }
+  if (s.nut)
+    body.add(z(s.foot.lower_mm, s.foot.upper_mm),
+             BoreOutline{{.diameter_mm = 2.0 * s.foot_radius_mm,
+                          .kind = BoreKind::kDFlat,
+                          .d_flat_mm = s.foot_radius_mm + s.flat_mm}});
+  else
+    body.add(z(s.foot.lower_mm, s.foot.upper_mm), circle(s.foot_radius_mm));
+  body.add(z(s.foot.upper_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
+  if (s.nut)
+    body.drill(z(s.pocket.lower_mm, s.pocket.upper_mm),
+               BoreOutline{{.diameter_mm = s.pocket_bore_mm,
+                            .kind = BoreKind::kKeyway,
+                            .keyway_width_mm = s.pocket_width_mm,
+                            .keyway_depth_mm = s.pocket_end_mm - 0.5 * s.pocket_bore_mm}});
+  body.drill(z(s.nut ? s.pocket.upper_mm : -kBeyond_mm, kBeyond_mm), BoreOutline{bore});
+}
+
 void MachinePieces::drill_shaft(StackedBody& body, const BoreDesign& bore) const {
   if (!(bore.diameter_mm > 0.0)) return;
   const bool flat = bore.kind == BoreKind::kDFlat;
@@ -72,7 +100,7 @@ void MachinePieces::add_retainer(double rotation_rad) {
 void MachinePieces::drill_seat(StackedBody& lid, const Point2& axis) const {
   const Point2 at = m_.output_axis - axis;
   lid.drill(z(m_.roof.lower_mm, m_.bearings.upper_mm),
-            circle(0.5 * (machine_.bearings.output.outer_mm + m_.fit_mm), at));
+            circle(0.5 * seat_mm(machine_.bearings.output.outer_mm, m_.fit_mm), at));
   lid.drill(z(m_.bearings.upper_mm, m_.roof.upper_mm), circle(m_.outer_shoulder_mm, at));
 }
 

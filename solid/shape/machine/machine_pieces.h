@@ -28,6 +28,10 @@ class MachinePieces {
   void drill(StackedBody& body, const ScrewGroup& group, const Point2& axis = Point2::Zero()) const;
   /// The same of screws whose insert alone is in the body: it carries the output.
   void drill_insert_ends(StackedBody& body, const ScrewGroup& group) const;
+  /// The hole that the motor's collar and the hub go through, in a floor that stands at an axis.
+  void drill_floor(StackedBody& body, const Point2& axis) const;
+  /// The hub of the gear on the motor's shaft, with the foot of its set screw; and the bore.
+  void add_hub(StackedBody& body, const BoreDesign& bore) const;
   /// The bore on the motor's shaft; round where the shaft is.
   void drill_shaft(StackedBody& body, const BoreDesign& bore) const;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "trueflank/solid/shape/machine/machine_pieces.h"
+#include "trueflank/train/machine/fit_class.h"
 
 namespace trueflank {
 namespace {
@@ -59,8 +60,7 @@ class PairBuilder {
                     [](const Outline& hole) { return std::holds_alternative<BoreOutline>(hole); });
       body.add({slab}, gear.z_lower_mm);
     }
-    body.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
-    pieces_.drill_shaft(body, find_gear(train_.design, gear.name)->bore);
+    pieces_.add_hub(body, find_gear(train_.design, gear.name)->bore);
     replace(part, body, gear.z_lower_mm);
     // a large pinion hangs over its hub
     shapes_.parts[part].upside_down =
@@ -87,13 +87,11 @@ class PairBuilder {
     StackedBody body;
     body.add(z(m_.floor.lower_mm, m_.seat_top_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.floor.upper_mm, m_.seat_top_mm), circle(m_.cavity_radius_mm));
-    const double pilot = 0.5 * (machine_.motor.pilot_diameter_mm + m_.fit_mm);
-    body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm),
-               circle(std::max(pilot, m_.hub_radius_mm + m_.clearance_mm), -axis));
+    pieces_.drill_floor(body, axis);
     if (machine_.bearings.wheel) {
       const Point2 at = m_.output_axis - axis;
       body.drill(z(m_.stub.bearing.lower_mm, m_.floor.upper_mm),
-                 circle(0.5 * (machine_.bearings.wheel->outer_mm + m_.fit_mm), at));
+                 circle(0.5 * seat_mm(machine_.bearings.wheel->outer_mm, m_.fit_mm), at));
       body.drill(z(m_.stub.relief_mm, m_.stub.bearing.lower_mm), circle(m_.stub.outer_shoulder_mm, at));
     }
     pieces_.drill(body, m_.motor_screws, axis);
@@ -104,7 +102,7 @@ class PairBuilder {
   void add_lid() {
     const Point2& axis = m_.housing_axis;
     StackedBody body;
-    body.add(z(m_.lid_lower_mm, m_.seat_top_mm), circle(m_.cavity_radius_mm - 0.5 * m_.fit_mm));
+    body.add(z(m_.lid_lower_mm, m_.seat_top_mm), circle(0.5 * journal_mm(2.0 * m_.cavity_radius_mm, m_.fit_mm)));
     body.add(z(m_.seat_top_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.lid_lower_mm, m_.roof.lower_mm),
                circle(m_.lid_radius_mm, m_.output_axis - axis));

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// assembly.scad of a gearbox: what is screwed to a part goes round with it.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "tests/check/machine_designs.h"
+#include "trueflank/export/scad/scad_writer.h"
+
+namespace trueflank {
+namespace {
+
+struct Line {
+  double orbit = 0.0, spin = 0.0;
+  std::string axis;
+};
+
+/// The line of a body, by its name in the comment.
+Line line_of(const Made& made, const std::string& body) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "assembly_of_machine.scad";
+  EXPECT_TRUE(io::write_scad_assembly(path, made.train, made.shapes));
+  std::ifstream file(path);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::regex pattern("body\\(\"[^\"]*\", ([-0-9.e]+), [^\n]*\\n[^+\n]* \\+ ([-0-9.e]+)\\*angle, "
+                           "[0-9]+(, axis = [^)]*)?\\)[^\n]*// " + body + "\\n");
+  std::smatch match;
+  if (!std::regex_search(text, match, pattern)) throw std::runtime_error("no line of " + body);
+  return {std::stod(match[1]), std::stod(match[2]), match[3]};
+}
+
+TEST(ScadAssembly, ScrewsGoRoundWithWhatTheyAreIn) {
+  const Made made(k3k + kMachine);
+  const Line output = line_of(made, "output"), screw = line_of(made, "screw_m3x20_output 1");
+  EXPECT_NE(output.spin, 0.0);
+  EXPECT_EQ(output.orbit, 0.0);
+  EXPECT_EQ(screw.orbit, output.spin);
+  EXPECT_EQ(screw.spin, 0.0);
+  EXPECT_EQ(line_of(made, "screw_m3x6_motor 1").orbit, 0.0);
+}
+
+TEST(ScadAssembly, ScrewsOfAWheelGoRoundItsAxis) {
+  const Made made(kPair + kBox);
+  std::string screw;
+  for (const Placement& body : made.shapes.assembly)
+    if (body.name.starts_with("screw_") && body.name.ends_with("_output 1")) screw = body.name;
+  const Line line = line_of(made, screw);
+  EXPECT_EQ(line.orbit, line_of(made, "output").spin);
+  EXPECT_EQ(line.spin, 0.0);
+  EXPECT_EQ(line.axis, ", axis = [39, 0, 0]");
+}
+
+}  // namespace
+}  // namespace trueflank
