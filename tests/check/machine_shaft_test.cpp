@@ -84,7 +84,11 @@ TEST(SetScrew, IsNotThereWhereTheShaftIsFlatOrTheGearCannotPass) {
       replaced(k3k + kMachine, "planets = 3", "planets = 3\ninput = \"carrier\""),
       "[sun]\nteeth = 12\nface_width_mm = 10\n", "");
   const Made driven(round_shaft(carrier));
-  EXPECT_EQ(driven.finding("shaft_grip", "carrier").status, CheckStatus::kWarn);
+  const Finding& glued = driven.finding("shaft_grip", "carrier");
+  EXPECT_EQ(glued.status, CheckStatus::kWarn);
+  EXPECT_NE(glued.message.find("glue alone"), std::string::npos) << glued.message;
+  EXPECT_NE(glued.message.find("the carrier is on the shaft"), std::string::npos) << glued.message;
+  EXPECT_NE(glued.cure.find("flat_mm"), std::string::npos);
   // a sun wider than the hole for the collar of 22 mm
   const Made wide(round_shaft(kSimple + kMachine));
   const auto m = machine_layout(wide.train);

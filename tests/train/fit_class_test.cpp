@@ -19,6 +19,7 @@ struct Known {
 // As printed in tables of limits in handbooks (Roloff/Matek, Tabellenbuch Metall).
 TEST(FitClass, HasTheLimitsOfTheTables) {
   for (const Known& k : {Known{"H7", 30, 0, 21},     {"H7", 42, 0, 25},     {"H7", 6, 0, 12},
+                         {"h5", 8, -6, 0},           {"k5", 25, 2, 11},     {"h4", 50, -7, 0},
                          {"H7", 3, 0, 10},           {"h9", 3, -25, 0},     {"H10", 2, 0, 40},
                          {"H8", 22, 0, 33},          {"h6", 20, -13, 0},    {"g6", 30, -20, -7},
                          {"f7", 50, -50, -25},       {"e8", 25, -73, -40},  {"d9", 40, -142, -80},

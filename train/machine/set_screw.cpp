@@ -126,7 +126,11 @@ double room_of_hole_mm(const MachineDesign& machine, const MachineLayout& m) {
 
 void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& m) {
   const Motor& motor = train.design.machine->motor;
-  if (m.driven_gear < 0 || motor.flat_mm > 0.0) return;
+  if (motor.flat_mm > 0.0) return;
+  if (m.driven_gear < 0) {
+    m.set_screw.missing = "no key reaches a set screw: the carrier is on the shaft";
+    return;
+  }
   const BoreDesign& bore = train.design.gears[static_cast<std::size_t>(m.driven_gear)].bore;
   if (bore.kind != BoreKind::kRound || !(bore.diameter_mm > 0.0)) return;
   const SquareNut& nut = nut_for(motor.shaft_diameter_mm);
