@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sweep of search_sweep.h on a coarse grid, without profiles: every limit may be broken by what
-// a margin changes on the way to the nearest point of the grid, and what merits change on that way
-// is added.
+// The sweep of search_sweep.h on a coarse grid, first without profiles: every limit may be broken by
+// what a margin changes on the way to the nearest point of the grid, and what merits change on that
+// way is added. Then the stretch of centre distances whose bound is the highest is halved, with half
+// of the steps and of what is added, until the highest is one of the shortest.
 #include "trueflank/search/search_bound.h"
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 #include <vector>
 
 #include "trueflank/search/search_values.h"
@@ -15,7 +17,8 @@ namespace trueflank {
 namespace {
 
 constexpr int kDistances = 21;
-constexpr int kShifts = 17;
+constexpr int kShifts = 17;  ///< at first; halved as often as the stretch of centre distances
+constexpr int kFinest = 3;   ///< halvings
 /// Margins change by less than this on the way to the nearest point of the grid, per step of it:
 /// those of the outline, and with those of the corners in the roots. No set of 7 000 needed 0.3.
 constexpr double kSlack = 0.5;
@@ -33,36 +36,76 @@ double room_at(const std::vector<double>& line, std::size_t i) {
   return 0.5 * step;
 }
 
-double greatest_with_room(const std::vector<double>& line) {
-  double greatest = -1.0;
-  for (std::size_t i = 0; i < line.size(); ++i)
-    if (line[i] >= 0.0) greatest = std::max(greatest, line[i] + room_at(line, i));
-  return greatest;
-}
-
 class Bound {
  public:
   Bound(const SearchRequirements& requirements, const ToothSet& set, DriveDirection direction)
       : values_(requirements, set, {}), model_(values_.model()), direction_(direction) {
     ideal_.sun_planet = ideal_.planet_ring = {1.0, 1.0};
-    line_.resize(kShifts);
+    low_ = model_.set().centre_distance_min;
+    high_ = model_.set().centre_distance_max;
   }
 
-  double run(BoundBy by) {
-    by_ = by;
-    const ToothSet& set = model_.set();
-    const double low = set.centre_distance_min, high = set.centre_distance_max;
-    step_ = (high - low) / (kDistances - 1);
-    std::vector<double> merits;
-    for (int i = 0; i < kDistances; ++i)
-      merits.push_back(at(low + (high - low) * inside(i, kDistances)));
-    const double bound = greatest_with_room(merits);
-    return bound < 0.0 ? bound : bound + kRoom;
+  double run(BoundBy by, double enough) {
+    profiles_ = by != BoundBy::kOutlines;
+    const std::vector<Stretch> line = whole_range();
+    std::priority_queue<Stretch> open;
+    for (const Stretch& stretch : line)
+      if (stretch.bound >= 0.0) open.push(stretch);
+    while (by == BoundBy::kHalving && !open.empty() && open.top().bound >= enough) {
+      const Stretch widest = open.top();
+      if (widest.halvings == kFinest) break;
+      open.pop();
+      for (const double side : {-0.25, 0.25})
+        if (const auto half = half_of(widest, side); half.bound >= 0.0) open.push(half);
+    }
+    return open.empty() ? -1.0 : open.top().bound;
   }
 
  private:
+  /// Centre distances within half a step of the middle.
+  struct Stretch {
+    double middle = kNaN, bound = -1.0;
+    double room = 0.0;  ///< of the bound, for what lies off the middle
+    int halvings = 0;
+    bool operator<(const Stretch& other) const { return bound < other.bound; }
+  };
+
   static double inside(int i, int count) {
     return kInside + (1.0 - 2.0 * kInside) * i / (count - 1);
+  }
+
+  std::vector<Stretch> whole_range() {
+    set_grid(0);
+    std::vector<Stretch> line(kDistances);
+    std::vector<double> merits;
+    for (int i = 0; i < kDistances; ++i) {
+      line[static_cast<std::size_t>(i)].middle = low_ + (high_ - low_) * inside(i, kDistances);
+      merits.push_back(at(line[static_cast<std::size_t>(i)].middle));
+    }
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (merits[i] < 0.0) continue;
+      line[i].room = room_at(merits, i);
+      line[i].bound = merits[i] + line[i].room + kRoom;
+    }
+    return line;
+  }
+
+  /// No more than the whole is.
+  Stretch half_of(const Stretch& whole, double side) {
+    set_grid(whole.halvings);
+    Stretch half{.middle = whole.middle + side * step_,
+                 .room = 0.5 * whole.room,
+                 .halvings = whole.halvings + 1};
+    if (half.middle < low_ || half.middle > high_) return half;
+    set_grid(half.halvings);
+    const double merit = at(half.middle);
+    if (merit >= 0.0) half.bound = std::min(whole.bound, merit + half.room + kRoom);
+    return half;
+  }
+
+  void set_grid(int halvings) {
+    step_ = (high_ - low_) / ((kDistances - 1) << halvings);
+    halvings_ = halvings;
   }
 
   /// What the layers allow together: the losses of both where they are least.
@@ -83,18 +126,89 @@ class Bound {
     const auto range = model_.shift_range(layer, distance);
     if (!(range[1] >= range[0] - step_)) return -1.0;
     const double from = std::min(range[0], range[1]), width = std::abs(range[1] - range[0]);
-    const double slack = kSlack * (step_ + width / (kShifts - 1));
-    std::vector<LayerEvaluation> outlines;
+    const Shifts range_of{layer, distance, width, other};
+    std::vector<Cell> cells;
+    std::vector<double> merits;
     for (int i = 0; i < kShifts; ++i) {
-      outlines.push_back(
-          model_.outline(layer, distance, from + width * inside(i, kShifts), -slack));
-      line_[static_cast<std::size_t>(i)] =
-          values_.layer_margin(layer, outlines.back(), true) < -slack
-              ? -1.0
-              : merit(layer, outlines.back(), other);
+      cells.push_back(outlined({.shift = from + width * inside(i, kShifts)}, range_of));
+      merits.push_back(cells.back().bound);
     }
-    return by_ == BoundBy::kOutlines ? best_outline(outlines, found)
-                                     : best_profile(layer, distance, from, width, other, found);
+    std::priority_queue<Cell> open;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (merits[i] < 0.0) continue;
+      cells[i].room = room_at(merits, i);
+      cells[i].bound += cells[i].room;
+      open.push(cells[i]);
+    }
+    return highest(open, range_of, found);
+  }
+
+  /// Of a layer at a centre distance, with the other layer as it is.
+  struct Shifts {
+    int layer = 0;
+    double distance = kNaN, width = 0.0;
+    const LayerEvaluation& other;
+  };
+  /// Shifts within half a step of one.
+  struct Cell {
+    double shift = kNaN, bound = -1.0;
+    double room = 0.0;  ///< of the bound, for what lies off the middle
+    int halvings = 0;
+    bool whole = false;  ///< its profiles were looked at
+    LayerEvaluation evaluation;
+    bool operator<(const Cell& other_cell) const { return bound < other_cell.bound; }
+  };
+
+  double slack(double share, const Cell& cell, const Shifts& s) const {
+    return share * (step_ + s.width / ((kShifts - 1) << cell.halvings));
+  }
+
+  Cell outlined(Cell cell, const Shifts& s) const {
+    const double loose = slack(kSlack, cell, s);
+    cell.evaluation = model_.outline(s.layer, s.distance, cell.shift, -loose);
+    const bool out = values_.layer_margin(s.layer, cell.evaluation, true) < -loose;
+    cell.bound = out ? -1.0 : merit(s.layer, cell.evaluation, s.other) + cell.room;
+    return cell;
+  }
+
+  Cell profiled(Cell cell, const Shifts& s) const {
+    const double loose = slack(kProfileSlack, cell, s);
+    cell.whole = true;
+    cell.evaluation = s.layer == 0 ? model_.layer1(s.distance, cell.shift, -loose)
+                                   : model_.layer2(s.distance, cell.shift, -loose);
+    const bool out = values_.layer_margin(s.layer, cell.evaluation, false) < -loose;
+    cell.bound =
+        out ? -1.0 : std::min(cell.bound, merit(s.layer, cell.evaluation, s.other) + cell.room);
+    return cell;
+  }
+
+  /// No profile is worth more than its outline, no half more than the whole.
+  double highest(std::priority_queue<Cell>& open, const Shifts& s, LayerEvaluation& found) const {
+    const auto push = [&](const Cell& cell) {
+      if (cell.bound >= 0.0) open.push(cell);
+    };
+    while (!open.empty()) {
+      const Cell top = open.top();
+      if (!profiles_ || (top.whole && top.halvings == halvings_)) {
+        found = top.evaluation;
+        return top.bound;
+      }
+      open.pop();
+      if (!top.whole) {
+        push(profiled(top, s));
+        continue;
+      }
+      const double quarter = 0.25 * s.width / ((kShifts - 1) << top.halvings);
+      for (const double side : {-quarter, quarter}) {
+        Cell half = outlined({.shift = top.shift + side,
+                              .room = 0.5 * top.room,
+                              .halvings = top.halvings + 1},
+                             s);
+        half.bound = std::min(half.bound, top.bound);
+        push(half);
+      }
+    }
+    return -1.0;
   }
 
   double merit(int layer, const LayerEvaluation& e, const LayerEvaluation& other) const {
@@ -102,48 +216,21 @@ class Bound {
                       : model_.efficiency(other, e, direction_);
   }
 
-  double best_outline(const std::vector<LayerEvaluation>& outlines, LayerEvaluation& found) const {
-    const auto best = std::max_element(line_.begin(), line_.end());
-    found = outlines[static_cast<std::size_t>(best - line_.begin())];
-    return greatest_with_room(line_);
-  }
-
-  /// From the best outline downwards: no profile is worth more than its outline.
-  double best_profile(int layer, double distance, double from, double width,
-                      const LayerEvaluation& other, LayerEvaluation& found) const {
-    const double slack = kProfileSlack * (step_ + width / (kShifts - 1));
-    std::vector<std::size_t> order(line_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t p, std::size_t q) { return line_[p] > line_[q]; });
-    double greatest = -1.0, bound = -1.0;
-    for (const std::size_t i : order) {
-      if (line_[i] < 0.0 || line_[i] + room_at(line_, i) <= bound) break;
-      const double shift = from + width * inside(static_cast<int>(i), kShifts);
-      const LayerEvaluation e = layer == 0 ? model_.layer1(distance, shift, -slack)
-                                           : model_.layer2(distance, shift, -slack);
-      if (values_.layer_margin(layer, e, false) < -slack) continue;
-      const double here = merit(layer, e, other);
-      if (here > greatest) greatest = here, found = e;
-      bound = std::max(bound, here + room_at(line_, i));
-    }
-    return bound;
-  }
-
   SetValues values_;
   const SearchModel& model_;
   DriveDirection direction_;
   LayerEvaluation ideal_;
-  BoundBy by_ = BoundBy::kOutlines;
-  double step_ = 0.0;
-  std::vector<double> line_;
+  bool profiles_ = false;
+  double low_ = 0.0, high_ = 0.0;  ///< centre distances
+  double step_ = 0.0;              ///< of them
+  int halvings_ = 0;
 };
 
 }  // namespace
 
 double efficiency_bound(const SearchRequirements& requirements, const ToothSet& set,
-                        DriveDirection direction, BoundBy by) {
-  return Bound(requirements, set, direction).run(by);
+                        DriveDirection direction, BoundBy by, double enough) {
+  return Bound(requirements, set, direction).run(by, enough);
 }
 
 }  // namespace trueflank

@@ -5,6 +5,7 @@
 #include "trueflank/search/search_corner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trueflank {
@@ -68,14 +69,18 @@ double least_over(const CornerPath& path, const Curve& curve, double from, doubl
   const auto clearance = [&](double u) {
     return clearance_at(path, point_at(curve, from + (to - from) * u), teeth);
   };
+  std::array<double, kFilletPoints + 1> line{};
+  static_assert(kFlankPoints <= kFilletPoints);
+  const auto sample = [&](int i) {
+    return line[static_cast<std::size_t>(i)] = clearance(static_cast<double>(i) / count);
+  };
   int nearest = 0;
   double least = 1e9;
-  for (int i = 0; i <= count; i += kSkipped)
-    least = std::min(least, clearance(static_cast<double>(i) / count));
+  for (int i = 0; i <= count; i += kSkipped) least = std::min(least, sample(i));
   if (least > kFar_mm) return least;
   least = 1e9;
   for (int i = 0; i <= count; ++i) {
-    const double here = clearance(static_cast<double>(i) / count);
+    const double here = i % kSkipped == 0 ? line[static_cast<std::size_t>(i)] : sample(i);
     if (here < least) least = here, nearest = i;
   }
   if (least > kClose_mm) return least;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <queue>
 #include <set>
+#include <utility>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/search/search.h"
@@ -55,7 +56,7 @@ class Threshold {
   std::multiset<double> best_;
 };
 
-enum class Known { kNothing, kOutlines, kAll };
+enum class Known { kNothing, kOutlines, kProfiles, kAll };
 
 /// A set that waits for its next step.
 struct Waiting {
@@ -160,7 +161,7 @@ class Run {
     try {
       while (const auto waiting = next()) {
         if (waiting->known != Known::kAll) {
-          put_back(bounded(*waiting));
+          put_back(bounded(*waiting, threshold()));
           continue;
         }
         keep({waiting->index, optimise_set(r_, waiting->set)});
@@ -183,17 +184,24 @@ class Run {
     return waiting;
   }
 
-  [[nodiscard]] Waiting bounded(Waiting waiting) const {
-    const BoundBy by =
-        waiting.known == Known::kNothing ? BoundBy::kOutlines : BoundBy::kProfiles;
+  [[nodiscard]] Waiting bounded(Waiting waiting, double enough) const {
     const DriveDirection direction = r_.objectives.front() == SearchObjective::kForward
                                          ? DriveDirection::kForward
                                          : DriveDirection::kBackward;
-    const double bound =
-        efficiency_bound(r_, waiting.set, direction, by);
+    const auto [by, known] = waiting.known == Known::kNothing
+                                 ? std::pair(BoundBy::kOutlines, Known::kOutlines)
+                             : waiting.known == Known::kOutlines
+                                 ? std::pair(BoundBy::kProfiles, Known::kProfiles)
+                                 : std::pair(BoundBy::kHalving, Known::kAll);
+    const double bound = efficiency_bound(r_, waiting.set, direction, by, enough);
     waiting.bound = std::min(waiting.bound, bound);
-    waiting.known = by == BoundBy::kOutlines ? Known::kOutlines : Known::kAll;
+    waiting.known = known;
     return waiting;
+  }
+
+  double threshold() {
+    const std::lock_guard lock(mutex_);
+    return threshold_.merit();
   }
 
   void put_back(const Waiting& waiting) {

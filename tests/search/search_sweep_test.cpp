@@ -140,7 +140,7 @@ class Exhaustion {
 
 TEST(SearchSweep, ReachesExhaustionOnRandomSetsOfEveryKind) {
   std::mt19937 random(2026);
-  int sets = 0, feasible = 0, bounded = 0;
+  int sets = 0, feasible = 0, bounded = 0, closer = 0;
   for (int round = 0; round < 12; ++round) {
     const double bounds[] = {0.5, 0.7, 0.9, 1.2, 2.0};
     SearchRequirements r = paper_requirements(-bounds[round % 5], bounds[round % 5]);
@@ -166,9 +166,14 @@ TEST(SearchSweep, ReachesExhaustionOnRandomSetsOfEveryKind) {
           efficiency_bound(r, set, DriveDirection::kForward, BoundBy::kOutlines);
       const double profiles =
           efficiency_bound(r, set, DriveDirection::kForward, BoundBy::kProfiles);
+      const double halving =
+          efficiency_bound(r, set, DriveDirection::kForward, BoundBy::kHalving);
       bounded += outlines < 0.9;
+      closer += profiles - halving > 0.01;
       EXPECT_GE(outlines, reached) << set.sun << ' ' << set.planet1;
       EXPECT_GE(profiles, reached) << set.sun << ' ' << set.planet1;
+      EXPECT_GE(halving, reached) << set.sun << ' ' << set.planet1;
+      EXPECT_LE(halving, profiles) << set.sun << ' ' << set.planet1;
       EXPECT_GE(reached, best - 1e-5)
           << set.train->kind() << ' ' << set.sun << '/' << set.planet1 << '/' << set.ring1 << '/'
           << set.planet2 << '/' << set.ring2 << " bound " << r.shift_max;
@@ -177,6 +182,7 @@ TEST(SearchSweep, ReachesExhaustionOnRandomSetsOfEveryKind) {
   EXPECT_GE(sets, 40);
   EXPECT_GE(feasible, 15);
   EXPECT_GE(bounded, 10);  // a bound that bounds nothing would pass the rest
+  EXPECT_GE(closer, 5);
 }
 
 TEST(SearchSweep, FindsTheCornersOfBoundsAndNarrowIntervals) {
