@@ -25,8 +25,8 @@ constexpr double kGolden = 0.6180339887498949;
 /// Ends of ranges are taken this share inside, so that rounding leaves them there.
 constexpr double kInside = 1e-9;
 
-/// A layer at one shift. What is not whole lacks what only profiles tell: its margin is no less
-/// than the true one.
+/// A layer at one shift. What is not whole lacks what only profiles tell: its margin and its merit
+/// are no less than the true ones.
 struct Place {
   double shift = kNaN, margin = -1e9, merit = kNaN;
   bool whole = false;
@@ -68,35 +68,30 @@ class LayerProblem {
   }
 
  private:
+  /// Without profiles an undercut's losses are taken as the least they can be.
   Place look(double shift, bool whole) {
-    bool stopped = false;
-    const auto worth = [&](const LayerEvaluation&) {
-      stopped = !whole;
-      return whole;
-    };
-    Place place{.shift = shift,
-                .evaluation = layer_ == 0 ? values_.layer1(distance_, shift, -kFarBreach, worth)
-                                          : values_.layer2(distance_, shift, -kFarBreach, worth)};
-    place.whole = !stopped;
-    place.margin = values_.layer_margin(layer_, place.evaluation, stopped);
+    Place place{.shift = shift, .whole = whole};
+    place.evaluation = !whole       ? values_.outline(layer_, distance_, shift, -kFarBreach)
+                       : layer_ == 0 ? values_.layer1(distance_, shift, -kFarBreach)
+                                     : values_.layer2(distance_, shift, -kFarBreach);
+    place.margin = values_.layer_margin(layer_, place.evaluation, !whole);
     place.merit = merit_(place.evaluation);
-    if (place.whole && (!best_ || better(place, *best_))) best_ = place;
+    if (whole && (!best_ || better(place, *best_))) best_ = place;
     return place;
   }
   void complete(Place& place) {
     if (!place.whole) place = look(place.shift, true);
   }
 
-  /// From the best merit downwards until one is feasible.
+  /// From the best merit downwards until no other can be better than the best feasible one.
   void best_of_grid() {
     std::vector<std::size_t> order(line_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t i, std::size_t j) { return line_[i].merit > line_[j].merit; });
     for (const std::size_t i : order) {
-      if (line_[i].margin < 0.0) continue;
-      complete(line_[i]);
-      if (line_[i].feasible()) return;
+      if (best_ && best_->feasible() && !(line_[i].merit > best_->merit)) return;
+      if (line_[i].margin >= 0.0) complete(line_[i]);
     }
   }
 

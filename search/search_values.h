@@ -72,6 +72,13 @@ class SetValues {
     return model_.layer2(arguments...);
   }
 
+  /// Of layer 0 or 1, without profiles.
+  [[nodiscard]] LayerEvaluation outline(int layer, double centre_distance, double shift,
+                                        double stop_below) {
+    ++evaluations_;
+    return model_.outline(layer, centre_distance, shift, stop_below);
+  }
+
   /// Distances to all limits, as many as the model has, [modules]; less what is kept in reserve,
   /// and no farther than an optimiser's model can use.
   void margins(const State& state, double* out) const;
