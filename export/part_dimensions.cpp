@@ -37,14 +37,28 @@ struct FittedSize {
   bool hole = true;
 };
 
-/// Of a gearbox whose seats have classes (fit_mm = 0).
-std::vector<FittedSize> fitted_sizes(const GearTrain& train) {
+/// What fits: bores of parts that are not printed, and the seats and journals of a gearbox whose seats have classes
+/// (fit_mm = 0).
+struct FittedSizes {
+  bool bores = false;
+  std::vector<FittedSize> sizes = {};
+
+  [[nodiscard]] const FittedSize* find(double diameter_mm, bool hole) const {
+    const auto found = std::find_if(sizes.begin(), sizes.end(), [&](const FittedSize& size) {
+      return size.hole == hole && std::abs(size.made_mm - diameter_mm) < 1e-6;
+    });
+    return found == sizes.end() ? nullptr : &*found;
+  }
+};
+
+FittedSizes fitted_sizes(const GearTrain& train) {
+  if (additive(train)) return {};
+  FittedSizes fitted{.bores = true};
   const auto& machine = train.design.machine;
-  if (!machine || machine->housing.fit_mm > 0.0 || additive(train)) return {};
-  std::vector<FittedSize> sizes;
+  if (!machine || machine->housing.fit_mm > 0.0) return fitted;
   const auto add = [&](double nominal_mm, bool hole) {
     if (fit_limits(hole ? kSeatClass : kJournalClass, nominal_mm))
-      sizes.push_back({hole ? seat_mm(nominal_mm, 0.0) : journal_mm(nominal_mm, 0.0), nominal_mm, hole});
+      fitted.sizes.push_back({hole ? seat_mm(nominal_mm, 0.0) : journal_mm(nominal_mm, 0.0), nominal_mm, hole});
   };
   add(machine->motor.shaft_diameter_mm, true);
   add(machine->motor.pilot_diameter_mm, true);
@@ -55,7 +69,7 @@ std::vector<FittedSize> fitted_sizes(const GearTrain& train) {
     add(machine->bearings.wheel->outer_mm, true);
     add(machine->bearings.wheel->bore_mm, false);
   }
-  return sizes;
+  return fitted;
 }
 
 bool is_toothed(const Outline& outline) { return std::holds_alternative<ToothedOutline>(outline); }
@@ -76,8 +90,7 @@ bool same_outer(const Outline& a, const Outline& b) {
 }
 
 /// A circle about the axis, the tips of a toothing, or a bore.
-std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool printed,
-                                        const std::vector<FittedSize>& sizes) {
+std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, const FittedSizes& fitted) {
   PartDiameter d{.hole = hole};
   if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
     d.diameter_mm = 2.0 * teeth->profile->tip_radius_mm();
@@ -90,23 +103,20 @@ std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, bool 
     d.bore = std::get<BoreOutline>(outline).bore;
     d.diameter_mm = d.bore->diameter_mm;
   }
-  const bool fitted = d.bore && d.bore->kind != BoreKind::kHex && !printed;
-  d.limits = fitted ? class_limits("H7", d.diameter_mm) : general_limits(d.diameter_mm);
-  for (const FittedSize& size : sizes) {
-    if (size.hole != hole || d.tip || std::abs(size.made_mm - d.diameter_mm) > 1e-6) continue;
-    d.diameter_mm = size.nominal_mm;  // drawings give the nominal size and its class
-    d.limits = class_limits(hole ? kSeatClass : kJournalClass, size.nominal_mm);
-    break;
+  const bool of_class = d.bore && d.bore->kind != BoreKind::kHex && fitted.bores;
+  d.limits = of_class ? class_limits(kSeatClass, d.diameter_mm) : general_limits(d.diameter_mm);
+  if (const FittedSize* size = d.tip ? nullptr : fitted.find(d.diameter_mm, hole)) {
+    d.diameter_mm = size->nominal_mm;  // drawings give the nominal size and its class
+    d.limits = class_limits(hole ? kSeatClass : kJournalClass, size->nominal_mm);
   }
   return d;
 }
 
-std::vector<PartDiameter> diameters_of(const PartShape& part, bool printed,
-                                       const std::vector<FittedSize>& sizes) {
+std::vector<PartDiameter> diameters_of(const PartShape& part, const FittedSizes& fitted) {
   std::vector<PartDiameter> diameters;
   std::set<long> seen;  // in 1e-4 mm
   const auto add = [&](const Outline& outline, const Slab& slab, bool hole) {
-    auto diameter = diameter_of(outline, hole, printed, sizes);
+    auto diameter = diameter_of(outline, hole, fitted);
     if (!diameter || !seen.insert(std::lround(diameter->diameter_mm * 1e4)).second) return;
     diameter->z_mm = slab.z_lower_mm;
     diameters.push_back(std::move(*diameter));
@@ -148,15 +158,45 @@ std::vector<PartWidth> widths_of(const PartShape& part) {
   return widths;
 }
 
-std::vector<BoltCircle> bolt_circles_of(const PartShape& part) {
-  std::map<std::pair<long, long>, BoltCircle> groups;  // by both diameters in 1e-4 mm
-  for (const Outline& hole : part.slabs.front().holes) {
-    const auto* circle = std::get_if<CircleOutline>(&hole);
-    if (!circle || circle->centre.norm() <= 1e-9) continue;
-    const double diameter = 2.0 * circle->radius_mm, about = 2.0 * circle->centre.norm();
-    BoltCircle& group = groups[{std::lround(1e4 * diameter), std::lround(1e4 * about)}];
-    group = {diameter, about, group.count + 1, general_limits(diameter)};
+/// Heights of bores about the axis, where they end inside the part.
+std::vector<PartWidth> depths_of(const PartShape& part, const std::vector<PartWidth>& widths) {
+  struct Bore {
+    double diameter_mm = 0.0;
+    PartWidth reach;
+  };
+  std::vector<Bore> bores;
+  for (const Slab& slab : part.slabs)
+    for (const Outline& hole : slab.holes) {
+      const auto d = diameter_of(hole, true, {});
+      if (!d) continue;
+      if (!bores.empty() && std::abs(bores.back().diameter_mm - d->diameter_mm) < 1e-9 &&
+          std::abs(bores.back().reach.z_upper_mm - slab.z_lower_mm) < 1e-9)
+        bores.back().reach.z_upper_mm = slab.z_upper_mm;
+      else
+        bores.push_back({d->diameter_mm, {slab.z_lower_mm, slab.z_upper_mm, {}}});
+    }
+  std::vector<PartWidth> depths;
+  for (Bore& bore : bores) {
+    const auto is_it = [&](const PartWidth& w) {
+      return std::abs(w.z_lower_mm - bore.reach.z_lower_mm) < 1e-9 && std::abs(w.z_upper_mm - bore.reach.z_upper_mm) < 1e-9;
+    };
+    if (std::any_of(widths.begin(), widths.end(), is_it) || std::any_of(depths.begin(), depths.end(), is_it)) continue;
+    bore.reach.limits = general_limits(bore.reach.width_mm());
+    depths.push_back(bore.reach);
   }
+  return depths;
+}
+
+std::vector<BoltCircle> bolt_circles_of(const std::vector<HolePattern>& patterns, const FittedSizes& fitted) {
+  std::map<std::pair<long, long>, BoltCircle> groups;  // by both diameters in 1e-4 mm
+  for (const HolePattern& pattern : patterns)
+    for (const HoleStep& step : pattern.steps) {
+      BoltCircle& group = groups[{std::lround(1e4 * step.diameter_mm), std::lround(1e4 * pattern.circle_diameter_mm)}];
+      const FittedSize* size = fitted.find(step.diameter_mm, true);
+      group = {size ? size->nominal_mm : step.diameter_mm, pattern.circle_diameter_mm,
+               group.count + static_cast<int>(pattern.centres.size()),
+               size ? class_limits(kSeatClass, size->nominal_mm) : general_limits(step.diameter_mm)};
+    }
   std::vector<BoltCircle> circles;
   for (const auto& [key, circle] : groups) circles.push_back(circle);
   return circles;
@@ -196,11 +236,10 @@ const PartDiameter* PartDimensions::datum() const {
 }
 
 PartDimensions part_dimensions(const GearTrain& train, const PartShape& part, int tolerance_class) {
-  PartDimensions dimensions{.diameters = diameters_of(part, additive(train), fitted_sizes(train)),
-                            .widths = widths_of(part),
-                            .bolt_circles = bolt_circles_of(part),
-                            .tip_runouts = {},
-                            .face_runout = {}};
+  const FittedSizes fitted = fitted_sizes(train);
+  PartDimensions dimensions{.diameters = diameters_of(part, fitted), .widths = widths_of(part), .holes = hole_patterns(part)};
+  dimensions.depths = depths_of(part, dimensions.widths);
+  dimensions.bolt_circles = bolt_circles_of(dimensions.holes, fitted);
   choose_datum(dimensions.diameters, teeth_of(part));
   if (!dimensions.datum()) return dimensions;
   for (const TrainGear* gear : gears_of(train, part)) {

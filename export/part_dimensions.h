@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/export/hole_patterns.h"
 #include "trueflank/solid/shape/part_shape.h"
 
 // What a part is dimensioned by, and the tolerances it has to keep: one list for the workshop drawings
@@ -60,7 +61,9 @@ struct FaceRunout {
 struct PartDimensions {
   std::vector<PartDiameter> diameters;  ///< smallest first, each size once
   std::vector<PartWidth> widths;        ///< bottom to top, the whole part last
-  std::vector<BoltCircle> bolt_circles;
+  std::vector<PartWidth> depths;        ///< of bores about the axis that do not run through, bottom to top
+  std::vector<BoltCircle> bolt_circles; ///< a row a diameter of the holes below
+  std::vector<HolePattern> holes;       ///< off the axis
   std::vector<TipRunout> tip_runouts;   ///< one a gear
   std::optional<FaceRunout> face_runout;  ///< of the upper face
 
@@ -69,8 +72,8 @@ struct PartDimensions {
 
 /// Datum A is a ring's outer cylinder, the bore of other gears, and of parts without teeth the
 /// smallest cylinder; a gear without a bore has none, and no runout.
-/// Bores have limits H7 (ISO 286-1, to 500 mm) where the part is not printed; all other sizes those of
-/// ISO 2768-1 m. Tips run as true as the teeth have to, F_rT of ISO 1328-1. The end face may
+/// Bores, and holes as wide as a bearing of the design whose seats have no play (`[housing] fit_mm` 0), have
+/// limits H7 (ISO 286-1, to 500 mm) where the part is not printed; all other sizes those of ISO 2768-1 m. Tips run as true as the teeth have to, F_rT of ISO 1328-1. The end face may
 /// lean by as much as takes a fifth of the helix tolerance F_betaT, over the teeth's width; 10 um always.
 [[nodiscard]] PartDimensions part_dimensions(const GearTrain& train, const PartShape& part,
                                              int tolerance_class = kDrawingToleranceClass);

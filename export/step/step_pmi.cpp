@@ -137,10 +137,11 @@ void add_dimensions(StepPmi& pmi, const FaceFinder& find, const PartDimensions& 
     if (!size.faces.empty() && is_hex(d) != size.other_faces.empty())
       pmi.dimensions.push_back(std::move(size));
   }
-  for (const PartWidth& w : dimensions.widths) {
-    PmiDimension size{find.at_height(w.z_lower_mm), find.at_height(w.z_upper_mm), w.width_mm(), w.limits, {}};
-    if (!size.faces.empty() && !size.other_faces.empty()) pmi.dimensions.push_back(std::move(size));
-  }
+  for (const auto* lengths : {&dimensions.widths, &dimensions.depths})
+    for (const PartWidth& w : *lengths) {
+      PmiDimension size{find.at_height(w.z_lower_mm), find.at_height(w.z_upper_mm), w.width_mm(), w.limits, {}};
+      if (!size.faces.empty() && !size.other_faces.empty()) pmi.dimensions.push_back(std::move(size));
+    }
   for (const BoltCircle& bolts : dimensions.bolt_circles) {
     PmiDimension size{find.on_circle(bolts), {}, bolts.hole_diameter_mm, bolts.limits,
                       std::to_string(bolts.count) + " holes"};

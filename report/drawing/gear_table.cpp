@@ -13,25 +13,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of a column. Inches have a place more: a hundred-thousandth is a quarter of a micrometre.
+enum class Unit { kMillimetre, kInch };
+
 /// The value of one gear in one row; empty: the row says nothing of it.
 using Cell = std::function<std::string(const TrainGear&, const Json&)>;
+/// The same of a length.
+using LengthCell = std::function<std::string(const TrainGear&, const Json&, Unit)>;
 
-std::string number_of(const Json& gear, const char* key, int decimals) {
+std::string length_text(double value_mm, int decimals, Unit unit) {
+  return unit == Unit::kInch ? drawing_number(value_mm / 25.4, decimals + 1) : drawing_number(value_mm, decimals);
+}
+
+std::string length_of(const Json& gear, const char* key, int decimals, Unit unit) {
   const Json& value = gear.at(key);
-  return value.is_number() ? drawing_number(value.get<double>(), decimals) : std::string();
+  return value.is_number() ? length_text(value.get<double>(), decimals, unit) : std::string();
 }
 
 Cell number(const char* key, int decimals) {
-  return [key, decimals](const TrainGear&, const Json& gear) { return number_of(gear, key, decimals); };
+  return [key, decimals](const TrainGear&, const Json& gear) { return length_of(gear, key, decimals, Unit::kMillimetre); };
+}
+
+LengthCell length(const char* key, int decimals) {
+  return [key, decimals](const TrainGear&, const Json& gear, Unit unit) { return length_of(gear, key, decimals, unit); };
 }
 
 /// A size with its limits where the design has a thickness allowance.
-Cell with_limits(const char* key, const char* least, const char* most) {
-  return [=](const TrainGear&, const Json& gear) {
-    std::string text = number_of(gear, key, 3);
+LengthCell with_limits(const char* key, const char* least, const char* most) {
+  return [=](const TrainGear&, const Json& gear, Unit unit) {
+    std::string text = length_of(gear, key, 3, unit);
     const Json& allowance = gear.at("thickness_allowance");
     if (text.empty() || allowance.is_null() || !allowance.at(least).is_number()) return text;
-    return number_of(allowance, least, 3) + " .. " + number_of(allowance, most, 3);
+    return length_of(allowance, least, 3, unit) + " .. " + length_of(allowance, most, 3, unit);
   };
 }
 
@@ -52,11 +65,11 @@ std::string diametral_pitch(const TrainGear&, const Json& gear) {
 }
 
 /// Flank tolerances, or why there are none.
-Cell tolerance(int tolerance_class, double FlankTolerances::* value) {
-  return [=](const TrainGear& gear, const Json&) {
+LengthCell tolerance(int tolerance_class, double FlankTolerances::* value) {
+  return [=](const TrainGear& gear, const Json&, Unit unit) {
     const auto tolerances =
         flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), tolerance_class);
-    return tolerances ? drawing_number(1e-3 * (*tolerances).*value, 4) : std::string();
+    return tolerances ? length_text(1e-3 * (*tolerances).*value, 4, unit) : std::string();
   };
 }
 
@@ -81,16 +94,27 @@ std::string mate_text(const GearTrain& train, const TrainMesh& mesh, const Train
 std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<const TrainGear*>& gears,
                                      const Json& report, int tolerance_class) {
   std::vector<GearTableRow> rows;
-  const auto add = [&](const char* name, const char* symbol, const Cell& cell) {
+  // the form of AGMA: a design in inches has a column of them beside each of millimetres
+  std::vector<Unit> units = {Unit::kMillimetre};
+  if (report.contains("inches")) units.push_back(Unit::kInch);
+  const auto add_length = [&](const char* name, const char* symbol, const LengthCell& cell) {
     GearTableRow row{name, symbol, {}};
     bool says = false;
-    for (const TrainGear* gear : gears) {
-      row.values.push_back(cell(*gear, report.at("gears").at(gear->name)));
-      says = says || !row.values.back().empty();
-    }
+    for (const TrainGear* gear : gears)
+      for (Unit unit : units) {
+        row.values.push_back(cell(*gear, report.at("gears").at(gear->name), unit));
+        says = says || !row.values.back().empty();
+      }
     if (says) rows.push_back(std::move(row));
   };
-  add("Gear", "", [](const TrainGear& g, const Json&) { return g.name; });
+  const auto add = [&](const char* name, const char* symbol, const Cell& cell) {
+    add_length(name, symbol, [&](const TrainGear& gear, const Json& json, Unit unit) {
+      return unit == Unit::kInch ? std::string() : cell(gear, json);
+    });
+  };
+  add_length("Gear", "", [&](const TrainGear& g, const Json&, Unit unit) {
+    return g.name + (units.size() == 1 ? "" : unit == Unit::kInch ? ", in" : ", mm");
+  });
   add("Number of teeth", "z", number("teeth", 0));
   add("Normal module", "m_n", number("normal_module_mm", 6));
   add("Normal diametral pitch", "P_nd", diametral_pitch);
@@ -98,22 +122,21 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
   add("Helix angle, deg", "β", helix);
   add("Basic rack h_aP / h_fP / ρ_fP", "", rack_text);
   add("Profile shift coefficient", "x", number("shift", 5));
-  add("Reference diameter", "d", number("reference_diameter_mm", 4));
-  add("Base diameter", "d_b", number("base_diameter_mm", 4));
-  add("Tip diameter", "d_a", number("tip_diameter_mm", 4));
-  add("Root diameter", "d_f", number("root_diameter_mm", 4));
-  add("Root form diameter", "d_Ff", number("root_form_diameter_mm", 4));
-  add("Start of active profile", "d_Nf", number("start_active_profile_diameter_mm", 4));
-  add("Thickness on d, transverse", "s_t", number("reference_thickness_mm", 4));
+  add_length("Reference diameter", "d", length("reference_diameter_mm", 4));
+  add_length("Base diameter", "d_b", length("base_diameter_mm", 4));
+  add_length("Tip diameter", "d_a", length("tip_diameter_mm", 4));
+  add_length("Root diameter", "d_f", length("root_diameter_mm", 4));
+  add_length("Root form diameter", "d_Ff", length("root_form_diameter_mm", 4));
+  add_length("Start of active profile", "d_Nf", length("start_active_profile_diameter_mm", 4));
+  add_length("Thickness on d, transverse", "s_t", length("reference_thickness_mm", 4));
   add("Teeth spanned", "k", number("span_teeth", 0));
-  add("Base tangent length", "W_k", with_limits("span_mm", "span_min_mm", "span_max_mm"));
-  add("Pin or ball diameter", "D_M", number("pin_diameter_mm", 3));
-  add("Over or between pins", "M_d", with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
-  add("Face width", "b", number("face_width_mm", 3));
-  add("Lead", "p_z", number("lead_mm", 4));
-  add("Centre distance", "a", [&](const TrainGear&, const Json&) {
-    const Json& a = report.at("train").at("centre_distance_mm");
-    return a.is_number() ? drawing_number(a.get<double>(), 4) : std::string();
+  add_length("Base tangent length", "W_k", with_limits("span_mm", "span_min_mm", "span_max_mm"));
+  add_length("Pin or ball diameter", "D_M", length("pin_diameter_mm", 3));
+  add_length("Over or between pins", "M_d", with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
+  add_length("Face width", "b", length("face_width_mm", 3));
+  add_length("Lead", "p_z", length("lead_mm", 4));
+  add_length("Centre distance", "a", [&](const TrainGear&, const Json&, Unit unit) {
+    return length_of(report.at("train"), "centre_distance_mm", 4, unit);
   });
   for (std::size_t i = 0;; ++i) {
     const std::size_t before = rows.size();
@@ -121,9 +144,9 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
       const auto meshes = meshes_of(train, g);
       return i < meshes.size() ? mate_text(train, *meshes[i], g) : std::string();
     });
-    add("Circumferential backlash with it", "j_wt", [&](const TrainGear& g, const Json&) {
+    add_length("Circumferential backlash with it", "j_wt", [&](const TrainGear& g, const Json&, Unit unit) {
       const auto meshes = meshes_of(train, g);
-      return i < meshes.size() ? number_of(report.at("meshes").at(meshes[i]->name), "backlash_mm", 4) : std::string();
+      return i < meshes.size() ? length_of(report.at("meshes").at(meshes[i]->name), "backlash_mm", 4, unit) : std::string();
     });
     if (rows.size() == before) break;
   }
@@ -132,15 +155,15 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
                ? std::to_string(tolerance_class)
                : std::string("outside its scope");
   });
-  add("Single pitch", "±f_pT", tolerance(tolerance_class, &FlankTolerances::single_pitch_um));
-  add("Cumulative pitch", "F_pT", tolerance(tolerance_class, &FlankTolerances::total_cumulative_pitch_um));
-  add("Profile slope", "±f_HαT", tolerance(tolerance_class, &FlankTolerances::profile_slope_um));
-  add("Profile form", "f_fαT", tolerance(tolerance_class, &FlankTolerances::profile_form_um));
-  add("Total profile", "F_αT", tolerance(tolerance_class, &FlankTolerances::total_profile_um));
-  add("Helix slope", "±f_HβT", tolerance(tolerance_class, &FlankTolerances::helix_slope_um));
-  add("Helix form", "f_fβT", tolerance(tolerance_class, &FlankTolerances::helix_form_um));
-  add("Total helix", "F_βT", tolerance(tolerance_class, &FlankTolerances::total_helix_um));
-  add("Runout", "F_rT", tolerance(tolerance_class, &FlankTolerances::runout_um));
+  add_length("Single pitch", "±f_pT", tolerance(tolerance_class, &FlankTolerances::single_pitch_um));
+  add_length("Cumulative pitch", "F_pT", tolerance(tolerance_class, &FlankTolerances::total_cumulative_pitch_um));
+  add_length("Profile slope", "±f_HαT", tolerance(tolerance_class, &FlankTolerances::profile_slope_um));
+  add_length("Profile form", "f_fαT", tolerance(tolerance_class, &FlankTolerances::profile_form_um));
+  add_length("Total profile", "F_αT", tolerance(tolerance_class, &FlankTolerances::total_profile_um));
+  add_length("Helix slope", "±f_HβT", tolerance(tolerance_class, &FlankTolerances::helix_slope_um));
+  add_length("Helix form", "f_fβT", tolerance(tolerance_class, &FlankTolerances::helix_form_um));
+  add_length("Total helix", "F_βT", tolerance(tolerance_class, &FlankTolerances::total_helix_um));
+  add_length("Runout", "F_rT", tolerance(tolerance_class, &FlankTolerances::runout_um));
   return rows;
 }
 

@@ -13,7 +13,7 @@ namespace trueflank::io {
 struct GearTableRow {
   std::string name;                 ///< "Profile shift coefficient"
   std::string symbol;               ///< "x"; may be empty
-  std::vector<std::string> values;  ///< one a gear of the part
+  std::vector<std::string> values;  ///< one a gear of the part; two, mm and inches, of a design in inches
 };
 
 /// Rows of the gears of one part. Every number is that of report.json (`report`: the whole document),

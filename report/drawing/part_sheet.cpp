@@ -7,6 +7,7 @@
 #include "trueflank/export/part_dimensions.h"
 #include "trueflank/report/drawing/axial_section.h"
 #include "trueflank/report/drawing/drawn_part.h"
+#include "trueflank/report/drawing/face_view.h"
 #include "trueflank/report/drawing/sheet_frame.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
 #include "trueflank/train/machine/set_screw.h"
@@ -16,7 +17,26 @@ namespace {
 
 constexpr double kDimensionStep_mm = 8.0;
 constexpr double kFrameStep_mm = 6.0;
+constexpr double kHoleTableWidth_mm = 126.0, kTableGap_mm = 4.0;
 constexpr double kGap_mm = 12.0;  // between views, and of the first dimension line from its view
+
+std::string hole_letter(std::size_t i) {
+  // A is the datum and the section
+  return i < 25 ? std::string(1, static_cast<char>('B' + i)) : "H" + std::to_string(i + 1);
+}
+
+/// A row a tool and a place, under a heading; empty: no holes.
+std::vector<std::vector<std::string>> hole_table(const std::vector<HolePattern>& patterns) {
+  std::vector<std::vector<std::string>> rows;
+  if (!patterns.empty()) rows.push_back({"Holes", "Count", "Size", "Place"});
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    const std::vector<std::string> sizes = hole_words(patterns[i]), places = place_words(patterns[i]);
+    for (std::size_t k = 0; k < std::max(sizes.size(), places.size()); ++k)
+      rows.push_back({k == 0 ? hole_letter(i) : "", k == 0 ? std::to_string(patterns[i].centres.size()) : "",
+                      k < sizes.size() ? sizes[k] : "", k < places.size() ? places[k] : ""});
+  }
+  return rows;
+}
 
 class PartSheet {
  public:
@@ -26,6 +46,7 @@ class PartSheet {
     length_ = part.slabs.back().z_upper_mm;
     for (const Slab& slab : part.slabs) outer_ = std::max(outer_, outermost_mm(slab.outer));
     table_ = gear_table(*model.train, gears_, *model.report, model.tolerance_class);
+    hole_rows_ = hole_table(dimensions_.holes);
   }
 
   Sheet draw() {
@@ -41,6 +62,7 @@ class PartSheet {
     draw_face();
     dimension_section();
     draw_gear_table();
+    draw_hole_table();
     draw_notes(sheet_, {kBorderLeft_mm + 3.0, kBorder_mm + 3.0}, notes());
     return std::move(sheet_);
   }
@@ -55,9 +77,31 @@ class PartSheet {
     return text;
   }
 
-  [[nodiscard]] double table_width() const { return gears_.empty() ? 0.0 : 66.0 + 26.0 * static_cast<double>(gears_.size()); }
+  [[nodiscard]] double table_width() const {
+    return std::max(table_.empty() ? 0.0 : 66.0 + 26.0 * static_cast<double>(table_.front().values.size()), hole_rows_.empty() ? 0.0 : kHoleTableWidth_mm);
+  }
+  [[nodiscard]] double table_height() const {
+    return kRowHeight_mm * static_cast<double>(table_.size() + hole_rows_.size()) + (hole_rows_.empty() || table_.empty() ? 0.0 : kTableGap_mm);
+  }
   [[nodiscard]] double left_room() const { return kGap_mm + kDimensionStep_mm * static_cast<double>(dimensions_.diameters.size()); }
-  [[nodiscard]] double below_room() const { return kGap_mm + kDimensionStep_mm * (dimensions_.widths.size() > 1 ? 2.0 : 1.0) + 6.0; }
+  [[nodiscard]] double below_room() const {
+    return kGap_mm + kDimensionStep_mm * (1.0 + row_count(dimension_rows(lengths_below({0.0, 0.0})))) + 6.0;
+  }
+
+  static int row_count(const std::vector<int>& rows) { return rows.empty() ? 0 : 1 + *std::max_element(rows.begin(), rows.end()); }
+
+  /// Steps of the outside and of the bores, without the whole; the rows are not chosen. Those whose text stands
+  /// outside come last: lines to rows below would cross it.
+  [[nodiscard]] std::vector<Dimension> lengths_below(const Point2& origin) const {
+    std::vector<Dimension> all;
+    const auto add = [&](const PartWidth& w) {
+      all.push_back({.from = origin + scale_ * Point2(w.z_lower_mm, -outer_), .to = origin + scale_ * Point2(w.z_upper_mm, -outer_), .text = drawing_number(w.width_mm(), 3)});
+    };
+    for (std::size_t i = 0; i + 1 < dimensions_.widths.size(); ++i) add(dimensions_.widths[i]);
+    for (const PartWidth& depth : dimensions_.depths) add(depth);
+    std::stable_partition(all.begin(), all.end(), [](const Dimension& d) { return reach_of(d).second <= d.to.x() + 1e-9; });
+    return all;
+  }
 
   /// A4 where the views come out at half size at least and 50 mm high or more, else A3; the largest scale that fits.
   void choose_size() {
@@ -68,8 +112,7 @@ class PartSheet {
       sheet_size_ = format.name;
       region_low_ = {kBorderLeft_mm + 3.0, kBorder_mm + kTitleHeight_mm + 4.0};
       region_high_ = {format.width - kBorder_mm - table_width() - 5.0, format.height - kBorder_mm - 8.0};
-      const double table_height = kRowHeight_mm * static_cast<double>(table_.size());
-      const bool table_fits = table_height < format.height - 2.0 * kBorder_mm - kTitleHeight_mm - 2.0;
+      const bool table_fits = table_height() < format.height - 2.0 * kBorder_mm - kTitleHeight_mm - 2.0;
       const Point2 room = region_high_ - region_low_;
       for (const auto& [name, scale] : drawing_scales()) {
         scale_ = scale;
@@ -123,12 +166,7 @@ class PartSheet {
   }
 
   void draw_face() {
-    double seen = 0.0;
-    for (const Slab& slab : part_.slabs) {
-      if (outermost_mm(slab.outer) > seen + 1e-9) draw_outline(slab.outer);
-      seen = std::max(seen, outermost_mm(slab.outer));
-    }
-    for (const Outline& hole : part_.slabs.front().holes) draw_outline(hole);
+    draw_view(sheet_, view_from_below({ViewedBody{.part = &part_}}), {face_centre_, scale_});
     const Point2 reach(outer_ * scale_ + 4.0, 0.0);
     sheet_.line(face_centre_ - reach, face_centre_ + reach, Pen::kChain);
     sheet_.line(face_centre_ - perpendicular(reach), face_centre_ + perpendicular(reach), Pen::kChain);
@@ -140,51 +178,33 @@ class PartSheet {
       sheet_.arrow(end + Point2(0.3, up * 2.0), {-1.0, 0.0});
       sheet_.text(end + Point2(8.0, up * 2.0 - 1.4), "A", 3.5);
     }
-    draw_bolt_circles();
+    draw_hole_letters();
   }
 
-  void draw_outline(const Outline& outline) {
-    if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
-      sheet_.circle(face_centre_, scale_ * teeth->profile->tip_radius_mm(), Pen::kThick);
-      sheet_.circle(face_centre_, scale_ * reference_radius_mm(teeth->profile->gear()), Pen::kChain);
-      sheet_.circle(face_centre_, scale_ * teeth->profile->root_radius_mm(), Pen::kThin);
-    } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
-      sheet_.circle(in_face(circle->centre), scale_ * circle->radius_mm, Pen::kThick);
-    } else {
-      draw_bore(std::get<BoreOutline>(outline).bore);
+  /// Circles of equal holes, and the letter of each kind at its first hole, outwards.
+  void draw_hole_letters() {
+    for (std::size_t i = 0; i < dimensions_.holes.size(); ++i) {
+      const HolePattern& holes = dimensions_.holes[i];
+      const bool several = holes.centres.size() > 1;
+      double radius = 0.0;
+      for (const HoleStep& step : holes.steps) radius = std::max(radius, 0.5 * scale_ * step.diameter_mm);
+      // on the vertical axis the letter of the section is near
+      const Point2 centre = in_face(holes.centres[several && std::abs(holes.centres[0].y()) < 1e-6 ? 1 : 0]);
+      const Point2 outwards = (centre - face_centre_).normalized();
+      // towards the axis where the letter would stand on the part's edge
+      const Point2 away = (centre - face_centre_).norm() + radius + 5.0 > outer_ * scale_ ? Point2(-outwards) : outwards;
+      const Point2 aside(away.x() >= 0.0 ? 1.0 : -1.0, 0.0);
+      sheet_.text(centre + (radius + 1.0) * away + 1.8 * aside - Point2(0.0, 1.2), hole_letter(i), 3.0, TextAnchor::kMiddle);
+      if (several) {
+        sheet_.circle(face_centre_, 0.5 * scale_ * holes.circle_diameter_mm, Pen::kChain);
+        continue;
+      }
+      for (const Point2& arm : {Point2(radius + 1.5, 0.0), Point2(0.0, radius + 1.5)})
+        sheet_.line(centre - arm, centre + arm, Pen::kChain);
     }
-  }
-
-  void draw_bore(const BoreDesign& bore) {
-    const double r = 0.5 * bore.diameter_mm;
-    SheetPath path{.closed = true};
-    if (bore.kind == BoreKind::kHex) {
-      for (int i = 0; i < 6; ++i) path.points.push_back(in_face(2.0 * r / std::sqrt(3.0) * unit_vector(rad_from_deg(30.0 + 60.0 * i))));
-    } else if (bore.kind == BoreKind::kRound) {
-      return sheet_.circle(face_centre_, scale_ * r, Pen::kThick);
-    } else {
-      const double flat = bore.kind == BoreKind::kDFlat ? bore.d_flat_mm - r : r;
-      const double half = bore.kind == BoreKind::kDFlat ? std::acos(std::clamp(flat / r, -1.0, 1.0))
-                                                        : std::asin(std::clamp(0.5 * bore.keyway_width_mm / r, 0.0, 1.0));
-      constexpr int kPieces = 72;
-      for (int i = 0; i <= kPieces; ++i)
-        path.points.push_back(in_face(r * unit_vector(half + (kTwoPi - 2.0 * half) * i / kPieces)));
-      if (bore.kind == BoreKind::kKeyway)
-        for (double side : {-1.0, 1.0})
-          path.points.push_back(in_face({r + bore.keyway_depth_mm, side * 0.5 * bore.keyway_width_mm}));
-    }
-    sheet_.paths.push_back(std::move(path));
-  }
-
-  void draw_bolt_circles() {
-    double y = face_centre_.y() - outer_ * scale_ - 14.0;
-    for (const BoltCircle& bolts : dimensions_.bolt_circles) {
-      sheet_.circle(face_centre_, 0.5 * scale_ * bolts.circle_diameter_mm, Pen::kChain);
-      sheet_.text({face_centre_.x(), y}, std::to_string(bolts.count) + " x Ø" + drawing_number(bolts.hole_diameter_mm, 3) +
-                      " through, equally spaced on Ø" + drawing_number(bolts.circle_diameter_mm, 3),
-                  2.5, TextAnchor::kMiddle);
-      y -= 5.0;
-    }
+    if (dimensions_.holes.empty()) return;
+    sheet_.text(face_centre_ + Point2(-4.0, outer_ * scale_ + 3.0), "x", 2.5);
+    sheet_.text(face_centre_ + Point2(outer_ * scale_ + 2.0, 1.6), "y", 2.5);
   }
 
   void dimension_section() {
@@ -192,16 +212,19 @@ class PartSheet {
     for (const PartDiameter& d : dimensions_.diameters) {
       const double r = 0.5 * d.diameter_mm;
       vertical_dimension(sheet_, {.from = in_section(d.z_mm, -r), .to = in_section(d.z_mm, r), .line_at_mm = x, .text = diameter_text(d)});
-      if (d.datum) draw_datum({x, section_origin_.y() - r * scale_});
+      if (d.datum && !dimensions_.tip_runouts.empty()) draw_datum({x, section_origin_.y() - r * scale_});
       x -= kDimensionStep_mm;
     }
-    double y = section_origin_.y() - outer_ * scale_ - kGap_mm;
-    for (std::size_t i = 0; i < dimensions_.widths.size(); ++i) {
-      const PartWidth& width = dimensions_.widths[i];
-      if (i > 0 && i + 1 == dimensions_.widths.size()) y -= kDimensionStep_mm;  // the whole, below its parts
-      horizontal_dimension(sheet_, {.from = in_section(width.z_lower_mm, -outer_), .to = in_section(width.z_upper_mm, -outer_),
-                                    .line_at_mm = y, .text = drawing_number(width.width_mm(), 3)});
+    const double y = section_origin_.y() - outer_ * scale_ - kGap_mm;
+    std::vector<Dimension> lengths = lengths_below(section_origin_);
+    const std::vector<int> rows = dimension_rows(lengths);
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      lengths[i].line_at_mm = y - kDimensionStep_mm * rows[i];
+      horizontal_dimension(sheet_, lengths[i]);
     }
+    const PartWidth& whole = dimensions_.widths.back();
+    horizontal_dimension(sheet_, {.from = in_section(whole.z_lower_mm, -outer_), .to = in_section(whole.z_upper_mm, -outer_),
+                                  .line_at_mm = y - kDimensionStep_mm * row_count(rows), .text = drawing_number(whole.width_mm(), 3)});
     draw_tip_runouts();
     draw_face_runout();
   }
@@ -259,7 +282,7 @@ class PartSheet {
   void draw_gear_table() {
     if (gears_.empty()) return;
     std::vector<TableColumn> columns = {{50.0, TextAnchor::kLeft}, {16.0, TextAnchor::kLeft}};
-    for (std::size_t i = 0; i < gears_.size(); ++i) columns.push_back({26.0, TextAnchor::kRight});
+    for (std::size_t i = 0; i < table_.front().values.size(); ++i) columns.push_back({26.0, TextAnchor::kRight});
     std::vector<std::vector<std::string>> rows;
     for (const GearTableRow& row : table_) {
       rows.push_back({row.name, row.symbol});
@@ -268,18 +291,27 @@ class PartSheet {
     draw_table(sheet_, {sheet_.width_mm - kBorder_mm, sheet_.height_mm - kBorder_mm}, columns, rows);
   }
 
+  void draw_hole_table() {
+    if (hole_rows_.empty()) return;
+    const double below = table_.empty() ? 0.0 : kRowHeight_mm * static_cast<double>(table_.size()) + kTableGap_mm;
+    draw_table(sheet_, {sheet_.width_mm - kBorder_mm, sheet_.height_mm - kBorder_mm - below},
+               {{10.0, TextAnchor::kLeft}, {12.0, TextAnchor::kRight}, {52.0, TextAnchor::kLeft}, {kHoleTableWidth_mm - 74.0, TextAnchor::kLeft}}, hole_rows_);
+  }
+
   [[nodiscard]] std::vector<std::string> notes() const {
-    std::vector<std::string> all = {"Dimensions in mm."};
+    std::vector<std::string> all;
+    all.emplace_back("Dimensions in mm.");
+    if (!hole_rows_.empty()) all.emplace_back("Holes: left and right as in A-A, depths from the face where they open; hidden ones in dashes.");
     if (!gears_.empty()) {
       all.push_back("Teeth drawn by ISO 2203; true profile: " + part_.name + ".step.");
-      all.push_back(additive(*model_.train) ? "Flanks as printed, free of strings and blobs." : "Tooth flanks Ra 1.6, other surfaces Ra 3.2.");
+      all.emplace_back(additive(*model_.train) ? "Flanks as printed, free of strings and blobs." : "Tooth flanks Ra 1.6, other surfaces Ra 3.2.");
       for (const TrainGear* gear : gears_)
         if (std::string text = modification_text(*model_.train, gear->name); !text.empty()) all.push_back(text);
     }
     if (const auto layout = machine_layout(*model_.train);
         layout && part_.bought.empty() && part_.member == model_.train->topology().input && !gears_.empty())
       if (std::string text = set_screw_operation(*layout); !text.empty()) all.push_back(text);
-    if (!additive(*model_.train)) all.push_back("Edges broken 0.1 to 0.3.");
+    if (!additive(*model_.train)) all.emplace_back("Edges broken 0.1 to 0.3.");
     return all;
   }
 
@@ -288,6 +320,7 @@ class PartSheet {
   AxialSection section_;
   std::vector<const TrainGear*> gears_;
   std::vector<GearTableRow> table_;
+  std::vector<std::vector<std::string>> hole_rows_;
   PartDimensions dimensions_;
   Sheet sheet_;
   double length_ = 0.0, outer_ = 0.0, scale_ = 1.0;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kArrowLength_mm = 2.8, kArrowHalfWidth_mm = 0.5;
 constexpr double kExtensionGap_mm = 0.8, kExtensionOver_mm = 1.6;
+constexpr double kOutside_mm = 6.0;  // of a dimension line whose arrows stand outside
 constexpr double kTextGap_mm = 0.8, kDimensionText_mm = 2.5;
 
 }  // namespace
@@ -60,6 +61,13 @@ void Sheet::arrow(const Point2& tip, const Point2& direction) {
   fills.push_back({tip, back + kArrowHalfWidth_mm * side, back - kArrowHalfWidth_mm * side});
 }
 
+void Sheet::dot(const Point2& at) {
+  constexpr double kRadius_mm = 0.6;
+  for (int half : {0, 1})  // two quadrangles: DXF fills no more corners than that
+    fills.push_back({at + kRadius_mm * unit_vector(kPi * half), at + kRadius_mm * unit_vector(kPi * (half + 1.0 / 3.0)),
+                     at + kRadius_mm * unit_vector(kPi * (half + 2.0 / 3.0)), at + kRadius_mm * unit_vector(kPi * (half + 1.0))});
+}
+
 void Sheet::hatch(const Point2& low, const Point2& high, bool rising, double spacing_mm) {
   // lines y = c + s x with c on one grid for the whole sheet
   const double s = rising ? 1.0 : -1.0;
@@ -82,24 +90,55 @@ double text_width_mm(std::string_view utf8, double height_mm) {
   return 0.74 * height_mm * static_cast<double>(letters);
 }
 
+namespace {
+
+/// How a horizontal dimension is set.
+struct HorizontalSetting {
+  double x1, x2, width;
+  bool arrows_inside, text_inside;
+  explicit HorizontalSetting(const Dimension& d)
+      : x1(std::min(d.from.x(), d.to.x())), x2(std::max(d.from.x(), d.to.x())), width(text_width_mm(d.text, kDimensionText_mm)),
+        arrows_inside(x2 - x1 > 2.0 * kArrowLength_mm + 1.0), text_inside(x2 - x1 > width + 1.0) {}
+};
+
+}  // namespace
+
+std::pair<double, double> reach_of(const Dimension& d) {
+  const HorizontalSetting set(d);
+  const double reach = set.arrows_inside ? 0.0 : kOutside_mm;
+  return {set.x1 - reach, set.x2 + (set.text_inside ? reach : kOutside_mm + 1.0 + set.width)};
+}
+
+std::vector<int> dimension_rows(const std::vector<Dimension>& dimensions) {
+  std::vector<int> rows;
+  std::vector<std::vector<std::pair<double, double>>> taken;
+  for (const Dimension& d : dimensions) {
+    const auto [from, to] = reach_of(d);
+    std::size_t row = 0;
+    const auto free = [&](const std::pair<double, double>& other) { return to < other.first + 1e-6 || from > other.second - 1e-6; };
+    while (row < taken.size() && !std::all_of(taken[row].begin(), taken[row].end(), free)) ++row;
+    if (row == taken.size()) taken.emplace_back();
+    taken[row].emplace_back(from, to);
+    rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
 void horizontal_dimension(Sheet& sheet, const Dimension& d) {
   const double y = d.line_at_mm;
-  const double x1 = std::min(d.from.x(), d.to.x()), x2 = std::max(d.from.x(), d.to.x());
+  const HorizontalSetting set(d);
   for (const Point2& p : {d.from, d.to}) {
     const double up = y > p.y() ? 1.0 : -1.0;
     sheet.line({p.x(), p.y() + up * kExtensionGap_mm}, {p.x(), y + up * kExtensionOver_mm}, Pen::kThin);
   }
-  const double width = text_width_mm(d.text, kDimensionText_mm);
-  const bool inside = x2 - x1 > 2.0 * kArrowLength_mm + 1.0;
-  const double reach = inside ? 0.0 : 6.0;
-  const bool text_inside = x2 - x1 > width + 1.0;
-  sheet.line({x1 - reach, y}, {x2 + reach, y}, Pen::kThin);
-  sheet.arrow({x1, y}, inside ? Point2(-1.0, 0.0) : Point2(1.0, 0.0));
-  sheet.arrow({x2, y}, inside ? Point2(1.0, 0.0) : Point2(-1.0, 0.0));
-  if (text_inside || inside)
-    sheet.text({0.5 * (x1 + x2), y + kTextGap_mm}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
-  else  // above the line, out of the way of its neighbours' texts
-    sheet.text({0.5 * (x1 + x2), y + kTextGap_mm + kDimensionText_mm + 0.7}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
+  const double left = set.arrows_inside ? 0.0 : kOutside_mm, right = set.text_inside ? left : kOutside_mm + 1.0 + set.width;
+  sheet.line({set.x1 - left, y}, {set.x2 + right, y}, Pen::kThin);
+  sheet.arrow({set.x1, y}, set.arrows_inside ? Point2(-1.0, 0.0) : Point2(1.0, 0.0));
+  sheet.arrow({set.x2, y}, set.arrows_inside ? Point2(1.0, 0.0) : Point2(-1.0, 0.0));
+  if (set.text_inside)
+    sheet.text({0.5 * (set.x1 + set.x2), y + kTextGap_mm}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
+  else
+    sheet.text({set.x2 + kOutside_mm + 0.5, y + kTextGap_mm}, d.text, kDimensionText_mm);
 }
 
 void vertical_dimension(Sheet& sheet, const Dimension& d) {
@@ -112,7 +151,7 @@ void vertical_dimension(Sheet& sheet, const Dimension& d) {
   const double width = text_width_mm(d.text, kDimensionText_mm);
   const bool inside = y2 - y1 > 2.0 * kArrowLength_mm + 1.0;
   const bool text_inside = y2 - y1 > width + 1.0;
-  const double reach = inside ? 0.0 : 6.0;
+  const double reach = inside ? 0.0 : kOutside_mm;
   // a text that is longer than the distance goes on upwards: below there may be a datum
   const double middle = text_inside ? 0.5 * (y1 + y2) : y1 + 1.0 + 0.5 * width;
   sheet.line({x, y1 - reach}, {x, std::max(y2 + reach, middle + 0.5 * (text_inside ? 0.0 : width))}, Pen::kThin);

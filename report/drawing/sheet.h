@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/result.h"
@@ -60,6 +61,8 @@ struct Sheet {
             TextAnchor anchor = TextAnchor::kLeft, double rotation_rad = 0.0);
   /// Arrow head whose tip is at `tip`, pointing along `direction` (of length 1).
   void arrow(const Point2& tip, const Point2& direction);
+  /// Where a leader ends inside an outline (ISO 128-22).
+  void dot(const Point2& at);
   /// Lines at 45 degrees (`rising`) or 135 over an axis-parallel rectangle; neighbours continue each
   /// other's lines.
   void hatch(const Point2& low, const Point2& high, bool rising, double spacing_mm = 2.0);
@@ -67,13 +70,17 @@ struct Sheet {
 
 /// Dimension between two heights (horizontal: places) of the sheet, ISO 129: extension lines from the
 /// features, the line with its arrows at `line_at`, the text above it. Arrows stand outside where
-/// there is no room between.
+/// there is no room between, the text then to the right of a horizontal one.
 struct Dimension {
   Point2 from, to;  ///< the features
   double line_at_mm = 0.0;  ///< y of a horizontal dimension line, x of a vertical one
   std::string text;
 };
 void horizontal_dimension(Sheet& sheet, const Dimension& dimension);
+/// From where to where on the sheet a horizontal dimension reaches, its text and outer arrows too.
+[[nodiscard]] std::pair<double, double> reach_of(const Dimension& dimension);
+/// Rows for horizontal dimensions, the first as near to the part as can be: in a row none touches another.
+[[nodiscard]] std::vector<int> dimension_rows(const std::vector<Dimension>& dimensions);
 void vertical_dimension(Sheet& sheet, const Dimension& dimension);
 
 /// Approximate width of a text in Helvetica [mm]; never less than what the writers draw by more than a tenth.

@@ -52,11 +52,13 @@ void put_arc(DxfText& dxf, const SheetArc& arc, int handle) {
   dxf.put(51, deg_from_rad(wrapped_rad(arc.to_rad)));
 }
 
-void put_fill(DxfText& dxf, const std::vector<Point2>& triangle, int handle) {
+/// A triangle or quadrangle; SOLID wants the last two corners exchanged.
+void put_fill(DxfText& dxf, const std::vector<Point2>& polygon, int handle) {
   put_dxf_entity(dxf, "SOLID", handle, to_text(Pen::kThin));
   dxf.put(100, "AcDbTrace");
+  constexpr std::size_t kOrder[] = {0, 1, 3, 2};
   for (std::size_t i = 0; i < 4; ++i) {
-    dxf.put_point(10 + static_cast<int>(i), triangle[std::min(i, triangle.size() - 1)]);
+    dxf.put_point(10 + static_cast<int>(i), polygon[std::min(kOrder[i], polygon.size() - 1)]);
     dxf.put(30 + static_cast<int>(i), 0.0);
   }
 }

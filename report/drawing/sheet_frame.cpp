@@ -82,10 +82,33 @@ void draw_table(Sheet& sheet, const Point2& corner, const std::vector<TableColum
   sheet.box({left, bottom}, corner, Pen::kThick);
 }
 
+namespace {
+
+/// Lines of at most `room` millimetres, broken between words; the second and later ones under the first's words.
+std::vector<std::string> broken(const std::string& sentence, double room_mm, double height_mm) {
+  std::vector<std::string> lines = {""};
+  for (std::size_t from = 0; from < sentence.size();) {
+    const std::size_t to = std::min(sentence.find(' ', from), sentence.size());
+    const std::string word = sentence.substr(from, to - from);
+    if (lines.back().find_first_not_of(' ') != std::string::npos && text_width_mm(lines.back() + " " + word, height_mm) > room_mm)
+      lines.push_back("   " + word);
+    else
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+    from = to + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
 void draw_notes(Sheet& sheet, const Point2& corner, const std::vector<std::string>& notes) {
+  constexpr double kNote_mm = 2.0;
+  const double room = sheet.width_mm - kBorder_mm - kTitleWidth_mm - 2.0 - corner.x();
+  std::vector<std::string> lines;
   for (std::size_t i = 0; i < notes.size(); ++i)
-    sheet.text({corner.x(), corner.y() + 4.0 * static_cast<double>(notes.size() - 1 - i)},
-               std::to_string(i + 1) + ". " + notes[i], 2.0);
+    for (std::string& line : broken(std::to_string(i + 1) + ". " + notes[i], room, kNote_mm)) lines.push_back(std::move(line));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    sheet.text({corner.x(), corner.y() + 4.0 * static_cast<double>(lines.size() - 1 - i)}, lines[i], kNote_mm);
 }
 
 const std::vector<std::pair<std::string, double>>& drawing_scales() {

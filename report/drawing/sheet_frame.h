@@ -30,7 +30,7 @@ struct TableColumn {
 void draw_table(Sheet& sheet, const Point2& corner, const std::vector<TableColumn>& columns,
                 const std::vector<std::vector<std::string>>& rows);
 
-/// Numbered sentences upwards from a lower left corner.
+/// Numbered sentences upwards from a lower left corner, in lines that end before the title block.
 void draw_notes(Sheet& sheet, const Point2& corner, const std::vector<std::string>& notes);
 
 /// Scales of ISO 5455, largest first, as paper over part.

@@ -13,11 +13,47 @@ import ezdxf
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
-KEYS = ["tip_diameter_mm", "root_diameter_mm", "base_diameter_mm", "reference_diameter_mm", "root_form_diameter_mm"]
+# key and places; what a gear has not is null
+KEYS = {"tip_diameter_mm": 4, "root_diameter_mm": 4, "base_diameter_mm": 4, "reference_diameter_mm": 4, "root_form_diameter_mm": 4,
+        "start_active_profile_diameter_mm": 4, "reference_thickness_mm": 4, "face_width_mm": 3, "pin_diameter_mm": 3, "lead_mm": 4}
+EXAMPLES = ["bilateral_drive", "helical_planetary", "internal_pair", "printed_actuator", "boxed_pair"]
+INCHES = """format = 1
+name = "pitch 24"
+[gearbox]
+kind = "pair"
+diametral_pitch = 24
+[pinion]
+teeth = 20
+face_width_in = 0.25
+thickness_allowance = "cd25"
+[wheel]
+teeth = 30
+face_width_in = 0.25
+thickness_allowance = "cd25"
+"""
 
 
-def shown(value):
-    return f"{value:.4f}".rstrip("0").rstrip(".")
+def shown(value, places):
+    return f"{value:.{places}f}".rstrip("0").rstrip(".")
+
+
+def looked_for(report, gear):
+    """Texts of a gear's column, and of that in inches."""
+    values = report["gears"][gear]
+    for key, places in KEYS.items():
+        if values[key] is None:
+            continue
+        yield key, shown(values[key], places)
+        if "inches" in report:
+            yield key + " in inches", shown(values[key] / 25.4, places + 1)
+    allowance = values["thickness_allowance"]
+    for key, least, most in (("span_mm", "span_min_mm", "span_max_mm"), ("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm")):
+        limits = [allowance[least], allowance[most]] if allowance and allowance[least] is not None else [values[key]]
+        for value in limits:
+            if value is not None:
+                yield key, shown(value, 3)
+                if "inches" in report:
+                    yield key + " in inches", shown(value / 25.4, 4)
 
 
 def words_of_dxf(path):
@@ -28,9 +64,34 @@ def words_of_dxf(path):
     return {entity.dxf.text for entity in document.modelspace() if entity.dxftype() == "TEXT"}
 
 
+def rows_of(text):
+    """Lines of a page by their words, single blanks between."""
+    return [" ".join(line.split()) for line in text.splitlines()]
+
+
+def missing_items(example, report, text, words):
+    """The parts list against the bill of materials: every count, designation, material and mass."""
+    lines = rows_of(text)
+    for line in report.get("bill_of_materials") or []:
+        if line["designation"]:
+            wanted = f"{line['count']} {line['designation']} to buy"
+        else:
+            # the drawing has proper names and, of gears, their teeth
+            wanted = f"{line['material']} {shown(line['mass_g'], 2)} g"
+        if not any(wanted in row for row in lines):
+            yield f"{example} assembly.pdf: {wanted}"
+        if (line["designation"] or f"{shown(line['mass_g'], 2)} g") not in words:
+            yield f"{example} assembly.dxf: {line}"
+
+
 def check(example):
     folder = OUTPUT / example
-    subprocess.run([PROGRAM, "make", SOURCE / "examples" / example / "design.toml", "-o", folder, "--formats", "pdf",
+    design = SOURCE / "examples" / example / "design.toml"
+    if example == "inches":
+        design = OUTPUT / "inches.toml"
+        OUTPUT.mkdir(parents=True, exist_ok=True)
+        design.write_text(INCHES)
+    subprocess.run([PROGRAM, "make", design, "-o", folder, "--formats", "pdf",
                     "--allow-failing", "--quiet"], stdout=subprocess.DEVNULL, check=False)
     report = json.loads((folder / "report.json").read_text())
     parts = {file["part"] for file in report["files"] if file["format"] == "pdf"}
@@ -41,19 +102,25 @@ def check(example):
         information = subprocess.run(["pdfinfo", folder / f"{part}.pdf"], capture_output=True, text=True, check=True).stdout
         if "Pages:           1" not in information or not ("841.89 x 595.276" in information or "1190.55 x 841.89" in information):
             missing.append(f"{part}: {information}")
-        pages[part] = (set(text.split()), words_of_dxf(folder / f"{part}_drawing.dxf"))
-    for gear, values in report["gears"].items():
+        words = words_of_dxf(folder / f"{part}_drawing.dxf")
+        if part == "assembly":
+            missing += missing_items(example, report, text, words)
+        # limits are one text, "8.028 .. 8.057"
+        pages[part] = (set(text.split()), {word for line in words for word in line.split()})
+    for gear in report["gears"]:
         part = "planet" if gear.startswith("planet") else gear
-        for key in KEYS:
+        for key, value in looked_for(report, gear):
             for kind, words in zip(("pdf", "dxf"), pages[part]):
-                if shown(values[key]) not in words:
-                    missing.append(f"{example} {part}.{kind}: {key} {shown(values[key])}")
+                if value not in words:
+                    missing.append(f"{example} {part}.{kind}: {key} {value}")
     if missing:
         sys.exit("\n".join(missing))
+    if example == "printed_actuator" and not report.get("bill_of_materials"):
+        sys.exit("a machine without a bill of materials")
     return len(parts)
 
 
-total = sum(check(example) for example in ("bilateral_drive", "helical_planetary", "internal_pair"))
+total = sum(check(example) for example in EXAMPLES + ["inches"])
 print(f"{total} sheets read back")
-if total < 10:
+if total < 30:
     sys.exit("too few sheets: this looked at the wrong files")

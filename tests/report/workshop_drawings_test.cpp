@@ -11,7 +11,11 @@
 
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file.h"
+#include "trueflank/base/units.h"
+#include "trueflank/export/hole_patterns.h"
 #include "trueflank/report/drawing/axial_section.h"
+#include "trueflank/report/drawing/balloons.h"
+#include "trueflank/report/drawing/face_view.h"
 #include "trueflank/report/report.h"
 
 namespace trueflank::io {
@@ -132,20 +136,141 @@ TEST(WorkshopDrawings, TheAssemblyListsEveryPartWithItsCount) {
   EXPECT_TRUE(says(sheet, "Ring 2, z 81"));
 }
 
+const char* const kExamples[] = {"bilateral_drive", "external_pair", "internal_pair", "helical_planetary", "carried_drive", "simple_planetary", "pinion_8_undercut",
+                                 "ring_shaper", "relieved_3k", "herringbone_pair", "printed_actuator", "boxed_pair", "split_ring", "stepped"};
+
+std::vector<Sheet> sheets_of(const Drawn& drawn) {
+  std::vector<Sheet> sheets;
+  for (const PartShape& part : drawn.shapes.parts)
+    if (part.bought.empty()) sheets.push_back(part_sheet(drawn.model(), part));
+  if (drawn.shapes.assembly.size() > 1) sheets.push_back(assembly_sheet(drawn.model()));
+  return sheets;
+}
+
+/// The rectangle of a text, as narrow as Helvetica is.
+std::pair<Point2, Point2> place_of(const SheetText& text) {
+  const double width = 0.7 * text_width_mm(text.text, text.height_mm);
+  const double from = text.anchor == TextAnchor::kLeft ? 0.0 : text.anchor == TextAnchor::kRight ? -width : -0.5 * width;
+  const Point2 along = unit_vector(text.rotation_rad), up = perpendicular(along);
+  const Point2 a = text.at + from * along, b = text.at + (from + width) * along + text.height_mm * up;
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
 TEST(WorkshopDrawings, EverythingLiesOnTheSheetForEveryExample) {
-  for (const char* example : {"bilateral_drive", "external_pair", "internal_pair", "helical_planetary", "carried_drive",
-                              "simple_planetary", "pinion_8_undercut", "ring_shaper", "relieved_3k", "herringbone_pair"}) {
-    const Drawn drawn(example);
-    for (const PartShape& part : drawn.shapes.parts) {
-      const Sheet sheet = part_sheet(drawn.model(), part);
+  for (const char* example : kExamples)
+    for (const Sheet& sheet : sheets_of(Drawn(example))) {
+      const Point2 high(sheet.width_mm - 9.9, sheet.height_mm - 9.9);
+      const auto inside = [&](const Point2& low, const Point2& top) { return low.minCoeff() > 9.9 && (high - top).minCoeff() > 0.0; };
       for (const SheetPath& path : sheet.paths)
-        for (const Point2& p : path.points) {
-          EXPECT_GE(p.minCoeff(), 9.9) << example << ' ' << part.name;
-          EXPECT_LE(p.x(), sheet.width_mm - 9.9) << example << ' ' << part.name;
-          EXPECT_LE(p.y(), sheet.height_mm - 9.9) << example << ' ' << part.name;
-        }
+        for (const Point2& p : path.points) EXPECT_TRUE(inside(p, p)) << example << ' ' << sheet.name;
+      for (const SheetArc& arc : sheet.arcs) {
+        const Point2 reach = arc.to_rad - arc.from_rad < 6.28 ? Point2(0.0, 0.0) : Point2(arc.radius_mm, arc.radius_mm);
+        EXPECT_TRUE(inside(arc.centre - reach, arc.centre + reach)) << example << ' ' << sheet.name;
+      }
+      for (const SheetText& text : sheet.texts)
+        EXPECT_TRUE(inside(place_of(text).first, place_of(text).second)) << example << ' ' << sheet.name << ' ' << text.text;
     }
+}
+
+TEST(WorkshopDrawings, NoTextStandsOnAnother) {
+  for (const char* example : kExamples)
+    for (const Sheet& sheet : sheets_of(Drawn(example)))
+      for (std::size_t i = 0; i < sheet.texts.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+          const auto [low1, high1] = place_of(sheet.texts[i]);
+          const auto [low2, high2] = place_of(sheet.texts[k]);
+          const bool apart = ((low1 - high2).array() > -0.05).any() || ((low2 - high1).array() > -0.05).any();
+          EXPECT_TRUE(apart) << example << ' ' << sheet.name << ": " << sheet.texts[i].text << " on " << sheet.texts[k].text;
+        }
+}
+
+TEST(WorkshopDrawings, HolesAreSaidByToolAndPlace) {
+  const Drawn drawn("printed_actuator");
+  const Sheet housing = part_sheet(drawn.model(), drawn.part("housing"));
+  // the motor's screws go through the floor, their heads are sunk from inside; inserts come from outside
+  for (const char* words : {"Ø3.4 through", "Ø6.1 x 3.2 deep from the right", "Ø4 x 10.8 deep from the left", "first at 45 deg from x"})
+    EXPECT_TRUE(says(housing, words)) << words;
+  const Sheet top = part_sheet(drawn.model(), drawn.part("carrier_top"));
+  EXPECT_TRUE(says(top, "Ø5.1 x 4.3 deep from the left"));  // blind, for the planets' pins
+  EXPECT_TRUE(says(top, "1.6"));                             // depth of the bore about the axis
+}
+
+TEST(WorkshopDrawings, HolesTakeAwayWhatTheShapeLacks) {
+  for (const char* example : {"printed_actuator", "boxed_pair", "carried_drive"})
+    for (const PartShape& part : Drawn(example).shapes.parts) {
+      double drilled = 0.0, missing = 0.0;
+      for (const HolePattern& pattern : hole_patterns(part))
+        for (const HoleStep& step : pattern.steps)
+          drilled += static_cast<double>(pattern.centres.size()) * step.diameter_mm * step.diameter_mm * step.depth_mm();
+      for (const Slab& slab : part.slabs)
+        for (const Outline& hole : slab.holes)
+          if (const auto* circle = std::get_if<CircleOutline>(&hole); circle && circle->centre.norm() > 1e-6)
+            missing += 4.0 * circle->radius_mm * circle->radius_mm * (slab.z_upper_mm - slab.z_lower_mm);
+      EXPECT_NEAR(drilled, missing, 1e-6 * (1.0 + missing)) << example << ' ' << part.name;
+    }
+}
+
+TEST(WorkshopDrawings, AnAssemblyIsAsLargeAsItsBodies) {
+  // the wheel stands beside the axis: twice the largest distance from it would be far too much
+  const Drawn drawn("external_pair");
+  const auto& gears = drawn.report["gears"];
+  const double height = 0.5 * gears["pinion"]["tip_diameter_mm"].get<double>() + drawn.report["train"]["centre_distance_mm"].get<double>() +
+                        0.5 * gears["wheel"]["tip_diameter_mm"].get<double>();
+  EXPECT_TRUE(says(assembly_sheet(drawn.model()), drawing_number(height, 3)));
+}
+
+TEST(WorkshopDrawings, WhatIsBoughtIsOneRowADesignationWithoutMaterial) {
+  const Drawn drawn("printed_actuator");
+  const Sheet sheet = assembly_sheet(drawn.model());
+  EXPECT_EQ(std::count_if(sheet.texts.begin(), sheet.texts.end(), [](const SheetText& t) { return t.text == "ISO 4762 M3x30"; }), 1);
+  EXPECT_TRUE(says(sheet, "18"));  // inserts M3x5.7 of four groups of screws
+  EXPECT_TRUE(says(sheet, "to buy"));
+}
+
+TEST(WorkshopDrawings, LinesToItemNumbersDoNotCrossWhereTheyNeedNot) {
+  std::vector<Balloon> balloons;
+  std::vector<Point2> seats;
+  for (int i = 0; i < 12; ++i) {
+    // by height alone each would get the seat on the other side, and every line cross the next
+    balloons.push_back({i + 1, {{i % 2 == 0 ? 30.0 : -20.0, 10.0 * i + 3.0}}});
+    seats.emplace_back(i % 2 == 0 ? -30.0 : 40.0, 10.0 * i);
   }
+  Sheet sheet;
+  draw_balloons(sheet, balloons, seats);
+  ASSERT_EQ(sheet.paths.size(), 12U);
+  const auto side = [](const Point2& a, const Point2& b, const Point2& c) { return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()); };
+  int crossings = 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto &p = sheet.paths[i].points, &q = sheet.paths[k].points;
+      crossings += side(p[0], p[1], q[0]) * side(p[0], p[1], q[1]) < 0.0 && side(q[0], q[1], p[0]) * side(q[0], q[1], p[1]) < 0.0 ? 1 : 0;
+    }
+  EXPECT_EQ(crossings, 0);
+}
+
+PartShape disc(double radius_mm, const Point2& centre, double thickness_mm) {
+  return {.name = "disc", .slabs = {{0.0, thickness_mm, CircleOutline{centre, radius_mm}, {}}}};
+}
+
+TEST(FaceView, WhatStandsInFrontHides) {
+  // a disc of radius 5 before one of radius 10 whose centre is 10 away: two circles cut where cos = 1 - 25 / 200
+  const PartShape near = disc(5.0, Point2::Zero(), 2.0), far = disc(10.0, Point2::Zero(), 2.0);
+  const auto edges = view_from_below({{.part = &near}, {.part = &far, .offset = {10.0, 0.0}, .z_mm = 2.0}});
+  double seen = 0.0, hidden = 0.0;
+  for (const ViewedEdge& edge : edges)
+    if (edge.radius_mm == 10.0) (edge.hidden ? hidden : seen) += edge.to_rad - edge.from_rad;
+  EXPECT_NEAR(hidden, 2.0 * std::acos(1.0 - 25.0 / 200.0), 1e-5);
+  EXPECT_NEAR(seen + hidden, kTwoPi, 1e-9);
+}
+
+TEST(FaceView, AHoleShowsWhatIsBehindIt) {
+  PartShape plate = disc(20.0, Point2::Zero(), 2.0);
+  plate.slabs.front().holes.push_back(CircleOutline{{10.0, 0.0}, 4.0});
+  const PartShape pin = disc(2.0, Point2::Zero(), 2.0);
+  for (const auto& [x, hidden] : {std::pair{10.0, false}, {-10.0, true}})
+    for (const ViewedEdge& edge : view_from_below({{.part = &plate}, {.part = &pin, .offset = {x, 0.0}, .z_mm = 2.0}})) {
+      if (edge.radius_mm == 2.0) EXPECT_EQ(edge.hidden, hidden);
+    }
 }
 
 TEST(WorkshopDrawings, TheSameDesignGivesTheSameBytes) {
