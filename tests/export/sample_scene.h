@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -10,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/scratch_folder.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/scene.h"
@@ -102,35 +101,6 @@ struct SampleScene {
                        {.part = 1, .name = "planet 2", .rotation_rad = 2.0,
                         .translation_mm = {-10.0, 17.5, 0.5}}}};
   }
-};
-
-/// A folder of a test's own, empty, removed at its end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    static int serial = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("trueflank-test-" + std::to_string(::getpid()) + "-" + std::to_string(serial++));
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::size_t entries() const {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path_)) ++count;
-    return count;
-  }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace trueflank::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/scratch_folder.h"
 #include "trueflank/report/render/gearbox_pictures.h"
 
 #include <gtest/gtest.h>
@@ -45,8 +46,8 @@ TEST(GearboxPictures, TheCutShowsSunAndPlanets) {
 
 TEST(GearboxPictures, WritesEveryMadePartAndTheAssembly) {
   const Pictured p("simple_planetary");
-  const auto folder = std::filesystem::temp_directory_path() / "trueflank_gearbox_pictures";
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder scratch;
+  const auto& folder = scratch.path();
   const auto files =
       write_pictures(*p.train, p.shapes, {.folder = folder, .part = "", .width_px = 120});
   ASSERT_TRUE(files.has_value());

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "tests/support/scratch_folder.h"
 #include "pair_design.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/loop/gear/effect.h"
@@ -48,15 +49,6 @@ std::string effect_json(const loop::EffectFamily& family, double amount, double 
 
 class CorrectedMake : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("trueflank_corrected_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   ResultAll<MakeResult> make(const std::string& effects, double tolerance_um = 20.0) {
     const std::string file = (folder_ / "loop.json").string();
     std::ofstream(file)
@@ -83,7 +75,8 @@ class CorrectedMake : public testing::Test {
   }
 
   Gearbox gearbox_ = Gearbox::read_text(pair_design(), "pair.toml").value();
-  fs::path folder_;
+  test::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 const loop::EffectFamily& family(const std::string& id) { return *loop::find_family(id); }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/scratch_folder.h"
 #include "trueflank/session/job_size.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ TEST(JobSize, OfAnOrdinaryPairIsSmallAndNothingIsSaid) {
 
 TEST(JobSize, WhatIsTooLargeIsRefusedBeforeItBeginsAndTheToleranceThatDoesIsNamed) {
   const Gearbox gearbox = long_and_fine();
-  const auto folder = std::filesystem::temp_directory_path() / "trueflank_job_size";
-  std::filesystem::remove_all(folder);
+  const test::ScratchFolder scratch;
+  const auto folder = scratch / "made";
   const auto made =
       make_parts(gearbox, {.folder = folder, .formats = {"stl"}, .tolerance_um = 0.05});
   ASSERT_FALSE(made);

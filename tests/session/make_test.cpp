@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/scratch_folder.h"
 #include "trueflank/session/make.h"
 
 #include <gtest/gtest.h>
@@ -17,13 +18,6 @@ namespace fs = std::filesystem;
 
 class MakeParts : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("trueflank_make_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] MakeResult make(const std::string& design, bool allow_failing = false) const {
     const Gearbox gearbox = Gearbox::read_text(design, "pair.toml").value();
     return make_parts(gearbox, {.folder = folder_,
@@ -39,7 +33,8 @@ class MakeParts : public testing::Test {
            "[wheel]\nteeth = 31\nshift = 0.0\nface_width_mm = 3.0\n";
   }
 
-  fs::path folder_;
+  test::ScratchFolder scratch_;
+  fs::path folder_ = scratch_ / "made";
 };
 
 TEST_F(MakeParts, AStepSchemaThatIsNoneIsRefused) {
