@@ -89,6 +89,18 @@ std::string changed(std::string bytes, std::minstd_rand& random) {
   return bytes;
 }
 
+TEST_P(Replay, HasADictionaryForTheFuzzer) {
+  std::ifstream stream(fs::path(TRUEFLANK_SOURCE_DIR) / "fuzz" / "dictionaries" /
+                       (std::string(GetParam().name) + ".dict"));
+  int words = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    EXPECT_TRUE(line.size() > 2 && line.front() == '"' && line.back() == '"') << line;
+    ++words;
+  }
+  EXPECT_GT(words, 3);
+}
+
 TEST_P(Replay, TakesEveryFileOfItsCorpus) {
   const auto files = corpus(GetParam().name);
   ASSERT_FALSE(files.empty());

@@ -17,6 +17,7 @@
 #include "trueflank/loop/measured/bench_data.h"
 #include "trueflank/loop/measured/read_measurement.h"
 #include "trueflank/search/search.h"
+#include "trueflank/session/effects_file.h"
 #include "trueflank/train/gear_train.h"
 
 namespace trueflank::fuzz {
@@ -97,6 +98,14 @@ void formula(std::string_view bytes) {
   if (formula) (void)(*formula)(values);
 }
 
+void effects(std::string_view bytes) {
+  const auto families = read_effects_text(bytes, "effects.toml");
+  if (families)
+    demand(!(*families)->empty());
+  else
+    demand(!families.error().empty());
+}
+
 void journal(std::string_view bytes) {
   static const SearchRequirements requirements;
   static const SetEnumeration sets = [] {
@@ -132,6 +141,7 @@ const std::vector<Target>& targets() {
       {"bench_csv", bench},
       {"loop_json", loop_json},
       {"formula", formula},
+      {"effects", effects},
       {"journal", journal},
   };
   return all;

@@ -14,10 +14,8 @@ class EffectsReader {
  public:
   explicit EffectsReader(const std::string& path) : path_(path) {}
 
-  ResultAll<loop::DeclaredFamilies> read() {
-    const auto text = loop::read_whole_file(path_, loop::kMostBytesOfText);
-    if (!text) return fail_all({text.error()});
-    const TomlDocument document = parse_toml(*text);
+  ResultAll<loop::DeclaredFamilies> read(std::string_view text) {
+    const TomlDocument document = parse_toml(text);
     for (Error error : document.errors) add(std::move(error), error.line);
     for (const TomlEntry& entry : document.root.entries) read_effect(entry);
     if (families_.empty() && errors_.empty())
@@ -60,7 +58,8 @@ class EffectsReader {
     for (const TomlEntry& item : table->entries) read_item(item, effect);
     const std::size_t before = errors_.size();
     auto family = loop::declared_family(effect);
-    if (family) families_.push_back(std::move(*family));
+    if (family)
+      families_.push_back(std::move(*family));
     else
       for (const Error& error : family.error()) add(error, line_of(*table, error.key, entry.line));
     if (errors_.size() == before && effect.description.empty())
@@ -82,12 +81,16 @@ class EffectsReader {
   void read_item(const TomlEntry& item, loop::DeclaredEffect& effect) {
     const std::string key = effect.id + "." + item.key;
     const auto text = [&](std::string& target) {
-      if (const auto* value = std::get_if<std::string>(&item.value)) target = *value;
-      else wrong(item, key, "a text");
+      if (const auto* value = std::get_if<std::string>(&item.value))
+        target = *value;
+      else
+        wrong(item, key, "a text");
     };
     const auto flag = [&](bool& target) {
-      if (const auto* value = std::get_if<bool>(&item.value)) target = *value;
-      else wrong(item, key, "true or false");
+      if (const auto* value = std::get_if<bool>(&item.value))
+        target = *value;
+      else
+        wrong(item, key, "true or false");
     };
     if (item.key == "description") return text(effect.description);
     if (item.key == "cause") return text(effect.cause);
@@ -103,8 +106,10 @@ class EffectsReader {
                  item.line);
     for (const TomlEntry& parameter : form->entries) {
       const auto* formula = std::get_if<std::string>(&parameter.value);
-      if (formula == nullptr) wrong(parameter, key + "." + parameter.key, "a formula in quotes");
-      else effect.columns.emplace_back(parameter.key, *formula);
+      if (formula == nullptr)
+        wrong(parameter, key + "." + parameter.key, "a formula in quotes");
+      else
+        effect.columns.emplace_back(parameter.key, *formula);
     }
   }
 
@@ -115,8 +120,15 @@ class EffectsReader {
 
 }  // namespace
 
+ResultAll<loop::DeclaredFamilies> read_effects_text(std::string_view text,
+                                                    const std::string& path) {
+  return EffectsReader(path).read(text);
+}
+
 ResultAll<loop::DeclaredFamilies> read_effects_file(const std::string& path) {
-  return EffectsReader(path).read();
+  const auto text = loop::read_whole_file(path, loop::kMostBytesOfText);
+  if (!text) return fail_all({text.error()});
+  return read_effects_text(*text, path);
 }
 
 }  // namespace trueflank
