@@ -135,7 +135,8 @@ TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shap
   const Eigen::MatrixXd columns = columns_of(moved);
   Eigen::MatrixXd gram = gram_;
   gram.middleCols(first, count) = columns_.transpose() * columns;
-  gram.middleRows(first, count) = gram.middleCols(first, count).transpose();
+  // (a copy: a first effect's rows and columns begin at the same place)
+  gram.middleRows(first, count) = gram.middleCols(first, count).transpose().eval();
   gram.block(first, first, count, count) = columns.transpose() * columns;
   return judged(gram, first, count);
 }
@@ -147,7 +148,7 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
     const Eigen::Index first = first_column_[e], count = effects_[e].columns();
     columns_.middleCols(first, count) = columns_of(effects_[e]);
     gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
-    gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose();
+    gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose().eval();
   }
   solve();
 }
