@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/bench_remainder.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -45,7 +46,10 @@ class Asking {
     flip();
     // A zero of the output's sensor moves the driven torque up in one direction and down in the
     // other.
-    const double slow = 2.0 * std::min(slow_p_value(false), slow_p_value(true));
+    const double plain = std::min(slow_p_value(false, false), slow_p_value(true, false));
+    const double with_load = std::min(slow_p_value(false, true), slow_p_value(true, true));
+    const double slow = 4.0 * std::min(plain, with_load);
+    slow_with_load_ = with_load < plain;
     BenchRemainder found;
     found.p_value = slow;
     for (const Question& q : questions_) found.p_value = std::min(found.p_value, q.p_value);
@@ -201,12 +205,15 @@ class Asking {
   }
 
   /// The slowest half waves over the run against those beside them, of what set points do not
-  /// explain.
-  [[nodiscard]] double slow_p_value(bool opposite) const {
+  /// explain: of what is left, or of that in proportion to the load, as friction changes.
+  [[nodiscard]] double slow_p_value(bool opposite, bool with_load) const {
     if (size_.size() < 24) return 1.0;
     Eigen::VectorXd size = size_;
-    for (std::size_t v = 0; v < first_.size() && opposite; ++v)
-      if (!table_.points[first_[v]].forward) size[static_cast<Eigen::Index>(v)] *= -1.0;
+    for (std::size_t v = 0; v < first_.size(); ++v) {
+      const BenchPoint& p = table_.points[first_[v]];
+      if (opposite && !p.forward) size[static_cast<Eigen::Index>(v)] *= -1.0;
+      if (with_load) size[static_cast<Eigen::Index>(v)] *= p.load_nm / table_.most_load_nm;
+    }
     const int first = 2 * kSlowWaves + 1;
     const int last = std::min<int>(first + 23, static_cast<int>(size_.size()) / 2);
     double slow = 0.0, beside = 0.0;
@@ -230,9 +237,25 @@ class Asking {
       for (const double v : values) off.push_back(std::abs(v - mean) * std::sqrt(n / (n - 1.0)));
     }
     if (2 * off.size() < rows.size()) return kNaN;
-    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-    std::nth_element(off.begin(), middle, off.end());
-    return 1.4826 * *middle;
+    // By the middle and by the upper end: coarse readings are often equal.
+    const auto at = [&](double share, double of_normal) {
+      const auto place = off.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(off.size()));
+      std::nth_element(off.begin(), place, off.end());
+      return *place / of_normal;
+    };
+    return std::max(at(0.5, 0.6745), at(0.7, 1.0364));
+  }
+
+  /// The step in which a direction's torques are read: of fine readings next to nothing.
+  [[nodiscard]] double step_of(const std::vector<Eigen::Index>& rows) const {
+    std::vector<double> torque;
+    for (const Eigen::Index i : rows) torque.push_back(table_.points[static_cast<std::size_t>(i)].driven_nm);
+    std::sort(torque.begin(), torque.end());
+    const double rounding = 1e-6 * std::max(std::abs(torque.front()), std::abs(torque.back()));
+    double step = 1e300;
+    for (std::size_t k = 1; k < torque.size(); ++k)
+      if (torque[k] - torque[k - 1] > rounding) step = std::min(step, torque[k] - torque[k - 1]);
+    return step < 1e300 ? step : 0.0;
   }
 
   /// More is left than the rows' own scatter: a few set points that lie far off agree with too few
@@ -246,6 +269,7 @@ class Asking {
       if (rows.size() < 8) continue;
       double scatter = scatter_of(rows, set_point_);
       if (const double of_all = scatter_of(rows, all); !(scatter < of_all)) scatter = of_all;
+      scatter = std::max(scatter, step_of(rows) / std::sqrt(12.0));
       const double rms = left_(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
       times = std::max(times, rms / std::max(scatter, 1e-9 * left_.cwiseAbs().maxCoeff() + 1e-300));
       noise += scatter * scatter * static_cast<double>(rows.size());
@@ -338,8 +362,22 @@ class Asking {
     const std::vector<Eigen::Index> rows = rows_of(forward);
     if (rows.empty()) return;
     Eigen::VectorXd part = values(rows);
-    take_slow(part, 2 * kSlowWaves);
+    if (slow_with_load_) take_slow_with_load(part, rows);
+    else
+      take_slow(part, 2 * kSlowWaves);
     values(rows) = part;
+  }
+
+  /// Least squares of the slow half waves times the load.
+  void take_slow_with_load(Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows) const {
+    const Eigen::Index n = values.size(), columns = std::min<Eigen::Index>(2 * kSlowWaves + 1, n);
+    Eigen::MatrixXd x(n, columns);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double load = table_.points[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])].load_nm;
+      for (Eigen::Index k = 0; k < columns; ++k)
+        x(i, k) = load * std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    }
+    values -= x * x.colPivHouseholderQr().solve(values);
   }
 
   /// Mean of what is left, as torque at the input, of the cells in which it is lowest and highest.
@@ -392,6 +430,9 @@ class Asking {
       return printed("%.2g", slow[i] / (p.forward ? ratio_ : 1.0)) + " N m in line " +
              std::to_string(p.line);
     };
+    if (slow_with_load_)
+      return "moves slowly over the run in proportion to the load: " + at(low) + ", " + at(high) +
+             " (at the input): friction that changes (wear, running in, another lubricant), or a gain that drifts";
     return "moves slowly over the run: " + at(low) + ", " + at(high) +
            " (at the input): a zero that wanders or jumps, or warmth";
   }
@@ -403,6 +444,7 @@ class Asking {
   std::vector<std::size_t> first_;  ///< row of every visit
   Eigen::VectorXd size_;            ///< of every visit, in its noise's units
   std::vector<Question> questions_;
+  bool slow_with_load_ = false;     ///< what moves slowly is in proportion to the load
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/drive/bench_visits.h"
 
 namespace trueflank::loop {
 namespace {
@@ -19,6 +20,8 @@ constexpr std::size_t kFewestRows = 8;
 /// A row this many sigma off a smooth fit is an outlier, where few are.
 constexpr double kOutlier = 6.0;
 constexpr double kMostOutliers = 0.03;
+/// So many of them at one set point are no chance.
+constexpr int kComesAgain = 3;
 
 double median_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -206,9 +209,14 @@ class TableMaker {
     const auto alone = [&](std::size_t k) {
       return (k == 0 || !alike(k, k - 1)) && (k + 1 == far.size() || !alike(k, k + 1));
     };
+    // Rows of one set point that lie off to the same side come again: no slips either.
+    const std::vector<int> set_point = set_points_of(table_.points);
+    std::map<std::pair<int, bool>, int> again;
+    for (const std::size_t i : far) ++again[{set_point[i], fit.residual_nm[i] > 0.0}];
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < far.size(); ++k)
-      if (alone(k)) out.push_back(far[k]);
+      if (alone(k) && again[{set_point[far[k]], fit.residual_nm[far[k]] > 0.0}] < kComesAgain)
+        out.push_back(far[k]);
     // Many rows far off, or neighbours together, are structure and no slips.
     if (out.empty() || static_cast<double>(out.size()) >
                            std::max(1.0, kMostOutliers * static_cast<double>(table_.points.size())))

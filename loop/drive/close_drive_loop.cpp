@@ -9,6 +9,7 @@
 #include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
+#include "trueflank/loop/drive/wave_spectrum.h"
 #include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
@@ -62,6 +63,7 @@ class Loop {
     for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
     if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
     drop_what_is_nothing(outcome);
+    veto(outcome);
     return report(outcome);
   }
 
@@ -300,11 +302,42 @@ class Loop {
         least = e;
       }
       if (least == outcome.effects.size()) return;
-      outcome.effects.erase(outcome.effects.begin() + static_cast<std::ptrdiff_t>(least));
-      outcome.discovery.chosen.erase(outcome.discovery.chosen.begin() + static_cast<std::ptrdiff_t>(least));
-      refine_drive_shapes(here, value_, FitRows::kTraining, outcome.effects);
-      settle_state(outcome);
+      leave_out(outcome, least);
     }
+  }
+
+  /// The locked hold-out may say no: while its error would rise, the effect goes that harms it most.
+  void veto(Outcome& outcome) {
+    while (!outcome.effects.empty()) {
+      const DriveContext here = context();
+      const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+      const auto error = [&](const std::vector<bool>& left_out) {
+        return drive_errors(here, value_, value_ - fit.columns() * fit.without(left_out)).held_out_rms;
+      };
+      std::vector<bool> left_out(outcome.effects.size(), false);
+      const double none = error(std::vector<bool>(outcome.effects.size(), true));
+      if (!(error(left_out) > none)) return;
+      std::size_t worst = 0;
+      double least = 1e300;
+      for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+        left_out[e] = true;
+        if (const double without = error(left_out); without < least) {
+          least = without;
+          worst = e;
+        }
+        left_out[e] = false;
+      }
+      leave_out(outcome, worst);
+      vetoed_ = true;
+    }
+  }
+
+  void leave_out(Outcome& outcome, std::size_t effect) {
+    const auto at = static_cast<std::ptrdiff_t>(effect);
+    outcome.effects.erase(outcome.effects.begin() + at);
+    outcome.discovery.chosen.erase(outcome.discovery.chosen.begin() + at);
+    refine_drive_shapes(context(), value_, FitRows::kTraining, outcome.effects);
+    settle_state(outcome);
   }
 
   void remember(const Outcome& kept, const Outcome& other) {
@@ -375,11 +408,12 @@ class Loop {
   }
 
   void judge(const Outcome& outcome, const BenchRemainder& remainder, LoopResult& r) {
-    constexpr double kLeft = 0.01;
+    constexpr double kLeft = 0.01, kSureThoughDenied = 0.0015;
     const DiscoveryResult& d = outcome.discovery;
     const bool left = d.p_left <= kLeft && d.likest_left >= 0;
     if (outcome.effects.empty())
-      r.verdict = d.first_p_value <= share_of_level() * kLeft ? Verdict::kPartlyExplained : Verdict::kNoEffect;
+      // What the hold-out denied must be surer than what it was not asked about.
+      r.verdict = d.first_p_value <= share_of_level() * (vetoed_ ? kSureThoughDenied : kLeft) ? Verdict::kPartlyExplained : Verdict::kNoEffect;
     else
       r.verdict = left ? Verdict::kPartlyExplained : Verdict::kExplained;
     if (left)
@@ -428,6 +462,7 @@ class Loop {
   std::vector<DriveEffect> candidates_;
   std::vector<bool> banned_;
   std::map<std::string, std::set<std::string>> exchangeable_;
+  bool vetoed_ = false;  ///< effects were taken back
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <map>
 
 namespace trueflank::loop {
@@ -18,6 +17,15 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd&
   Eigen::MatrixXd unit = scale.asDiagonal() * gram * scale.asDiagonal();
   unit.diagonal().array() += 1e-12;
   return scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * right);
+}
+
+/// Units as the engine flips them: of very many those of a fold are counted round, so that neighbours
+/// stay apart. Sums of independent symmetric errors are such errors again, and a thousand signs tell as
+/// much as all.
+int unit_to_flip(const BenchTable& table, const BenchPoint& p) {
+  constexpr int kOfAFold = 160;
+  if (table.units <= kOfAFold * (kBenchFolds + 1)) return p.unit;
+  return p.fold * kOfAFold + p.unit % kOfAFold;
 }
 
 }  // namespace
@@ -205,85 +213,6 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
       }
 }
 
-LikeliestOrder likeliest_order(const DriveContext& context, const Eigen::VectorXd& left) {
-  constexpr double kHighest = 14.0;     // of all orders
-  constexpr double kHighestWhole = 96.0;
-  constexpr double kMostLines = 3e5;
-  const BenchTable& table = context.table;
-  LikeliestOrder best;
-  if (!table.has_angle || table.turns < 0.9) return best;
-  std::vector<double> angle, size;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < table.points.size(); ++i) {
-    const BenchPoint& p = table.points[i];
-    if (p.fold == 0) continue;
-    angle.push_back(p.angle_rad);
-    size.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
-    sum += size.back() * size.back();
-  }
-  const double n = static_cast<double>(angle.size());
-  if (n < 12.0 || !(sum > 0.0)) return best;
-  const bool wrapped = table.turns <= 1.01;
-  const double step = wrapped ? 1.0 : std::max(0.25 / table.turns, kHighest / kMostLines);
-  double highest = 0.0;
-  int lines = 0;
-  // Every row's phase is turned on by one step of the order a line.
-  std::vector<std::complex<double>> phase, turn;
-  const double first = wrapped ? 1.0 : std::max(step, 1.5 / table.turns);
-  for (const double a : angle) {
-    phase.push_back(std::polar(1.0, first * a));
-    turn.push_back(std::polar(1.0, step * a));
-  }
-  const auto judge = [&](double order, double c, double s, double cc, double cs) {
-    ++lines;
-    const double ss = n - cc, determinant = cc * ss - cs * cs;
-    if (!(determinant > 1e-3 * n * n)) return;
-    const double power = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
-    if (power <= highest) return;
-    highest = power;
-    best.order = order;
-  };
-  for (double order = first; order <= kHighest; order = first + step * lines) {
-    double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
-    for (std::size_t i = 0; i < angle.size(); ++i) {
-      const double x = phase[i].real(), y = phase[i].imag();
-      c += size[i] * x;
-      s += size[i] * y;
-      cc += x * x;
-      cs += x * y;
-      const double u = turn[i].real(), v = turn[i].imag();
-      phase[i] = {x * u - y * v, x * v + y * u};
-    }
-    judge(order, c, s, cc, cs);
-  }
-  const auto judge_alone = [&](double order) {
-    double c = 0.0, s = 0.0, cc = 0.0, cs = 0.0;
-    for (std::size_t i = 0; i < angle.size(); ++i) {
-      const double x = std::cos(order * angle[i]), y = std::sin(order * angle[i]);
-      c += size[i] * x;
-      s += size[i] * y;
-      cc += x * x;
-      cs += x * y;
-    }
-    judge(order, c, s, cc, cs);
-  };
-  // Poles, slots and teeth of the input's shaft: whole orders beyond.
-  for (double order = std::floor(kHighest) + 1.0; order <= kHighestWhole; order += 1.0)
-    judge_alone(order);
-  const int tried = lines;
-  // Between the lines: over the whole run a wave of the nearest one falls out of step.
-  for (double off = 0.5 * step; !wrapped && best.order <= kHighest && off * table.turns > 1e-3;
-       off *= 0.5) {
-    const double middle = best.order;
-    judge_alone(middle - off);
-    judge_alone(middle + off);
-  }
-  // Every line tried could have been the highest.
-  const double single = std::pow(std::max(0.0, 1.0 - highest / sum), 0.5 * (n - 3.0));
-  best.p_value = std::min(1.0, single * tried);
-  return best;
-}
-
 DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorXd& value,
                                const std::vector<DriveEffect>& candidates) {
   const auto& points = context.table.points;
@@ -313,7 +242,7 @@ DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorX
   for (Eigen::Index i = 0; i < n; ++i) {
     const BenchPoint& p = points[static_cast<std::size_t>(i)];
     problem.weight[i] = 1.0 / (p.sigma_nm * p.sigma_nm);
-    problem.unit.push_back(p.unit);
+    problem.unit.push_back(unit_to_flip(context.table, p));
     problem.fold.push_back(p.fold);
     problem.zero.push_back(-1);
     for (std::size_t g = 0; g < candidates.size(); ++g) {

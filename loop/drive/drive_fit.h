@@ -64,15 +64,6 @@ class DriveFit {
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
                          std::vector<DriveEffect>& effects);
 
-/// The wave over the input's angle that what is left holds most of, from the spectrum of the training
-/// rows.
-struct LikeliestOrder {
-  double order = kNaN;    ///< per input turn; NaN: no angles
-  double p_value = 1.0;   ///< of so high a line anywhere in the spectrum of noise
-};
-[[nodiscard]] LikeliestOrder likeliest_order(const DriveContext& context,
-                                             const Eigen::VectorXd& left);
-
 /// The engine's problem for the candidates of a bench.
 [[nodiscard]] DiscoveryProblem drive_problem(const DriveContext& context,
                                              const Eigen::VectorXd& value,

@@ -49,6 +49,10 @@ class Describer {
           take_the_name(found_.back(), e,
                         "a loss at the input of which these data do not say whether it follows load, speed or "
                         "neither");
+        else if (may_be_a_bent_sensor(found_.back()))
+          take_the_name(found_.back(), e,
+                        "a torque that bends over the load, in one direction alone: a loss, or a sensor or motor "
+                        "constant that is not straight");
         else if (leaves_too_much(e))
           take_the_name(found_.back(), e, "a change of the torque beside which more of its size is left unexplained");
         members_.push_back({e});
@@ -104,6 +108,17 @@ class Describer {
     return found;
   }
 
+  [[nodiscard]] static std::size_t size_of(const DriveFamily& family) {
+    return family.parameters.size() + family.shape_names.size();
+  }
+
+  /// True where a loss bends over the load and one direction alone was run: a sensor that is bent, or a
+  /// motor's constant that falls, does the same.
+  [[nodiscard]] bool may_be_a_bent_sensor(const FoundEffect& found) const {
+    return (found.id == "load_loss" || found.id == "load_dependent_friction") &&
+           (!s_.context.table.has(true) || !s_.context.table.has(false));
+  }
+
   /// True where a loss may as well follow the load, the speed or nothing: what it is was not measured.
   [[nodiscard]] static bool is_a_guess(const FoundEffect& found) {
     constexpr std::size_t kTooMany = 3;
@@ -114,7 +129,11 @@ class Describer {
     };
     add(found.id);
     if (follows.empty()) return false;
-    for (const std::string& other : found.confounded_with) add(other);
+    // One with more parameters holds this one as a limit: no other cause.
+    const std::size_t own = size_of(*find_drive_family(found.id));
+    for (const std::string& other : found.confounded_with)
+      if (const DriveFamily* family = find_drive_family(other); family && size_of(*family) <= own)
+        add(other);
     return follows.size() >= kTooMany;
   }
 

@@ -93,6 +93,26 @@ TEST(BenchRemainder, AFewRowsFarOffAreNotCalledNoise) {
   EXPECT_LT(found.noise_nm, 0.2);
 }
 
+TEST(BenchRemainder, AFrictionThatChangesOverTheRunIsToldFromAZeroThatMoves) {
+  const auto wear = [](const BenchPoint& p) { return 3.0 * (p.taken - 0.5) * (p.load_nm - 2.4); };
+  const BenchRemainder found = Bench(6, 0.0, wear).ask();
+  EXPECT_NE(found.follows.find("over the run in proportion to the load"), std::string::npos) << found.follows;
+}
+
+TEST(BenchRemainder, CoarseReadingsAreNotRowsFarOff) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Bench bench(seed, 0.0);
+    // Most pairs of one set point read the same: their middle scatter is zero.
+    for (std::size_t i = 0; i < bench.table.points.size(); ++i) {
+      double& value = bench.left[static_cast<Eigen::Index>(i)];
+      const double step = 2.2 * bench.table.points[i].sigma_nm;
+      value = step * std::round(value / step);
+      bench.table.points[i].driven_nm = value;
+    }
+    EXPECT_EQ(bench.ask().follows, "") << seed;
+  }
+}
+
 TEST(BenchRemainder, ErrorsThatHangTogetherAreMeasuredBesideWhatSetPointsShare) {
   const auto of_speed = [](const BenchPoint& p) { return std::log(p.speed_rpm); };
   double white = 0.0, together = 0.0;

@@ -169,6 +169,23 @@ TEST(DriveLoop, FrictionOfADirectionCannotBeToldFromAScale) {
   EXPECT_THAT(loop::loop_text(r), testing::HasSubstr("a lever and weights"));
 }
 
+TEST(DriveLoop, ALossThatBendsOverTheLoadHasItsNameFromBothDirectionsAlone) {
+  const auto drive = losing([](const BenchMoment& m) { return 0.006 * m.load_share * m.load_share; });
+  BenchPlan forward;
+  forward.backward = false;
+  const auto one = close_hidden(drive, forward);
+  ASSERT_TRUE(one);
+  ASSERT_FALSE(one->result.effects.empty());
+  EXPECT_NE(one->result.verdict, loop::Verdict::kNoEffect);
+  for (const loop::FoundEffect& effect : one->result.effects)
+    EXPECT_FALSE(effect.id == "load_loss" || effect.id == "load_dependent_friction") << effect.id;
+  EXPECT_TRUE(cannot_tell(one->result.effects.front(), "load_loss"));
+  const auto both = close_hidden(drive);
+  ASSERT_TRUE(both);
+  ASSERT_EQ(both->result.effects.size(), 1u);
+  EXPECT_TRUE(found(both->result, "load_loss") != nullptr || found(both->result, "load_dependent_friction") != nullptr);
+}
+
 TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
   const HiddenDrive drive = losing([](auto&) { return 0.004; });
   BenchPlan one_load;

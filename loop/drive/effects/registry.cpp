@@ -29,6 +29,7 @@ const std::vector<DriveFamily>& drive_library() {
         input_torque_drift(),
         output_torque_drift(),
         drag_drift(),
+        friction_drift(),
         unnamed_form(),
         unnamed_course(),
         unnamed_step(),

@@ -33,6 +33,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily input_torque_drift();
 [[nodiscard]] DriveFamily output_torque_drift();
 [[nodiscard]] DriveFamily drag_drift();
+[[nodiscard]] DriveFamily friction_drift();
 /// @}
 
 /// @name Described, not explained
