@@ -186,6 +186,36 @@ TEST(DriveLoop, ALossThatBendsOverTheLoadHasItsNameFromBothDirectionsAlone) {
   EXPECT_TRUE(found(both->result, "load_loss") != nullptr || found(both->result, "load_dependent_friction") != nullptr);
 }
 
+TEST(DriveLoop, FlanksThatWearOverTheRunAreToldByTheirFriction) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const PaperTrain& train = paper_train();
+  loop::BenchData data;
+  data.files = {"bench.csv"};
+  for (int pass = 0; pass < 3; ++pass)
+    for (const bool forward : {true, false})
+      for (const double speed : {100.0, 400.0, 1000.0, 2500.0})
+        for (const double load : {1.0, 4.0, 8.0, 13.0, 19.0})
+          data.rows.push_back({.forward = forward, .speed_rpm = speed, .output_nm = load});
+  std::shuffle(data.rows.begin(), data.rows.end(), random);
+  for (std::size_t i = 0; i < data.rows.size(); ++i) {
+    loop::BenchRow& row = data.rows[i];
+    const double mu = 0.1 + 0.04 * static_cast<double>(i) / static_cast<double>(data.rows.size() - 1);
+    row.line = static_cast<int>(i) + 2;
+    if (row.forward) {
+      row.input_nm = row.output_nm / train.ratio();
+      row.output_nm = train.ratio() * train.forward({mu, mu, mu}) * row.input_nm + 0.03 * normal(random);
+    } else {
+      row.input_nm = train.backward({mu, mu, mu}) * row.output_nm / train.ratio() + 0.0003 * normal(random);
+    }
+  }
+  const auto closed = loop::close_drive_loop(bench_model(), data);
+  ASSERT_TRUE(closed);
+  ASSERT_EQ(closed->result.effects.size(), 1u) << loop::loop_text(closed->result);
+  ASSERT_EQ(closed->result.effects.front().id, "friction_drift");
+  EXPECT_NEAR(parameter(closed->result.effects.front(), "drift")->value, 0.04, 0.006);
+}
+
 TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
   const HiddenDrive drive = losing([](auto&) { return 0.004; });
   BenchPlan one_load;
