@@ -40,8 +40,15 @@ StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatist
                              const std::vector<int>& columns, int flips,
                              const std::vector<bool>& banned)
     : problem_(problem), statistics_(statistics) {
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    const CandidateGroup& group = problem.groups[g];
+    const bool is_asked = group.local_family < 0 && (banned.empty() || !banned[g]);
+    asked_at_.push_back(is_asked ? static_cast<Eigen::Index>(asked_columns_.size()) : -1);
+    for (int k = 0; is_asked && k < group.columns; ++k)
+      asked_columns_.push_back(group.first_column + k);
+  }
   project(columns);
-  test_by_flips(flips, banned);
+  test_by_flips(flips);
   test_wholes(columns, banned);
   test_local(banned);
 }
@@ -75,6 +82,7 @@ void StructureTest::project(const std::vector<int>& columns) {
   }
   absorbed_ = coefficients;
   fitted_ = fitted;
+  const Eigen::MatrixXd asked_coefficients = coefficients(Eigen::all, asked_columns_);
   unit_scores_.resize(p, statistics_.units());
   for (int unit = 0; unit < statistics_.units(); ++unit) {
     const auto& sums = statistics_.unit(unit);
@@ -87,11 +95,13 @@ void StructureTest::project(const std::vector<int>& columns) {
     const Eigen::MatrixXd cross = sums.model_candidate(columns, Eigen::all);
     unit_scores_.col(unit) = sums.candidate_value - cross.transpose() * fitted -
                              coefficients.transpose() * left;
-    const Eigen::MatrixXd overlap = cross - gram * coefficients;
+    // Needed of the groups that flips judge, which of a gear of many teeth are the smaller part.
+    const Eigen::MatrixXd overlap =
+        cross(Eigen::all, asked_columns_) - gram * asked_coefficients;
     const Eigen::MatrixXd weighted = inverse * overlap;
     for (std::size_t g = 0; g < groups; ++g) {
-      const CandidateGroup& group = problem_.groups[g];
-      const auto seq = Eigen::seqN(group.first_column, group.columns);
+      if (asked_at_[g] < 0) continue;
+      const auto seq = Eigen::seqN(asked_at_[g], problem_.groups[g].columns);
       flipped_[g] -= overlap(Eigen::all, seq).transpose() * weighted(Eigen::all, seq);
     }
   }
@@ -113,11 +123,11 @@ void StructureTest::project(const std::vector<int>& columns) {
   }
 }
 
-void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
+void StructureTest::test_by_flips(int flips) {
   const std::size_t groups = problem_.groups.size();
   group_p_values_.assign(groups, 1.0);
-  const Eigen::MatrixXf scores =
-      unit_scores_.cast<float>() * flip_signs(statistics_.units(), flips);
+  const Eigen::MatrixXf scores = unit_scores_(asked_columns_, Eigen::all).cast<float>() *
+                                 flip_signs(statistics_.units(), flips);
   const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
   // The tail falls with the statistic: of groups of one size the largest statistic has it.
   std::map<int, Eigen::VectorXd> largest_of_size;
@@ -125,11 +135,11 @@ void StructureTest::test_by_flips(int flips, const std::vector<bool>& banned) {
   Eigen::VectorXd statistic(flips);
   for (std::size_t g = 0; g < groups; ++g) {
     const CandidateGroup& group = problem_.groups[g];
-    if (!testable_[g] || group.local_family >= 0 || (!banned.empty() && banned[g])) continue;
+    if (!testable_[g] || asked_at_[g] < 0) continue;
     const auto seq = Eigen::seqN(group.first_column, group.columns);
     const Eigen::LDLT<Eigen::MatrixXd> under_flips(flipped_[g]);
     if (under_flips.info() != Eigen::Success || !under_flips.isPositive()) continue;
-    const Eigen::MatrixXd s = scores(seq, Eigen::all).cast<double>();
+    const Eigen::MatrixXd s = scores(Eigen::seqN(asked_at_[g], group.columns), Eigen::all).cast<double>();
     const Eigen::MatrixXd inverse =
         under_flips.solve(Eigen::MatrixXd::Identity(group.columns, group.columns));
     statistic = s.cwiseProduct(inverse * s).colwise().sum().transpose();

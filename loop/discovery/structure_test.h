@@ -32,17 +32,19 @@ class StructureTest {
 
  private:
   void project(const std::vector<int>& columns);
-  void test_by_flips(int flips, const std::vector<bool>& banned);
+  void test_by_flips(int flips);
   void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
+  std::vector<Eigen::Index> asked_columns_;  ///< of the groups that flips judge: neither local nor banned
+  std::vector<Eigen::Index> asked_at_;       ///< per group: its first one among them; -1: not asked
   Eigen::MatrixXd unit_scores_;                ///< P x units
   Eigen::MatrixXd absorbed_;                   ///< M x P: coefficients of the candidates on the model
   Eigen::VectorXd fitted_;                     ///< M: of the value
   std::vector<Eigen::MatrixXd> projected_;     ///< per group: Gram matrix after projection
-  std::vector<Eigen::MatrixXd> flipped_;       ///< per group: mean Gram matrix under flips
+  std::vector<Eigen::MatrixXd> flipped_;       ///< per group asked: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;
   std::vector<double> group_p_values_;
   double p_value_ = 1.0, local_p_value_ = 1.0, likest_single_p_value_ = 1.0;
