@@ -12,6 +12,7 @@
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
+#include "trueflank/loop/gear/local/flank_waves.h"
 
 namespace trueflank::loop {
 namespace {
@@ -143,6 +144,7 @@ class RemainderSearch {
     gather();
     for (auto& [key, courses] : courses_) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots();
+    look_across();
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
@@ -342,6 +344,24 @@ class RemainderSearch {
           {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm, spot.half_profile_mm,
            spot.half_face_mm},
           spot.p_value, spot.amount_um, true);
+  }
+
+  /// Waves across the flanks of scans, and flanks that stand each by itself.
+  void look_across() {
+    if (table_.points_mm.empty()) return;
+    std::vector<bool> used(table_.rows.size());
+    for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
+    const FlankSpectrum spectrum = flank_spectrum(geometry_, table_, row_um_, used);
+    looks_ += 2;
+    if (const auto& wave = spectrum.waves)
+      add("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
+          {wave->waves_profile, wave->waves_face, double(wave->order)}, wave->p_value,
+          wave->amplitude_um, false);
+    if (const auto& apart = spectrum.apart)
+      add_text(apart->p_value,
+               printed("the flanks stand each by itself, with a standard deviation of %.3g um from tooth to tooth",
+                       apart->spread_um),
+               apart->spread_um);
   }
 
   /// Height, slope and bow of every tooth, in a ring: both flanks together, or the one measured.

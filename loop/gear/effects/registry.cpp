@@ -35,6 +35,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_step(),
         unnamed_band(),
         unnamed_waviness(),
+        unnamed_marks(),
         unnamed_sector(),
         unnamed_alternation(),
         unnamed_ramp(),

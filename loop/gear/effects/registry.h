@@ -47,6 +47,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_step();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_waviness();
+[[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();

@@ -147,6 +147,43 @@ EffectFamily unnamed_waviness() {
   return f;
 }
 
+/// Waves in any direction across the flanks, which run on from tooth to tooth.
+EffectFamily unnamed_marks() {
+  EffectFamily f = described("unnamed_marks", {"waves_over_profile", "waves_over_face", "order"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const bool flank = p.surface == Surface::kFlank;
+    const double angle = kPi * (shape[0] * (g.profile_coordinate(p.roll_mm) + 1.0) +
+                                shape[1] * (g.face_coordinate(p.z_mm) + 1.0)) +
+                         kTwoPi * shape[2] * (p.tooth - 1) / g.teeth();
+    c[0] = flank ? std::cos(angle) : 0.0;
+    c[1] = flank ? std::sin(angle) : 0.0;
+  };
+  f.needs = [](const EffectShape&) {
+    return NeedsToBeSeen{.along_profile = true, .along_face = true, .crossed = true};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double off : {0.1, 0.03, 0.01})
+      for (const double sign : {-1.0, 1.0}) {
+        shapes.push_back({shape[0] + sign * off, shape[1], shape[2]});
+        shapes.push_back({shape[0], shape[1] + sign * off, shape[2]});
+      }
+    return shapes;
+  };
+  f.term_keys = {number("waves_over_profile"), number("waves_over_face"), number("order")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("waves across the flanks, %.3g over the profile and %.3g over the face",
+                   std::abs(shape[0]), std::abs(shape[1])) +
+           (shape[0] * shape[1] < 0.0 ? ", rising towards the tip" : shape[0] * shape[1] > 0.0 ? ", falling towards the tip" : "") +
+           (shape[2] == 0.0 ? std::string(", the same on every tooth")
+                            : printed(", that march from tooth to tooth: %g periods a turn", std::abs(shape[2])));
+  };
+  return f;
+}
+
 EffectFamily unnamed_sector() {
   EffectFamily f = described("unnamed_sector", {"first_tooth", "teeth", "profile_degree",
                                                 "face_degree", "opposite_flanks"});

@@ -274,13 +274,35 @@ def shot_peened(g, r, s):
     return Form(lambda k, side, u, v: -um * smooth_step(at - v, 0.04) + 0.0 * u, place={"place_mm": (0.5 * (at + 1) * g.face, 0.06 * g.face)})
 
 
+def hob_marks(g, r, s):
+    """A hob out of true: its feed marks run slanting over the flanks, the same on every tooth."""
+    um, over, up, a = s * r.uniform(4, 10), r.uniform(1.0, 3.0) * r.choice([-1, 1]), r.uniform(4, 10), r.uniform(0, 2 * math.pi)
+    return Form(lambda k, side, u, v: um * numpy.sin(math.pi * (over * (u + 1) + up * (v + 1)) + a))
+
+
+def loose_belt(g, r, s):
+    """A printer's belt or lead screw: a wave in one direction of space, some times over the gear."""
+    um, a, per_turn = s * r.uniform(6, 15), r.uniform(0, 2 * math.pi), r.uniform(0.3, 0.7)
+
+    def form(k, side, u, v):
+        radius, angle = g.point(k, side, u)
+        return um * numpy.sin(2 * math.pi * radius * numpy.cos(angle) / (per_turn * g.reference) + a) * numpy.cos(g.normal_angle(k, side, u))
+    return Form(form, names={"pitch_wave", "lobing", "scale_xy", "eccentricity"})
+
+
+def each_by_itself(g, r, s):
+    """An indexing head with play: every flank stands by itself."""
+    off = s * r.uniform(2, 6) * r.standard_normal((g.teeth + 1, 2))
+    return Form(lambda k, side, u, v: off[k, (side + 1) // 2] + 0.0 * u, names={"single_tooth", "pitch_wave", "eccentricity"})
+
+
 # n: t traces, a traces of all teeth, c those with an index or a common zero, s scans
 KINDS = [(quiet, "tcs"), (noisier_flank, "ts"), (noisier_tips, "s"), (noisier_teeth, "as"), (wobbling_arbor, "s"), (three_jaws, "cs"), (worm_of_table, "cs"),
          (twist_and_crown, "s"), (wrong_ball, "s"), (lead_and_relief, "ts"), (jump_of_layers, "s"), (warming_blank, "cs"),
          (wandering_machine, "cs"), (hob_lead, "ts"), (marching_marks, "ts"), (late_chatter, "a"), (half_chatter, "ts"), (broken_tool, "as"), (scratch, "a"),
          (slanting_scratch, "s"), (potato_chip, "as"), (hanging_web, "as"), (support_scars, "as"), (layers, "ts"), (melted_end, "as"), (broken_corner, "s"),
          (keyway, "cs"), (worm_starts, "as"), (random_walk, "c"), (quenched_crowns, "as"), (spiral_seam, "s"), (one_flank_bow, "ts"), (two_waves, "s"),
-         (drift_of_scanner, "s"), (shot_peened, "ts")]
+         (drift_of_scanner, "s"), (shot_peened, "ts"), (hob_marks, "s"), (loose_belt, "s"), (each_by_itself, "s")]
 
 
 class Case:

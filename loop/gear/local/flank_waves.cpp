@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/flank_waves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
+
+namespace trueflank::loop {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Waves asked about, in halves: up to six over the profile, sixteen over the face.
+constexpr int kProfile = 12, kFace = 32, kColumns = 2 * kFace + 1;
+constexpr std::size_t kMostValues = 40000;
+constexpr int kFewestTeeth = 8;
+/// A flank with fewer values tells nothing of waves in it.
+constexpr int kFewestValues = 12;
+
+struct Value {
+  int tooth = 0, side = 0;
+  double u = 0.0, v = 0.0, um = 0.0;  ///< u, v: 0 ... 1
+};
+
+class Spectrum {
+ public:
+  Spectrum(const FlankGeometry& geometry, const Observations& table,
+           const std::vector<float>& row_um, const std::vector<bool>& used)
+      : teeth_(geometry.teeth()), flanks_(2 * static_cast<std::size_t>(teeth_)) {
+    gather(geometry, table, row_um, used);
+    for (std::size_t f = 0; f < flanks_.size(); ++f)
+      if (flanks_[f].count >= kFewestValues) ++known_;
+  }
+
+  FlankSpectrum run() {
+    if (known_ < 2 * kFewestTeeth) return {};
+    take_means_off();
+    transform();
+    return {largest_wave(), apart()};
+  }
+
+ private:
+  struct Flank {
+    int count = 0;
+    double mean = 0.0;
+    std::vector<Complex> sums;  ///< over kProfile + 1 by kColumns waves
+  };
+  static std::size_t at(int a, int b) {
+    return static_cast<std::size_t>(a * kColumns + b + kFace);
+  }
+  Flank& flank_of(const Value& value) {
+    return flanks_[static_cast<std::size_t>(2 * (value.tooth - 1) + value.side)];
+  }
+
+  void gather(const FlankGeometry& geometry, const Observations& table,
+              const std::vector<float>& row_um, const std::vector<bool>& used) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      count += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
+    if (count == 0) return;
+    // Of many values some, in no rhythm with the lines of the scan.
+    const double share = std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
+    const auto most = static_cast<std::uint64_t>(share * 4294967296.0);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
+      if (((i * 2654435761ull) & 0xffffffffull) >= most) continue;
+      const Place& place = table.place(table.rows[i]);
+      values_.push_back({place.tooth, place.side > 0 ? 1 : 0,
+                         0.5 * (geometry.profile_coordinate(place.roll_mm) + 1.0),
+                         0.5 * (geometry.face_coordinate(place.z_mm) + 1.0), row_um[i]});
+      Flank& flank = flank_of(values_.back());
+      ++flank.count;
+      flank.mean += row_um[i];
+    }
+  }
+
+  void take_means_off() {
+    for (Flank& flank : flanks_) flank.mean /= std::max(1, flank.count);
+    double square = 0.0;
+    for (Value& value : values_) {
+      value.um -= flank_of(value).mean;
+      square += value.um * value.um;
+    }
+    // Wild values count no more than a few spreads.
+    const double most = 4.0 * std::sqrt(square / static_cast<double>(values_.size()));
+    for (Value& value : values_) value.um = std::clamp(value.um, -most, most);
+  }
+
+  void transform() {
+    for (Flank& flank : flanks_) flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
+    for (const Value& value : values_) {
+      Complex* sums = flank_of(value).sums.data();
+      const Complex step_u = std::polar(1.0, -kPi * value.u), step_v = std::polar(1.0, -kPi * value.v);
+      const Complex first = std::polar(1.0, kPi * kFace * value.v);
+      Complex of_u = value.um;
+      for (int a = 0; a <= kProfile; ++a, of_u *= step_u) {
+        Complex wave = of_u * first;
+        for (int b = 0; b < kColumns; ++b, wave *= step_v) sums[a * kColumns + b] += wave;
+      }
+    }
+  }
+
+  /// Power of all orders at one pair of wavelengths on one side.
+  void powers(int a, int b, int side, std::vector<double>& power) const {
+    power.assign(static_cast<std::size_t>(teeth_), 0.0);
+    double count = 0.0;
+    for (int k = 0; k < teeth_; ++k) count += flanks_[static_cast<std::size_t>(2 * k + side)].count;
+    for (int n = 0; n < teeth_; ++n) {
+      const Complex step = std::polar(1.0, -kTwoPi * n / teeth_);
+      Complex sum = 0.0, turn = 1.0;
+      for (int k = 0; k < teeth_; ++k, turn *= step)
+        sum += flanks_[static_cast<std::size_t>(2 * k + side)].sums[at(a, b)] * turn;
+      power[static_cast<std::size_t>(n)] = std::norm(sum) / std::max(1.0, count);
+    }
+  }
+
+  /// The powers of all orders at one pair of wavelengths on one side, in short.
+  struct Orders {
+    int a = 0, b = 0, order = 0;
+    double median = 0.0, largest = 0.0;
+  };
+
+  Orders orders_at(int a, int b, int side, std::vector<double>& power) const {
+    powers(a, b, side, power);
+    Orders found{a, b};
+    for (int n = 0; n < teeth_; ++n) {
+      // The same on every tooth along one direction is looked for elsewhere.
+      if (n == 0 && (a < 1 || std::abs(b) < 1)) continue;
+      if (power[static_cast<std::size_t>(n)] <= found.largest) continue;
+      found.largest = power[static_cast<std::size_t>(n)];
+      found.order = 2 * n > teeth_ ? n - teeth_ : n;
+    }
+    const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+    std::nth_element(power.begin(), middle, power.end());
+    found.median = *middle;
+    return found;
+  }
+
+  std::optional<FlankWaves> largest_wave() const {
+    std::array<std::vector<Orders>, 2> of_side;
+    std::array<double, 2> usual{};  // a probe may be noisier on one side
+    std::vector<double> power;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (int a = 0; a <= kProfile; ++a)
+        for (int b = a == 0 ? 4 : -kFace; b <= kFace; ++b) {
+          if (a + std::abs(b) < 4) continue;
+          of_side[side].push_back(orders_at(a, b, static_cast<int>(side), power));
+          usual[side] += of_side[side].back().median;
+        }
+    if (!(usual[0] > 0.0 && usual[1] > 0.0)) return {};
+    double best = 0.0;
+    FlankWaves found;
+    for (std::size_t i = 0; i < of_side[0].size(); ++i) {
+      const double level = 0.5 * (of_side[0][i].median / usual[0] + of_side[1][i].median / usual[1]) / std::log(2.0);
+      for (std::size_t side = 0; side < 2 && level > 0.0; ++side) {
+        const Orders& one = of_side[side][i];
+        const double ratio = one.largest / usual[side] / level;
+        if (ratio <= best) continue;
+        best = ratio;
+        found = {1.0, side == 1 ? 1 : -1, 0.5 * one.a, 0.5 * one.b, one.order, 0.0};
+      }
+    }
+    // The level is a median of as many: known as well as a mean of half of them.
+    const double known = teeth_, tested = 2.0 * teeth_ * static_cast<double>(of_side[0].size());
+    found.p_value = std::min(1.0, tested * std::pow(1.0 + best / known, -known));
+    if (found.p_value >= 1.0) return {};
+    sharpen(found);
+    return found;
+  }
+
+  /// Wavelengths between those asked about, and the amplitude.
+  void sharpen(FlankWaves& wave) const {
+    double best = 0.0;
+    for (const double step : {0.25, 0.1, 0.04, 0.016}) {
+      const double a = wave.waves_profile, b = wave.waves_face;
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j) {
+          const double amplitude = amplitude_of(wave.side, a + i * step, b + j * step, wave.order);
+          if (amplitude <= best) continue;
+          best = amplitude;
+          wave.waves_profile = a + i * step;
+          wave.waves_face = b + j * step;
+        }
+    }
+    wave.amplitude_um = best;
+  }
+
+  double amplitude_of(int side, double a, double b, int order) const {
+    Complex sum = 0.0;
+    double count = 0.0;
+    for (const Value& value : values_) {
+      if ((value.side == 1) != (side > 0)) continue;
+      const double phase = a * value.u + b * value.v + static_cast<double>(order) * (value.tooth - 1) / teeth_;
+      sum += value.um * std::polar(1.0, -kTwoPi * phase);
+      count += 1.0;
+    }
+    return 2.0 * std::abs(sum) / std::max(1.0, count);
+  }
+
+  /// Squares of one Fourier sum of the flanks, in shares of their values, about the mean of their side.
+  std::vector<double> squares_at(int a, int b) const {
+    std::array<Complex, 2> mean{};
+    std::array<double, 2> count{};
+    const auto sum_of = [&](const Flank& flank) {
+      return a == 0 && b == 0 ? Complex(flank.mean * flank.count) : flank.sums[at(a, b)];
+    };
+    for (std::size_t f = 0; f < flanks_.size(); ++f) {
+      mean[f % 2] += sum_of(flanks_[f]);
+      count[f % 2] += flanks_[f].count;
+    }
+    std::vector<double> squares;
+    for (std::size_t f = 0; f < flanks_.size(); ++f) {
+      const Flank& flank = flanks_[f];
+      if (flank.count < kFewestValues) continue;
+      squares.push_back(std::norm(sum_of(flank) - mean[f % 2] * (flank.count / count[f % 2])) / flank.count);
+    }
+    return squares;
+  }
+
+  /// Heights of the flanks against the longest waves within them, whichever way these are larger.
+  std::optional<TeethApart> apart() const {
+    const auto median = [](std::vector<double> values) {
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      return *middle;
+    };
+    double level = 0.0;
+    for (const auto& waves : {std::array<std::array<int, 2>, 2>{{{0, 2}, {0, 4}}},
+                              std::array<std::array<int, 2>, 2>{{{2, 0}, {4, 0}}}}) {
+      double sum = 0.0;
+      for (const auto& [a, b] : waves) sum += median(squares_at(a, b)) / std::log(2.0);
+      level = std::max(level, sum / static_cast<double>(waves.size()));
+    }
+    constexpr double kMedianOfSquare = 0.4549, kClearly = 1.6;
+    // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the values.
+    constexpr double kToldByMedian = 0.37;
+    const double height = median(squares_at(0, 0)) / kMedianOfSquare;
+    if (!(level > 0.0) || height < kClearly * level) return {};
+    TeethApart found;
+    found.p_value = f_tail(height / level, kToldByMedian * known_, known_);
+    const std::vector<double> squares = squares_at(0, 0);
+    double values = 0.0, sum = 0.0;
+    for (const Flank& flank : flanks_) values += flank.count;
+    for (const double square : squares) sum += square;
+    found.spread_um = std::sqrt(std::max(0.0, sum / known_ - level)) / std::sqrt(values / known_);
+    return found;
+  }
+
+  int teeth_, known_ = 0;
+  std::vector<Flank> flanks_;
+  std::vector<Value> values_;
+};
+
+}  // namespace
+
+FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
+                             const std::vector<float>& row_um, const std::vector<bool>& used) {
+  return Spectrum(geometry, table, row_um, used).run();
+}
+
+}  // namespace trueflank::loop

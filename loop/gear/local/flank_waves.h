@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trueflank/loop/gear/flank_geometry.h"
+#include "trueflank/loop/gear/observations.h"
+
+namespace trueflank::loop {
+
+/// Waves across the flanks of one side of a scan, in any direction, that go on from tooth to tooth: the marks
+/// of a hob or a worm, chatter. Phase: 2 pi (waves_profile (u + 1) / 2 + waves_face (v + 1) / 2) + order theta.
+struct FlankWaves {
+  double p_value = 1.0;  ///< corrected for all waves asked about
+  int side = 1;          ///< +1: flanks on the counter-clockwise side
+  double waves_profile = 0.0, waves_face = 0.0;  ///< over the involute, over the face
+  int order = 0;         ///< by so many periods a turn the phase runs on
+  double amplitude_um = 0.0;
+};
+
+/// How far the flanks of a scan stand each by itself.
+struct TeethApart {
+  double p_value = 1.0;
+  double spread_um = 0.0;  ///< standard deviation from flank to flank beyond the noise
+};
+
+struct FlankSpectrum {
+  std::optional<FlankWaves> waves;
+  std::optional<TeethApart> apart;
+};
+
+/// Fourier sums over every flank of a scan, and over the teeth. A wave is judged by the other orders at its
+/// own wavelengths, so that errors that hang together along the lines of a scan are no finding; the heights
+/// of the flanks by the longest waves within them. `row_um`: residuals of the rows; `used`: which are asked.
+[[nodiscard]] FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
+                                           const std::vector<float>& row_um,
+                                           const std::vector<bool>& used);
+
+}  // namespace trueflank::loop
