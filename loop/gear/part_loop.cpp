@@ -26,8 +26,11 @@ PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options op
       table_(measured_),
       candidates_(candidate_effects(geometry, options_.declared, options_.makings)) {
   const bool scanned = !measured_.points_mm.empty();
-  std::erase_if(candidates_,
-                [&](const Effect& effect) { return scanned && effect.family->of_traces_only; });
+  std::erase_if(candidates_, [&](const Effect& effect) {
+    const std::vector<const EffectFamily*>& without = options_.without;
+    return (scanned && effect.family->of_traces_only) || (options_.names_only && effect.is_term()) ||
+           std::find(without.begin(), without.end(), effect.family) != without.end();
+  });
   banned_.assign(candidates_.size(), false);
 }
 
@@ -68,7 +71,7 @@ void PartLoop::run() {
   ban_what_cannot_be_seen();
   unseen_ = banned_;
   ban_given();
-  const bool scan_for_more = !options_.joined && !is_rounding();
+  const bool scan_for_more = !options_.joined && !options_.names_only && !is_rounding();
   if (scan_for_more) nominate();
   explain();
   constexpr int kRounds = 4, kMostBans = 6;
@@ -86,6 +89,8 @@ void PartLoop::run() {
   if (!is_rounding() && !options_.joined) look_at_neighbours();
   veto();
   if (!scan_for_more) return;
+  prefer_names();
+  prefer_one_name_to_two();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;
   doubt_names_below_what_is_left();

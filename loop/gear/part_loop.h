@@ -23,6 +23,8 @@ class PartLoop {
     /// Effects that are in the model from the start (with free coefficients): found on other data.
     std::vector<Effect> given = {};
     bool joined = false;  ///< parts in one table: what is one part's own is looked at there
+    bool names_only = false;  ///< no forms without a name
+    std::vector<const EffectFamily*> without = {};  ///< families that are not asked about
     int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
   };
   PartLoop(const FlankGeometry& geometry, Observations table, Options options);
@@ -83,6 +85,10 @@ class PartLoop {
   void tell_parts_of_a_form();
   void tell_level_of_forms();
   void doubt_names_below_what_is_left();
+  void prefer_names();
+  void prefer_one_name_to_two();
+  [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
+  void take_over(PartLoop& other);
   [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;
   void look_at_single_teeth();
   void look_at_sizes();

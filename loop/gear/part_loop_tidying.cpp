@@ -287,6 +287,80 @@ void PartLoop::tell_level_of_forms() {
   }
 }
 
+/// Forms that were found first may stand where fewer names say the same: all is chosen once more from names
+/// alone.
+void PartLoop::prefer_names() {
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); })) return;
+  Options options = options_;
+  options.names_only = true;
+  (void)adopt_if_simpler(std::move(options), 0);
+}
+
+/// Two that these data cannot tell from one and the same third are perhaps that: without the first of them
+/// all is chosen once more.
+void PartLoop::prefer_one_name_to_two() {
+  for (std::size_t a = 0; a < effects_.size(); ++a)
+    for (std::size_t b = a + 1; b < effects_.size(); ++b) {
+      if (!effects_[a].family->named || !effects_[b].family->named) continue;
+      const std::vector<int>&of_a = discovery_.chosen[a].confounded, &of_b = discovery_.chosen[b].confounded;
+      const bool third = std::any_of(of_a.begin(), of_a.end(), [&](int group) {
+        return candidates_[static_cast<std::size_t>(group)].family->named &&
+               std::find(of_b.begin(), of_b.end(), group) != of_b.end();
+      });
+      if (!third) continue;
+      Options options = options_;
+      options.names_only = true;
+      options.without.push_back(effects_[a].family);
+      if (adopt_if_simpler(std::move(options), 1)) return;
+    }
+}
+
+/// Makes the whole choice again in another way. It is taken over where it has names alone, so many columns fewer,
+/// leaves no more, and nothing is left that a form would say.
+bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
+  // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of the
+  // error is no loss.
+  constexpr double kNothing = 9.0, kByChance = 4.0, kNoLoss = 1e-3;
+  options.given.resize(options_.given.size() - given_p_values_.size());
+  PartLoop names(geometry_, measured_, std::move(options));
+  names.run();
+  if (names.effects_.empty()) return false;
+  const auto columns_of = [](const std::vector<Effect>& effects) {
+    int columns = 0;
+    for (const Effect& effect : effects) columns += effect.columns();
+    return columns;
+  };
+  const int spared = columns_of(effects_) - columns_of(names.effects_);
+  if (spared < least_spared) return false;
+  const auto own = fit_of(effects_), other = names.fit_of(names.effects_);
+  const auto before = own->errors(std::vector<bool>(effects_.size(), true)),
+             after = other->errors(std::vector<bool>(names.effects_.size(), true));
+  const auto n = static_cast<double>(own->observations());
+  const double loss = n * (std::pow(after.rms_um / before.rms_um, 2) - 1.0);
+  if (loss > kNothing + kByChance * spared + kNoLoss * n) return false;
+  names.remainder_ = names.remainder_of(names.effects_, RemainderOf::kAll);
+  if (names.structure_is_left()) return false;
+  take_over(names);
+  return true;
+}
+
+void PartLoop::take_over(PartLoop& other) {
+  effects_ = std::move(other.effects_);
+  discovery_ = std::move(other.discovery_);
+  candidates_ = std::move(other.candidates_);
+  banned_ = std::move(other.banned_);
+  unseen_ = std::move(other.unseen_);
+  table_ = std::move(other.table_);
+  patches_ = std::move(other.patches_);
+  options_.given = std::move(other.options_.given);
+  neighbours_ = std::move(other.neighbours_);
+  vetoed_ = other.vetoed_;
+  given_p_values_.clear();
+  problem_ = {};
+  kept_.valid = false;
+  forget_fits();
+}
+
 /// While structure is left, a name that does less than what is left, in every kind of record that
 /// shows it, is as likely a part of that: it is told as a form, or not at all.
 void PartLoop::doubt_names_below_what_is_left() {
