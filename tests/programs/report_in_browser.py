@@ -109,6 +109,35 @@ def hue_count(png, hue):
                for row in pixels(png) for p in row)
 
 
+def on(name, last=False, **view):
+    """The page that a test wants: tests of one page run one after the other, as loading it takes long.
+    `last`: those that leave it other than they found it."""
+    def marked(test):
+        test.page = (list(DESIGNS).index(name), sorted(view.items()), last)
+        return test
+    return marked
+
+
+def on_each(**view):
+    """A test of every design's page, each under its own name."""
+    def marked(test):
+        test.each = view
+        return test
+    return marked
+
+
+def each_design(case):
+    for title, test in list(vars(case).items()):
+        if hasattr(test, "each"):
+            delattr(case, title)
+            for name in DESIGNS:
+                def one(self, test=test, name=name):
+                    test(self, name)
+                setattr(case, f"{title}__{name}", on(name, **test.each)(one))
+    return case
+
+
+@each_design
 class ReportInBrowser(unittest.TestCase):
     showing = None
 
@@ -120,6 +149,13 @@ class ReportInBrowser(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.browser.__exit__()
+
+    def run(self, result=None):
+        """A test that fails leaves its page to no other."""
+        ended = super().run(result)
+        if any(case is self for case, _ in ended.failures + ended.errors):
+            ReportInBrowser.showing = None
+        return ended
 
     def open(self, name, width=1200, height=900, mobile=False, scheme="light", motion="reduce"):
         folder = self.folders[name]
@@ -142,33 +178,34 @@ class ReportInBrowser(unittest.TestCase):
     def shot(self, name, **where):
         return self.browser.picture(os.path.join(OUTPUT, name + ".png"), **where)
 
-    def test_the_console_stays_silent_and_nothing_is_fetched(self):
-        for name in DESIGNS:
-            self.open(name)
-            self.assertEqual(self.browser.problems, [], name)
-            outside = [r for r in self.browser.requests if not r.startswith(("file:", "data:", "blob:"))]
-            self.assertEqual(outside, [], name)
+    @on_each()
+    def test_the_console_stays_silent_and_nothing_is_fetched(self, name):
+        self.open(name)
+        self.assertEqual(self.browser.problems, [], name)
+        outside = [r for r in self.browser.requests if not r.startswith(("file:", "data:", "blob:"))]
+        self.assertEqual(outside, [], name)
 
-    def test_every_number_is_that_of_report_json(self):
-        for name in DESIGNS:
-            report = self.open(name)
-            shown = self.browser.run(
-                "[...document.querySelectorAll('[data-path]')].map(e => [e.dataset.path, Number(e.dataset.factor ?? 1),"
-                " [...e.childNodes].filter(n => n.nodeType === 3).map(n => n.data).join('')])")
-            self.assertGreater(len(shown), 25)
-            for path, factor, text in shown:
-                value = report
-                for key in path.split("/"):
-                    value = value[int(key)] if isinstance(value, list) else value[key]
-                if value is None:
-                    self.assertEqual(text, "–", path)
-                    continue
-                number = re.match(r"[−0-9.]+", text).group().replace("−", "-")
-                digits = len(number.partition(".")[2])
-                self.assertLessEqual(abs(float(number) - factor * value), 0.5000001 * 10.0 ** -digits, path)
-            self.assertEqual(self.browser.run("JSON.stringify(trueflank.report)"),
-                             self.browser.run("JSON.stringify(%s)" % json.dumps(report)))
+    @on_each()
+    def test_every_number_is_that_of_report_json(self, name):
+        report = self.open(name)
+        shown = self.browser.run(
+            "[...document.querySelectorAll('[data-path]')].map(e => [e.dataset.path, Number(e.dataset.factor ?? 1),"
+            " [...e.childNodes].filter(n => n.nodeType === 3).map(n => n.data).join('')])")
+        self.assertGreater(len(shown), 25)
+        for path, factor, text in shown:
+            value = report
+            for key in path.split("/"):
+                value = value[int(key)] if isinstance(value, list) else value[key]
+            if value is None:
+                self.assertEqual(text, "–", path)
+                continue
+            number = re.match(r"[−0-9.]+", text).group().replace("−", "-")
+            digits = len(number.partition(".")[2])
+            self.assertLessEqual(abs(float(number) - factor * value), 0.5000001 * 10.0 ** -digits, path)
+        self.assertEqual(self.browser.run("JSON.stringify(trueflank.report)"),
+                         self.browser.run("JSON.stringify(%s)" % json.dumps(report)))
 
+    @on("inches")
     def test_a_design_in_inches_shows_its_lengths_in_both(self):
         report = self.open("inches")
         text = self.browser.run("document.querySelector('#main').innerText")
@@ -179,9 +216,13 @@ class ReportInBrowser(unittest.TestCase):
         self.assertIn(f"{report['gears']['pinion']['tip_diameter_mm'] / 25.4:.5f}".rstrip("0"), row)
         self.assertIn("24", self.browser.run("document.querySelector('table.inches tbody tr').innerText"))
         self.assertIn("inches", self.browser.run("document.querySelector('footer').innerText"))
+
+    @on("drive")
+    def test_a_design_in_millimetres_has_no_table_in_inches(self):
         self.open("drive")
         self.assertEqual(self.browser.run("document.querySelectorAll('table.inches').length"), 0)
 
+    @on("drive")
     def test_every_check_gear_and_file_has_its_row(self):
         report = self.open("drive")
         rows = self.browser.run("document.querySelectorAll('.checks-table tbody tr').length")
@@ -205,6 +246,7 @@ class ReportInBrowser(unittest.TestCase):
         for check in report["checks"]:
             self.assertIn(check["message"], text)
 
+    @on("drive")
     def test_the_picture_in_3d_shows_the_gearbox(self):
         if not has_3d(self.folders["drive"]):
             self.skipTest("built without three.js")
@@ -227,6 +269,7 @@ class ReportInBrowser(unittest.TestCase):
                          "(document.querySelector('#viewer-cut'))" % kind)
         self.browser.wait(f"document.querySelector('#viewer').dataset.frames > {frames}")
 
+    @on("drive")
     def test_cut_faces_are_the_sections_of_the_parts(self):
         if not has_3d(self.folders["drive"]):
             self.skipTest("built without three.js")
@@ -249,17 +292,25 @@ class ReportInBrowser(unittest.TestCase):
         # a hole for a screw may be in the way of one side
         self.assertGreater(area, 0.6 * min(walls))
 
+    @on("drive")
     def test_in_the_first_view_every_gear_is_seen(self):
-        if not has_3d(self.folders["housed"]):
-            self.skipTest("built without three.js")
-        for name in ("drive", "housed"):
-            self.open(name)
-            shown = "[...document.querySelectorAll('.viewer .legend input')].every(e => e.checked)"
-            self.assertTrue(self.browser.run(shown))
-            picture = self.shot(name + "_first", selector="#viewer canvas")
-            for hue, least in (((0xE6, 0xA8, 0x2E), 100), ((0x4F, 0x8F, 0xC4), 4000)):
-                self.assertGreater(hue_count(picture, hue), least, (name, hue))
+        self.gears_are_seen("drive")
 
+    @on("housed")
+    def test_in_the_first_view_of_a_housed_one_every_gear_is_seen(self):
+        self.gears_are_seen("housed")
+
+    def gears_are_seen(self, name):
+        if not has_3d(self.folders[name]):
+            self.skipTest("built without three.js")
+        self.open(name)
+        shown = "[...document.querySelectorAll('.viewer .legend input')].every(e => e.checked)"
+        self.assertTrue(self.browser.run(shown))
+        picture = self.shot(name + "_first", selector="#viewer canvas")
+        for hue, least in (((0xE6, 0xA8, 0x2E), 100), ((0x4F, 0x8F, 0xC4), 4000)):
+            self.assertGreater(hue_count(picture, hue), least, (name, hue))
+
+    @on("drive", last=True)
     def test_a_link_leads_to_the_same_view(self):
         if not has_3d(self.folders["drive"]):
             self.skipTest("built without three.js")
@@ -285,6 +336,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertEqual(names, ["Planet ×3", "Ring 1", "Sun"])
         ReportInBrowser.showing = None
 
+    @on("housed")
     def test_names_of_parts_are_words(self):
         self.open("housed")
         names = self.browser.run("trueflank.model.parts.map(p => trueflank.properName(p.name))")
@@ -294,6 +346,7 @@ class ReportInBrowser(unittest.TestCase):
             self.assertNotIn("_", name)
             self.assertTrue(name[0].isupper())
 
+    @on("drive")
     def test_a_saved_picture_shows_what_is_seen(self):
         if not has_3d(self.folders["drive"]):
             self.skipTest("built without three.js")
@@ -301,6 +354,7 @@ class ReportInBrowser(unittest.TestCase):
         data = self.browser.run("trueflank.viewer.painted().toDataURL('image/png')")
         self.assertGreater(contrast_count(base64.b64decode(data.partition(",")[2])), 40000)
 
+    @on("drive", drawing=True)
     def test_the_assembly_drawing_is_shaded(self):
         self.browser.open(os.path.join(self.folders["drive"], "assembly.svg"))
         ReportInBrowser.showing = None
@@ -309,6 +363,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertGreaterEqual(len(set(fills)), 4)
         self.assertNotIn("none", fills)
 
+    @on("fouling")
     def test_a_failing_mesh_is_drawn_where_it_fails(self):
         report = self.open("fouling")
         exact = report["meshes"]["pinion-wheel"]["penetration_um"]
@@ -328,6 +383,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertGreater(sum(p[0] > 150 and p[1] < 80 and p[2] < 80 for p in middle), 200)
         self.assertEqual(self.browser.problems, [])
 
+    @on("drive")
     def test_the_foot_tells_version_and_the_date_of_the_file(self):
         self.open("drive")
         foot = self.browser.run("document.querySelector('#made').textContent")
@@ -337,6 +393,7 @@ class ReportInBrowser(unittest.TestCase):
         with open(os.path.join(self.folders["drive"], "report.html"), encoding="utf-8") as file:
             self.assertNotRegex(file.read().split('id="report-data"')[0], r"20[0-9]{2}-[0-9]{2}-[0-9]{2}")
 
+    @on("drive")
     def test_the_model_turns_by_the_true_ratio(self):
         if not has_3d(self.folders["drive"]):
             self.skipTest("built without three.js")
@@ -348,6 +405,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertAlmostEqual(1.0 / self.browser.run(turn % "ring2"), report["train"]["ratio"], places=6)
         self.assertAlmostEqual(self.browser.run(turn % "ring1"), 0.0, places=9)
 
+    @on("drive")
     def test_the_meshes_touch_nowhere_nearer_than_the_report_says(self):
         report = self.open("drive")
         for index, (name, mesh) in enumerate(report["meshes"].items()):
@@ -361,6 +419,7 @@ class ReportInBrowser(unittest.TestCase):
                 nearest = 0.0 if text.startswith("under") else float(text.split()[0])
                 self.assertLess(abs(nearest - expected), 0.12 * expected + 3, f"{name}: {seen}")
 
+    @on("drive")
     def test_everything_works_from_the_keyboard(self):
         self.open("drive")
         self.browser.run("document.body.focus()")
@@ -389,15 +448,16 @@ class ReportInBrowser(unittest.TestCase):
             self.assertTrue(self.browser.run("trueflank.viewer.playing"))
             self.browser.press(" ", "Space")
 
-    def test_a_phone_shows_it_without_scrolling_sideways(self):
-        for name in DESIGNS:
-            self.open(name, 360, 740, mobile=True)
-            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 360, name)
-            self.shot(name + "_phone")
-            small = self.browser.run(
-                "[...document.querySelectorAll('button, select')].filter(e => e.offsetParent && e.offsetHeight < 30).length")
-            self.assertEqual(small, 0)
+    @on_each(mobile=True)
+    def test_a_phone_shows_it_without_scrolling_sideways(self, name):
+        self.open(name, 360, 740, mobile=True)
+        self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 360, name)
+        self.shot(name + "_phone")
+        small = self.browser.run(
+            "[...document.querySelectorAll('button, select')].filter(e => e.offsetParent && e.offsetHeight < 30).length")
+        self.assertEqual(small, 0)
 
+    @on("drive", scheme="dark")
     def test_it_is_readable_in_the_dark(self):
         self.open("drive", scheme="dark")
         background, ink = self.browser.run(
@@ -407,6 +467,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertGreater(brightness[1], 600)
         self.shot("drive_dark")
 
+    @on("drive", last=True)
     def test_it_prints_with_its_picture(self):
         self.open("drive")
         self.browser.run("window.dispatchEvent(new Event('beforeprint'))")
@@ -417,7 +478,6 @@ class ReportInBrowser(unittest.TestCase):
         self.assertLessEqual(pages, 6)
         if has_3d(self.folders["drive"]):
             self.assertGreater(self.browser.run("document.querySelector('#viewer .print').src.length"), 20000)
-        ReportInBrowser.showing = None
         self.browser.media("print", prefers_reduced_motion="reduce")
         self.assertEqual(self.browser.run("[...document.querySelectorAll('button')].filter(b => b.offsetParent).length"), 0)
         # nothing is cut off at the edge of a sheet: A4 less its margins is 688 pixels wide
@@ -425,8 +485,15 @@ class ReportInBrowser(unittest.TestCase):
         try:
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 688)
         finally:
+            ReportInBrowser.showing = None
             self.browser.media()
             self.browser.size(1200, 900)
+
+
+def load_tests(loader, _tests, _pattern):
+    cases = loader.getTestCaseNames(ReportInBrowser)
+    page = {name: getattr(ReportInBrowser, name).page for name in cases}
+    return unittest.TestSuite(map(ReportInBrowser, sorted(cases, key=lambda name: page[name])))
 
 
 if __name__ == "__main__":
