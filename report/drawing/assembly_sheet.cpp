@@ -204,7 +204,8 @@ class AssemblySheet {
     std::erase_if(edges, [](const ViewedEdge& edge) { return edge.hidden || edge.pen == Pen::kThin; });
     draw_view(sheet_, edges, {face_centre_, scale_});
     for (const ViewedBody& body : bodies) {
-      if (body.offset.norm() < 1e-9 || gears_of(*model_.train, *body.part).empty()) continue;
+      const bool seen = std::any_of(edges.begin(), edges.end(), [&](const ViewedEdge& edge) { return (edge.centre - body.offset).norm() < 1e-6; });
+      if (!seen || body.offset.norm() < 1e-9 || gears_of(*model_.train, *body.part).empty()) continue;
       const Point2 centre = ViewPlace{face_centre_, scale_}(body.offset);
       const double reach = scale_ * extent(body.part->slabs.front().outer).outer_radius_mm + 3.0;
       sheet_.line(centre - Point2(reach, 0.0), centre + Point2(reach, 0.0), Pen::kChain);

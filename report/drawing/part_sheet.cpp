@@ -218,10 +218,9 @@ class PartSheet {
     const double y = section_origin_.y() - outer_ * scale_ - kGap_mm;
     std::vector<Dimension> lengths = lengths_below(section_origin_);
     const std::vector<int> rows = dimension_rows(lengths);
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
-      lengths[i].line_at_mm = y - kDimensionStep_mm * rows[i];
-      horizontal_dimension(sheet_, lengths[i]);
-    }
+    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].line_at_mm = y - kDimensionStep_mm * rows[i];
+    move_texts_aside(lengths);
+    for (const Dimension& length : lengths) horizontal_dimension(sheet_, length);
     const PartWidth& whole = dimensions_.widths.back();
     horizontal_dimension(sheet_, {.from = in_section(whole.z_lower_mm, -outer_), .to = in_section(whole.z_upper_mm, -outer_),
                                   .line_at_mm = y - kDimensionStep_mm * row_count(rows), .text = drawing_number(whole.width_mm(), 3)});

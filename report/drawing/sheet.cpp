@@ -124,6 +124,27 @@ std::vector<int> dimension_rows(const std::vector<Dimension>& dimensions) {
   return rows;
 }
 
+void move_texts_aside(std::vector<Dimension>& dimensions) {
+  constexpr int kTries = 8;  // to either side
+  for (Dimension& d : dimensions) {
+    const HorizontalSetting set(d);
+    if (!set.text_inside) continue;
+    const auto crossed = [&](double aside) {
+      const double middle = 0.5 * (set.x1 + set.x2) + aside, half = 0.5 * set.width + 0.3;
+      return std::any_of(dimensions.begin(), dimensions.end(), [&](const Dimension& other) {
+        return other.line_at_mm < d.line_at_mm && (std::abs(other.from.x() - middle) < half || std::abs(other.to.x() - middle) < half);
+      });
+    };
+    const double room = 0.5 * (set.x2 - set.x1 - set.width);
+    for (int i = 0; i <= 2 * kTries; ++i) {
+      const double aside = room * ((i + 1) / 2) / kTries * (i % 2 == 0 ? 1.0 : -1.0);
+      if (crossed(aside)) continue;
+      d.text_aside_mm = aside;
+      break;
+    }
+  }
+}
+
 void horizontal_dimension(Sheet& sheet, const Dimension& d) {
   const double y = d.line_at_mm;
   const HorizontalSetting set(d);
@@ -136,7 +157,7 @@ void horizontal_dimension(Sheet& sheet, const Dimension& d) {
   sheet.arrow({set.x1, y}, set.arrows_inside ? Point2(-1.0, 0.0) : Point2(1.0, 0.0));
   sheet.arrow({set.x2, y}, set.arrows_inside ? Point2(1.0, 0.0) : Point2(-1.0, 0.0));
   if (set.text_inside)
-    sheet.text({0.5 * (set.x1 + set.x2), y + kTextGap_mm}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
+    sheet.text({0.5 * (set.x1 + set.x2) + d.text_aside_mm, y + kTextGap_mm}, d.text, kDimensionText_mm, TextAnchor::kMiddle);
   else
     sheet.text({set.x2 + kOutside_mm + 0.5, y + kTextGap_mm}, d.text, kDimensionText_mm);
 }

@@ -75,8 +75,12 @@ struct Dimension {
   Point2 from, to;  ///< the features
   double line_at_mm = 0.0;  ///< y of a horizontal dimension line, x of a vertical one
   std::string text;
+  double text_aside_mm = 0.0;  ///< of a horizontal one: the text's middle from that of the line
 };
 void horizontal_dimension(Sheet& sheet, const Dimension& dimension);
+/// Moves the texts of dimensions whose `line_at` is chosen along their lines, where extension lines to rows below
+/// would cross them and there is room aside.
+void move_texts_aside(std::vector<Dimension>& dimensions);
 /// From where to where on the sheet a horizontal dimension reaches, its text and outer arrows too.
 [[nodiscard]] std::pair<double, double> reach_of(const Dimension& dimension);
 /// Rows for horizontal dimensions, the first as near to the part as can be: in a row none touches another.

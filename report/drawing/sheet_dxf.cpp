@@ -9,7 +9,7 @@
 namespace trueflank::io {
 namespace {
 
-/// Letters beyond ASCII as \U+XXXX, which every reader of DXF knows.
+/// Diameter and plus-minus by their old codes, other letters beyond ASCII as \U+XXXX.
 std::string dxf_text(std::string_view utf8) {
   constexpr char kDigits[] = "0123456789ABCDEF";
   std::string text;
@@ -25,6 +25,10 @@ std::string dxf_text(std::string_view utf8) {
     for (std::size_t k = 1; k < length && i + k < utf8.size(); ++k)
       letter = letter << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3F);
     i += length;
+    if (letter == 0xD8 || letter == 0xB1) {
+      text += letter == 0xD8 ? "%%c" : "%%p";
+      continue;
+    }
     text += "\\U+";
     for (int shift = 12; shift >= 0; shift -= 4) text += kDigits[letter >> shift & 0xF];
   }

@@ -248,6 +248,15 @@ TEST(WorkshopDrawings, LinesToItemNumbersDoNotCrossWhereTheyNeedNot) {
   EXPECT_EQ(crossings, 0);
 }
 
+TEST(WorkshopDrawings, ATextMovesAwayFromLinesToRowsBelow) {
+  std::vector<Dimension> both = {{.from = {0.0, 0.0}, .to = {40.0, 0.0}, .line_at_mm = -10.0, .text = "11"},
+                                 {.from = {19.0, 0.0}, .to = {21.0, 0.0}, .line_at_mm = -18.0, .text = "1"}};
+  move_texts_aside(both);
+  EXPECT_GT(std::abs(both[0].text_aside_mm), 1.0 + 0.5 * text_width_mm("11", 2.5));
+  EXPECT_LT(std::abs(both[0].text_aside_mm), 18.0);
+  EXPECT_EQ(both[1].text_aside_mm, 0.0);
+}
+
 PartShape disc(double radius_mm, const Point2& centre, double thickness_mm) {
   return {.name = "disc", .slabs = {{0.0, thickness_mm, CircleOutline{centre, radius_mm}, {}}}};
 }
@@ -269,7 +278,9 @@ TEST(FaceView, AHoleShowsWhatIsBehindIt) {
   const PartShape pin = disc(2.0, Point2::Zero(), 2.0);
   for (const auto& [x, hidden] : {std::pair{10.0, false}, {-10.0, true}})
     for (const ViewedEdge& edge : view_from_below({{.part = &plate}, {.part = &pin, .offset = {x, 0.0}, .z_mm = 2.0}})) {
-      if (edge.radius_mm == 2.0) EXPECT_EQ(edge.hidden, hidden);
+      if (edge.radius_mm == 2.0) {
+        EXPECT_EQ(edge.hidden, hidden);
+      }
     }
 }
 
