@@ -13,7 +13,7 @@ enum class CheckStatus { kPass, kWarn, kFail, kNotApplicable };
 /// What one check found at one place (docs/checks.md lists the ids).
 struct Finding {
   std::string id;     ///< "tip_clearance", ...
-  std::string where;  ///< gear ("planet1"), mesh ("planet2-ring2") or "train"
+  std::string where;  ///< a gear's name, a mesh's (planet2-ring2) or "train"
   CheckStatus status = CheckStatus::kPass;
   double value = kNaN;
   double limit = kNaN;

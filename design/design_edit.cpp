@@ -139,10 +139,11 @@ class Editor {
     for (const auto& [key, line] : file_.lines)
       if (key.starts_with(prefix) && key.find('.', prefix.size()) == std::string::npos &&
           !is_table(key) && line >= last) {
-        last = line;
         const std::string& beside = lines_.at(static_cast<std::size_t>(line - 1));
         const auto place = value_place(beside, key);
-        tables = place ? tables_before(beside, *place) : "";
+        if (!place) continue;  // read from bore_in, it is known as bore_mm too
+        last = line;
+        tables = tables_before(beside, *place);
       }
     const bool carriage_return = lines_.at(static_cast<std::size_t>(last - 1)).ends_with('\r');
     behind_[static_cast<std::size_t>(last - 1)].push_back(tables + written +

@@ -35,7 +35,7 @@ std::string capital(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
-/// "the lid", "ring1"
+/// the lid, but ring1 without an article
 std::string the(const std::string& name) {
   const bool numbered = !name.empty() && std::isdigit(static_cast<unsigned char>(name.back())) != 0;
   return (numbered ? "" : "the ") + name;

@@ -187,7 +187,7 @@ class TableMaker {
     table_.has_angle = known(&BenchPoint::angle_rad) && turns > 0.5;
     table_.turns = turns;
     if (table_.has_angle && turns <= 1.0 && wrapped)
-      table_.notes.push_back(
+      table_.notes.emplace_back(
           "input_angle_deg starts again every turn: only whole orders of the input can be found; an angle "
           "that counts on would show carrier, planets and output too");
   }

@@ -14,6 +14,7 @@
 #include "trueflank/report/drawing/sheet_frame.h"
 #include "trueflank/report/drawing/workshop_drawings.h"
 #include "trueflank/solid/shape/outline_loop.h"
+#include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank::io {
 namespace {
@@ -26,6 +27,7 @@ constexpr double kTopRoom_mm = 12.0;
 struct ListedItem {
   std::vector<int> parts;  ///< indices into PartShapes::parts
   std::string bought;
+  int without_body = 0;  ///< pieces that are ordered and not drawn: a set screw in its hub
 };
 
 class AssemblySheet {
@@ -83,6 +85,11 @@ class AssemblySheet {
       item.bought = part.bought;
       item.parts.push_back(static_cast<int>(i));
     }
+    if (const auto layout = machine_layout(*model_.train))
+      for (const std::string& designation : bought_for_set_screw(layout->set_screw)) {
+        ordered[designation].bought = designation;
+        ++ordered[designation].without_body;
+      }
     for (auto& [designation, item] : ordered) made.push_back(std::move(item));
     return made;
   }
@@ -220,7 +227,7 @@ class AssemblySheet {
     std::vector<std::vector<std::string>> rows = {{"Item", "Count", "Part", "Material", "Mass each"}};
     for (std::size_t i = 0; i < items_.size(); ++i) {
       const ListedItem& item = items_[i];
-      const auto count = std::count_if(model_.shapes->assembly.begin(), model_.shapes->assembly.end(), [&](const Placement& p) {
+      const auto count = item.without_body + std::count_if(model_.shapes->assembly.begin(), model_.shapes->assembly.end(), [&](const Placement& p) {
         return std::find(item.parts.begin(), item.parts.end(), p.part) != item.parts.end();
       });
       rows.push_back({std::to_string(i + 1), std::to_string(count), item.bought, "to buy", ""});

@@ -25,7 +25,7 @@ std::string proper_name(const std::string& part) {
   std::string name = part;
   std::replace(name.begin(), name.end(), '_', ' ');
   if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  // "ring2": a person leaves a space
+  // ring2: a person leaves a space
   if (const std::size_t digit = name.find_first_of("0123456789"); digit != std::string::npos && digit > 0 && name[digit - 1] != ' ')
     name.insert(digit, " ");
   return name;

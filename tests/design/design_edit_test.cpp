@@ -70,6 +70,19 @@ TEST(DesignEdit, KeysThatNameTheirTableStayInTheirLine) {
             "wheel.face_width_mm = 10\r\nwheel.tip_diameter_mm = 41.875\r\n");
 }
 
+TEST(DesignEdit, NewKeysNameTheirTableBesideInchesToo) {
+  const std::string dotted =
+      "format = 1\ngearbox.kind = \"pair\"\ngearbox.module_in = 0.05\npinion.teeth = 20\npinion.face_width_in = 0.4\n"
+      "pinion.bore_in = 0.2 # reamed\nwheel.teeth = 40\nwheel.face_width_in = 0.4\n";
+  GearboxDesign design = read(dotted);
+  design.gears[0].shift = 0.25;
+  const auto text = edited_design_text(dotted, "edited.toml", design);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(*text,
+            "format = 1\ngearbox.kind = \"pair\"\ngearbox.module_in = 0.05\npinion.teeth = 20\npinion.face_width_in = 0.4\n"
+            "pinion.bore_in = 0.2 # reamed\npinion.shift = 0.25\nwheel.teeth = 40\nwheel.face_width_in = 0.4\n");
+}
+
 TEST(DesignEdit, WritesNewKeysIntoTheirTableAndNewTablesAtTheEnd) {
   GearboxDesign design = read(kText);
   design.gears[0].tip_diameter_mm = 21.75;

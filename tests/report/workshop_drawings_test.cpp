@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/check/machine_designs.h"
+#include "trueflank/base/units.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/design/design_file.h"
-#include "trueflank/base/units.h"
 #include "trueflank/export/hole_patterns.h"
 #include "trueflank/report/drawing/axial_section.h"
 #include "trueflank/report/drawing/balloons.h"
@@ -22,11 +23,16 @@ namespace trueflank::io {
 namespace {
 
 /// An example laid out, with its report; lives as long as its sheets are looked at.
+GearboxDesign design_of(const std::string& example) {
+  const auto file = read_design_file(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + example + "/design.toml");
+  EXPECT_TRUE(file.has_value());
+  return file->design;
+}
+
 struct Drawn {
-  explicit Drawn(const std::string& example) {
-    const auto file = read_design_file(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + example + "/design.toml");
-    EXPECT_TRUE(file.has_value());
-    train = std::make_shared<const GearTrain>(*lay_out(file->design));
+  explicit Drawn(const std::string& example) : Drawn(design_of(example)) {}
+  explicit Drawn(const GearboxDesign& design) {
+    train = std::make_shared<const GearTrain>(*lay_out(design));
     shapes = *part_shapes(*train);
     Report document;
     document.train = train;
@@ -137,7 +143,7 @@ TEST(WorkshopDrawings, TheAssemblyListsEveryPartWithItsCount) {
 }
 
 const char* const kExamples[] = {"bilateral_drive", "external_pair", "internal_pair", "helical_planetary", "carried_drive", "simple_planetary", "pinion_8_undercut",
-                                 "ring_shaper", "relieved_3k", "herringbone_pair", "printed_actuator", "boxed_pair", "split_ring", "stepped"};
+                                 "ring_shaper", "relieved_3k", "herringbone_pair", "printed_actuator", "boxed_pair", "split_ring", "stepped", "planetary_actuator", "stepped_actuator"};
 
 std::vector<Sheet> sheets_of(const Drawn& drawn) {
   std::vector<Sheet> sheets;
@@ -217,6 +223,13 @@ TEST(WorkshopDrawings, AnAssemblyIsAsLargeAsItsBodies) {
   const double height = 0.5 * gears["pinion"]["tip_diameter_mm"].get<double>() + drawn.report["train"]["centre_distance_mm"].get<double>() +
                         0.5 * gears["wheel"]["tip_diameter_mm"].get<double>();
   EXPECT_TRUE(says(assembly_sheet(drawn.model()), drawing_number(height, 3)));
+}
+
+TEST(WorkshopDrawings, WhatIsBoughtAndNoBodyIsListedToo) {
+  // a round shaft: a set screw and its nut hold the sun
+  const Sheet sheet = assembly_sheet(Drawn(*read_design_text(round_shaft(k3k + kMachine), "design.toml")).model());
+  EXPECT_TRUE(says(sheet, "set screw ISO 4029 M3x4"));
+  EXPECT_TRUE(says(sheet, "square nut DIN 562 M3"));
 }
 
 TEST(WorkshopDrawings, WhatIsBoughtIsOneRowADesignationWithoutMaterial) {
