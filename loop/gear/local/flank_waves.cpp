@@ -22,6 +22,11 @@ constexpr int kFewestTeeth = 8;
 /// A flank with fewer values tells nothing of waves in it.
 constexpr int kFewestValues = 12;
 
+/// Without the special cases of infinite numbers, which take most of the time of `*`.
+Complex product(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 struct Value {
   int tooth = 0, side = 0;
   double u = 0.0, v = 0.0, um = 0.0;  ///< u, v: 0 ... 1
@@ -93,14 +98,24 @@ class Spectrum {
 
   void transform() {
     for (Flank& flank : flanks_) flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
+    // Real and imaginary parts in rows of their own, which the compiler adds up several at a time.
+    std::array<double, kColumns> real, imaginary;
     for (const Value& value : values_) {
-      Complex* sums = flank_of(value).sums.data();
       const Complex step_u = std::polar(1.0, -kPi * value.u), step_v = std::polar(1.0, -kPi * value.v);
-      const Complex first = std::polar(1.0, kPi * kFace * value.v);
+      Complex of_v = 1.0;
+      for (std::size_t b = 0; b <= kFace; ++b, of_v = product(of_v, step_v)) {
+        real[kFace + b] = real[kFace - b] = of_v.real();
+        imaginary[kFace + b] = of_v.imag();
+        imaginary[kFace - b] = -of_v.imag();
+      }
+      double* sums = reinterpret_cast<double*>(flank_of(value).sums.data());
       Complex of_u = value.um;
-      for (int a = 0; a <= kProfile; ++a, of_u *= step_u) {
-        Complex wave = of_u * first;
-        for (int b = 0; b < kColumns; ++b, wave *= step_v) sums[a * kColumns + b] += wave;
+      for (int a = 0; a <= kProfile; ++a, of_u = product(of_u, step_u), sums += 2 * kColumns) {
+        const double x = of_u.real(), y = of_u.imag();
+        for (std::size_t b = 0; b < kColumns; ++b) {
+          sums[2 * b] += x * real[b] - y * imaginary[b];
+          sums[2 * b + 1] += x * imaginary[b] + y * real[b];
+        }
       }
     }
   }
@@ -113,8 +128,8 @@ class Spectrum {
     for (int n = 0; n < teeth_; ++n) {
       const Complex step = std::polar(1.0, -kTwoPi * n / teeth_);
       Complex sum = 0.0, turn = 1.0;
-      for (int k = 0; k < teeth_; ++k, turn *= step)
-        sum += flanks_[static_cast<std::size_t>(2 * k + side)].sums[at(a, b)] * turn;
+      for (int k = 0; k < teeth_; ++k, turn = product(turn, step))
+        sum += product(flanks_[static_cast<std::size_t>(2 * k + side)].sums[at(a, b)], turn);
       power[static_cast<std::size_t>(n)] = std::norm(sum) / std::max(1.0, count);
     }
   }
