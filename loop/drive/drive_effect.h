@@ -94,6 +94,7 @@ struct DriveFamily : EffectFacts {
   bool is_loss = true;                  ///< takes power: never fitted to data that gain power
   /// What a loss follows: effects that follow the same are kin; empty: none of load, speed and warmth.
   std::string follows = {};
+  bool bends_over_load = false;         ///< as a bent sensor does: told from that by the other direction alone
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
 
   /// @name Columns

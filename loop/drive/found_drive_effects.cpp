@@ -115,7 +115,8 @@ class Describer {
   /// True where a loss bends over the load and one direction alone was run: a sensor that is bent, or a
   /// motor's constant that falls, does the same.
   [[nodiscard]] bool may_be_a_bent_sensor(const FoundEffect& found) const {
-    return (found.id == "load_loss" || found.id == "load_dependent_friction") &&
+    const DriveFamily* family = find_drive_family(found.id);
+    return family && family->bends_over_load &&
            (!s_.context.table.has(true) || !s_.context.table.has(false));
   }
 

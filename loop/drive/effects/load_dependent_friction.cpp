@@ -15,6 +15,7 @@ DriveFamily load_dependent_friction() {
   f.cause = "lubricant film under pressure, elastic deformation of teeth and housing";
   f.correction = "stiffness, viscosity; design at the load that counts";
   f.follows = "load";
+  f.bends_over_load = true;
   f.parameters = {"value"};
   f.shape_names = {"exponent"};
   f.preference = 2;

@@ -14,6 +14,7 @@ DriveFamily load_loss() {
   f.cause = "housing, carrier or ring that bends under load, seals and bearings that are pressed askew";
   f.correction = "stiffen what bends; design at the load that counts";
   f.follows = "load";
+  f.bends_over_load = true;
   f.parameters = {"torque_nm"};
   f.shape_names = {"exponent"};
   f.only_positive = true;
