@@ -313,6 +313,20 @@ class Listener {
   std::vector<Facet> facets_;
 };
 
+/// The process that reads, and the end of the pipe it writes to; both end with this object.
+struct Child {
+  pid_t id = -1;
+  int pipe = -1;
+  Child(pid_t process, int end) : id(process), pipe(end) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    close(pipe);
+    static_cast<void>(kill(id, SIGKILL));  // it has said all, or nothing more is wanted
+    while (waitpid(id, nullptr, 0) < 0 && errno == EINTR) {}
+  }
+};
+
 }  // namespace
 
 std::string assimp_extensions(std::string_view separator) {
@@ -326,6 +340,8 @@ bool is_assimp_extension(std::string_view extension) { return convention_of(exte
 Result<Bodies> parse_by_assimp(std::string_view content, std::string_view extension, Reading& reading) {
   const Convention* const convention = convention_of(extension);
   if (!convention) return syntax_error("no format that assimp is asked for");
+  if (content.size() >= kMostBytes)  // its sizes have 32 bits
+    return fail(Error{.code = ErrorCode::kUnsupported, .message = "assimp reads no file of 4 GB or more"});
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return fail(Error{.code = ErrorCode::kDisk, .message = std::string("no pipe: ") + std::strerror(errno)});
@@ -342,11 +358,8 @@ Result<Bodies> parse_by_assimp(std::string_view content, std::string_view extens
     read_and_tell(ends[1], content, *convention);
   }
   close(ends[1]);
-  Result<Bodies> bodies = Listener(ends[0], reading).run();
-  close(ends[0]);
-  static_cast<void>(kill(child, SIGKILL));  // it has said all, or nothing more is wanted
-  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {}
-  return bodies;
+  const Child reader(child, ends[0]);
+  return Listener(reader.pipe, reading).run();
 }
 
 }  // namespace trueflank::io

@@ -10,6 +10,8 @@ import sys
 
 import ezdxf
 
+from inch_pair import INCHES
+
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
@@ -17,20 +19,6 @@ OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 KEYS = {"tip_diameter_mm": 4, "root_diameter_mm": 4, "base_diameter_mm": 4, "reference_diameter_mm": 4, "root_form_diameter_mm": 4,
         "start_active_profile_diameter_mm": 4, "reference_thickness_mm": 4, "face_width_mm": 3, "pin_diameter_mm": 3, "lead_mm": 4}
 EXAMPLES = ["bilateral_drive", "helical_planetary", "internal_pair", "printed_actuator", "boxed_pair"]
-INCHES = """format = 1
-name = "pitch 24"
-[gearbox]
-kind = "pair"
-diametral_pitch = 24
-[pinion]
-teeth = 20
-face_width_in = 0.25
-thickness_allowance = "cd25"
-[wheel]
-teeth = 30
-face_width_in = 0.25
-thickness_allowance = "cd25"
-"""
 
 
 def shown(value, places):

@@ -9,6 +9,7 @@ import sys
 import unittest
 
 from browser import Browser, pixels
+from inch_pair import INCHES
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 SOURCE = os.environ["TRUEFLANK_SOURCE_DIR"]
@@ -51,21 +52,6 @@ teeth = 34
 shift = 0.0
 internal = true
 face_width_mm = 8.0
-"""
-
-INCHES = """format = 1
-name = "pitch 24"
-[gearbox]
-kind = "pair"
-diametral_pitch = 24
-[pinion]
-teeth = 20
-face_width_in = 0.25
-thickness_allowance = "cd25"
-[wheel]
-teeth = 30
-face_width_in = 0.25
-thickness_allowance = "cd25"
 """
 
 

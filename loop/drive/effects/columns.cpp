@@ -22,6 +22,11 @@ bool CalibratedLosses::add(double& amount, double more, double& shape, double it
 
 namespace trueflank::loop::drive_effects {
 
+std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context) {
+  constexpr int kFewestUnits = 8;
+  return context.table.units >= kFewestUnits ? std::vector<DriveShape>{{}} : std::vector<DriveShape>{};
+}
+
 std::vector<DriveShape> speed_shapes(const DriveContext& context) {
   std::vector<DriveShape> shapes;
   const double most = context.table.most_speed_rpm;

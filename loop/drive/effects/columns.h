@@ -39,6 +39,9 @@ inline constexpr double kMostFriction = 0.4;
 [[nodiscard]] std::string short_text(double value);
 [[nodiscard]] inline double first_value(const DriveShape& shape) { return shape[0]; }
 
+/// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
+[[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
+
 /// How all terms of a drive's effects without a name are written.
 [[nodiscard]] std::vector<TermKey> drive_term_keys();
 /// Facts that all of them share.
