@@ -220,9 +220,11 @@ Errors write_parts(const Gearbox& gearbox, const PartShapes& shapes,
   if (options.part.empty())
     if (auto ok = write_gearbox_files(gearbox, shapes, options, formats, result); !ok)
       return std::move(ok.error());
-  if (options.part.empty() && has_scad(result.report.files))
-    if (auto ok = io::write_scad_templates(options.folder, gearbox.train()); !ok)
-      return {ok.error()};
+  if (options.part.empty() && has_scad(result.report.files)) {
+    const auto templates = io::write_scad_templates(options.folder, gearbox.train());
+    if (!templates) return {templates.error()};
+    result.report.files.insert(result.report.files.end(), templates->begin(), templates->end());
+  }
   return {};
 }
 

@@ -19,15 +19,16 @@ using Values = std::map<std::string, std::string>;
 /// Sizes of sleeves and pins are not sharper than a tenth of a micrometre.
 std::string number(double value) {
   char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 4);
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 4);
   std::string text(buffer, end.ptr);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
 
-/// Replaces what parameters of the section "From the design" are set to, line by line, and the lines
-/// between "// GEARS" and "// END GEARS".
+/// Replaces what parameters of the section "From the design" are set to, line by line, and the
+/// lines between "// GEARS" and "// END GEARS".
 std::string filled(std::string_view text, const Values& values, const std::string& gears,
                    const std::string& design_name) {
   std::string result = "// For " + design_name + ".\n";
@@ -53,7 +54,8 @@ std::string filled(std::string_view text, const Values& values, const std::strin
 }
 
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
   return text;
 }
 
@@ -62,7 +64,8 @@ std::string part_of(const GearTrain& train, const std::string& gear) {
   const Topology& topology = train.topology();
   const int member = topology.gears[static_cast<std::size_t>(topology.find_gear(gear))].member;
   const bool alike = !topology.is_planet(member) || planet_bodies_alike(train.assembly) ||
-                     train.phases.planet_position_rad.size() == 1 || topology.gears_of(member).size() == 1;
+                     train.phases.planet_position_rad.size() == 1 ||
+                     topology.gears_of(member).size() == 1;
   return topology.name_of(member) + (alike ? "" : "_1");
 }
 std::string section_module(const GearTrain& train, const std::string& module,
@@ -77,7 +80,8 @@ class TemplateFiller {
     for (std::size_t i = 0; i < train.gears.size(); ++i) {
       const TrainGear& gear = train.gears[i];
       if (gear.profile.gear().kind != GearKind::kInternal) continue;
-      const double speed = train.speeds.of[static_cast<std::size_t>(train.topology().gears[i].member)];
+      const double speed =
+          train.speeds.of[static_cast<std::size_t>(train.topology().gears[i].member)];
       (speed == 0.0 ? fixed_ : moving_) = &gear;
     }
   }
@@ -116,7 +120,8 @@ class TemplateFiller {
     double rim = ring.profile.root_radius_mm() + std::max(2.5 * m, 2.0);
     const BoltCircleDesign& bolts = design.bolt_circle;
     if (bolts.count > 0)
-      rim = std::max(rim, 0.5 * (bolts.circle_diameter_mm + bolts.hole_diameter_mm) + std::max(m, 2.0));
+      rim = std::max(rim,
+                     0.5 * (bolts.circle_diameter_mm + bolts.hole_diameter_mm) + std::max(m, 2.0));
     return 2.0 * rim;
   }
   static double top_mm(const TrainGear& gear) { return gear.z_lower_mm + gear.face_width_mm; }
@@ -146,8 +151,10 @@ class TemplateFiller {
     set("moving_ring_bottom", moving_ ? moving_->z_lower_mm : 0.0);
     set("moving_ring_top", moving_ ? top_mm(*moving_) : 0.0);
     set("lowest", turning_heights().lower_mm);
-    const TrainGear* sun = train_.sun();  // without one the carrier is driven, within the planets' axes
-    set("shaft_opening", sun ? 2.0 * sun->profile.tip_radius_mm() + 1.0 : train_.centre_distance_mm);
+    const TrainGear* sun =
+        train_.sun();  // without one the carrier is driven, within the planets' axes
+    set("shaft_opening",
+        sun ? 2.0 * sun->profile.tip_radius_mm() + 1.0 : train_.centre_distance_mm);
     add("housing", scad_template::kHousing,
         section_module(train_, "fixed_ring_section", fixed_->name));
   }
@@ -182,7 +189,8 @@ class TemplateFiller {
     set("housing_diameter", housing_diameter_mm());
     const Topology& topology = train_.topology();
     if (!topology.is_carrier(topology.input))
-      set("shaft_diameter", design_of(train_.gear(topology.first_gear_of(topology.input))).bore.diameter_mm);
+      set("shaft_diameter",
+          design_of(train_.gear(topology.first_gear_of(topology.input))).bore.diameter_mm);
     add("motor_adapter", scad_template::kMotorAdapter);
   }
 
@@ -226,8 +234,7 @@ class TemplateFiller {
     set("tip_diameter2", 2.0 * gear2.profile.tip_radius_mm());
     set("root_diameter2", 2.0 * gear2.profile.root_radius_mm());
     set("teeth2", gear2.profile.gear().teeth);
-    values_["internal2"] =
-        gear2.profile.gear().kind == GearKind::kInternal ? "true" : "false";
+    values_["internal2"] = gear2.profile.gear().kind == GearKind::kInternal ? "true" : "false";
     set("bore", post_mm(design_of(gear1).bore));
     add("fit_coupon", scad_template::kFitCoupon,
         section_module(train_, "gear1_section", gear1.name) +
@@ -247,10 +254,18 @@ std::vector<FilledTemplate> scad_templates(const GearTrain& train) {
   return TemplateFiller(train).fill();
 }
 
-Status write_scad_templates(const std::filesystem::path& folder, const GearTrain& train) {
-  for (const FilledTemplate& file : scad_templates(train))
-    if (auto ok = write_file(folder / file.file_name, file.text); !ok) return ok;
-  return {};
+Result<std::vector<ReportedFile>> write_scad_templates(const std::filesystem::path& folder,
+                                                       const GearTrain& train) {
+  std::vector<ReportedFile> written;
+  for (const FilledTemplate& file : scad_templates(train)) {
+    const std::filesystem::path path = folder / file.file_name;
+    if (auto ok = write_file(path, file.text); !ok) return fail(ok.error());
+    written.push_back({.path = file.file_name,
+                       .part = path.stem().string(),
+                       .format = "scad-template",
+                       .bytes = file.text.size()});
+  }
+  return written;
 }
 
 }  // namespace trueflank::io

@@ -123,8 +123,9 @@ class Terminal(unittest.TestCase):
 
     def test_a_failing_make_takes_away_the_parts_of_the_earlier_design(self):
         out = self.folder / "out"
-        self.assertEqual(run("make", DESIGN, "-o", out, "--formats", "svg", "-q").returncode, 0)
+        self.assertEqual(run("make", DESIGN, "-o", out, "--formats", "svg,scad", "-q").returncode, 0)
         self.assertTrue((out / "sun.svg").is_file())
+        self.assertTrue((out / "template_housing.scad").is_file())
         failed = run("make", self.failing(), "-o", out, "--formats", "svg")
         self.assertEqual(failed.returncode, 1)
         self.assertIn("files of an earlier run", failed.stdout)

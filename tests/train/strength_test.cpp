@@ -18,9 +18,7 @@ GearTrain laid_out(const GearboxDesign& design) {
   return *train;
 }
 
-GearTrain pair_of(int z1, int z2) {
-  return laid_out(test::unshifted("pair", "wheel", {z1, z2}));
-}
+GearTrain pair_of(int z1, int z2) { return laid_out(test::unshifted("pair", "wheel", {z1, z2})); }
 
 /// Section of ISO 6336-3 method B for a hobbed external gear, load at the tip, solved from its
 /// printed equations (E, G, H, theta by iteration): nothing of the library's profile.
@@ -79,8 +77,37 @@ TEST(Strength, PairFollowsTheFormulas) {
   const double hertz = 775 / (2.495 * 189.8);
   EXPECT_NEAR(mesh.contact_force_n, hertz * hertz * 20 * 10 * 40.0 / 60 / (1.15 * 1.15), 0.2);
   EXPECT_EQ(result->limiting_mode, "contact");
-  EXPECT_NEAR(result->output_torque_nm,
-              mesh.contact_torque1_nm * 2 * efficiency(train).forward, 1e-9);
+  EXPECT_NEAR(result->output_torque_nm, mesh.contact_torque1_nm * 2 * efficiency(train).forward,
+              1e-9);
+}
+
+/// The handbook's worked example of JGMA 401-01, a spur pair of SCM415 (KHK, Gear technical
+/// reference, bending strength of spur gears): its printed inputs and results.
+TEST(Strength, WorkedExampleOfBendingIsMet) {
+  GearboxDesign design = test::unshifted("pair", "wheel", {20, 40});
+  design.gears[0].shift = 0.15;
+  design.gears[1].shift = -0.15;
+  design.module_mm = 2.0;
+  design.rack.root_radius = 0.375;
+  for (GearDesign& gear : design.gears) gear.face_width_mm = 20.0;
+  const GearTrain train = laid_out(design);
+  constexpr double kNewtonPerKgf = 9.80665;
+  Material steel = *MaterialTable().find(kDefaultMaterial);
+  steel.name = "scm415";
+  steel.bending_limit_mpa = 42.5 * kNewtonPerKgf;
+  StrengthOptions options;
+  options.materials.set(steel);
+  options.material = steel.name;
+  options.reversing = false;
+  options.dynamic_factor = 1.4;
+  const auto result = strength(train, options);
+  ASSERT_TRUE(result.has_value());
+  const MeshStrength& mesh = result->meshes.front();
+  EXPECT_NEAR(mesh.tooth1.form_factor, 2.568, 1e-3);
+  EXPECT_NEAR(mesh.tooth2.form_factor, 2.535, 1e-3);
+  EXPECT_NEAR(1 / contact_ratios(train.pair(train.meshes[0])).effective, 0.619, 5e-4);
+  EXPECT_NEAR(mesh.tooth1.bending_force_n / kNewtonPerKgf, 636.5, 0.5);
+  EXPECT_NEAR(mesh.tooth2.bending_force_n / kNewtonPerKgf, 644.8, 0.5);
 }
 
 TEST(Strength, ReversingLoadCostsAThirdOfTheBending) {
@@ -127,8 +154,8 @@ TEST(Strength, TheLimitingToothIsReachedExactlyAtTheStatedTorque) {
 TEST(Strength, UnknownMaterialIsAnErrorThatNamesTheTable) {
   StrengthOptions options;
   options.material_of["ring"] = "unobtainium";
-  const auto result = strength(
-      laid_out(test::unshifted("simple", "carrier", {12, 30, 72})), options);
+  const auto result =
+      strength(laid_out(test::unshifted("simple", "carrier", {12, 30, 72})), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().key, "ring.material");
   EXPECT_NE(result.error().remedy.find("scm440-hb280"), std::string::npos);
