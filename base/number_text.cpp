@@ -140,6 +140,13 @@ std::string printed_number(double value, const char* format) {
 #pragma GCC diagnostic pop
 }
 
+std::string trimmed_number(double value, int decimals) {
+  std::string text = printed("%.*f", decimals, value);
+  if (decimals > 0 && std::isfinite(value)) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
   std::string text;
   for (const std::string& word : words) {

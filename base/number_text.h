@@ -15,6 +15,12 @@ namespace trueflank {
 /// One number by a format such as "%.2f"; never "-0".
 [[nodiscard]] std::string printed_number(double value, const char* format = "%.2f");
 
+/// With at most so many decimals (0 to 15), none of them an idle zero: "46", "0.25"; never "-0".
+[[nodiscard]] std::string trimmed_number(double value, int decimals = 6);
+
+/// A length for a message, to the micrometre: "12.500".
+[[nodiscard]] inline std::string fixed_mm(double value_mm) { return printed_number(value_mm, "%.3f"); }
+
 /// "a, b, c"
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view between = ", ");
 

@@ -11,7 +11,7 @@
 namespace trueflank {
 namespace {
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh) {
+Finding backlash_finding(const GearTrain& train, const TrainMesh& mesh) {
   const ModifiedMesh modified = modified_mesh(train, mesh);
   const double backlash = modified.backlash_mm;
   const GearPair pair = train.pair(mesh);
@@ -43,6 +43,6 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
 
 }  // namespace
 
-Findings check_backlash(const GearTrain& train) { return for_each_mesh(train, "backlash", judge); }
+Findings check_backlash(const GearTrain& train) { return for_each_mesh(train, "backlash", backlash_finding); }
 
 }  // namespace trueflank

@@ -24,7 +24,7 @@ std::string cure_of(const GearPair& pair, const std::string& name2) {
   return cure + "; or leave one shift out, it is then solved";
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh) {
+Finding centre_distance_finding(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const double m = pair.gear1().normal_module_mm;
   const double implied = mesh.implied_backlash_mm;
@@ -48,7 +48,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
 }  // namespace
 
 Findings check_centre_distance(const GearTrain& train) {
-  return for_each_mesh(train, "centre_distance", judge);
+  return for_each_mesh(train, "centre_distance", centre_distance_finding);
 }
 
 }  // namespace trueflank

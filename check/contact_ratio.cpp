@@ -26,7 +26,7 @@ double ratio_with_tip(const GearPair& pair, double tip_diameter_mm) {
   return std::min(ratios.total, ratios.effective);
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh) {
+Finding contact_ratio_finding(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const ContactRatios ratios = contact_ratios(pair);
   const double overlap = overlap_ratio(train, mesh);
@@ -83,7 +83,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
 }  // namespace
 
 Findings check_contact_ratio(const GearTrain& train) {
-  return for_each_mesh(train, "contact_ratio", judge);
+  return for_each_mesh(train, "contact_ratio", contact_ratio_finding);
 }
 
 }  // namespace trueflank

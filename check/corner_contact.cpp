@@ -44,7 +44,7 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshPla
                         }});
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+Finding corner_contact_finding(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   const MeshClearance& closed = closed_state(state);
   const double ahead = std::max(0.0, -closed.clearance_mm);
   const double most = train.design.corner_contact_limit_mm.value_or(
@@ -85,7 +85,7 @@ double corner_contact_limit_mm(double normal_module_mm) { return kLimit * normal
 Findings check_corner_contact(const GearTrain& train, const std::vector<MeshState>& states) {
   std::size_t i = 0;
   return for_each_mesh(train, "corner_contact", [&](const GearTrain& t, const TrainMesh& mesh) {
-    return judge(t, mesh, states[i++]);
+    return corner_contact_finding(t, mesh, states[i++]);
   });
 }
 

@@ -66,7 +66,7 @@ std::string trouble_text(const MeshState& state, const std::string& name1, const
   return text;
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+Finding fillet_interference_finding(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   const GearPair pair = train.pair(mesh);
   const ActivePath path = active_path(train, mesh);
   const Margins margins = margins_between(pair, path.start_mm, path.end_mm);
@@ -117,7 +117,7 @@ Findings check_fillet_interference(const GearTrain& train, const std::vector<Mes
   std::size_t i = 0;
   return for_each_mesh(train, "fillet_interference",
                        [&](const GearTrain& t, const TrainMesh& mesh) {
-                         return judge(t, mesh, states[i++]);
+                         return fillet_interference_finding(t, mesh, states[i++]);
                        });
 }
 

@@ -41,7 +41,7 @@ std::string rolls_text(const RollLengths& rolls, const std::string& name1, const
   return text;
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+Finding involute_interference_finding(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   const GearPair pair = train.pair(mesh);
   const ActivePath path = active_path(train, mesh);
   const RollLengths rolls = roll_lengths(pair, path.start_mm, path.end_mm);
@@ -85,7 +85,7 @@ Findings check_involute_interference(const GearTrain& train,
   std::size_t i = 0;
   return for_each_mesh(train, "involute_interference",
                        [&](const GearTrain& t, const TrainMesh& mesh) {
-                         return judge(t, mesh, states[i++]);
+                         return involute_interference_finding(t, mesh, states[i++]);
                        });
 }
 

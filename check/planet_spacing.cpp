@@ -20,7 +20,7 @@ double smallest_angle_rad(const std::vector<double>& positions) {
   return smallest;
 }
 
-Finding judge(const GearTrain& train, const TrainGear& gear) {
+Finding planet_spacing_finding(const GearTrain& train, const TrainGear& gear) {
   const double a = train.centre_distance_mm, tip = gear.profile.tip_radius_mm();
   const double angle = std::min(smallest_angle_rad(train.phases.planet_position_rad), kPi);
   const double gap = 2.0 * a * std::sin(0.5 * angle) - 2.0 * tip;
@@ -57,7 +57,7 @@ Findings check_planet_spacing(const GearTrain& train) {
   Findings findings;
   if (train.phases.planet_position_rad.size() > 1)
     for (std::size_t i = 0; i < train.gears.size(); ++i)
-      if (train.topology().is_planet_gear(i)) findings.push_back(judge(train, train.gears[i]));
+      if (train.topology().is_planet_gear(i)) findings.push_back(planet_spacing_finding(train, train.gears[i]));
   if (findings.empty())
     findings.push_back({.id = "planet_spacing",
                         .where = "train",

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kWantedClearance = 0.1;  // of the module
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh) {
+Finding tip_clearance_finding(const GearTrain& train, const TrainMesh& mesh) {
   const GearPair pair = train.pair(mesh);
   const double of1 = tip_clearance_of_gear1_mm(pair), of2 = tip_clearance_of_gear2_mm(pair);
   const bool first = of1 <= of2;
@@ -41,7 +41,7 @@ Finding judge(const GearTrain& train, const TrainMesh& mesh) {
 }  // namespace
 
 Findings check_tip_clearance(const GearTrain& train) {
-  return for_each_mesh(train, "tip_clearance", judge);
+  return for_each_mesh(train, "tip_clearance", tip_clearance_finding);
 }
 
 }  // namespace trueflank

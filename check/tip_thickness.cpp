@@ -23,7 +23,7 @@ double tip_radius_for_thickness_mm(const ToothProfile& profile, double thickness
   return find_root(lacking, low, high);
 }
 
-Finding judge(const TrainGear& gear) {
+Finding tip_thickness_finding(const TrainGear& gear) {
   const double m = gear.profile.gear().normal_module_mm;
   const double thickness = least_tip_thickness_mm(gear);
   const double limit = kSmallestTipThickness * m;
@@ -69,7 +69,7 @@ double least_tip_thickness_mm(const TrainGear& gear) {
 
 Findings check_tip_thickness(const GearTrain& train) {
   Findings findings;
-  for (const TrainGear& gear : train.gears) findings.push_back(judge(gear));
+  for (const TrainGear& gear : train.gears) findings.push_back(tip_thickness_finding(gear));
   return findings;
 }
 

@@ -23,7 +23,7 @@ std::string axial_text(const GearTrain& train, const TrainMesh& mesh, const Mesh
   return " It goes in axially.";
 }
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+Finding trimming_interference_finding(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   const GearPair pair = train.pair(mesh);
   Finding finding{.id = "trimming_interference", .where = mesh.name, .limit = 0.0, .unit = "deg"};
   if (!pair.internal()) {
@@ -70,7 +70,7 @@ Findings check_trimming_interference(const GearTrain& train,
   std::size_t i = 0;
   return for_each_mesh(train, "trimming_interference",
                        [&](const GearTrain& t, const TrainMesh& mesh) {
-                         return judge(t, mesh, states[i++]);
+                         return trimming_interference_finding(t, mesh, states[i++]);
                        });
 }
 

@@ -14,7 +14,7 @@
 namespace trueflank {
 namespace {
 
-Finding judge(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
+Finding trochoid_interference_finding(const GearTrain& train, const TrainMesh& mesh, const MeshState& state) {
   const GearPair pair = train.pair(mesh);
   Finding finding{.id = "trochoid_interference", .where = mesh.name, .limit = 0.0, .unit = "deg"};
   if (!pair.internal()) {
@@ -57,7 +57,7 @@ Findings check_trochoid_interference(const GearTrain& train,
   std::size_t i = 0;
   return for_each_mesh(train, "trochoid_interference",
                        [&](const GearTrain& t, const TrainMesh& mesh) {
-                         return judge(t, mesh, states[i++]);
+                         return trochoid_interference_finding(t, mesh, states[i++]);
                        });
 }
 

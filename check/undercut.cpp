@@ -18,7 +18,7 @@ double smallest_shift_without_undercut(const ToothProfile& profile) {
   return straight_depth - reference_radius_mm(gear) / gear.normal_module_mm * sin_t * sin_t;
 }
 
-Finding judge(const TrainGear& gear) {
+Finding undercut_finding(const TrainGear& gear) {
   const double limit = smallest_shift_without_undercut(gear.profile);
   Finding finding{.id = "undercut",
                   .where = gear.name,
@@ -48,7 +48,7 @@ Finding judge(const TrainGear& gear) {
 Findings check_undercut(const GearTrain& train) {
   Findings findings;
   for (const TrainGear& gear : train.gears)
-    if (gear.profile.gear().kind == GearKind::kExternal) findings.push_back(judge(gear));
+    if (gear.profile.gear().kind == GearKind::kExternal) findings.push_back(undercut_finding(gear));
   if (findings.empty())
     findings.push_back({.id = "undercut",
                         .where = "train",

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/key_values.h"
 
 namespace trueflank {
 namespace {
 
-using C = CarrierDesign;
-using Value = std::optional<KeyValue>;
+using namespace key_values;
 
-double number(const KeyValue& value) { return std::get<double>(value); }
-Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
-Value unless_zero(double value) { return value == 0.0 ? Value() : Value(value); }
+using C = CarrierDesign;
 
 }  // namespace
 

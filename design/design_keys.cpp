@@ -6,21 +6,13 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/file_units.h"
+#include "trueflank/design/key_values.h"
 #include "trueflank/design/kinds/train_kind.h"
 
 namespace trueflank {
 namespace {
 
-using Value = std::optional<KeyValue>;
-
-double number(const KeyValue& value) { return std::get<double>(value); }
-int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
-const std::string& text(const KeyValue& value) { return std::get<std::string>(value); }
-Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
-Value unless(double value, double by_default) {
-  return value == by_default ? Value() : Value(value);
-}
-Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+using namespace key_values;
 
 /// A text for the tables, which hold plain pointers: made once, kept for good.
 const char* kept(std::string text) {

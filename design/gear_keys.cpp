@@ -2,19 +2,14 @@
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
 #include "trueflank/design/file_units.h"
+#include "trueflank/design/key_values.h"
 
 namespace trueflank {
 namespace {
 
-using G = GearDesign;
-using Value = std::optional<KeyValue>;
+using namespace key_values;
 
-double number(const KeyValue& value) { return std::get<double>(value); }
-int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
-Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
-Value unless_zero(double value) { return value == 0.0 ? Value() : Value(value); }
-const std::string& text(const KeyValue& value) { return std::get<std::string>(value); }
-Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+using G = GearDesign;
 
 void set_teeth(G& gear, const KeyValue& value) { gear.teeth = whole(value); }
 Value get_teeth(const G& gear) { return whole_value(gear.teeth); }

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/key_values.h"
 
 namespace trueflank {
 namespace {
 
-using Value = std::optional<KeyValue>;
+using namespace key_values;
 
-double number(const KeyValue& value) { return std::get<double>(value); }
-int whole(const KeyValue& value) { return static_cast<int>(std::get<std::int64_t>(value)); }
-const std::string& text(const KeyValue& value) { return std::get<std::string>(value); }
-Value whole_value(int value) { return KeyValue(static_cast<std::int64_t>(value)); }
-Value if_given(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
 Value if_named(const std::string& name) { return name.empty() ? Value() : Value(name); }
 
 /// Nothing where the value is that of the motor of this name in the built-in table.

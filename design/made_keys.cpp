@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/key_values.h"
 
 namespace trueflank {
 namespace {
@@ -38,7 +39,7 @@ const std::vector<DesignKey<MadeDesign>>& made_keys() {
         .meaning = "class of ISO 1328-1 that every gear keeps, for its runout and pitch: sets that jam within "
                    "the tolerances fail the check `tolerance`"},
        KeyPlace::kAnywhere,
-       [](M& m, const KeyValue& v) { m.tolerance_class = static_cast<int>(std::get<std::int64_t>(v)); },
+       [](M& m, const KeyValue& v) { m.tolerance_class = key_values::whole(v); },
        [](const M& m) {
          return m.tolerance_class ? Value(static_cast<std::int64_t>(*m.tolerance_class)) : Value();
        }},

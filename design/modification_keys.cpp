@@ -2,15 +2,14 @@
 #include <string>
 
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/key_values.h"
 
 namespace trueflank {
 namespace {
 
-using M = ModificationsDesign;
-using Value = std::optional<KeyValue>;
+using namespace key_values;
 
-double number(const KeyValue& value) { return std::get<double>(value); }
-Value unless_zero(double value) { return value == 0.0 ? Value() : Value(value); }
+using M = ModificationsDesign;
 
 ReliefShape shape_of(const KeyValue& value) {
   return std::get<std::string>(value) == "linear" ? ReliefShape::kLinear : ReliefShape::kParabola;

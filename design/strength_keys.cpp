@@ -4,17 +4,15 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
+#include "trueflank/design/key_values.h"
 #include "trueflank/design/toml_document.h"
 
 namespace trueflank {
 namespace {
 
-using S = StrengthDesign;
-using Value = std::optional<KeyValue>;
+using namespace key_values;
 
-double number(const KeyValue& value) { return std::get<double>(value); }
-Value unless(double value, double by_default) { return value == by_default ? Value() : Value(value); }
-Value optional(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
+using S = StrengthDesign;
 
 /// "1:0.2, 0.5:0.8"; one step of NaN where it is not that.
 std::vector<LoadStep> read_spectrum(std::string_view text) {
@@ -106,12 +104,12 @@ const std::vector<DesignKey<StrengthDesign>>& strength_keys() {
         .meaning = "speed of the input at the rated torque: load cycles, and temperature of plastics"},
        KeyPlace::kAnywhere,
        [](S& s, const KeyValue& v) { s.input_speed_rpm = number(v); },
-       [](const S& s) { return optional(s.input_speed_rpm); }},
+       [](const S& s) { return if_given(s.input_speed_rpm); }},
       {{.name = "life_h", .unit = "h", .lower = 0.001, .upper = 1e7, .by_default = "endurance",
         .meaning = "hours at that speed: limits for so many cycles"},
        KeyPlace::kAnywhere,
        [](S& s, const KeyValue& v) { s.life_h = number(v); },
-       [](const S& s) { return optional(s.life_h); }},
+       [](const S& s) { return if_given(s.life_h); }},
       {{.name = "ambient_c", .unit = "deg C", .lower = -60, .upper = 200, .by_default = "20",
         .meaning = "temperature round the gears, for plastics"},
        KeyPlace::kAnywhere,

@@ -11,6 +11,8 @@ namespace trueflank {
 /// UTF-8 without NUL bytes? Errors: kSyntax with the line.
 [[nodiscard]] Status check_text_encoding(std::string_view text);
 
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// Walks through a TOML text: characters, comments, strings and bare words.
 /// Requires: check_text_encoding holds. Errors (of all functions): kSyntax with line and remedy.
 class TomlLexer {

@@ -11,7 +11,6 @@
 namespace trueflank {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Digits with single underscores between them, which are left out; nothing where it is not that.
 template <class IsDigit>

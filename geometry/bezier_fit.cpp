@@ -11,9 +11,9 @@
 namespace trueflank {
 namespace {
 
-constexpr int kLowestDegree = 5, kSplineDegree = 7;
-constexpr int kMostSpans = 64;
-constexpr int kSamplesPerSpan = 40;
+constexpr int kLowestCurveDegree = 5, kCurveDegree = 7;
+constexpr int kMostCurveSpans = 64;
+constexpr int kSamplesPerCurveSpan = 40;
 
 /// Requires: interior knots are simple, as fit_bezier() makes them.
 SplineBasis basis_of(const PlaneSpline& s) { return {s.degree, s.knots}; }
@@ -85,8 +85,8 @@ std::vector<double> span_errors(const Curve& curve, const PlaneSpline& s) {
     const double from = s.knots[static_cast<std::size_t>(i)];
     const double to = s.knots[static_cast<std::size_t>(i) + 1];
     double worst = 0.0;
-    for (int k = 0; k < kSamplesPerSpan; ++k) {
-      const double u = from + (to - from) * (k + 0.5) / kSamplesPerSpan;
+    for (int k = 0; k < kSamplesPerCurveSpan; ++k) {
+      const double u = from + (to - from) * (k + 0.5) / kSamplesPerCurveSpan;
       worst = std::max(worst, (point_at(s, basis, u) - curve_point(curve, u)).norm());
     }
     errors.push_back(worst);
@@ -128,14 +128,14 @@ BezierFit fit_bezier(const Curve& curve, double tolerance_mm) {
     if (!(error >= best.error_mm)) best = {std::move(spline), error};
     return best.error_mm <= tolerance_mm;
   };
-  for (int degree = kLowestDegree; degree <= kHighestSplineDegree; ++degree) {
+  for (int degree = kLowestCurveDegree; degree <= kHighestSplineDegree; ++degree) {
     PlaneSpline spline = interpolate(curve, degree, {0.0, 1.0});
     const auto errors = span_errors(curve, spline);
     if (keep(std::move(spline), errors)) return best;
   }
   std::vector<double> knots{0.0, 0.5, 1.0};
-  while (static_cast<int>(knots.size()) <= kMostSpans + 1) {
-    PlaneSpline spline = interpolate(curve, kSplineDegree, knots);
+  while (static_cast<int>(knots.size()) <= kMostCurveSpans + 1) {
+    PlaneSpline spline = interpolate(curve, kCurveDegree, knots);
     const auto errors = span_errors(curve, spline);
     if (keep(std::move(spline), errors)) return best;
     knots = next_spans(knots, errors, tolerance_mm);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
 
@@ -31,13 +32,13 @@ Result<double> working_pressure_angle_rad(const MeshTeeth& mesh, double centre_d
     return fail({.code = ErrorCode::kInfeasible,
                  .message = "teeth " + std::to_string(mesh.teeth1) + " and " +
                             std::to_string(mesh.teeth2) + " cannot mesh at centre distance " +
-                            std::to_string(centre_distance_mm) + " mm",
+                            trimmed_number(centre_distance_mm) + " mm",
                  .key = "gearbox.centre_distance_mm",
-                 .value = std::to_string(centre_distance_mm),
-                 .remedy = "above " + std::to_string(reference_centre_distance_mm(mesh) *
+                 .value = trimmed_number(centre_distance_mm),
+                 .remedy = "above " + trimmed_number(reference_centre_distance_mm(mesh) *
                                                      std::cos(transverse_pressure_angle(mesh))) +
                            " mm (unshifted: " +
-                           std::to_string(reference_centre_distance_mm(mesh)) + " mm)"});
+                           trimmed_number(reference_centre_distance_mm(mesh)) + " mm)"});
   return std::acos(cosine);
 }
 

@@ -48,8 +48,6 @@ class ProfileBuilder {
   Curve rounding_;  ///< of the tip corner, where there is one
 };
 
-/// A number of a message, without trailing zeros.
-[[nodiscard]] std::string profile_number(double value);
 /// kOutOfRange: a value that is possible for no gear.
 [[nodiscard]] Error impossible_value(std::string key, double value, std::string remedy);
 /// kInfeasible: values that are possible each, but make no tooth together.

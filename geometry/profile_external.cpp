@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/geometry/protuberance.h"
 #include "trueflank/geometry/scalar_root.h"
 
@@ -70,9 +71,9 @@ Status ProfileBuilder::build_external() {
   if (full_round < 0.0)
     return fail(no_tooth("rack.dedendum", g().rack.dedendum,
                          "the tooth of the rack is pointed before it reaches its depth",
-                         "a dedendum of at most " + profile_number(0.25 * kPi / std::tan(alpha_n)) +
+                         "a dedendum of at most " + trimmed_number(0.25 * kPi / std::tan(alpha_n)) +
                              " or a pressure angle of at most " +
-                             profile_number(deg_from_rad(std::atan(0.25 * kPi / g().rack.dedendum))) + " deg"));
+                             trimmed_number(deg_from_rad(std::atan(0.25 * kPi / g().rack.dedendum))) + " deg"));
   double rho = g().rack.root_radius;
   if (rho > full_round) {
     rho = full_round;
@@ -89,7 +90,7 @@ Status ProfileBuilder::build_external() {
   if (p_.tip_radius_mm_ <= root_radius)
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "the tip circle lies inside the root circle",
-                         "a tip diameter above " + profile_number(2.0 * root_radius)));
+                         "a tip diameter above " + trimmed_number(2.0 * root_radius)));
 
   const double half_land = 0.25 * kPi - g().rack.dedendum * std::tan(alpha_n) -
                            rho * (1.0 - std::sin(alpha_n)) / std::cos(alpha_n) +
@@ -130,8 +131,8 @@ Status ProfileBuilder::build_external() {
   if (p_.root_form_radius_mm_ >= p_.tip_radius_mm_)
     return fail(no_tooth("teeth", g().teeth,
                          "the fillet of the tool reaches diameter " +
-                         profile_number(2.0 * p_.root_form_radius_mm_) +
-                         " mm, the tooth ends at " + profile_number(2.0 * p_.tip_radius_mm_) +
+                         trimmed_number(2.0 * p_.root_form_radius_mm_) +
+                         " mm, the tooth ends at " + trimmed_number(2.0 * p_.tip_radius_mm_) +
                          " mm: no involute is left",
                          "a larger profile shift, more teeth or a larger tip diameter"));
   // narrowest place of the foot: looked at closely only where it may be none

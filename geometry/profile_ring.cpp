@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
@@ -19,7 +20,7 @@ Status ProfileBuilder::ring_ends() {
   if (p_.tip_radius_mm_ >= p_.root_radius_mm_)
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "the ring's tip circle lies outside its root circle",
-                         "a tip diameter below " + profile_number(2.0 * p_.root_radius_mm_)));
+                         "a tip diameter below " + trimmed_number(2.0 * p_.root_radius_mm_)));
   if (psi >= gap_angle())
     return fail(no_tooth("shift", g().shift, "the ring's tooth spaces are closed",
                          "a larger profile shift"));
@@ -53,8 +54,8 @@ Status ProfileBuilder::build_ring() {
   if (p_.root_form_radius_mm_ <= p_.tip_form_radius_mm_)
     return fail(no_tooth("shift", g().shift,
                          "the ring's fillet starts at diameter " +
-                         profile_number(2.0 * p_.root_form_radius_mm_) + " mm, inside its tip circle " +
-                         profile_number(2.0 * p_.tip_form_radius_mm_) + " mm: no involute is left",
+                         trimmed_number(2.0 * p_.root_form_radius_mm_) + " mm, inside its tip circle " +
+                         trimmed_number(2.0 * p_.tip_form_radius_mm_) + " mm: no involute is left",
                          "a smaller root_radius or larger cutter, or a smaller tip diameter"));
   if (auto ok = round_tip(); !ok) return ok;
   // root pieces (and a trimmed tip) are in pieces_ already, from the tip outwards: put the rest before
@@ -178,7 +179,7 @@ Status ProfileBuilder::ring_shaper_root() {
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "a cutter with " + std::to_string(z_c) +
                          " teeth generates the ring's involute only outside diameter " +
-                         profile_number(2.0 * radius_at(first_roll)) + " mm",
+                         trimmed_number(2.0 * radius_at(first_roll)) + " mm",
                          "tip_diameter_mm of at least that, a larger shift, or a cutter with "
                          "more teeth"));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
@@ -45,26 +46,19 @@ Status check_values(const Gear& g) {
 
 }  // namespace
 
-std::string profile_number(double value) {
-  std::string s = std::to_string(value);
-  s.erase(s.find_last_not_of('0') + 1);
-  if (!s.empty() && s.back() == '.') s.pop_back();
-  return s;
-}
-
 Error no_tooth(std::string key, double value, std::string message, std::string remedy) {
   return {.code = ErrorCode::kInfeasible,
           .message = std::move(message),
           .key = std::move(key),
-          .value = profile_number(value),
+          .value = trimmed_number(value),
           .remedy = std::move(remedy)};
 }
 
 Error impossible_value(std::string key, double value, std::string remedy) {
   return {.code = ErrorCode::kOutOfRange,
-          .message = key + " = " + profile_number(value) + " cannot be",
+          .message = key + " = " + trimmed_number(value) + " cannot be",
           .key = std::move(key),
-          .value = profile_number(value),
+          .value = trimmed_number(value),
           .remedy = std::move(remedy)};
 }
 
@@ -138,8 +132,8 @@ Status ProfileBuilder::round_tip() {
     for (int i = 0; i < 60; ++i) (room(0.5 * (low + high)) >= 0.0 ? low : high) = 0.5 * (low + high);
     return fail(no_tooth(kKey, rho,
                          "no room for this rounding on a tip land of " +
-                         profile_number(2.0 * r_a * tooth_half_angle_rad(g(), r_a)) + " mm",
-                         "at most " + profile_number(low)));
+                         trimmed_number(2.0 * r_a * tooth_half_angle_rad(g(), r_a)) + " mm",
+                         "at most " + trimmed_number(low)));
   }
   const double roll = contact_roll(rho), angle = centre_angle(rho);
   p_.tip_form_radius_mm_ = radius_at(roll);

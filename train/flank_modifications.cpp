@@ -5,19 +5,13 @@
 #include <cmath>
 #include <string>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank {
 namespace {
-
-std::string short_text(double value) {
-  std::string s = std::to_string(value);
-  s.erase(s.find_last_not_of('0') + 1);
-  if (!s.empty() && s.back() == '.') s.pop_back();
-  return s;
-}
 
 /// Removal that grows from 0 at 0 to 1 at 1.
 double grown(double share, ReliefShape shape) {
@@ -103,7 +97,7 @@ class DeviationBuilder {
     errors_.push_back({.code = ErrorCode::kInfeasible,
                        .message = std::move(message),
                        .key = "modifications." + key,
-                       .value = short_text(value),
+                       .value = trimmed_number(value),
                        .remedy = std::move(remedy)});
   }
 
@@ -117,8 +111,8 @@ class DeviationBuilder {
     const double high = std::max(profile_.root_form_radius_mm(), profile_.tip_form_radius_mm());
     if (!(0.5 * start_diameter_mm > low && 0.5 * start_diameter_mm < high))
       report(std::string(name) + "_start_diameter_mm", start_diameter_mm, "not on the involute",
-             "between root form and tip form circle: more than " + short_text(2.0 * low) +
-                 " and less than " + short_text(2.0 * high) + " mm");
+             "between root form and tip form circle: more than " + trimmed_number(2.0 * low) +
+                 " and less than " + trimmed_number(2.0 * high) + " mm");
     return {mm_from_um(amount_um), start, end_roll_mm, shape};
   }
 
@@ -145,7 +139,7 @@ class DeviationBuilder {
     const double room = face_.herringbone ? t_.face.half_mm : 0.5 * width;
     if (m_.end_relief_um > 0.0 && !(t_.end_length_mm > 0.0 && t_.end_length_mm <= room))
       report("end_relief_length_mm", m_.end_relief_length_mm, "does not fit the face",
-             "more than 0 and at most " + short_text(room) + " mm, half the face");
+             "more than 0 and at most " + trimmed_number(room) + " mm, half the face");
   }
 
   [[nodiscard]] FlankDeviation make_field() const {
@@ -215,11 +209,11 @@ class DeviationBuilder {
     if (!field.empty()) {
       if (const double slope = steepest_slope(field); slope > kSteepestSlope) {
         errors_.push_back({.code = ErrorCode::kInfeasible,
-                           .message = "the flank would lean by " + short_text(slope) +
+                           .message = "the flank would lean by " + trimmed_number(slope) +
                                       " against the involute or the helix",
                            .key = "modifications",
                            .remedy = "smaller amounts or longer reliefs: a lean of at most " +
-                                     short_text(kSteepestSlope)});
+                                     trimmed_number(kSteepestSlope)});
         return;
       }
     }
@@ -259,16 +253,16 @@ class DeviationBuilder {
     if (profile_.notes().pointed && most * r_a > tolerance::kShortestPiece_mm) {
       const std::string key = deepest_key("tip_relief_um");
       report(key, value_of(key), "adds to flanks that meet in a pointed tip, which would cross",
-             "none, or a tip_diameter_mm below " + short_text(2.0 * r_a) +
+             "none, or a tip_diameter_mm below " + trimmed_number(2.0 * r_a) +
                  " mm, where the tooth has a land");
       return;
     }
     if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
     const std::string key = deepest_key("tip_relief_um");
     report(key, value_of(key),
-           "the modifications remove " + short_text(1e3 * r_a * (design - least)) +
-               " um of arc at the tip of a flank (at z = " + short_text(at) +
-               " mm), and half the tip land has " + short_text(1e3 * r_a * std::max(design, 0.0)) +
+           "the modifications remove " + trimmed_number(1e3 * r_a * (design - least)) +
+               " um of arc at the tip of a flank (at z = " + trimmed_number(at) +
+               " mm), and half the tip land has " + trimmed_number(1e3 * r_a * std::max(design, 0.0)) +
                " um",
            "less, or a tip_diameter_mm with a wider land");
   }

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/train/clear_tips.h"
 #include "trueflank/train/flank_modifications.h"
 #include "trueflank/train/planet_phase.h"
@@ -16,13 +17,6 @@
 
 namespace trueflank {
 namespace {
-
-std::string short_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::general, 6);
-  return {buffer.data(), end.ptr};
-}
 
 /// Helix angles follow from the first gear's: gears of one body have one hand, a ring has its mate's,
 /// external mates have opposite ones.
@@ -218,9 +212,9 @@ Errors apex_errors(const GearboxDesign& design, const std::vector<TrainMesh>& me
                       .message = mesh.name + ": herringbone teeth of different face widths have their "
                                  "apexes at different heights",
                       .key = gear2.name + ".face_width_mm",
-                      .value = std::to_string(gear2.face_width_mm),
+                      .value = trimmed_number(gear2.face_width_mm),
                       .remedy = "the face width of " + gear1.name + ", " +
-                                std::to_string(gear1.face_width_mm)});
+                                trimmed_number(gear1.face_width_mm)});
   }
   return errors;
 }
@@ -231,17 +225,17 @@ Error centre_distance_error(const GearboxDesign& design, const std::vector<Train
                             const std::vector<Gear>& gears, const std::vector<std::size_t>& impossible) {
   std::string shifts;
   for (const std::size_t i : impossible)
-    shifts += (shifts.empty() ? "" : ", ") + design.gears[i].name + " " + short_text(gears[i].shift);
+    shifts += (shifts.empty() ? "" : ", ") + design.gears[i].name + " " + printed_number(gears[i].shift, "%.6g");
   std::string unshifted;
   for (const TrainMesh& mesh : meshes) {
     const double a = reference_centre_distance_mm(mesh_teeth(gears[static_cast<std::size_t>(mesh.gear1)],
                                                              gears[static_cast<std::size_t>(mesh.gear2)]));
-    unshifted += (unshifted.empty() ? "" : ", ") + mesh.name + " " + short_text(a) + " mm";
+    unshifted += (unshifted.empty() ? "" : ", ") + mesh.name + " " + printed_number(a, "%.6g") + " mm";
   }
   return {.code = ErrorCode::kInfeasible,
           .message = "no teeth fit this centre distance: it asks for profile shifts of " + shifts,
           .key = "gearbox.centre_distance_mm",
-          .value = short_text(*design.centre_distance_mm),
+          .value = printed_number(*design.centre_distance_mm, "%.6g"),
           .remedy = "near that of the teeth without shifts: " + unshifted};
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/base/number_text.h"
 #include "trueflank/train/shift_solution.h"
 
 #include <cmath>
@@ -58,9 +59,9 @@ class ShiftSolver {
         errors_.push_back({.code = ErrorCode::kInconsistent,
                            .message = mesh.name + ": gears in mesh need one module",
                            .key = g2.name + ".module_mm",
-                           .value = std::to_string(module_of(design_, g2)),
+                           .value = trimmed_number(module_of(design_, g2)),
                            .remedy = "the module of " + g1.name + ", " +
-                                     std::to_string(module_of(design_, g1))});
+                                     trimmed_number(module_of(design_, g1))});
       if (g2.kind == GearKind::kInternal && g2.teeth <= g1.teeth)
         errors_.push_back({.code = ErrorCode::kInconsistent,
                            .message = mesh.name + ": a ring needs more teeth than the gear in it",

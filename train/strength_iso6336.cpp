@@ -11,7 +11,7 @@
 namespace trueflank {
 namespace {
 
-constexpr double kBothWays = 0.7;       // Y_M of ISO 6336-3 annex B for idlers and planets
+constexpr double kIdlerLoad = 0.7;       // Y_M of ISO 6336-3 annex B for idlers and planets
 constexpr double kStressCorrection = 2.0;  // Y_ST of the reference test gear
 constexpr double kMinutesAnHour = 60.0;
 
@@ -93,7 +93,7 @@ void rate_root(const GearTrain& train, const MeshGeometry& g, const ToothSide& s
                                   std::min(30.0, deg_from_rad(std::abs(gear.helix_angle_rad))) / 120.0;
   tooth.stress_per_n = tooth.form_factor * tooth.notch_factor * y_epsilon * y_beta * tooth.rim_factor /
                        (g.face_width_mm * gear.normal_module_mm);
-  tooth.limit_mpa = side.material->bending_limit_mpa * kStressCorrection * (side.both_ways ? kBothWays : 1.0) *
+  tooth.limit_mpa = side.material->bending_limit_mpa * kStressCorrection * (side.both_ways ? kIdlerLoad : 1.0) *
                     tooth.sensitivity_factor * tooth.size_factor * tooth.life_factor;
 }
 
@@ -112,7 +112,7 @@ void set_single_contact(const MeshGeometry& g, Iso6336Mesh& mesh) {
   mesh.single_contact_factor2 = blended(m2);
 }
 
-double contact_ratio_factor(const MeshGeometry& g) {
+double contact_ratio_factor_iso(const MeshGeometry& g) {
   const double e = g.contact_ratio, b = g.overlap_ratio;
   return b >= 1.0 ? std::sqrt(1.0 / e) : std::sqrt((4.0 - e) / 3.0 * (1.0 - b) + b / e);
 }
@@ -124,7 +124,7 @@ void rate_flanks(const MeshGeometry& g, const Material& m1, const Material& m2, 
   const double curvature = (g.pair.internal() ? u - 1.0 : u + 1.0) / u;
   mesh.zone_factor = zone_factor(g);
   mesh.elasticity_factor = elasticity_factor(m1, m2);
-  mesh.contact_ratio_factor = contact_ratio_factor(g);
+  mesh.contact_ratio_factor = contact_ratio_factor_iso(g);
   mesh.helix_factor = 1.0 / std::sqrt(std::cos(g.pair.gear1().helix_angle_rad));
   set_single_contact(g, mesh);
   mesh.contact_stress_per_root_n = mesh.zone_factor * mesh.elasticity_factor * mesh.contact_ratio_factor *

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCyclesWithoutLife = 1e8;
 constexpr double kTestTemperature_c = 23.0;
-constexpr double kStressCorrection = 2.0;  // Y_St: limits are those of a notched gear, counted without it
+constexpr double kReferenceGearNotch = 2.0;  // Y_St: limits are those of a notched gear, counted without it
 
 /// Heat into the tooth per power lost, K (m/s)^0.75 mm^1.75 / W: Hachmann and Strickle's, as handbooks print them from
 /// VDI 2545 for dry and greased pairs. Oil carries the heat away.
@@ -67,7 +67,7 @@ PlasticTooth at_torque(const Rated& r, double output_nm, const StrengthOptions& 
                        o.face_load_factor;
   const double tiring = force * equivalent_load(o.spectrum, 5.0);
   t.root_stress_mpa = r.tooth->stress_per_n * tiring;
-  t.root_limit_mpa = kStressCorrection * plastic.root.at(t.root_c, r.cycles) * (r.both_ways ? 2.0 / 3.0 : 1.0);
+  t.root_limit_mpa = kReferenceGearNotch * plastic.root.at(t.root_c, r.cycles) * (r.both_ways ? 2.0 / 3.0 : 1.0);
   // with the modulus at room temperature: that a warm flank spreads the load more is left out
   t.flank_stress_mpa = r.factors.contact_stress_per_root_n * std::sqrt(tiring);
   t.flank_limit_mpa = plastic.flank.at(t.flank_c, r.cycles);

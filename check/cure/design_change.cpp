@@ -10,7 +10,6 @@ namespace {
 /// What design files take; backlash: at most a module.
 constexpr double kLeastAddendum = 0.05;
 
-constexpr double kFar = 0.5;  // modules, of a centre distance
 
 /// Centre distances and leading shifts as people write them.
 double written(double value) { return std::round(value * 1e4) / 1e4; }
@@ -90,7 +89,7 @@ GearboxDesign changed_design(const GearTrain& train, const DesignChange& change,
     const double by = moved == change.shift_of_layer.end() ? 0.0 : moved->second;
     // a shift that was solved for a distance far from the new one says nothing there
     const bool solved_elsewhere =
-        std::abs(change.centre_distance) > kFar && !train.design.gears[lead].shift;
+        std::abs(change.centre_distance) > kFarCentreDistance && !train.design.gears[lead].shift;
     const double from = solved_elsewhere ? 0.0 : train.gears[lead].shift;
     design.gears[lead].shift = by == 0.0 ? kept(from) : written(from + by);
   }

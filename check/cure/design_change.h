@@ -24,6 +24,9 @@ struct DesignChange {
   [[nodiscard]] double cost() const;
 };
 
+/// Modules; a shift solved for a centre distance farther off than this says nothing at the new one.
+inline constexpr double kFarCentreDistance = 0.5;
+
 /// The gear of a layer whose shift is free: the one with most meshes, the first of them.
 [[nodiscard]] std::size_t leading_gear(const GearTrain& train, int layer);
 /// Layers that have meshes.

@@ -27,7 +27,7 @@
 namespace trueflank {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kMoreForHousing =
     1.0;  // dearer teeth are tried too: a housing may not take the first
 constexpr int kMostSets = 40, kMostPairs = 150;  // tooth counts tried of planetary sets and of pairs
@@ -35,8 +35,8 @@ constexpr int kMostJudged = 6;                // candidates that every check jud
 
 struct Trial {
   DesignChange change;
-  double cost = kFar;
-  double failing = kFar, worrying = kFar;
+  double cost = kEndless;
+  double failing = kEndless, worrying = kEndless;
   [[nodiscard]] bool passes() const { return failing == 0.0; }
   [[nodiscard]] bool clean() const { return passes() && worrying == 0.0; }
 };
@@ -188,7 +188,7 @@ class Search {
     for (const int layer : layers_) {
       std::optional<Trial> best;
       for (const double shift : shift_moves()) {
-        if (spent() || common.cost() + std::abs(shift) >= std::min(cost_of_cleanest_, best && best->clean() ? best->cost : kFar))
+        if (spent() || common.cost() + std::abs(shift) >= std::min(cost_of_cleanest_, best && best->clean() ? best->cost : kEndless))
           break;
         DesignChange change = common;
         change.shift_of_layer[layer] = shift;
@@ -204,7 +204,7 @@ class Search {
   }
 
   void try_teeth() {
-    cost_of_cleanest_ = kFar;
+    cost_of_cleanest_ = kEndless;
     int tried_sets = 0;
     for (const DesignChange& move : teeth_moves(train_)) {
       if (designs_ >= 2 * options_.most_designs || judge_.turned() + bisected_ / 2 >= 2 * options_.most_turned) return;
@@ -387,7 +387,7 @@ class Search {
   double lacking_backlash_ = 0.0;  ///< modules
   ContactJudge judge_;
   int designs_ = 0, bisected_ = 0;
-  double cost_of_cleanest_ = kFar;
+  double cost_of_cleanest_ = kEndless;
   std::vector<Trial> trials_;  ///< the best, best first
   std::map<std::set<std::string>, int> failed_together_;
 };

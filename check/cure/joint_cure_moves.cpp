@@ -11,7 +11,6 @@ namespace trueflank {
 namespace {
 
 constexpr int kMostTeeth = 3;  // more or less, of each gear
-constexpr double kFar = 0.5;   // modules, of a centre distance
 
 void sort_by_cost(std::vector<DesignChange>& moves) {
   std::stable_sort(moves.begin(), moves.end(),
@@ -57,13 +56,13 @@ double to_reference(const GearTrain& train, const TrainMesh& mesh) {
 
 /// Modules.
 std::vector<double> distance_moves(const GearTrain& train) {
-  std::vector<double> moves{0.0, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2, 0.35, -0.35, kFar, -kFar};
+  std::vector<double> moves{0.0, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2, 0.35, -0.35, kFarCentreDistance, -kFarCentreDistance};
   for (const TrainMesh& mesh : train.meshes) {
     const double there =
         (reference_centre_distance_mm(mesh_teeth(train.pair(mesh))) - train.centre_distance_mm) /
         train.design.module_mm;
     for (const double move : {there, 0.5 * there})
-      if (std::abs(move) > kFar) moves.push_back(move);
+      if (std::abs(move) > kFarCentreDistance) moves.push_back(move);
   }
   return moves;
 }
@@ -110,7 +109,7 @@ std::vector<DesignChange> teeth_moves(const GearTrain& train) {
   }
   sort_by_cost(moves);
   const double there = to_reference(train, train.meshes.front());
-  if (std::abs(there) <= kFar) return moves;
+  if (std::abs(there) <= kFarCentreDistance) return moves;
   // in turns: at the distance there is, and at the one the teeth ask for
   std::vector<DesignChange> both;
   for (const DesignChange& move : moves) {

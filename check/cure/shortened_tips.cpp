@@ -12,7 +12,7 @@
 namespace trueflank {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kOpen = std::numeric_limits<double>::infinity();
 constexpr double kWantedTipClearance = 0.1;  // of the module
 constexpr double kWrittenTips_per_mm = 1e3;  // tip diameters are written so
 
@@ -101,7 +101,7 @@ bool shorten_in_the_way(const GearTrain& laid, int layer, ContactJudge& judge, i
             },
         .quick =
             [&](const GearPair& pair) {
-              const double open = asked > 0.0 ? tip_sweep_clearance_mm(pair) - asked : kFar;
+              const double open = asked > 0.0 ? tip_sweep_clearance_mm(pair) - asked : kOpen;
               return std::min(tip_driving_clearance_mm(pair), open) + less_mm;
             }};
     for (const bool of_gear1 : {c.tip_of_gear1, !c.tip_of_gear1}) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/brep/brep_wall.h"
 #include "trueflank/solid/brep/spline_patch.h"
@@ -375,7 +376,7 @@ Status check_ends(const ToothColumns& columns) {
           if (std::abs(off) > kFlat_mm)
             return fail({.code = ErrorCode::kUnsupported,
                          .message = "the displacement moves the toothing's ends out of their planes (" +
-                                    std::to_string(um_from_mm(off)) + " um)",
+                                    trimmed_number(um_from_mm(off)) + " um)",
                          .remedy = "a mesh format"});
         }
   return {};

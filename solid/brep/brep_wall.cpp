@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/brep/tooth_columns.h"
 #include "trueflank/solid/brep/toothing_path.h"
@@ -121,7 +122,7 @@ bool is_prismatic(const Outline& outline) {
 Error too_rough(double error_mm) {
   return {.code = ErrorCode::kUnsupported,
           .message = "the tooth surface bends more than splines of 64 spans follow: " +
-                     std::to_string(um_from_mm(error_mm)) + " um off",
+                     trimmed_number(um_from_mm(error_mm)) + " um off",
           .remedy = "a mesh format, or a smoother deviation"};
 }
 

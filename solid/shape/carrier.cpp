@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/train/carrier.h"
 
 namespace trueflank {
@@ -12,13 +13,6 @@ namespace {
 
 /// Least wall between two outlines of a plate: thinner it is no part of a carrier.
 constexpr double kLeastWall_mm = 0.4;
-
-std::string text(double value_mm) {
-  char buffer[64];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value_mm, std::chars_format::fixed, 3);
-  return {buffer, end.ptr};
-}
 
 class CarrierBuilder {
  public:
@@ -45,8 +39,8 @@ class CarrierBuilder {
     const BoreDesign& bore = planet->bore;
     if (!(layout_.pin_diameter_mm > 0.0) || !(bore.diameter_mm > layout_.pin_diameter_mm))
       infeasible("pin_diameter_mm",
-                 planet->name + " has a bore of " + text(bore.diameter_mm) +
-                     " mm: no pin of diameter " + text(layout_.pin_diameter_mm) + " mm turns in it",
+                 planet->name + " has a bore of " + fixed_mm(bore.diameter_mm) +
+                     " mm: no pin of diameter " + fixed_mm(layout_.pin_diameter_mm) + " mm turns in it",
                  "a bore_mm of " + planet->name + " larger than the pin");
     else if (bore.kind != BoreKind::kRound)
       infeasible("pin_diameter_mm", planet->name + "'s bore is not round: it cannot turn on a pin",
@@ -58,19 +52,19 @@ class CarrierBuilder {
     const double inner = circle - hole - kLeastWall_mm;
     if (!(0.5 * layout_.opening_diameter_mm <= inner))
       infeasible("opening_diameter_mm",
-                 "the carrier's opening of diameter " + text(layout_.opening_diameter_mm) +
+                 "the carrier's opening of diameter " + fixed_mm(layout_.opening_diameter_mm) +
                      " mm leaves no wall to the holes of its pins",
-                 "at most " + text(2.0 * inner) + " mm");
+                 "at most " + fixed_mm(2.0 * inner) + " mm");
     if (!(0.5 * layout_.outer_diameter_mm >= circle + hole + kLeastWall_mm))
       infeasible("outer_diameter_mm",
-                 "the carrier's plate of diameter " + text(layout_.outer_diameter_mm) +
+                 "the carrier's plate of diameter " + fixed_mm(layout_.outer_diameter_mm) +
                      " mm leaves no wall around its pins",
-                 "at least " + text(2.0 * (circle + hole + kLeastWall_mm)) + " mm");
+                 "at least " + fixed_mm(2.0 * (circle + hole + kLeastWall_mm)) + " mm");
     const double apart = nearest_pins_mm();
     if (!(apart >= 2.0 * hole + kLeastWall_mm))
       infeasible("pin_diameter_mm",
-                 "the carrier's pins stand " + text(apart) + " mm apart, their holes measure " +
-                     text(2.0 * hole) + " mm",
+                 "the carrier's pins stand " + fixed_mm(apart) + " mm apart, their holes measure " +
+                     fixed_mm(2.0 * hole) + " mm",
                  "thinner pins");
     if (layout_.seat_diameter_mm > 0.0) check_seat(inner);
   }
@@ -79,20 +73,20 @@ class CarrierBuilder {
     const double thickness = layout_.lower_plate.upper_mm - layout_.lower_plate.lower_mm;
     if (!(0.5 * layout_.seat_diameter_mm <= inner_mm))
       infeasible("bearing_diameter_mm",
-                 "the seat of diameter " + text(layout_.seat_diameter_mm) +
+                 "the seat of diameter " + fixed_mm(layout_.seat_diameter_mm) +
                      " mm leaves no wall to the holes of the pins",
-                 "at most " + text(2.0 * inner_mm) + " mm");
+                 "at most " + fixed_mm(2.0 * inner_mm) + " mm");
     if (!(layout_.seat_diameter_mm >= layout_.opening_diameter_mm + 2.0 * kLeastWall_mm))
       infeasible("bearing_diameter_mm",
-                 "the seat of diameter " + text(layout_.seat_diameter_mm) +
+                 "the seat of diameter " + fixed_mm(layout_.seat_diameter_mm) +
                      " mm has no shoulder around the opening of " +
-                     text(layout_.opening_diameter_mm) + " mm",
+                     fixed_mm(layout_.opening_diameter_mm) + " mm",
                  "a smaller opening_diameter_mm");
     if (!(layout_.seat_depth_mm + kLeastWall_mm <= thickness))
       infeasible("bearing_width_mm",
-                 "the seat is " + text(layout_.seat_depth_mm) + " mm deep in a plate of " +
-                     text(thickness) + " mm",
-                 "a plate_thickness_mm of at least " + text(layout_.seat_depth_mm + kLeastWall_mm) +
+                 "the seat is " + fixed_mm(layout_.seat_depth_mm) + " mm deep in a plate of " +
+                     fixed_mm(thickness) + " mm",
+                 "a plate_thickness_mm of at least " + fixed_mm(layout_.seat_depth_mm + kLeastWall_mm) +
                      " mm");
   }
 

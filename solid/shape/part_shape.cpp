@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/shape/carrier.h"
 #include "trueflank/solid/shape/machine/machine_parts.h"
@@ -27,13 +28,6 @@ constexpr double kNeckInset = 0.25;
 constexpr double kGrooveInset = 0.1;
 /// A layer gap below this is no gap that can be made.
 constexpr double kLeastGap_mm = 0.01;
-
-std::string text(double value_mm) {
-  char buffer[64];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value_mm, std::chars_format::fixed, 3);
-  return {buffer, end.ptr};
-}
 
 class ShapeBuilder {
  public:
@@ -175,11 +169,11 @@ class ShapeBuilder {
                            : hex                          ? " at the hexagon's corners"
                                                           : "";
       infeasible(gear.name + (hex ? ".bore_hex_mm" : ".bore_mm"),
-                 gear.name + ": the bore reaches radius " + text(reach) + " mm" + corner +
-                     ", the root circle has " + text(root_radius_mm) +
+                 gear.name + ": the bore reaches radius " + fixed_mm(reach) + " mm" + corner +
+                     ", the root circle has " + fixed_mm(root_radius_mm) +
                      " mm: no wall of a quarter of the module is left",
                  "a bore whose farthest point stays within radius " +
-                     text(std::max(0.0, root_radius_mm - wall)) + " mm");
+                     fixed_mm(std::max(0.0, root_radius_mm - wall)) + " mm");
       return;
     }
     holes.push_back(BoreOutline{bore});
@@ -193,8 +187,8 @@ class ShapeBuilder {
       if (!(0.5 * *design.outer_diameter_mm >= least))
         infeasible(gear.name + ".outer_diameter_mm",
                    gear.name + ": the rim is too thin: outer diameter " +
-                       text(*design.outer_diameter_mm) + " mm, root circle " + text(2.0 * root) + " mm",
-                   "at least " + text(2.0 * least) + " mm");
+                       fixed_mm(*design.outer_diameter_mm) + " mm, root circle " + fixed_mm(2.0 * root) + " mm",
+                   "at least " + fixed_mm(2.0 * least) + " mm");
       return 0.5 * *design.outer_diameter_mm;
     }
     double rim = root + usual_rim_mm(m);
@@ -214,20 +208,20 @@ class ShapeBuilder {
     const double outer = rim_radius_without_errors_mm(gear);
     if (!(circle - hole >= root + wall))
       infeasible(gear.name + ".bolt_circle_diameter_mm",
-                 gear.name + ": the bolt holes reach radius " + text(circle - hole) +
-                     " mm, the root circle has " + text(root) + " mm",
-                 "a bolt circle of at least " + text(2.0 * (root + wall + hole)) + " mm");
+                 gear.name + ": the bolt holes reach radius " + fixed_mm(circle - hole) +
+                     " mm, the root circle has " + fixed_mm(root) + " mm",
+                 "a bolt circle of at least " + fixed_mm(2.0 * (root + wall + hole)) + " mm");
     if (!(circle + hole <= outer - wall))
       infeasible(gear.name + ".bolt_circle_diameter_mm",
-                 gear.name + ": the bolt holes reach radius " + text(circle + hole) +
-                     " mm, the ring ends at " + text(outer) + " mm",
-                 "an outer diameter of at least " + text(2.0 * (circle + hole + wall)) + " mm");
+                 gear.name + ": the bolt holes reach radius " + fixed_mm(circle + hole) +
+                     " mm, the ring ends at " + fixed_mm(outer) + " mm",
+                 "an outer diameter of at least " + fixed_mm(2.0 * (circle + hole + wall)) + " mm");
     const double apart = 2.0 * circle * std::sin(kPi / bolts.count);
     if (bolts.count > 1 && !(apart >= 2.0 * hole + wall))
       infeasible(gear.name + ".bolt_hole_diameter_mm",
-                 gear.name + ": " + std::to_string(bolts.count) + " bolt holes stand " + text(apart) +
-                     " mm apart and have a diameter of " + text(2.0 * hole) + " mm",
-                 "holes of at most " + text(std::max(0.0, apart - wall)) + " mm, or fewer");
+                 gear.name + ": " + std::to_string(bolts.count) + " bolt holes stand " + fixed_mm(apart) +
+                     " mm apart and have a diameter of " + fixed_mm(2.0 * hole) + " mm",
+                 "holes of at most " + fixed_mm(std::max(0.0, apart - wall)) + " mm, or fewer");
     for (int i = 0; i < bolts.count; ++i)
       holes.push_back(CircleOutline{circle * unit_vector(kTwoPi * i / bolts.count), hole});
   }
@@ -306,8 +300,8 @@ class ShapeBuilder {
                 std::vector<Slab>& slabs) {
     if (!(gap_mm >= kLeastGap_mm)) {
       infeasible("gearbox.layer_gap_mm",
-                 "the planet's layers stand " + text(gap_mm) + " mm apart: no neck fits between them",
-                 "0, or at least " + text(kLeastGap_mm) + " mm");
+                 "the planet's layers stand " + fixed_mm(gap_mm) + " mm apart: no neck fits between them",
+                 "0, or at least " + fixed_mm(kLeastGap_mm) + " mm");
       return;
     }
     const double root =
@@ -331,11 +325,11 @@ class ShapeBuilder {
     infeasible("gearbox.layer_gap_mm",
                "without a layer gap one section of the planet must lie inside the other's root "
                "circle: " + lower.name + " reaches from diameter " +
-                   text(2.0 * lower.profile.root_radius_mm()) + " to " +
-                   text(2.0 * lower.profile.tip_radius_mm()) + " mm, " + upper.name + " from " +
-                   text(2.0 * upper.profile.root_radius_mm()) + " to " +
-                   text(2.0 * upper.profile.tip_radius_mm()) + " mm: their teeth would cross",
-               "a layer gap of at least " + text(kLeastGap_mm) + " mm, 1 mm for a usual neck");
+                   fixed_mm(2.0 * lower.profile.root_radius_mm()) + " to " +
+                   fixed_mm(2.0 * lower.profile.tip_radius_mm()) + " mm, " + upper.name + " from " +
+                   fixed_mm(2.0 * upper.profile.root_radius_mm()) + " to " +
+                   fixed_mm(2.0 * upper.profile.tip_radius_mm()) + " mm: their teeth would cross",
+               "a layer gap of at least " + fixed_mm(kLeastGap_mm) + " mm, 1 mm for a usual neck");
   }
 
   /// What a mark in the upper face stays outside of: the bore, or the seat of a bearing.

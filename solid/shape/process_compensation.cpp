@@ -6,6 +6,7 @@
 #include <deque>
 #include <string>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/shape/bed_chamfer.h"
 #include "trueflank/solid/shape/outline_loop.h"
@@ -17,7 +18,7 @@ Error does_not_exist(const std::string& part, double offset_mm, const std::strin
   return {.code = ErrorCode::kInfeasible,
           .message = part + ": nothing is left where its walls are moved by the process: " + why,
           .key = "made.process",
-          .value = std::to_string(um_from_mm(offset_mm)) + " um",
+          .value = trimmed_number(um_from_mm(offset_mm)) + " um",
           .remedy = "a process with less horizontal_expansion_mm"};
 }
 

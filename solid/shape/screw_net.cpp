@@ -10,7 +10,7 @@
 namespace trueflank {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Vertices farther apart along the chains than so many of their widest steps are never joined.
 constexpr double kReach = 1.5;
 
@@ -52,7 +52,7 @@ class Zip {
       rows_.push_back({low, std::max(high, low + 1), cells});
       cells += rows_.back().high - low;
     }
-    cost_.assign(cells, kInfinity);
+    cost_.assign(cells, kNoLimit);
     from_left_.assign(cells, false);
   }
 
@@ -78,7 +78,7 @@ class Zip {
     return rows_[i].first + j - rows_[i].low;
   }
   [[nodiscard]] double cost(std::size_t i, std::size_t j) const {
-    return j < rows_[i].low || j >= rows_[i].high ? kInfinity : cost_[cell(i, j)];
+    return j < rows_[i].low || j >= rows_[i].high ? kNoLimit : cost_[cell(i, j)];
   }
   void settle(std::size_t i, std::size_t j) {
     const std::size_t here = cell(i, j);
@@ -87,14 +87,14 @@ class Zip {
       return;
     }
     const auto through = [&](double before, const Link& a, const Link& b, const Link& c) {
-      if (before == kInfinity) return kInfinity;
+      if (before == kNoLimit) return kNoLimit;
       const double error = error_(a, b, c);
       return before + error * error * error * error;
     };
     const double by_left =
-        i == 0 ? kInfinity : through(cost(i - 1, j), left_[i - 1], right_[j], left_[i]);
+        i == 0 ? kNoLimit : through(cost(i - 1, j), left_[i - 1], right_[j], left_[i]);
     const double by_right =
-        j == 0 ? kInfinity : through(cost(i, j - 1), left_[i], right_[j - 1], right_[j]);
+        j == 0 ? kNoLimit : through(cost(i, j - 1), left_[i], right_[j - 1], right_[j]);
     from_left_[here] = by_left < by_right;
     cost_[here] = std::min(by_left, by_right);
   }

@@ -16,7 +16,7 @@ namespace {
 using Point3 = Eigen::Vector3d;
 
 /// Rounds of finer rows and columns where facets do not keep the tolerance.
-constexpr int kRounds = 10;
+constexpr int kNetRounds = 10;
 /// A net is measured, not bounded: what its error is taken for.
 constexpr double kSafety = 0.99;
 
@@ -391,7 +391,7 @@ void ToothingGrid::try_net(double tolerance_mm) {
     widest = std::max(widest, std::abs(patch_turn_rad(k)));
   Aims aims(toothing_.profile->pieces().size());
   for (auto& piece : aims) piece.fill(tolerance_mm);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kNetRounds; ++round) {
     edges_ = chords;
     spread_columns(aims, widest);
     const std::vector<NetEdge> edges = net_edges();

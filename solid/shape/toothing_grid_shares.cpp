@@ -27,7 +27,7 @@ constexpr double kWorthATrial = 0.97;
 /// The parts of a layer that bends evenly differ by less.
 constexpr double kAlike = 1.01;
 /// Parts that a layer is cut into at once: few where it may bend in one of them alone.
-constexpr int kFewParts = 8, kMostParts = 64;
+constexpr int kFewShareParts = 8, kMostParts = 64;
 
 }  // namespace
 
@@ -82,7 +82,7 @@ void ToothingGrid::lay_columns(double aim_mm, double rows_mm, const std::vector<
 void ToothingGrid::lay_rows(double aim_mm, double rows_mm) {
   start_layers(kRoomForDeviation * aim_mm);
   refine_columns(aim_mm);
-  refine_layers(rows_mm > 0.0 ? rows_mm : aim_mm, rows_mm > 0.0 ? kMostParts : kFewParts);
+  refine_layers(rows_mm > 0.0 ? rows_mm : aim_mm, rows_mm > 0.0 ? kMostParts : kFewShareParts);
 }
 
 void ToothingGrid::crowd_columns(const std::vector<bool>& crowded, double tolerance_mm) {

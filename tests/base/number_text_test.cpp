@@ -67,6 +67,15 @@ TEST(PrintedNumber, NeverMinusZero) {
   EXPECT_EQ(printed_number(0.25, "%g"), "0.25");
 }
 
+TEST(TrimmedNumber, HasNoIdleZerosAndNoMinusZero) {
+  EXPECT_EQ(trimmed_number(46.0), "46");
+  EXPECT_EQ(trimmed_number(0.25), "0.25");
+  EXPECT_EQ(trimmed_number(1e-9), "0");
+  EXPECT_EQ(trimmed_number(-1e-9), "0");
+  EXPECT_EQ(trimmed_number(2.678, 2), "2.68");
+  EXPECT_EQ(trimmed_number(1200.0, 0), "1200");
+}
+
 TEST(Joined, PutsTheWordBetween) {
   EXPECT_EQ(joined({}), "");
   EXPECT_EQ(joined({"sun"}), "sun");

@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/solid/shape/machine/machine_pieces.h"
 
 namespace trueflank {
 namespace {
 
 /// Outlines of layers that touch have no arc in common.
 constexpr double kApart_mm = 0.02;
-
-CircleOutline circle(double radius_mm) {
-  return {.centre = Point2::Zero(), .radius_mm = radius_mm};
-}
 
 /// "m3x12", fit for a file's name.
 std::string file_text(std::string text) {
@@ -24,14 +21,7 @@ std::string file_text(std::string text) {
   return text;
 }
 
-std::string short_number(double value) {
-  std::string text = std::to_string(std::round(100.0 * value) / 100.0);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
-std::string thread_text(const Screw& screw) { return "M" + short_number(screw.diameter_mm); }
+std::string thread_text(const Screw& screw) { return "M" + trimmed_number(screw.diameter_mm, 2); }
 
 }  // namespace
 
@@ -105,7 +95,7 @@ void BoughtParts::add_screws(const ScrewGroup& group, int member, double rotatio
   const Screw& screw = group.screw;
   const double socket = group.head_mm - group.way * 0.5 * screw.head_height_mm;
   const Outline head = circle(0.5 * screw.head_diameter_mm);
-  const std::string size = thread_text(screw) + "x" + short_number(group.length_mm);
+  const std::string size = thread_text(screw) + "x" + trimmed_number(group.length_mm, 2);
   place("screw_" + file_text(size) + "_" + group.what, "ISO 4762 " + size,
         {{group.head_mm, group.tip_mm(), circle(0.5 * screw.diameter_mm)},
          {group.head_mm, socket, head},
@@ -124,7 +114,7 @@ void BoughtParts::add_screws(const ScrewGroup& group, int member, double rotatio
 void BoughtParts::add_inserts(const Screw& screw, const std::string& what,
                               const std::vector<Point2>& at, double from_mm, int member, double rotation_rad,
                               const Point2& axis) {
-  const std::string size = thread_text(screw) + "x" + short_number(screw.insert_length_mm);
+  const std::string size = thread_text(screw) + "x" + trimmed_number(screw.insert_length_mm, 2);
   place("insert_" + file_text(size) + "_" + what, "heat-set insert " + size,
         {{from_mm,
           from_mm + screw.insert_length_mm,
@@ -137,8 +127,8 @@ void BoughtParts::add_bearing(const Bearing& bearing, const std::vector<Point2>&
                               int member) {
   place("bearing_" + file_text(bearing.name),
         (bearing.kind == BearingKind::kCrossedRollers ? "crossed-roller bearing " : "ball bearing ") + bearing.name +
-            " (" + short_number(bearing.bore_mm) + "x" + short_number(bearing.outer_mm) + "x" +
-            short_number(bearing.width_mm) + ")",
+            " (" + trimmed_number(bearing.bore_mm, 2) + "x" + trimmed_number(bearing.outer_mm, 2) + "x" +
+            trimmed_number(bearing.width_mm, 2) + ")",
         {{from_mm,
           from_mm + bearing.width_mm,
           circle(0.5 * bearing.outer_mm),
@@ -148,7 +138,7 @@ void BoughtParts::add_bearing(const Bearing& bearing, const std::vector<Point2>&
 
 void BoughtParts::add_pins(double diameter_mm, double length_mm, bool standard,
                            const std::vector<Point2>& at, double from_mm, int member) {
-  const std::string size = short_number(diameter_mm) + "x" + short_number(length_mm);
+  const std::string size = trimmed_number(diameter_mm, 2) + "x" + trimmed_number(length_mm, 2);
   place("pin_" + file_text(size),
         standard ? "dowel pin ISO 2338 " + size : "round bar " + size + ", cut to length",
         {{from_mm, from_mm + length_mm, circle(0.5 * diameter_mm)}}, at, member, 0.0);
