@@ -26,6 +26,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   train/inertia.h
   train/losses.h
   train/machine/elements.h
+  train/machine/fit_class.h
   train/machine/machine_design.h
   train/materials.h
   train/process.h

@@ -8,7 +8,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_keys.h"
 #include "trueflank/design/design_name.h"
-#include "trueflank/train/machine/machine_layout.h"
+#include "trueflank/design/machine_contradictions.h"
 
 namespace trueflank {
 namespace {
@@ -47,7 +47,7 @@ class Contradictions {
     }
     check_bodies();
     if (design_.carrier) check_carrier();
-    if (design_.machine) check_machine();
+    if (design_.machine) report_machine_contradictions(design_, kind_known_, reading_);
   }
 
  private:
@@ -415,61 +415,6 @@ class Contradictions {
                              "the pin is not thinner than the planet's bore",
                              "less than " + mm(planet->bore.diameter_mm));
     }
-  }
-
-  void check_machine() {
-    const Topology& topology = design_.topology;
-    if (kind_known_) check_housed(topology);
-    check_motor(design_.machine->motor);
-    for (const GearDesign& gear : design_.gears)
-      if (gear.kind == GearKind::kInternal)
-        for (const char* name : {"outer_diameter_mm", "bolt_circle_diameter_mm"})
-          if (reading_.has(gear.name + "." + name))
-            reading_.contradiction(gear.name + "." + name, "follows from [housing]",
-                                   "outer_diameter_mm in [housing], or nothing");
-    if (reading_.has("carrier.bearing_diameter_mm"))
-      reading_.contradiction("carrier.bearing_diameter_mm", "the carrier of a gearbox has no such seat",
-                             "[bearings], or no [housing]");
-  }
-
-  /// Which trains a housing is made for, and what of its keys they have.
-  void check_housed(const Topology& topology) {
-    if (!has_housing(topology))
-      return reading_.contradiction("housing", "no housing is made for a single gear",
-                                    "another kind, or no [housing]");
-    const bool pair = !topology.has_planets();
-    if (reading_.has(pair ? "bearings.planet" : "bearings.wheel"))
-      reading_.contradiction(pair ? "bearings.planet" : "bearings.wheel",
-                             pair ? "a pair has no planets" : "only a pair has a wheel",
-                             pair ? "bearings.wheel, or nothing" : "bearings.planet, or nothing");
-    if (!pair) return;
-    const GearDesign& wheel = design_.gears.back();
-    if (wheel.kind == GearKind::kInternal)
-      reading_.contradiction("housing", "no housing is made for a pair whose wheel is internal",
-                             "an external wheel, kind simple with output = \"ring\", or no [housing]");
-    if (reading_.has(wheel.name + ".bore_mm") || reading_.has(wheel.name + ".bore_hex_mm"))
-      reading_.contradiction(wheel.name + (reading_.has(wheel.name + ".bore_mm") ? ".bore_mm" : ".bore_hex_mm"),
-                             "the wheel of a gearbox turns on a journal of its own",
-                             "no bore, or no [housing]");
-  }
-
-  void check_motor(const Motor& motor) {
-    if (!reading_.has("motor"))
-      return reading_.missing("motor", "the table is missing, and [housing] needs it",
-                              "[motor] with name, or with its numbers");
-    const std::pair<const char*, double> needed[] = {{"shaft_diameter_mm", motor.shaft_diameter_mm},
-                                                     {"shaft_length_mm", motor.shaft_length_mm},
-                                                     {"bolt_circle_diameter_mm", motor.bolt_circle_diameter_mm}};
-    const bool named = reading_.has("motor.name");
-    for (const auto& [name, value] : needed)
-      if (!named && !(value > 0.0))
-        reading_.missing(std::string("motor.") + name, "missing, and the motor has no name",
-                         "a length above 0, or name");
-    if (!(motor.shaft_diameter_mm > 0.0 && motor.flat_mm > 0.0)) return;
-    if (!(motor.flat_mm > 0.5 * motor.shaft_diameter_mm && motor.flat_mm < motor.shaft_diameter_mm))
-      reading_.contradiction("motor.flat_mm", "is no flat of a shaft of " + mm(motor.shaft_diameter_mm),
-                             "more than " + mm(0.5 * motor.shaft_diameter_mm) + ", less than " +
-                                 mm(motor.shaft_diameter_mm));
   }
 
   const GearboxDesign& design_;

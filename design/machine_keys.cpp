@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
 #include "trueflank/design/design_keys.h"
 #include "trueflank/design/key_values.h"
 
@@ -69,6 +72,20 @@ DesignKey<FastenersDesign> fastener(const char* name, const char* meaning) {
           [](FastenersDesign& f, const KeyValue& v) { (f.*Member).name = text(v); },
           [](const FastenersDesign& f) { return if_named((f.*Member).name); }};
 }
+
+/// A text that names no classes is kept as it is: report_contradictions tells.
+template <class Table, std::optional<FitClasses> Table::*Member>
+DesignKey<Table> fit_key(const char* name, const char* by_default, const char* meaning) {
+  return {{.name = name, .type = KeyType::kText, .by_default = by_default, .meaning = meaning},
+          KeyPlace::kAnywhere,
+          [](Table& t, const KeyValue& v) {
+            t.*Member = fit_classes(text(v)).value_or(FitClasses{.hole = text(v), .shaft = {}});
+          },
+          [](const Table& t) { return t.*Member ? Value((t.*Member)->text()) : Value(); }};
+}
+
+/// In the order of SetScrewUse.
+constexpr std::array<const char*, 3> kSetScrewUses{"round", "always", "never"};
 
 }  // namespace
 
@@ -157,6 +174,19 @@ const std::vector<DesignKey<HousingDesign>>& housing_keys() {
        KeyPlace::kAnywhere,
        [](H& h, const KeyValue& v) { h.fit_mm = number(v); },
        [](const H& h) { return Value(h.fit_mm); }},
+      fit_key<H, &H::fit>(
+          "fit", "none: fit_mm",
+          "classes of ISO 286 instead of fit_mm, as \"H7/k6\": of every hole, and of "
+          "what is made to go into one; or one of both alone"),
+      fit_key<H, &H::shaft_fit>("shaft_fit", "fit", "of the bore on the motor's shaft, as \"H7\""),
+      fit_key<H, &H::pilot_fit>("pilot_fit", "fit",
+                                "of the hole for the motor's collar, as \"H8\""),
+      fit_key<H, &H::ring_fit>(
+          "ring_fit", "fit",
+          "of the fixed ring, or the held plate, in housing and lid; of a pair: of "
+          "the lid in the housing"),
+      fit_key<H, &H::pin_fit>("pin_fit", "pin_hole_clearance_mm of [carrier]",
+                              "of the holes for the planets' pins in the plates, as \"N7\""),
       {{.name = "screws",
         .type = KeyType::kWhole,
         .lower = 3,
@@ -244,6 +274,11 @@ const std::vector<DesignKey<BearingsDesign>>& bearings_keys() {
        KeyPlace::kAnywhere,
        [](B& b, const KeyValue& v) { b.wheel.emplace().name = text(v); },
        [](const B& b) { return b.wheel ? Value(b.wheel->name) : Value(); }},
+      fit_key<B, &B::output_fit>("output_fit", "fit of [housing]",
+                                 "classes of its seat and its journal, as \"H7/k6\""),
+      fit_key<B, &B::planet_fit>("planet_fit", "fit of [housing]", "class of its seats, as \"N7\""),
+      fit_key<B, &B::wheel_fit>("wheel_fit", "fit of [housing]",
+                                "classes of its seat and its journal, as \"H7/k6\""),
       {{.name = "life_h",
         .unit = "h",
         .lower = 0,
@@ -264,6 +299,22 @@ const std::vector<DesignKey<FastenersDesign>>& fasteners_keys() {
       fastener<&F::carrier>("carrier", "screw of the table, through the carrier's pillars"),
       fastener<&F::output>("output",
                            "screw of the table: output, load, retainer of the output's bearing"),
+      {{.name = "set_screw",
+        .type = KeyType::kChoice,
+        .choices = {kSetScrewUses.begin(), kSetScrewUses.end()},
+        .by_default = "\"round\"",
+        .meaning =
+            "which motor's shafts get a set screw in the gear on them: round ones alone, those "
+            "with a flat too (it bears on the flat), or none"},
+       KeyPlace::kAnywhere,
+       [](F& f, const KeyValue& v) {
+         const auto found = std::find(kSetScrewUses.begin(), kSetScrewUses.end(), text(v));
+         f.set_screw = static_cast<SetScrewUse>(found - kSetScrewUses.begin());
+       },
+       [](const F& f) {
+         const bool usual = f.set_screw == SetScrewUse::kRoundShafts;
+         return usual ? Value() : Value(kSetScrewUses[static_cast<std::size_t>(f.set_screw)]);
+       }},
   };
   return keys;
 }

@@ -11,7 +11,7 @@
 #include "trueflank/export/number_text.h"
 #include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/solid/shape/outline_loop.h"
-#include "trueflank/train/machine/fit_class.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank::io {
 namespace {
@@ -35,10 +35,10 @@ SizeLimits class_limits(const std::string& fit, double diameter_mm) {
 struct FittedSize {
   double made_mm = 0.0, nominal_mm = 0.0;
   bool hole = true;
+  std::string fit = {};  ///< its class
 };
 
-/// What fits: bores of parts that are not printed, and the seats and journals of a gearbox whose seats have classes
-/// (fit_mm = 0).
+/// What fits: bores of parts that are not printed, and the seats and journals of a gearbox as far as they have classes.
 struct FittedSizes {
   bool bores = false;
   std::vector<FittedSize> sizes = {};
@@ -55,20 +55,30 @@ FittedSizes fitted_sizes(const GearTrain& train) {
   if (additive(train)) return {};
   FittedSizes fitted{.bores = true};
   const auto& machine = train.design.machine;
-  if (!machine || machine->housing.fit_mm > 0.0) return fitted;
-  const auto add = [&](double nominal_mm, bool hole) {
-    if (fit_limits(hole ? kSeatClass : kJournalClass, nominal_mm))
-      fitted.sizes.push_back({hole ? seat_mm(nominal_mm, 0.0) : journal_mm(nominal_mm, 0.0), nominal_mm, hole});
+  if (!machine) return fitted;
+  const auto add = [&](double nominal_mm, double made_mm, bool hole, const std::string& fit) {
+    if (fit_limits(fit, nominal_mm)) fitted.sizes.push_back({made_mm, nominal_mm, hole, fit});
   };
-  add(machine->motor.shaft_diameter_mm, true);
-  add(machine->motor.pilot_diameter_mm, true);
-  add(machine->bearings.output.outer_mm, true);
-  add(machine->bearings.output.bore_mm, false);
-  if (machine->bearings.planet) add(machine->bearings.planet->outer_mm, true);
-  if (machine->bearings.wheel) {
-    add(machine->bearings.wheel->outer_mm, true);
-    add(machine->bearings.wheel->bore_mm, false);
+  const auto seat = [&](const SeatFit& fit, double size_mm) { add(size_mm, fit.hole_mm(size_mm), true, fit.hole); };
+  const auto journal = [&](const SeatFit& fit, double size_mm) { add(size_mm, fit.shaft_mm(size_mm), false, fit.shaft); };
+  const SeatFits fits = seat_fits(*machine);
+  const BearingsDesign& bearings = machine->bearings;
+  seat(fits.shaft, machine->motor.shaft_diameter_mm);
+  seat(fits.pilot, machine->motor.pilot_diameter_mm);
+  seat(fits.output, bearings.output.outer_mm);
+  journal(fits.output, bearings.output.bore_mm);
+  if (bearings.planet) seat(fits.planet, bearings.planet->outer_mm);
+  if (bearings.wheel) {
+    seat(fits.wheel, bearings.wheel->outer_mm);
+    journal(fits.wheel, bearings.wheel->bore_mm);
   }
+  const auto layout = machine_layout(train);
+  const bool pair = layout->wheel_gear >= 0;
+  const SeatFit& ring = pair ? fits.rim : fits.ring;
+  const double ring_mm = 2.0 * (pair ? layout->cavity_radius_mm : layout->ring_radius_mm);
+  seat(ring, ring_mm);
+  journal(ring, ring_mm);
+  if (!pair) seat(fits.pin, layout->carrier.pin_diameter_mm);
   return fitted;
 }
 
@@ -107,7 +117,7 @@ std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, const
   d.limits = of_class ? class_limits(kSeatClass, d.diameter_mm) : general_limits(d.diameter_mm);
   if (const FittedSize* size = d.tip ? nullptr : fitted.find(d.diameter_mm, hole)) {
     d.diameter_mm = size->nominal_mm;  // drawings give the nominal size and its class
-    d.limits = class_limits(hole ? kSeatClass : kJournalClass, size->nominal_mm);
+    d.limits = class_limits(size->fit, size->nominal_mm);
   }
   return d;
 }
@@ -195,7 +205,7 @@ std::vector<BoltCircle> bolt_circles_of(const std::vector<HolePattern>& patterns
       const FittedSize* size = fitted.find(step.diameter_mm, true);
       group = {size ? size->nominal_mm : step.diameter_mm, pattern.circle_diameter_mm,
                group.count + static_cast<int>(pattern.centres.size()),
-               size ? class_limits(kSeatClass, size->nominal_mm) : general_limits(step.diameter_mm)};
+               size ? class_limits(size->fit, size->nominal_mm) : general_limits(step.diameter_mm)};
     }
   std::vector<BoltCircle> circles;
   for (const auto& [key, circle] : groups) circles.push_back(circle);

@@ -270,7 +270,8 @@ class Writer {
     const auto layout = machine_layout(train_);
     if (!layout || !layout->set_screw.is_there()) return;
     const auto& screw = layout->set_screw;
-    step.lines = {set_screw_operation(*layout)};
+    if (!screw.on_flat) step.lines.clear();
+    step.lines.push_back(set_screw_operation(*layout));
     if (screw.nut)
       step.lines.push_back(
           "Slide the nut into its pocket from the motor's side. The hub stands " +

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "trueflank/train/gear_train.h"
-#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
@@ -43,7 +42,7 @@ void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
       design.gears[static_cast<std::size_t>(planet_with_bore(design) - design.gears.data())].bore;
   for (const char* name : {"608", "626", "625", "624", "623", "684"}) {
     const Bearing& bearing = *find_element(standard_elements().bearings, name);
-    if (0.5 * seat_mm(bearing.outer_mm, machine.housing.fit_mm) + wall_mm > root) continue;
+    if (0.5 * seat_fits(machine).planet.hole_mm(bearing.outer_mm) + wall_mm > root) continue;
     if (2.0 * bearing.width_mm + kBetweenBearings_mm > upper - lower) continue;
     machine.bearings.planet = bearing;
     bore.diameter_mm = bore_between(bearing);
@@ -116,7 +115,7 @@ void choose_wheel_bearing(GearboxDesign& design, double wall_mm) {
     const Bearing& bearing = *find_element(standard_elements().bearings, name);
     train->design.machine->bearings.wheel = bearing;
     const auto m = machine_layout(*train);
-    const double seat = 0.5 * seat_mm(bearing.outer_mm, m->fit_mm);
+    const double seat = 0.5 * m->fits.wheel.hole_mm(bearing.outer_mm);
     double wall = m->output_axis.norm() - seat - m->floor_hole_radius_mm;
     for (const Point2& at : m->motor_screws.at)
       wall = std::min(wall, (m->output_axis - at).norm() - seat - kHeadRoom_mm -

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "trueflank/train/machine/seat_fits.h"
+
 namespace trueflank {
 namespace {
 
@@ -59,6 +61,9 @@ std::optional<CarrierLayout> carrier_layout(const GearTrain& train) {
   layout.pin_diameter_mm =
       design->pin_diameter_mm.value_or(planet->bore.diameter_mm - design->pin_clearance_mm);
   layout.pin_hole_diameter_mm = layout.pin_diameter_mm + design->pin_hole_clearance_mm;
+  if (train.design.machine)
+    if (const SeatFit pin = seat_fits(*train.design.machine).pin; !pin.hole.empty())
+      layout.pin_hole_diameter_mm = pin.hole_mm(layout.pin_diameter_mm);
   layout.outer_diameter_mm = design->outer_diameter_mm.value_or(
       2.0 * train.centre_distance_mm + (1.0 + 2.0 * kRimOfPins) * layout.pin_diameter_mm);
   const TrainGear* sun = train.sun();

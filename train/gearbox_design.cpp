@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "trueflank/train/machine/fit_class.h"
+#include "trueflank/train/machine/seat_fits.h"
 
 namespace trueflank {
 
@@ -27,7 +27,7 @@ const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear) {
 
 BoreDesign shaft_bore(const MachineDesign& machine) {
   const Motor& motor = machine.motor;
-  BoreDesign bore{.diameter_mm = seat_mm(motor.shaft_diameter_mm, machine.housing.fit_mm)};
+  BoreDesign bore{.diameter_mm = seat_fits(machine).shaft.hole_mm(motor.shaft_diameter_mm)};
   if (motor.flat_mm > 0.0) {
     bore.kind = BoreKind::kDFlat;
     bore.d_flat_mm = motor.flat_mm + bore.diameter_mm - motor.shaft_diameter_mm;

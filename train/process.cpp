@@ -4,7 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "trueflank/base/units.h"
+
 namespace trueflank {
+namespace {
+
+/// Of beads on beads: each lies half on the one below.
+constexpr double kOverhang_rad = 0.25 * kPi;
+
+}  // namespace
 
 // Walls, tips and gaps of printing: published design guides of print services (two beads of an FDM
 // nozzle; SLA 0.5 mm; SLS 0.7 mm and gaps of 0.5 mm for moving parts). All else, and everything of
@@ -14,17 +22,23 @@ ProcessTable::ProcessTable()
           {.name = "fdm-0.25", .nozzle_mm = 0.25, .layer_mm = 0.1, .least_wall_mm = 0.5,
            .least_tip_mm = 0.25, .least_gap_mm = 0.2, .backlash_mm = 0.10,
            .horizontal_expansion_mm = 0.03, .elephant_foot_mm = 0.1, .elephant_foot_height_mm = 0.2,
+           .ledge_mm = 0.8, .bridge_mm = 12.0,
+           .overhang_rad = kOverhang_rad,
            .axis_tolerance_mm = 0.03, .thickness_tolerance_mm = 0.03, .runout_mm = 0.06,
            .source = "typical: wall two beads, tip one bead"},
           {.name = "fdm-0.4", .nozzle_mm = 0.4, .layer_mm = 0.2, .least_wall_mm = 0.8,
            .least_tip_mm = 0.4, .least_gap_mm = 0.3, .backlash_mm = 0.15,
            .horizontal_expansion_mm = 0.05, .elephant_foot_mm = 0.15,
            .elephant_foot_height_mm = 0.4,
+           .ledge_mm = 1.0, .bridge_mm = 15.0,
+           .overhang_rad = kOverhang_rad,
            .axis_tolerance_mm = 0.04, .thickness_tolerance_mm = 0.04, .runout_mm = 0.08,
            .source = "wall: print services' design guides (two beads, 0.8 mm); the rest typical"},
           {.name = "fdm-0.6", .nozzle_mm = 0.6, .layer_mm = 0.3, .least_wall_mm = 1.2,
            .least_tip_mm = 0.6, .least_gap_mm = 0.4, .backlash_mm = 0.25,
            .horizontal_expansion_mm = 0.08, .elephant_foot_mm = 0.2, .elephant_foot_height_mm = 0.6,
+           .ledge_mm = 1.5, .bridge_mm = 15.0,
+           .overhang_rad = kOverhang_rad,
            .axis_tolerance_mm = 0.06, .thickness_tolerance_mm = 0.06, .runout_mm = 0.12,
            .source = "typical: wall two beads, tip one bead"},
           {.name = "sla", .nozzle_mm = 0.05, .layer_mm = 0.05, .least_wall_mm = 0.5,

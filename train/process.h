@@ -22,6 +22,9 @@ struct Process {
   double elephant_foot_mm = 0.0;         ///< how far the first layers spread, at the bed
   double elephant_foot_height_mm = 0.0;  ///< over this height
   double kerf_mm = 0.0;                  ///< width of a wire's or beam's cut
+  double ledge_mm = 0.0;  ///< a flat underside may stand out so far without support
+  double bridge_mm = 0.0;  ///< and span so much between what carries it
+  double overhang_rad = 0.0;  ///< and a slanted one lean so far from the vertical
   int tolerance_class = 0;            ///< ISO 1328-1 class that its gears keep; 0: none
   double axis_tolerance_mm = 0.0;       ///< +-, of the distance of two axes
   double thickness_tolerance_mm = 0.0;  ///< +-, of a tooth on the reference circle

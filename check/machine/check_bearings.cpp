@@ -156,8 +156,10 @@ Findings wheel_bearing_loads(const GearTrain& train, const MachineLayout& m) {
   Findings findings{life("output", bearings.output)};
   if (bearings.output.kind != BearingKind::kCrossedRollers) {
     findings.back().status = std::max(findings.back().status, CheckStatus::kWarn);
-    findings.back().cure = "bearings.wheel, in the floor under the wheel; or outputs = 2 in [bearings]: "
-                           "one ball bearing alone holds no tilting load";
+    const std::string under = m.cup_radius_mm > 0.0 ? "crossed rollers, or outputs = 2 in [bearings]: "
+                                                    : "bearings.wheel, in the floor under the wheel; or "
+                                                      "outputs = 2 in [bearings]: ";
+    findings.back().cure = under + "one ball bearing alone holds no tilting load";
   }
   return findings;
 }

@@ -2,12 +2,15 @@
 #include "trueflank/check/machine/check_fits.h"
 
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/quantity_text.h"
-#include "trueflank/train/machine/fit_class.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -31,53 +34,106 @@ double below_mm(const std::array<RingLimit, N>& table, double size_mm) {
 
 std::string um(double mm) { return printed("%+.0f", 1000.0 * mm); }
 
-/// "seat 42 H7 (0 to +25 um), clearance 0 to 36 um"
-std::string fit_text(const std::string& what, const char* fit, double size_mm,
-                     const FitLimits& limits, double ring_mm) {
-  const bool hole = fit[0] == 'H';
-  const double least = hole ? limits.lower_mm : -ring_mm - limits.upper_mm;
-  const double most = hole ? limits.upper_mm + ring_mm : -limits.lower_mm;
-  return what + " " + number_text(size_mm) + " " + fit + " (" + um(limits.lower_mm) + " to " +
-         um(limits.upper_mm) + " um), clearance " + um(least) + " to " + um(most) + " um";
+/// "seat 42 H7 (0 to +25 um), clearance 0 to 36 um"; `other` is what it goes with.
+std::string fit_text(const std::string& what, const std::string& fit, double size_mm,
+                     const FitLimits& limits, const std::optional<FitLimits>& other) {
+  std::string text = what + " " + number_text(size_mm) + " " + fit + " (" + um(limits.lower_mm) +
+                     " to " + um(limits.upper_mm) + " um)";
+  if (!other || std::isnan(other->lower_mm)) return text;
+  const bool is_hole = std::isupper(static_cast<unsigned char>(fit[0])) != 0;
+  const FitLimits &hole = is_hole ? limits : *other, &shaft = is_hole ? *other : limits;
+  return text + ", clearance " + um(hole.lower_mm - shaft.upper_mm) + " to " +
+         um(hole.upper_mm - shaft.lower_mm) + " um";
 }
 
-Finding fit_of(const std::string& where, const Bearing& bearing, bool journal, bool held) {
-  Finding finding{.id = "fits", .where = where, .unit = "mm"};
-  const auto seat = fit_limits(kSeatClass, bearing.outer_mm);
-  const auto stem = fit_limits(kJournalClass, bearing.bore_mm);
-  if (!seat || !stem) {
-    finding.status = CheckStatus::kWarn;
-    finding.margin = -1.0;
-    finding.message = "no class of ISO 286 is known above " + mm_text(kLargestFit_mm) + ": it is made to size";
-    finding.cure = "fit_mm above 0 in [housing]";
-    return finding;
+/// A side of a seat: what is made, and what is known of its mate.
+struct Side {
+  const char* what;
+  std::string fit;  ///< no class: nothing is told
+  double size_mm = 0.0;
+  std::optional<FitLimits> mate = {};
+};
+
+Finding fit_of(const std::string& where, const std::string& name, const std::vector<Side>& sides,
+               bool held) {
+  Finding finding{.id = "fits", .where = where, .value = 0.0, .unit = "mm"};
+  for (const Side& side : sides) {
+    const auto limits = fit_limits(side.fit, side.size_mm);
+    if (!limits) {
+      finding.status = CheckStatus::kWarn;
+      finding.value = kNaN;
+      finding.margin = -1.0;
+      finding.message =
+          "no class of ISO 286 is known above " + mm_text(kLargestFit_mm) + ": it is made to size";
+      finding.cure = "fit_mm above 0 in [housing]";
+      return finding;
+    }
+    if (finding.message.empty()) finding.value = limits->upper_mm - limits->lower_mm;
+    finding.message += (finding.message.empty() ? name + ": " : "; ") +
+                       fit_text(side.what, side.fit, side.size_mm, *limits, side.mate);
   }
-  finding.value = seat->upper_mm - seat->lower_mm;
-  finding.message = bearing.name + ": " +
-                    fit_text("seat", kSeatClass, bearing.outer_mm, *seat,
-                             below_mm(kOuter, bearing.outer_mm));
-  if (journal)
-    finding.message += "; " + fit_text("journal", kJournalClass, bearing.bore_mm, *stem,
-                                       below_mm(kBore, bearing.bore_mm));
   if (held) return finding;
   finding.status = CheckStatus::kWarn;
   finding.margin = -1.0;
   finding.message += ": printers do not hold such limits";
-  finding.cure = "fit_mm of 0.1 in [housing], or what a test print of the printer says";
+  finding.cure = "no fit in [housing] and [bearings], and fit_mm of 0.1 or what a test print of the "
+                 "printer says";
   return finding;
 }
+
+/// The seats of a design, as far as they have classes.
+class FittedSeats {
+ public:
+  FittedSeats(const GearTrain& train, bool held) : held_(held), layout_(*machine_layout(train)) {
+    const MachineDesign& machine = *train.design.machine;
+    const SeatFits& fits = layout_.fits;
+    bearing("output", machine.bearings.output, fits.output, true);
+    if (machine.bearings.planet) bearing("planet", *machine.bearings.planet, fits.planet, false);
+    if (machine.bearings.wheel) bearing("wheel", *machine.bearings.wheel, fits.wheel, true);
+    hole("motor_shaft", "shaft of the motor", fits.shaft, machine.motor.shaft_diameter_mm);
+    hole("motor_pilot", "collar of the motor", fits.pilot, machine.motor.pilot_diameter_mm);
+    if (layout_.wheel_gear >= 0) {
+      mating("lid", "lid in the housing", fits.rim, 2.0 * layout_.cavity_radius_mm);
+    } else {
+      mating("ring", "seat in housing and lid", fits.ring, 2.0 * layout_.ring_radius_mm);
+      hole("pins", "pins of the planets", fits.pin, layout_.carrier.pin_diameter_mm);
+    }
+  }
+  Findings findings;
+
+ private:
+  void add(const std::string& where, const std::string& name, std::vector<Side> sides) {
+    std::erase_if(sides, [](const Side& side) { return side.fit.empty(); });
+    if (!sides.empty()) findings.push_back(fit_of(where, name, sides, held_));
+  }
+  void bearing(const char* where, const Bearing& bearing, const SeatFit& fit, bool has_journal) {
+    std::vector<Side> sides{{"seat", fit.hole, bearing.outer_mm,
+                             FitLimits{-below_mm(kOuter, bearing.outer_mm), 0.0}}};
+    if (has_journal)
+      sides.push_back({"journal", fit.shaft, bearing.bore_mm,
+                       FitLimits{-below_mm(kBore, bearing.bore_mm), 0.0}});
+    add(where, bearing.name, std::move(sides));
+  }
+  void hole(const char* where, const char* name, const SeatFit& fit, double size_mm) {
+    if (size_mm > 0.0) add(where, name, {{"hole", fit.hole, size_mm}});
+  }
+  /// Hole and shaft are both made.
+  void mating(const char* where, const char* name, const SeatFit& fit, double size_mm) {
+    const auto mate = fit.shaft.empty() ? FitLimits{} : fit_limits(fit.shaft, size_mm);
+    add(where, name, {{"hole", fit.hole, size_mm, mate}, {where, fit.shaft, size_mm}});
+  }
+
+  bool held_;
+  MachineLayout layout_;
+};
 
 }  // namespace
 
 Findings check_fits(const GearTrain& train) {
-  const auto& machine = train.design.machine;
-  if (!machine || machine->housing.fit_mm > 0.0) return {};
+  if (!train.design.machine) return {};
   const auto& process = train.design.made.process;
   const bool held = !process || !(process->layer_mm > 0.0);
-  Findings all{fit_of("output", machine->bearings.output, true, held)};
-  if (machine->bearings.planet) all.push_back(fit_of("planet", *machine->bearings.planet, false, held));
-  if (machine->bearings.wheel) all.push_back(fit_of("wheel", *machine->bearings.wheel, true, held));
-  return all;
+  return FittedSeats(train, held).findings;
 }
 
 }  // namespace trueflank

@@ -6,8 +6,8 @@
 
 namespace trueflank {
 
-/// Classes and limits of the seats of a gearbox whose fit_mm is 0, and whether its process holds them;
-/// none of another.
+/// Classes and limits of the seats of a gearbox, as far as it has some, and whether its process holds
+/// them; none of another.
 [[nodiscard]] Findings check_fits(const GearTrain& train);
 
 }  // namespace trueflank

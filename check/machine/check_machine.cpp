@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
+#include "trueflank/check/machine/check_access.h"
 #include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/machine/check_fits.h"
+#include "trueflank/check/machine/check_overhang.h"
 #include "trueflank/check/machine/check_shaft.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/assembly_clearance.h"
@@ -168,8 +170,8 @@ std::pair<std::size_t, std::size_t> held_pair(const PartShapes& shapes,
   return {from.front(), from[1]};
 }
 
-Finding order_of_assembly(const GearTrain& train, const PartShapes& shapes, bool collides) {
-  const AssemblyOrder order = assembly_order(train, shapes);
+Finding order_of_assembly(const GearTrain& train, const PartShapes& shapes, const AssemblyOrder& order,
+                          bool collides) {
   Finding finding{.id = "assembly_order",
                   .where = "train",
                   .value = static_cast<double>(order.stuck.size()),
@@ -224,6 +226,7 @@ Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
   Findings all{housing_size(m)};
   const auto append = [&](Findings some) { all.insert(all.end(), some.begin(), some.end()); };
   append(walls(train, m, shapes));
+  append(check_overhangs(train, shapes));
   for (const ScrewGroup* group : {&m.motor_screws, &m.housing_screws, &m.carrier_screws,
                                   &m.output_screws, &m.retainer_screws})
     if (!group->at.empty()) all.push_back(judge_screws(*group));
@@ -233,7 +236,9 @@ Findings check_machine(const GearTrain& train, const PartShapes& shapes) {
   append(check_fits(train));
   all.push_back(collision(train, shapes));
   const bool collides = all.back().status == CheckStatus::kFail;
-  all.push_back(order_of_assembly(train, shapes, collides));
+  const AssemblyOrder order = assembly_order(train, shapes);
+  all.push_back(order_of_assembly(train, shapes, order, collides));
+  append(check_access(train, m, shapes, order));
   return all;
 }
 

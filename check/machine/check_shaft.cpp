@@ -27,6 +27,15 @@ Finding held_by_screw(const GearTrain& train, const MachineLayout& m, Finding fi
   return finding;
 }
 
+/// On a flat a screw takes the play; the torque is the flat's to carry.
+Finding on_the_flat(const GearTrain& train, const MachineLayout& m, Finding finding) {
+  const double from = m.set_screw.axis_mm - 0.5 * m.set_screw.screw.diameter_mm - m.flat_from_mm;
+  finding.message += "; " + bought_for_set_screw(m.set_screw).front() + " bears on its flat, " +
+                     mm_text(from) + " from where that begins, and keeps the " +
+                     train.topology().name_of(train.topology().input) + " in its place";
+  return finding;
+}
+
 }  // namespace
 
 Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
@@ -47,13 +56,21 @@ Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
              kLeastGrip * motor.shaft_diameter_mm);
   const GearDesign* gear =
       m.driven_gear < 0 ? nullptr : &train.design.gears[static_cast<std::size_t>(m.driven_gear)];
-  if (gear && !(gear->bore.diameter_mm > motor.shaft_diameter_mm)) {
+  const double fitted_mm = m.fits.shaft.hole_mm(motor.shaft_diameter_mm);
+  const bool pressed_on = gear && fitted_mm <= motor.shaft_diameter_mm && gear->bore.diameter_mm >= fitted_mm;
+  if (gear && !pressed_on && !(gear->bore.diameter_mm > motor.shaft_diameter_mm)) {
     finding.status = CheckStatus::kFail;
     finding.message = "the motor's shaft of " + mm_text(motor.shaft_diameter_mm) +
                       " does not go into the bore of " + mm_text(gear->bore.diameter_mm);
     finding.cure = "bore_mm in [" + gear->name + "] of more, or none: it follows from the shaft";
   }
-  if (finding.status != CheckStatus::kFail && m.set_screw.is_there()) return held_by_screw(train, m, finding);
+  if (finding.status != CheckStatus::kFail && m.set_screw.is_there())
+    return motor.flat_mm > 0.0 ? on_the_flat(train, m, finding) : held_by_screw(train, m, finding);
+  if (finding.status != CheckStatus::kFail && !m.set_screw.missing.empty() && motor.flat_mm > 0.0) {
+    finding.status = CheckStatus::kWarn;
+    finding.message += "; no set screw on its flat: " + m.set_screw.missing;
+    finding.cure = "set_screw = \"round\" in [fasteners]: the flat carries the torque without it";
+  }
   const BoreDesign bore = gear ? gear->bore : shaft_bore(*train.design.machine);
   if (finding.status != CheckStatus::kFail && bore.kind == BoreKind::kRound) {
     finding.status = CheckStatus::kWarn;

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/measure/body_layers.h"
 #include "trueflank/solid/shape/outline_loop.h"
-#include "trueflank/train/carrier.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -69,18 +70,53 @@ Body body_of(const GearTrain& train, const PartShapes& shapes, const Placement& 
   return body;
 }
 
+/// A set screw with its nut, across the hub of what is driven: rings that they sweep.
+struct AcrossTheHub {
+  PartShape part;
+  Placement placement;
+
+  AcrossTheHub(const GearTrain& train, const MachineLayout& m) {
+    const auto& s = m.set_screw;
+    placement.name = "set screw " + s.screw.name;
+    part.name = placement.name;
+    part.member = train.topology().input;
+    part.bought = placement.name;
+  }
+  [[nodiscard]] Body body(const GearTrain& train, const MachineLayout& m) const {
+    const auto& s = m.set_screw;
+    const double shaft = 0.5 * train.design.machine->motor.shaft_diameter_mm;
+    const auto ring = [&](double half_height_mm, double outer_mm, double inner_mm) {
+      return BodyLayer{m.z({s.axis_mm - half_height_mm, s.axis_mm + half_height_mm}),
+                       {Point2::Zero(), outer_mm},
+                       {{Point2::Zero(), inner_mm}}};
+    };
+    Body body{.placement = &placement, .part = &part, .frame = part.member};
+    body.layers.push_back(ring(0.5 * s.screw.diameter_mm, s.bears_mm + s.length_mm, shaft));
+    if (s.nut) body.layers.push_back(ring(0.5 * s.pocket_width_mm, s.pocket_end_mm, shaft));
+    if (!train.topology().has_planets()) body.turning = body.layers;  // the motor's axis is the origin
+    return body;
+  }
+};
+
 /// The motor's shaft turns with what is on it.
 bool is_shaft_in_bore(const GearTrain& train, const Body& a, const Body& b) {
   return a.part->bought.starts_with("motor ") && b.part->member == train.topology().input &&
          b.part->bought.empty();
 }
 
+/// A set screw is in the hub that it holds.
+bool is_in_hub(const Body& a, const Body& b) {
+  return a.part->bought.starts_with("set screw ") && b.part->bought.empty() && a.part->member == b.part->member;
+}
+
 class Judge {
  public:
-  explicit Judge(const GearTrain& train) : train_(train) {}
+  Judge(const GearTrain& train, double pressed_mm)
+      : train_(train), meant_mm_(pressed_mm + tolerance::kTouch_mm) {}
 
   void compare(const Body& a, const Body& b) {
     if (is_shaft_in_bore(train_, a, b) || is_shaft_in_bore(train_, b, a)) return;
+    if (is_in_hub(a, b) || is_in_hub(b, a)) return;
     const bool turning = a.frame != b.frame;
     const bool own_axes = turning && !a.turning.empty();
     double least = 1e300;
@@ -91,7 +127,7 @@ class Judge {
         const double across = turning && !own_axes ? gap_in_turning_mm(s, t) : gap_at_rest_mm(s, t);
         least = std::min(least, std::max(along, across));
       }
-    if (least < -tolerance::kTouch_mm)
+    if (least < -meant_mm_)
       result.collisions.push_back({a.placement->name, b.placement->name, -least});
     const bool made = a.part->bought.empty() && b.part->bought.empty();
     if (!turning || !made || least >= result.least_gap_mm) return;
@@ -104,6 +140,7 @@ class Judge {
 
  private:
   const GearTrain& train_;
+  double meant_mm_;  ///< so deep one part is pressed into another
 };
 
 }  // namespace
@@ -112,7 +149,13 @@ AssemblyClearance assembly_clearance(const GearTrain& train, const PartShapes& s
   std::vector<Body> bodies;
   for (const Placement& placement : shapes.assembly)
     bodies.push_back(body_of(train, shapes, placement));
-  Judge judge(train);
+  const auto layout = machine_layout(train);
+  std::optional<AcrossTheHub> across;
+  if (layout && layout->set_screw.is_there()) {
+    across.emplace(train, *layout);
+    bodies.push_back(across->body(train, *layout));
+  }
+  Judge judge(train, layout ? layout->press_mm : 0.0);
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) judge.compare(bodies[j], bodies[i]);
   return std::move(judge.result);

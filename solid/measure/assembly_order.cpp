@@ -52,6 +52,7 @@ bool ends_with(const std::string& text, const std::string& end) { return text.en
 class Stack {
  public:
   Stack(const GearTrain& train, const PartShapes& shapes) : train_(train), shapes_(shapes) {
+    if (const auto layout = machine_layout(train)) meant_mm_ += layout->press_mm;
     for (const Placement& body : shapes.assembly) layers_.push_back(body_layers(part(body), body));
   }
 
@@ -99,10 +100,11 @@ class Stack {
                : gap_at_rest_mm(motor, other);
   }
   /// Herringbone teeth on the way up: those below the apex do not go through those above it. Two
-  /// external gears are brought together across the axis (Orderer::join_round_the_sun).
+  /// external gears are brought together across the axis (Orderer::join_round_the_sun), and so is a
+  /// pinion from the middle of its ring.
   [[nodiscard]] bool passes_the_apex(std::size_t a, const BodyLayer& s, const BodyLayer& t) const {
     const ToothedOutline& teeth = *s.teeth;
-    if (!teeth.twist.herringbone || is_external_mesh(s, t)) return false;
+    if (!teeth.twist.herringbone || is_external_mesh(s, t) || !train_.topology().has_planets()) return false;
     const double apex = shapes_.assembly[a].translation_mm[2] + teeth.z_lower_mm +
                         0.5 * teeth.twist.face_width_mm;
     return s.z.lower_mm < apex - tolerance::kTouch_mm && t.z.upper_mm > apex + tolerance::kTouch_mm;
@@ -122,13 +124,14 @@ class Stack {
         const double gap = is_shaft(a, b)   ? shaft_gap_mm(s, t)
                            : is_shaft(b, a) ? shaft_gap_mm(t, s)
                                             : gap_at_rest_mm(s, t);
-        if (gap < -tolerance::kTouch_mm) return true;
+        if (gap < -meant_mm_) return true;
       }
     return false;
   }
 
   const GearTrain& train_;
   const PartShapes& shapes_;
+  double meant_mm_ = tolerance::kTouch_mm;  ///< so deep one part is pressed into another
   std::vector<std::vector<BodyLayer>> layers_;
 };
 

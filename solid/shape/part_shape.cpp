@@ -12,7 +12,6 @@
 #include "trueflank/solid/shape/machine/machine_parts.h"
 #include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
-#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/ring_rim.h"
 
 namespace trueflank {
@@ -282,7 +281,7 @@ class ShapeBuilder {
       if (below) {
         const double top = slabs.back().z_upper_mm;
         if (floor != top)
-          add_neck(*below, gear, floor - top, slabs);
+          add_neck(*below, gear, floor - top, toothed(gear, train_.phases.offset_rad(g, place), floor), slabs);
         else
           check_stack_without_neck(*below, gear);
       }
@@ -296,8 +295,36 @@ class ShapeBuilder {
     return slabs;
   }
 
+  /// Whether the teeth of one section of a planet may go on up to the other: inside that one's roots,
+  /// and clear of what it is in mesh with.
+  [[nodiscard]] bool may_go_on(const TrainGear& small, const TrainGear& large) const {
+    const double tip = small.profile.tip_radius_mm(), a = train_.centre_distance_mm;
+    const double room = train_.design.machine->housing.clearance_mm;
+    bool clear = tip + kLeastWall * std::min(module_mm(small), module_mm(large)) <=
+                 large.profile.root_radius_mm();
+    for (std::size_t i = 0; i < train_.gears.size(); ++i) {
+      const TrainGear& other = train_.gears[i];
+      if (train_.topology().is_planet_gear(i) || other.layer != large.layer) continue;
+      clear = clear && (is_ring(other) ? a + tip + room <= other.profile.tip_radius_mm()
+                                       : a - tip - room >= other.profile.tip_radius_mm());
+    }
+    return clear;
+  }
+
+  /// Teeth in the place of a neck, on a planet that a printer makes: they would hang over the neck.
+  [[nodiscard]] std::optional<Outline> teeth_for_neck(const TrainGear& lower, const TrainGear& upper,
+                                                      const Outline& lower_teeth,
+                                                      const ToothedOutline& upper_teeth) const {
+    const auto& process = train_.design.made.process;
+    if (!layout_ || !process || !(process->ledge_mm > 0.0)) return std::nullopt;
+    if (may_go_on(upper, lower) && is_plain_prism(upper_teeth)) return upper_teeth;
+    const auto* teeth = std::get_if<ToothedOutline>(&lower_teeth);
+    if (teeth && may_go_on(lower, upper) && is_plain_prism(*teeth)) return *teeth;
+    return std::nullopt;
+  }
+
   void add_neck(const TrainGear& lower, const TrainGear& upper, double gap_mm,
-                std::vector<Slab>& slabs) {
+                const ToothedOutline& upper_teeth, std::vector<Slab>& slabs) {
     if (!(gap_mm >= kLeastGap_mm)) {
       infeasible("gearbox.layer_gap_mm",
                  "the planet's layers stand " + fixed_mm(gap_mm) + " mm apart: no neck fits between them",
@@ -312,7 +339,8 @@ class ShapeBuilder {
     Slab neck = slabs.back();  // the same bore
     neck.z_lower_mm = slabs.back().z_upper_mm;
     neck.z_upper_mm = neck.z_lower_mm + gap_mm;
-    neck.outer = CircleOutline{Point2::Zero(), root - inset};
+    const auto teeth = teeth_for_neck(lower, upper, slabs.back().outer, upper_teeth);
+    neck.outer = teeth ? *teeth : Outline{CircleOutline{Point2::Zero(), root - inset}};
     slabs.push_back(std::move(neck));
   }
 
@@ -337,7 +365,7 @@ class ShapeBuilder {
     const double bore = largest_radius_mm(bore_through(top_gear));
     if (!layout_ || !train_.design.machine->bearings.planet) return bore;
     return std::max(bore,
-                    0.5 * seat_mm(train_.design.machine->bearings.planet->outer_mm, layout_->fit_mm));
+                    0.5 * layout_->fits.planet.hole_mm(train_.design.machine->bearings.planet->outer_mm));
   }
 
   /// Blind holes in the upper face, as many as the body's number; in a gearbox they leave its

@@ -115,6 +115,30 @@ wheel = "608"
 process = "fdm-0.4"
 )";
 
+/// A pair whose wheel is a ring around the pinion, and what is around it.
+inline const std::string kRingPair = R"(format = 1
+[gearbox]
+kind = "pair"
+module_mm = 1
+backlash_mm = 0.15
+[pinion]
+teeth = 20
+face_width_mm = 14
+[wheel]
+internal = true
+teeth = 60
+face_width_mm = 14
+)";
+inline const std::string kRingBox = R"([housing]
+[motor]
+name = "nema17"
+[bearings]
+output = "6806"
+outputs = 2
+[made]
+process = "fdm-0.4"
+)";
+
 /// On a motor whose shaft has no flat.
 inline std::string round_shaft(const std::string& text) {
   return replaced(text, "name = \"nema17\"",

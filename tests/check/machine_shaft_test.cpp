@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds the gear on the motor's shaft, and the fits of seats. That such gearboxes are closed, free
-// of collisions and go together: machine_test.cpp.
+// What holds the gear on the motor's shaft. That such gearboxes are closed, free of collisions and go
+// together: machine_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,11 +8,9 @@
 #include <variant>
 
 #include "tests/check/machine_designs.h"
-#include "trueflank/export/part_dimensions.h"
 #include "trueflank/solid/measure/assembly_order.h"
 #include "trueflank/solid/measure/bill_of_materials.h"
 #include "trueflank/solid/measure/mass_properties.h"
-#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank {
@@ -122,50 +120,48 @@ TEST(SetScrew, IsInTheBillInItsPlace) {
   EXPECT_EQ(bill[3].count, 3);
 }
 
-TEST(Fits, SeatsAndJournalsAreMadeToTheMiddleOfTheirClass) {
-  const Made made(machined(k3k + kMachine));
-  // 6806: 42 H7 is 0 to +25 um, 30 g6 is -7 to -20 um; 625: 16 H7 is 0 to +18 um
-  const auto radius_in = [&](const std::string& part, double near_mm, bool hole) {
-    for (const Slab& slab : made.part(part).slabs) {
-      std::vector<Outline> outlines = slab.holes;
-      if (!hole) outlines = {slab.outer};
-      for (const Outline& outline : outlines)
-        if (const auto* circle = std::get_if<CircleOutline>(&outline);
-            circle && std::abs(2.0 * circle->radius_mm - near_mm) < 0.05)
-          return 2.0 * circle->radius_mm;
-    }
-    return kNaN;
+TEST(SetScrew, BearsOnTheFlatOfAShaftThatHasOne) {
+  const auto with = [](const std::string& text) {
+    return text.find("[fasteners]") == std::string::npos
+               ? text + "[fasteners]\nset_screw = \"always\"\n"
+               : replaced(text, "[fasteners]", "[fasteners]\nset_screw = \"always\"");
   };
-  EXPECT_NEAR(radius_in("lid", 42.0, true), 42.0125, 1e-9);
-  EXPECT_NEAR(radius_in("journal", 30.0, false), 29.9865, 1e-9);
-  EXPECT_NEAR(radius_in("planet", 16.0, true), 16.009, 1e-9);
-  const Finding& told = made.finding("fits", "output");
-  EXPECT_EQ(told.status, CheckStatus::kPass);
-  EXPECT_NE(told.message.find("42 H7 (+0 to +25 um), clearance +0 to +36 um"), std::string::npos)
-      << told.message;
-  EXPECT_NE(told.message.find("30 g6 (-20 to -7 um), clearance -3 to +20 um"), std::string::npos)
-      << told.message;
+  for (const std::string& text : {k3k + kMachine, kPair + kBox, machined(kStepped + kMachine)}) {
+    const Made made(with(text));
+    const auto m = machine_layout(made.train);
+    const auto& s = m->set_screw;
+    ASSERT_TRUE(s.is_there()) << s.missing;
+    EXPECT_TRUE(s.on_flat);
+    // NEMA 17: a shaft of 5 mm, 4.5 over its flat, which begins 9 mm above the motor's face
+    EXPECT_NEAR(s.bears_mm, 2.0, 1e-12);
+    EXPECT_GE(s.axis_mm - 1.5, m->floor.lower_mm + 9.0);
+    EXPECT_LE(s.bears_mm + s.length_mm, s.nut ? s.flat_mm : s.foot_radius_mm);
+    const std::string gear = made.train.topology().name_of(made.train.topology().input);
+    const Finding& grip = made.finding("shaft_grip", gear);
+    EXPECT_EQ(grip.status, CheckStatus::kPass) << grip.message;
+    EXPECT_NE(grip.message.find("bears on its flat"), std::string::npos) << grip.message;
+    EXPECT_EQ(made.finding("collision", "train").status, CheckStatus::kPass);
+    EXPECT_EQ(made.finding("assembly_order", "train").status, CheckStatus::kPass);
+    // pocket and flat are on one side of the bore, +x, in every slab that has them
+    bool flat = false;
+    for (const Slab& slab : made.part(gear).slabs)
+      for (const Outline& hole : slab.holes)
+        if (const auto* bore = std::get_if<BoreOutline>(&hole))
+          flat = flat || bore->bore.kind == BoreKind::kDFlat;
+    EXPECT_TRUE(flat);
+  }
 }
 
-TEST(Fits, OfDrawingsAreNominalSizesWithTheirClass) {
-  const Made made(machined(k3k + kMachine));
-  const io::PartDimensions lid = io::part_dimensions(made.train, made.part("lid"));
-  const auto fitted = [](const io::PartDimensions& dimensions, double size_mm) {
-    for (const io::PartDiameter& d : dimensions.diameters)
-      if (d.diameter_mm == size_mm) return d.limits.fit;
-    return std::string("none");
-  };
-  EXPECT_EQ(fitted(lid, 42.0), "H7");
-  EXPECT_EQ(fitted(io::part_dimensions(made.train, made.part("journal")), 30.0), "g6");
-  const Made printed(k3k + kMachine);
-  EXPECT_EQ(fitted(io::part_dimensions(printed.train, printed.part("lid")), 42.1), "");
-}
-
-TEST(Fits, ThatAPrinterDoesNotHoldAreTold) {
-  const Made made(replaced(k3k + kMachine, "[housing]", "[housing]\nfit_mm = 0"));
-  EXPECT_EQ(made.finding("fits", "output").status, CheckStatus::kWarn);
-  const Made usual(k3k + kMachine);
-  EXPECT_THROW((void)usual.finding("fits", "output"), std::runtime_error);
+TEST(SetScrew, OnAFlatThatTheHubDoesNotReachIsToldAndOneThatIsNotWantedIsNotThere) {
+  const std::string always = replaced(k3k + kMachine, "[fasteners]", "[fasteners]\nset_screw = \"always\"");
+  const Made wide(replaced(always, "name = \"nema17\"", "name = \"nema17\"\npilot_diameter_mm = 12"));
+  const Finding& told = wide.finding("shaft_grip", "sun");
+  EXPECT_EQ(told.status, CheckStatus::kWarn);
+  EXPECT_NE(told.message.find("no set screw on its flat"), std::string::npos) << told.message;
+  EXPECT_NE(told.cure.find("set_screw"), std::string::npos);
+  const Made none(replaced(round_shaft(k3k + kMachine), "[fasteners]", "[fasteners]\nset_screw = \"never\""));
+  EXPECT_FALSE(machine_layout(none.train)->set_screw.is_there());
+  EXPECT_EQ(none.finding("shaft_grip", "sun").status, CheckStatus::kWarn);
 }
 
 }  // namespace

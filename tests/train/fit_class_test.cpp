@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/train/machine/fit_class.h"
+#include "trueflank/train/machine/seat_fits.h"
 
 #include <gtest/gtest.h>
 
@@ -75,10 +75,28 @@ TEST(FitClass, ThatDoesNotExistHasNoLimits) {
 }
 
 TEST(FitClass, SeatsWithAClearanceKeepIt) {
-  EXPECT_EQ(seat_mm(42.0, 0.1), 42.1);
-  EXPECT_EQ(journal_mm(30.0, 0.1), 29.9);
-  EXPECT_NEAR(seat_mm(42.0, 0.0), 42.0125, 1e-12);
-  EXPECT_NEAR(journal_mm(30.0, 0.0), 29.9865, 1e-12);
+  const SeatFit loose{.hole = {}, .shaft = {}, .clearance_mm = 0.1};
+  EXPECT_EQ(loose.hole_mm(42.0), 42.1);
+  EXPECT_EQ(loose.shaft_mm(30.0), 29.9);
+  MachineDesign machine;
+  machine.housing.fit_mm = 0.0;
+  EXPECT_NEAR(seat_fits(machine).output.hole_mm(42.0), 42.0125, 1e-12);
+  EXPECT_NEAR(seat_fits(machine).output.shaft_mm(30.0), 29.9865, 1e-12);
+  // a seat's own classes, then the housing's, then the usual ones
+  machine.housing.fit = FitClasses{"H8", "h6"};
+  machine.bearings.output_fit = FitClasses{"J7", ""};
+  const SeatFits fits = seat_fits(machine);
+  EXPECT_EQ(fits.output.hole + fits.output.shaft, "J7h6");
+  EXPECT_EQ(fits.planet.hole, "H8");
+  EXPECT_EQ(fits.pin.hole, "");
+}
+
+TEST(FitClass, ThePressFitIsTheLargestOfAllSeats) {
+  MachineDesign machine;
+  machine.bearings.output = {.name = "6806", .bore_mm = 30.0, .outer_mm = 42.0, .width_mm = 7.0};
+  EXPECT_EQ(press_mm(machine, 90.0), 0.0);
+  machine.bearings.output_fit = FitClasses{"N7", "k6"};  // 42 N7: -33 to -8; 30 k6: +2 to +15
+  EXPECT_NEAR(press_mm(machine, 90.0), 0.5 * 0.0205, 1e-9);
 }
 
 }  // namespace

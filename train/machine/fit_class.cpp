@@ -149,18 +149,31 @@ std::optional<FitLimits> fit_limits(const std::string& name, double size_mm) {
   return FitLimits{um->lower / 1000.0, um->upper / 1000.0};
 }
 
-namespace {
-
-double fitted_mm(const char* name, double size_mm, double else_mm) {
-  const auto limits = else_mm == 0.0 ? fit_limits(name, size_mm) : std::nullopt;
-  return size_mm + (limits ? limits->middle_mm() : else_mm);
+std::string FitClasses::text() const {
+  return hole + (hole.empty() || shaft.empty() ? "" : "/") + shaft;
 }
 
-}  // namespace
-
-double seat_mm(double size_mm, double fit_mm) { return fitted_mm(kSeatClass, size_mm, fit_mm); }
-double journal_mm(double size_mm, double fit_mm) {
-  return fitted_mm(kJournalClass, size_mm, -fit_mm);
+std::optional<FitClasses> fit_classes(const std::string& text) {
+  constexpr double kAnySize_mm = 10.0;
+  const auto is_hole = [](const std::string& name) {
+    return !name.empty() && std::isupper(static_cast<unsigned char>(name[0])) != 0;
+  };
+  const std::size_t bar = text.find('/');
+  FitClasses classes;
+  if (bar != std::string::npos)
+    classes = {text.substr(0, bar), text.substr(bar + 1)};
+  else if (is_hole(text))
+    classes.hole = text;
+  else
+    classes.shaft = text;
+  const auto known = [&](const std::string& name, bool hole) {
+    return is_hole(name) == hole && fit_limits(name, kAnySize_mm).has_value();
+  };
+  const bool both = bar != std::string::npos;
+  if ((both || !classes.hole.empty()) && !known(classes.hole, true)) return std::nullopt;
+  if ((both || !classes.shaft.empty()) && !known(classes.shaft, false)) return std::nullopt;
+  if (classes == FitClasses{}) return std::nullopt;
+  return classes;
 }
 
 }  // namespace trueflank

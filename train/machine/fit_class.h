@@ -25,13 +25,13 @@ inline constexpr double kLargestFit_mm = 250.0;
 /// Source: ISO 286-1, values as printed there.
 [[nodiscard]] std::optional<FitLimits> fit_limits(const std::string& name, double size_mm);
 
-/// Classes of a gearbox whose fit_mm is 0: of holes for bearings, shaft, collar and pins, and of
-/// journals in bearings.
-inline constexpr const char *kSeatClass = "H7", *kJournalClass = "g6";
-
-/// A hole for, and a journal in, what has a size, with a diametral clearance; with 0 the middle of
-/// the limits of kSeatClass and kJournalClass.
-[[nodiscard]] double seat_mm(double size_mm, double fit_mm);
-[[nodiscard]] double journal_mm(double size_mm, double fit_mm);
+/// Classes of a hole and of what goes into it, either may be missing.
+struct FitClasses {
+  std::string hole, shaft;
+  [[nodiscard]] std::string text() const;  ///< "H7/k6", "H7" or "k6"
+  bool operator==(const FitClasses&) const = default;
+};
+/// Of a text like "H7/k6", "H7" or "k6"; nothing where that is no class of ISO 286.
+[[nodiscard]] std::optional<FitClasses> fit_classes(const std::string& text);
 
 }  // namespace trueflank

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/layout_steps.h"
 
 #include <algorithm>
@@ -10,6 +9,10 @@ namespace {
 /// The bearing's rings are touched up to this part of the ring section's height.
 constexpr double kShoulder = 0.1;
 constexpr int kRetainerScrews = 4;
+/// Rim of a ring that drives out, of the module, and at least in mm.
+constexpr double kRim = 2.5, kLeastRim_mm = 2.0;
+/// A disc is this much thicker than the inserts in it are long.
+constexpr double kInsertCover_mm = 0.3;
 
 void place_output_screws(const MachineDesign& machine, double head_mm, MachineLayout& m) {
   const Screw& screw = machine.fasteners.output;
@@ -33,7 +36,7 @@ void place_output_screws(const MachineDesign& machine, double head_mm, MachineLa
 void place_retainer(const MachineDesign& machine, double head_mm, MachineLayout& m) {
   const Screw& screw = machine.fasteners.output;
   const double circle =
-      0.5 * (seat_mm(machine.bearings.output.outer_mm, m.fit_mm) + screw.insert_hole_mm) + m.wall_mm;
+      0.5 * (m.fits.output.hole_mm(machine.bearings.output.outer_mm) + screw.insert_hole_mm) + m.wall_mm;
   m.retainer_radius_mm = circle + 0.5 * screw.head_diameter_mm + m.wall_mm + kHeadCover_mm;
   const double head = m.retainer.lower_mm + head_mm;
   m.retainer_screws = with_length({.what = "retainer",
@@ -57,7 +60,8 @@ void settle_walls(const GearboxDesign& design, MachineLayout& m) {
   const HousingDesign& housing = design.machine->housing;
   const double least = design.made.process ? design.made.process->least_wall_mm : 0.0;
   m.wall_mm = housing.wall_mm.value_or(std::max(1.2, 1.5 * least));
-  m.fit_mm = housing.fit_mm;
+  m.fits = seat_fits(*design.machine);
+  m.fit_mm = m.fits.ring.hole.empty() ? housing.fit_mm : 0.0;
   m.clearance_mm = housing.clearance_mm;
 }
 
@@ -97,7 +101,7 @@ void place_shaft(const Motor& motor, MachineLayout& m) {
   m.shaft_end_mm = face + motor.shaft_length_mm;
   m.flat_from_mm = motor.flat_mm > 0.0 ? m.shaft_end_mm - motor.flat_length_mm : face;
   m.hub_radius_mm = 0.5 * motor.shaft_diameter_mm + std::max(2.0 * m.wall_mm, 2.0);
-  m.hub_room_mm = 1e300;
+  m.hub_room_mm = kNoPlanet_mm;
 }
 
 void widen_hub(const TrainGear& gear, const MachineDesign& machine, MachineLayout& m) {
@@ -109,6 +113,12 @@ void widen_hub(const TrainGear& gear, const MachineDesign& machine, MachineLayou
                std::max(m.hub_radius_mm, heads));
 }
 
+void place_cup(const TrainGear& ring, const Screw& output, double disc_mm, MachineLayout& m) {
+  m.cup_radius_mm = ring.profile.root_radius_mm() +
+                    std::max(kRim * ring.profile.gear().normal_module_mm, kLeastRim_mm);
+  m.disc = {disc_mm, disc_mm + std::max(output.insert_length_mm + kInsertCover_mm, 2.0 * m.wall_mm)};
+}
+
 void place_output(const MachineDesign& machine, MachineLayout& m) {
   const Screw& screw = machine.fasteners.output;
   const Bearing& bearing = machine.bearings.output;
@@ -117,7 +127,7 @@ void place_output(const MachineDesign& machine, MachineLayout& m) {
   m.retainer.upper_mm = m.retainer.lower_mm + head + under;
   m.bearings = {m.retainer.upper_mm,
                 m.retainer.upper_mm + machine.bearings.outputs * bearing.width_mm};
-  m.journal_radius_mm = 0.5 * journal_mm(bearing.bore_mm, m.fit_mm);
+  m.journal_radius_mm = 0.5 * m.fits.output.shaft_mm(bearing.bore_mm);
   const Shoulders shoulders = shoulders_of(bearing);
   m.inner_shoulder_mm = shoulders.inner_mm;
   m.outer_shoulder_mm = shoulders.outer_mm;

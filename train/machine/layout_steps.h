@@ -9,6 +9,8 @@ namespace trueflank {
 
 /// Free height between the motor's collar and the hub on its shaft, and between a gear and its stop.
 inline constexpr double kHubGap_mm = 0.5;
+/// Room beside a hub that passes no planet.
+inline constexpr double kNoPlanet_mm = 1e300;
 /// A hub stays this part of the module inside the roots.
 inline constexpr double kHubInset = 0.1;
 
@@ -33,11 +35,14 @@ void place_set_screw(const GearTrain& train, MachineLayout& m);
 /// Radius that the heads of the motor's screws leave for that hole.
 [[nodiscard]] double room_of_hole_mm(const MachineDesign& machine, const MachineLayout& m);
 
+/// The cup that a ring makes which drives out: its wall, and the disc over it from a height on.
+void place_cup(const TrainGear& ring, const Screw& output, double disc_mm, MachineLayout& m);
+
 /// From the disc that carries it: retainer, bearings, roof of the lid, plate, and their screws.
 /// Requires: m.disc, m.output_axis.
 void place_output(const MachineDesign& machine, MachineLayout& m);
 
-/// Lays out a pair of external gears on parallel axes.
+/// Lays out a pair of gears on parallel axes, the wheel external or a ring around its pinion.
 [[nodiscard]] MachineLayout pair_layout(const GearTrain& train, const MachineDesign& machine);
 
 }  // namespace trueflank

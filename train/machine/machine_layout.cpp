@@ -9,8 +9,6 @@
 namespace trueflank {
 namespace {
 
-/// Rim of a ring that drives out, of the module, and at least in mm.
-constexpr double kRim = 2.5, kLeastRim_mm = 2.0;
 /// The lid's lip reaches this far over the fixed ring.
 constexpr double kLidLip_mm = 2.0;
 
@@ -31,6 +29,7 @@ class Layout {
     place_output(machine_, m_);
     place_walls();
     place_hub();
+    m_.press_mm = press_mm(machine_, 2.0 * m_.ring_radius_mm);
     return std::move(m_);
   }
 
@@ -153,6 +152,10 @@ class Layout {
                                                       train_.gears[i].profile.tip_radius_mm() -
                                                       m_.hub_radius_mm - m_.clearance_mm);
     m_.gripped = {m_.hub.lower_mm, std::min(driven.upper_mm, m_.shaft_end_mm)};
+    if (m_.toothed_hub)
+      m_.toothed_hub = m_.hub_room_mm == kNoPlanet_mm &&
+                       0.5 * m_.carrier.opening_diameter_mm >=
+                           train_.gear(m_.driven_gear).profile.tip_radius_mm() + 0.5 * m_.clearance_mm;
   }
 
   /// Over a sun that ends far below the far plate stands a stop: it keeps the sun on the shaft.
@@ -180,12 +183,8 @@ class Layout {
     m_.disc = m_.far;
     if (m_.output_gear >= 0) {
       const TrainGear& ring = train_.gear(m_.output_gear);
-      const double m = ring.profile.gear().normal_module_mm;
-      m_.cup_radius_mm = ring.profile.root_radius_mm() + std::max(kRim * m, kLeastRim_mm);
       m_.cup_inner_radius_mm = 0.5 * m_.carrier.outer_diameter_mm + m_.clearance_mm;
-      m_.disc.lower_mm = m_.far.upper_mm + m_.clearance_mm;
-      m_.disc.upper_mm =
-          m_.disc.lower_mm + std::max(screw.insert_length_mm + 0.3, 2.0 * m_.wall_mm);
+      place_cup(ring, screw, m_.far.upper_mm + m_.clearance_mm, m_);
     }
   }
 

@@ -8,6 +8,7 @@
 #include "trueflank/train/carrier.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/machine/screw_group.h"
+#include "trueflank/train/machine/seat_fits.h"
 
 namespace trueflank {
 
@@ -22,7 +23,10 @@ struct Shoulders {
 /// stands below the gears (`way` +1), its negative where it stands above (3k type II).
 struct MachineLayout {
   double way = 1.0;
-  double wall_mm = 1.2, fit_mm = 0.1, clearance_mm = 0.5;
+  double wall_mm = 1.2, clearance_mm = 0.5;
+  SeatFits fits;
+  double fit_mm = 0.1;    ///< diametral clearance that walls leave room for; 0: seats have classes
+  double press_mm = 0.0;  ///< by so much, on the radius, one part may be in another: it is pressed in
   int fixed_gear = -1;   ///< the ring that is held; -1: the carrier is, by its near plate
   int output_gear = -1;  ///< the ring that drives out; -1: the carrier does
   int driven_gear = -1;  ///< on the motor's shaft; -1: the carrier is
@@ -74,11 +78,16 @@ struct MachineLayout {
   double hub_room_mm = 0.0;  ///< beyond the clearance, to planets that it passes
   double flat_from_mm = 0.0, shaft_end_mm = 0.0;
   HeightRange gripped;  ///< of the shaft, in hub and gear
+  HeightRange spacer;  ///< on a pinion inside its wheel: keeps it on the shaft; empty: none
+  double spacer_radius_mm = 0.0;  ///< of one without teeth: straight teeth go on
+  bool toothed_hub = false;  ///< over the foot of a set screw straight teeth go on: they would hang over a hub
   /// Across the hub of the driven gear; it turns in the floor's hole.
   struct SetScrew {
     Screw screw = {};            ///< of its thread; no name: none
     bool nut = false;            ///< it turns in a square nut in a pocket open to the motor; else in the hub
     double length_mm = 0.0;
+    double bears_mm = 0.0;       ///< on the shaft, this far from the axis: its radius, or its flat
+    bool on_flat = false;
     HeightRange foot;            ///< what it is in
     double foot_radius_mm = 0.0;
     double flat_mm = 0.0;         ///< of the foot, from the axis: the drill starts there; 0: none
@@ -87,14 +96,15 @@ struct MachineLayout {
     double pocket_width_mm = 0.0, pocket_end_mm = 0.0;  ///< its floor, from the axis
     double pocket_bore_mm = 0.0;  ///< diameter of the bore there: wider than the nut
     double drill_mm = 0.0, through_mm = 0.0;  ///< diameter, and how much there is to drill through
-    std::string missing = {};    ///< why a round shaft has none
+    std::string missing = {};    ///< why a shaft that is to have one has none
     [[nodiscard]] bool is_there() const { return !screw.name.empty(); }
   } set_screw;
   double floor_hole_radius_mm = 0.0;  ///< collar and hub go through it
 
   // output
-  double cup_radius_mm = 0.0;  ///< outside, of a ring that drives out
+  double cup_radius_mm = 0.0;  ///< outside, of a ring that drives out; 0: none
   double cup_inner_radius_mm = 0.0;
+  double cup_over_mm = -1e300;  ///< top of what the ring has in it, where that may be higher than the ring
   HeightRange disc;  ///< holds the inserts of the output's screws
   HeightRange retainer, bearings, plate;
   double retainer_radius_mm = 0.0;

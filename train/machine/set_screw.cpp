@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A gear on a round shaft is held by a set screw across its hub. In plastic the screw turns in a
+// A gear on a round shaft is held by a set screw across its hub; on a shaft with a flat the screw
+// bears on the flat, if the design wants one. In plastic the screw turns in a
 // square nut, which lies in a pocket of the bore, open to the motor; the wall outside it is drilled
 // through from a flat. In metal the hub itself is drilled and tapped. The housing goes over the gear
 // afterwards: a key gets to the screw before that.
@@ -11,7 +12,6 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
-#include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/layout_steps.h"
 
 namespace trueflank {
@@ -60,15 +60,19 @@ bool is_printed(const GearTrain& train) {
   return !process || process->layer_mm > 0.0;
 }
 
-/// The foot round the pocket of a nut, with its flat.
-void size_for_nut(const SquareNut& nut, double bore_radius_mm, double wall_mm,
+/// The screw's edge stays this far on the shaft's flat.
+constexpr double kOnFlat_mm = 0.3;
+
+/// The foot round the pocket of a nut, with its flat. The screw's axis is `least_axis_mm` above the
+/// hub's end at least.
+void size_for_nut(const SquareNut& nut, double bore_radius_mm, double wall_mm, double least_axis_mm,
                   MachineLayout::SetScrew& s) {
   s.nut = true;
   s.pocket_width_mm = nut.width_mm + kNutRoom_mm;
   s.pocket_end_mm = bore_radius_mm + kPocketRoom_mm + nut.height_mm + kNutRoom_mm;
   s.pocket_bore_mm = std::max(2.0 * bore_radius_mm, s.pocket_width_mm) + 2.0 * kPocketRoom_mm;
-  s.pocket = {0.0, nut.width_mm + kNutRoom_mm};
-  s.axis_mm = 0.5 * s.pocket.upper_mm;
+  s.axis_mm = std::max(0.5 * s.pocket_width_mm, least_axis_mm);
+  s.pocket = {0.0, s.axis_mm + 0.5 * s.pocket_width_mm};
   s.foot = {0.0, s.pocket.upper_mm + wall_mm};
   s.drill_mm = s.screw.hole_mm;
   s.flat_mm = std::hypot(s.pocket_end_mm, 0.5 * s.pocket_width_mm) + wall_mm;
@@ -76,13 +80,31 @@ void size_for_nut(const SquareNut& nut, double bore_radius_mm, double wall_mm,
   s.foot_radius_mm = std::hypot(s.flat_mm, 0.5 * s.drill_mm + kBesideDrill_mm);
 }
 
+/// Straight teeth that go on to the foot lie inside it, where hole and printer want that.
+void widen_foot(const GearTrain& train, double hole_room_mm, const MachineLayout& m,
+                MachineLayout::SetScrew& s) {
+  const auto& process = train.design.made.process;
+  const TrainGear& gear = train.gear(m.driven_gear);
+  if (!s.nut || !process || !(process->ledge_mm > 0.0) || gear.twist.turn_rad_per_mm != 0.0) return;
+  const double flat = gear.profile.tip_radius_mm() + kInsideFoot_mm;
+  const double radius = std::hypot(flat, 0.5 * s.drill_mm + kBesideDrill_mm);
+  const double collar = train.design.machine->motor.pilot_diameter_mm;
+  const double room = collar > 0.0 ? std::min(hole_room_mm, 0.5 * m.fits.pilot.hole_mm(collar)) : hole_room_mm;
+  if (flat <= s.flat_mm || radius + m.clearance_mm > room) return;
+  s.flat_mm = flat;
+  s.through_mm = flat - s.pocket_end_mm;
+  s.foot_radius_mm = radius;
+}
+
 /// The foot with its thread.
-void size_for_thread(double bore_radius_mm, double wall_mm, MachineLayout::SetScrew& s) {
+void size_for_thread(double bore_radius_mm, double wall_mm, double least_axis_mm,
+                     MachineLayout::SetScrew& s) {
   const double d = s.screw.diameter_mm;
   s.through_mm = std::max(kThread * d, wall_mm);
   s.foot_radius_mm = bore_radius_mm + s.through_mm;
-  s.axis_mm = 0.5 * d + std::max(wall_mm, 0.5 * d);
-  s.foot = {0.0, 2.0 * s.axis_mm};
+  const double beside = 0.5 * d + std::max(wall_mm, 0.5 * d);
+  s.axis_mm = std::max(beside, least_axis_mm);
+  s.foot = {0.0, s.axis_mm + beside};
 }
 
 }  // namespace
@@ -104,7 +126,8 @@ std::string set_screw_operation(const MachineLayout& layout) {
     return printed("Drill %.1f mm across the axis, in the middle of the hub's flat (%.2f mm from the axis), ",
                    s.drill_mm, s.flat_mm) +
            height + printed(": through %.1f mm into the pocket of the nut.", s.through_mm);
-  return "Drill and tap " + s.screw.name + " across the axis into the bore, " + height + ".";
+  return "Drill and tap " + s.screw.name + " across the axis into " +
+         (s.on_flat ? "the middle of the bore's flat, " : "the bore, ") + height + ".";
 }
 
 double set_screw_key_mm(const MachineLayout::SetScrew& screw) { return nut_of(screw).key_mm; }
@@ -126,24 +149,30 @@ double room_of_hole_mm(const MachineDesign& machine, const MachineLayout& m) {
 
 void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& m) {
   const Motor& motor = train.design.machine->motor;
-  if (motor.flat_mm > 0.0) return;
+  const bool flat = motor.flat_mm > 0.0;
+  const SetScrewUse use = train.design.machine->fasteners.set_screw;
+  if (use == SetScrewUse::kNever || (flat && use != SetScrewUse::kAlways)) return;
   if (m.driven_gear < 0) {
     m.set_screw.missing = "no key reaches a set screw: the carrier is on the shaft";
     return;
   }
   const BoreDesign& bore = train.design.gears[static_cast<std::size_t>(m.driven_gear)].bore;
-  if (bore.kind != BoreKind::kRound || !(bore.diameter_mm > 0.0)) return;
+  if (bore.kind != (flat ? BoreKind::kDFlat : BoreKind::kRound) || !(bore.diameter_mm > 0.0)) return;
   const SquareNut& nut = nut_for(motor.shaft_diameter_mm);
   MachineLayout::SetScrew s;
   s.screw = *find_element(standard_elements().screws, nut.thread);
   const double radius = 0.5 * bore.diameter_mm, shaft = 0.5 * motor.shaft_diameter_mm;
+  const double from = motor.pilot_height_mm + kHubGap_mm;
+  const double least_axis = flat ? motor.shaft_length_mm - motor.flat_length_mm - from +
+                                       0.5 * s.screw.diameter_mm + kOnFlat_mm
+                                 : 0.0;
   if (is_printed(train))
-    size_for_nut(nut, radius, m.wall_mm, s);
+    size_for_nut(nut, radius, m.wall_mm, least_axis, s);
   else
-    size_for_thread(radius, m.wall_mm, s);
-  const double outside = s.nut ? s.flat_mm : s.foot_radius_mm;
-  for (const double length : kLengths_mm)
-    if (length <= outside - shaft) s.length_mm = length;
+    size_for_thread(radius, m.wall_mm, least_axis, s);
+  s.on_flat = flat;
+  s.bears_mm = flat ? motor.flat_mm - shaft : shaft;
+  widen_foot(train, hole_room_mm, m, s);
   const auto none = [&](const std::string& why) { m.set_screw.missing = why; };
   if (train.design.herringbone)
     return none("no key reaches a set screw: herringbone gears stand round this one before it goes on "
@@ -152,7 +181,7 @@ void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& 
   const double hole = std::max(s.foot_radius_mm, tip) + m.clearance_mm;
   const auto mm = [](double value) { return printed("%.2f mm", value); };
   const bool centred = motor.pilot_diameter_mm > 0.0;  // by a hole that fits its collar
-  if (const double collar = 0.5 * seat_mm(motor.pilot_diameter_mm, m.fit_mm); centred && hole > collar)
+  if (const double collar = 0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm); centred && hole > collar)
     return none("a set screw wants a hole of radius " + mm(hole) + " in the floor, for the " +
                 (tip > s.foot_radius_mm ? "gear" : "hub") +
                 " to go through; that of the motor's collar has " + mm(collar));
@@ -161,10 +190,12 @@ void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& 
                 (tip > s.foot_radius_mm ? "gear" : "hub") + " to go through; the motor's screws" +
                 (m.wheel_gear >= 0 ? " and the wheel's bearing" : "") + " leave " +
                 mm(std::max(0.0, hole_room_mm)));
-  const double from = motor.pilot_height_mm + kHubGap_mm;
   if (motor.shaft_length_mm < from + s.axis_mm + 0.5 * s.screw.diameter_mm)
     return none("the motor's shaft is too short to reach a set screw " + mm(from + s.axis_mm) +
                 " above the motor's face");
+  const double outside = s.nut ? s.flat_mm : s.foot_radius_mm;
+  for (const double length : kLengths_mm)
+    if (length <= outside - s.bears_mm) s.length_mm = length;
   m.set_screw = s;
 }
 
@@ -180,12 +211,17 @@ void place_set_screw(const GearTrain& train, MachineLayout& m) {
     for (HeightRange* range : {&s.foot, &s.pocket})
       *range = {range->lower_mm + m.hub.lower_mm, range->upper_mm + m.hub.lower_mm};
     s.axis_mm += m.hub.lower_mm;
+    const auto& process = train.design.made.process;
+    const TrainGear& gear = train.gear(m.driven_gear);
+    m.toothed_hub = process && process->ledge_mm > 0.0 && gear.twist.turn_rad_per_mm == 0.0 &&
+                    gear.profile.tip_radius_mm() + 0.5 * kInsideFoot_mm <=
+                        (s.nut ? s.flat_mm : s.foot_radius_mm);
     m.hub_radius_mm =
         std::min(m.hub_radius_mm, (s.nut ? s.flat_mm : s.foot_radius_mm) - kInsideFoot_mm);
   }
   const double hub = std::max(m.hub_radius_mm, 0.5 * motor.shaft_diameter_mm) + m.clearance_mm;
   m.floor_hole_radius_mm =
-      std::max(0.5 * seat_mm(motor.pilot_diameter_mm, m.fit_mm), hub);
+      std::max(0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm), hub);
   if (s.is_there())
     m.floor_hole_radius_mm =
         std::max(m.floor_hole_radius_mm,

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "trueflank/base/tolerance.h"
+#include "trueflank/solid/measure/overhang.h"
 #include "trueflank/solid/shape/machine/bought_parts.h"
 #include "trueflank/solid/shape/machine/machine_pieces.h"
 #include "trueflank/solid/shape/machine/stacked_body.h"
 #include "trueflank/solid/shape/outline_loop.h"
-#include "trueflank/train/machine/fit_class.h"
 
 namespace trueflank {
 namespace {
@@ -69,7 +69,7 @@ class MachineBuilder {
       else if (m_.driven_gear >= 0 && part.member == train_.topology().input)
         add_hub(body, part);
       else if (m_.output_gear >= 0 && part.member == output_)
-        add_cup(body, part, at);
+        pieces_.add_cup(body, part, at);
       else if (m_.idle_gear >= 0 &&
                part.member ==
                    train_.topology().gears[static_cast<std::size_t>(m_.idle_gear)].member)
@@ -104,7 +104,7 @@ class MachineBuilder {
     if (!machine_.bearings.planet) return;
     const Bearing& bearing = *machine_.bearings.planet;
     const HeightRange all = body.heights();
-    const CircleOutline seat = circle(0.5 * seat_mm(bearing.outer_mm, m_.fit_mm));
+    const CircleOutline seat = circle(0.5 * m_.fits.planet.hole_mm(bearing.outer_mm));
     body.drill({all.lower_mm, all.lower_mm + bearing.width_mm}, seat);
     body.drill({all.upper_mm - bearing.width_mm, all.upper_mm}, seat);
   }
@@ -119,7 +119,7 @@ class MachineBuilder {
                     [](const Outline& hole) { return std::holds_alternative<BoreOutline>(hole); });
       made.add({slab}, at);
     }
-    pieces_.add_hub(made, find_gear(train_.design, part.name)->bore);
+    pieces_.add_hub(made, find_gear(train_.design, part.name)->bore, part, at);
     body = std::move(made);
   }
 
@@ -137,28 +137,6 @@ class MachineBuilder {
     body.drill(z(m_.near.upper_mm, m_.shaft_end_mm + m_.clearance_mm), circle(free));
   }
 
-  /// The ring's teeth, where one outline is all of them.
-  static const ToothedOutline* teeth_of(const PartShape& part) {
-    return part.slabs.size() == 1 ? std::get_if<ToothedOutline>(&part.slabs.front().holes.front())
-                                  : nullptr;
-  }
-
-  /// Wall and floor of the cup that a driving ring makes round the carrier's far plate.
-  void add_cup(StackedBody& body, const PartShape& part, double at_mm) const {
-    double end = m_.way > 0.0 ? body.heights().upper_mm : -body.heights().lower_mm;
-    // straight teeth go on a little: the planets' ends stay clear of the cup
-    if (const ToothedOutline* teeth = teeth_of(part); teeth && is_plain_prism(*teeth)) {
-      body.add(z(end, end + m_.clearance_mm), circle(m_.cup_radius_mm));
-      ToothedOutline longer = *teeth;
-      longer.z_lower_mm += at_mm;
-      body.drill(z(end, end + m_.clearance_mm), longer);
-      end += m_.clearance_mm;
-    }
-    body.add(z(end, m_.disc.upper_mm), circle(m_.cup_radius_mm));
-    body.drill(z(end, m_.disc.lower_mm), circle(m_.cup_inner_radius_mm));
-    pieces_.drill_insert_ends(body, m_.output_screws);
-  }
-
   // ------------------------------------------------------------------------------- carrier
 
   void add_carrier() {
@@ -166,7 +144,7 @@ class MachineBuilder {
     const double outer = 0.5 * m_.carrier.outer_diameter_mm;
     StackedBody near, far, pillar;
     near.add(z(m_.near.lower_mm, m_.near.upper_mm),
-             circle(m_.fixed_gear < 0 ? m_.ring_radius_mm : outer));
+             circle(m_.fixed_gear < 0 ? held_radius_mm() : outer));
     far.add(z(m_.far.lower_mm, m_.far.upper_mm), circle(outer));
     for (const double angle : train_.phases.planet_position_rad) {
       const CircleOutline hole = circle(0.5 * m_.carrier.pin_hole_diameter_mm,
@@ -199,6 +177,12 @@ class MachineBuilder {
     place_copies(m_.pillars, name + "_pillar");
   }
 
+  /// Of the plate that is held, in the lips of housing and lid.
+  [[nodiscard]] double held_radius_mm() const {
+    const SeatFit& fit = m_.fits.ring;
+    return fit.shaft.empty() ? m_.ring_radius_mm : 0.5 * fit.shaft_mm(2.0 * m_.ring_radius_mm);
+  }
+
   /// The last part stands at each of these places.
   void place_copies(const std::vector<Point2>& at, const std::string& name) {
     const Placement first = shapes_.assembly.back();
@@ -217,7 +201,7 @@ class MachineBuilder {
 
   void add_housing() {
     StackedBody body;
-    const double seat = 0.5 * seat_mm(2.0 * m_.ring_radius_mm, m_.fit_mm);
+    const double seat = 0.5 * m_.fits.ring.hole_mm(2.0 * m_.ring_radius_mm);
     body.add(z(m_.floor.lower_mm, m_.seat_top_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.floor.upper_mm, m_.ring.lower_mm), circle(m_.cavity_radius_mm));
     body.drill(z(m_.ring.lower_mm, m_.seat_top_mm), circle(seat));
@@ -229,7 +213,7 @@ class MachineBuilder {
 
   void add_lid() {
     StackedBody body;
-    const double seat = 0.5 * seat_mm(2.0 * m_.ring_radius_mm, m_.fit_mm);
+    const double seat = 0.5 * m_.fits.ring.hole_mm(2.0 * m_.ring_radius_mm);
     body.add(z(m_.seat_top_mm + kLipGap_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.seat_top_mm, m_.ring.upper_mm), circle(seat));
     body.drill(z(m_.ring.upper_mm, m_.roof.lower_mm), circle(m_.lid_radius_mm));
@@ -280,25 +264,39 @@ class MachineBuilder {
   double held_turn_ = 0.0, output_turn_ = 0.0;
 };
 
+/// What the process cannot print as it lies is turned over, where that is better.
+void turn_over(const Process& process, PartShapes& shapes) {
+  for (PartShape& part : shapes.parts) {
+    if (!part.bought.empty()) continue;
+    const double share = overhang_share(overhang(part, part.upside_down), process);
+    if (share > 1.0 && overhang_share(overhang(part, !part.upside_down), process) < share)
+      part.upside_down = !part.upside_down;
+  }
+}
+
 }  // namespace
 
 GearDesign machine_gear(const MachineLayout& layout, const GearTrain& train, int gear) {
   GearDesign design = *find_gear(train.design, train.gear(gear).name);
   if (gear == layout.fixed_gear) {
-    design.outer_diameter_mm = 2.0 * layout.ring_radius_mm;
+    const double size = 2.0 * layout.ring_radius_mm;
+    design.outer_diameter_mm = layout.fits.ring.shaft.empty() ? size : layout.fits.ring.shaft_mm(size);
     const ScrewGroup& screws = layout.housing_screws;
     design.bolt_circle = {.count = static_cast<int>(screws.at.size()),
                           .circle_diameter_mm = 2.0 * screws.at.front().norm(),
                           .hole_diameter_mm = screws.screw.hole_mm};
-  } else if (gear == layout.output_gear) {
+  } else if (gear == layout.output_gear ||
+             (gear == layout.wheel_gear && layout.cup_radius_mm > 0.0)) {
     design.outer_diameter_mm = 2.0 * layout.cup_radius_mm;
   }
   return design;
 }
 
 Errors add_machine(const GearTrain& train, const MachineLayout& layout, PartShapes& shapes) {
-  if (layout.wheel_gear >= 0) return add_pair_machine(train, layout, shapes);
-  return MachineBuilder(train, layout, shapes).build();
+  Errors errors = layout.wheel_gear >= 0 ? add_pair_machine(train, layout, shapes)
+                                         : MachineBuilder(train, layout, shapes).build();
+  if (errors.empty() && train.design.made.process) turn_over(*train.design.made.process, shapes);
+  return errors;
 }
 
 }  // namespace trueflank

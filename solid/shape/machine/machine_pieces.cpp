@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/solid/shape/machine/machine_pieces.h"
-#include "trueflank/train/machine/fit_class.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
 namespace {
@@ -17,6 +18,20 @@ constexpr double kRoundRoom_mm = 0.1;
 constexpr double kBeyond_mm = 1e4;
 
 }  // namespace
+
+std::optional<ToothedOutline> straight_teeth(const PartShape& part, double at_mm) {
+  const auto plain = [&](const Outline& outline) -> std::optional<ToothedOutline> {
+    const auto* teeth = std::get_if<ToothedOutline>(&outline);
+    if (!teeth || !is_plain_prism(*teeth)) return std::nullopt;
+    ToothedOutline moved = *teeth;
+    moved.z_lower_mm += at_mm;
+    return moved;
+  };
+  if (part.slabs.size() != 1) return std::nullopt;
+  const Slab& slab = part.slabs.front();
+  if (auto outer = plain(slab.outer)) return outer;
+  return slab.holes.empty() ? std::nullopt : plain(slab.holes.front());
+}
 
 HeightRange MachinePieces::z(double from, double to) const {
   return m_.z({std::min(from, to), std::max(from, to)});
@@ -46,7 +61,8 @@ void MachinePieces::drill_floor(StackedBody& body, const Point2& axis) const {
   body.drill(z(m_.floor.lower_mm, m_.floor.upper_mm), circle(m_.floor_hole_radius_mm, -axis));
 }
 
-void MachinePieces::add_hub(StackedBody& body, const BoreDesign& bore) const {
+void MachinePieces::add_hub(StackedBody& body, const BoreDesign& bore, const PartShape& gear,
+                            double at_mm) const {
   const auto& s = m_.set_screw;
   if (!s.is_there()) {
     body.add(z(m_.hub.lower_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
@@ -59,14 +75,17 @@ void MachinePieces::add_hub(StackedBody& body, const BoreDesign& bore) const {
                           .d_flat_mm = s.foot_radius_mm + s.flat_mm}});
   else
     body.add(z(s.foot.lower_mm, s.foot.upper_mm), circle(s.foot_radius_mm));
-  body.add(z(s.foot.upper_mm, m_.hub.upper_mm), circle(m_.hub_radius_mm));
+  const auto teeth = m_.toothed_hub ? straight_teeth(gear, at_mm) : std::nullopt;
+  body.add(z(s.foot.upper_mm, m_.hub.upper_mm),
+           teeth ? Outline{*teeth} : Outline{circle(m_.hub_radius_mm)});
   if (s.nut)
     body.drill(z(s.pocket.lower_mm, s.pocket.upper_mm),
                BoreOutline{{.diameter_mm = s.pocket_bore_mm,
                             .kind = BoreKind::kKeyway,
                             .keyway_width_mm = s.pocket_width_mm,
                             .keyway_depth_mm = s.pocket_end_mm - 0.5 * s.pocket_bore_mm}});
-  body.drill(z(s.nut ? s.pocket.upper_mm : -kBeyond_mm, kBeyond_mm), BoreOutline{bore});
+  if (!s.nut) return drill_shaft(body, bore);
+  body.drill(z(s.pocket.upper_mm, kBeyond_mm), BoreOutline{bore});
 }
 
 void MachinePieces::drill_shaft(StackedBody& body, const BoreDesign& bore) const {
@@ -75,6 +94,20 @@ void MachinePieces::drill_shaft(StackedBody& body, const BoreDesign& bore) const
   const double from = flat ? std::max(m_.flat_from_mm, m_.hub.lower_mm) : -kBeyond_mm;
   if (flat) body.drill(z(-kBeyond_mm, from), circle(0.5 * bore.diameter_mm + kRoundRoom_mm));
   body.drill(z(from, m_.driven_gear < 0 ? m_.near.upper_mm : kBeyond_mm), BoreOutline{bore});
+}
+
+void MachinePieces::add_cup(StackedBody& body, const PartShape& part, double at_mm) const {
+  double end = m_.way > 0.0 ? body.heights().upper_mm : -body.heights().lower_mm;
+  // straight teeth go on a little: what is in mesh stays clear of the cup
+  if (const auto teeth = straight_teeth(part, at_mm)) {
+    const double to = std::max(end, m_.cup_over_mm) + m_.clearance_mm;
+    body.add(z(end, to), circle(m_.cup_radius_mm));
+    body.drill(z(end, to), *teeth);
+    end = to;
+  }
+  body.add(z(end, m_.disc.upper_mm), circle(m_.cup_radius_mm));
+  body.drill(z(end, m_.disc.lower_mm), circle(m_.cup_inner_radius_mm));
+  drill_insert_ends(body, m_.output_screws);
 }
 
 PartShape& MachinePieces::add_part(std::string name, const StackedBody& body, int member,
@@ -100,7 +133,7 @@ void MachinePieces::add_retainer(double rotation_rad) {
 void MachinePieces::drill_seat(StackedBody& lid, const Point2& axis) const {
   const Point2 at = m_.output_axis - axis;
   lid.drill(z(m_.roof.lower_mm, m_.bearings.upper_mm),
-            circle(0.5 * seat_mm(machine_.bearings.output.outer_mm, m_.fit_mm), at));
+            circle(0.5 * m_.fits.output.hole_mm(machine_.bearings.output.outer_mm), at));
   lid.drill(z(m_.bearings.upper_mm, m_.roof.upper_mm), circle(m_.outer_shoulder_mm, at));
 }
 

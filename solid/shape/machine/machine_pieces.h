@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "trueflank/solid/shape/machine/bought_parts.h"
@@ -13,6 +14,10 @@ namespace trueflank {
 [[nodiscard]] inline CircleOutline circle(double radius_mm, const Point2& centre = Point2::Zero()) {
   return {.centre = centre, .radius_mm = radius_mm};
 }
+
+/// The teeth of a gear's part, in the assembly where its lower face stands at a height: nothing where they
+/// are not straight, or not all in one.
+[[nodiscard]] std::optional<ToothedOutline> straight_teeth(const PartShape& part, double at_mm);
 
 /// What the gearboxes of all kinds are made of. Heights are the layout's.
 class MachinePieces {
@@ -30,8 +35,12 @@ class MachinePieces {
   void drill_insert_ends(StackedBody& body, const ScrewGroup& group) const;
   /// The hole that the motor's collar and the hub go through, in a floor that stands at an axis.
   void drill_floor(StackedBody& body, const Point2& axis) const;
-  /// The hub of the gear on the motor's shaft, with the foot of its set screw; and the bore.
-  void add_hub(StackedBody& body, const BoreDesign& bore) const;
+  /// The hub of the gear on the motor's shaft, with the foot of its set screw; and the bore. `gear` are its
+  /// teeth, whose lower face stands at a height.
+  void add_hub(StackedBody& body, const BoreDesign& bore, const PartShape& gear, double at_mm) const;
+  /// Wall and floor of the cup that a ring makes which drives out; its teeth are `part`, whose lower
+  /// face stands at a height.
+  void add_cup(StackedBody& body, const PartShape& part, double at_mm) const;
   /// The bore on the motor's shaft; round where the shaft is.
   void drill_shaft(StackedBody& body, const BoreDesign& bore) const;
 

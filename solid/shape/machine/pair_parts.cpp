@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "trueflank/solid/shape/machine/machine_pieces.h"
-#include "trueflank/train/machine/fit_class.h"
 
 namespace trueflank {
 namespace {
@@ -23,7 +22,10 @@ class PairBuilder {
     const int output = train_.topology().output;
     const double turn = train_.phases.rotation_rad(output, 0);
     add_hub(part_of(train_.topology().input));
-    add_stub(part_of(output));
+    if (m_.cup_radius_mm > 0.0)
+      add_cup(part_of(output));
+    else
+      add_stub(part_of(output));
     add_housing();
     add_lid();
     pieces_.add_retainer(0.0);
@@ -60,7 +62,12 @@ class PairBuilder {
                     [](const Outline& hole) { return std::holds_alternative<BoreOutline>(hole); });
       body.add({slab}, gear.z_lower_mm);
     }
-    pieces_.add_hub(body, find_gear(train_.design, gear.name)->bore);
+    const auto teeth = straight_teeth(shapes_.parts[part], gear.z_lower_mm);
+    const double wall = m_.spacer_radius_mm - 0.5 * machine_.motor.shaft_diameter_mm;
+    if (teeth || wall >= m_.wall_mm)
+      body.add(z(m_.spacer.lower_mm, m_.spacer.upper_mm),
+               teeth ? Outline{*teeth} : Outline{circle(m_.spacer_radius_mm)});
+    pieces_.add_hub(body, find_gear(train_.design, gear.name)->bore, shapes_.parts[part], gear.z_lower_mm);
     replace(part, body, gear.z_lower_mm);
     // a large pinion hangs over its hub
     shapes_.parts[part].upside_down =
@@ -82,16 +89,28 @@ class PairBuilder {
     shapes_.parts[part].upside_down = machine_.bearings.wheel.has_value();
   }
 
+  /// A wheel with inner teeth is a cup over the pinion.
+  void add_cup(std::size_t part) {
+    const TrainGear& gear = train_.gear(m_.wheel_gear);
+    StackedBody body;
+    body.add(shapes_.parts[part].slabs, gear.z_lower_mm);
+    pieces_.add_cup(body, shapes_.parts[part], gear.z_lower_mm);
+    replace(part, body, gear.z_lower_mm);
+    shapes_.parts[part].upside_down = true;
+  }
+
   void add_housing() {
     const Point2& axis = m_.housing_axis;
     StackedBody body;
     body.add(z(m_.floor.lower_mm, m_.seat_top_mm), circle(m_.outer_radius_mm));
-    body.drill(z(m_.floor.upper_mm, m_.seat_top_mm), circle(m_.cavity_radius_mm));
+    const SeatFit& rim = m_.fits.rim;
+    body.drill(z(m_.floor.upper_mm, m_.seat_top_mm),
+               circle(rim.hole.empty() ? m_.cavity_radius_mm : 0.5 * rim.hole_mm(2.0 * m_.cavity_radius_mm)));
     pieces_.drill_floor(body, axis);
     if (machine_.bearings.wheel) {
       const Point2 at = m_.output_axis - axis;
       body.drill(z(m_.stub.bearing.lower_mm, m_.floor.upper_mm),
-                 circle(0.5 * seat_mm(machine_.bearings.wheel->outer_mm, m_.fit_mm), at));
+                 circle(0.5 * m_.fits.wheel.hole_mm(machine_.bearings.wheel->outer_mm), at));
       body.drill(z(m_.stub.relief_mm, m_.stub.bearing.lower_mm), circle(m_.stub.outer_shoulder_mm, at));
     }
     pieces_.drill(body, m_.motor_screws, axis);
@@ -102,7 +121,7 @@ class PairBuilder {
   void add_lid() {
     const Point2& axis = m_.housing_axis;
     StackedBody body;
-    body.add(z(m_.lid_lower_mm, m_.seat_top_mm), circle(0.5 * journal_mm(2.0 * m_.cavity_radius_mm, m_.fit_mm)));
+    body.add(z(m_.lid_lower_mm, m_.seat_top_mm), circle(0.5 * m_.fits.rim.shaft_mm(2.0 * m_.cavity_radius_mm)));
     body.add(z(m_.seat_top_mm, m_.roof.upper_mm), circle(m_.outer_radius_mm));
     body.drill(z(m_.lid_lower_mm, m_.roof.lower_mm),
                circle(m_.lid_radius_mm, m_.output_axis - axis));
