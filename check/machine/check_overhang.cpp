@@ -48,7 +48,7 @@ bool is_stacked(const GearTrain& train, const PartShape& part) {
 }
 
 Finding judge_part(const GearTrain& train, const PartShape& part, const Process& process) {
-  const Overhang hangs = overhang(part, part.upside_down);
+  const Overhang hangs = overhang(part, part.upside_down, process);
   Judged worst = ledge(hangs, process);
   for (Judged other : {bridge(hangs, process), lean(hangs, process)})
     if (other.share() > worst.share()) worst = std::move(other);

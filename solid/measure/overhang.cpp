@@ -21,6 +21,10 @@ double beyond_mm(const OutlineExtent& circle, const OutlineExtent& other) {
   return (circle.centre - other.centre).norm() + circle.outer_radius_mm - other.inner_radius_mm;
 }
 
+double beyond_tips_mm(const OutlineExtent& circle, const OutlineExtent& other) {
+  return (circle.centre - other.centre).norm() + circle.outer_radius_mm - other.outer_radius_mm;
+}
+
 bool lies_in(const OutlineExtent& inner, const OutlineExtent& outer) {
   return beyond_mm(inner, outer) <= tolerance::kTouch_mm;
 }
@@ -33,10 +37,13 @@ class Hanging {
  public:
   explicit Hanging(double height_mm) : height_mm_(height_mm) {}
 
-  /// What of a slab does not lie on the one under it.
-  void compare(const Slab& below, const Slab& above) {
-    if (!continues(below.outer, above.outer))
-      take_ledge(beyond_mm(extent(above.outer), extent(below.outer)));
+  /// What of a slab does not lie on the one under it; `under`: a face near below that one, or none.
+  void compare(const Slab& below, const Slab& above, const Slab* under) {
+    if (!continues(below.outer, above.outer)) {
+      double ledge = beyond_mm(extent(above.outer), extent(below.outer));
+      if (under) ledge = std::min(ledge, beyond_tips_mm(extent(above.outer), extent(under->outer)));
+      take_ledge(ledge);
+    }
     for (const Outline& hole : below.holes) close(hole, above);
   }
 
@@ -86,14 +93,18 @@ double lean_rad(const Outline& outline) {
 
 }  // namespace
 
-Overhang overhang(const PartShape& part, bool upside_down) {
+Overhang overhang(const PartShape& part, bool upside_down, double carried_mm) {
   std::vector<const Slab*> slabs;
   for (const Slab& slab : part.slabs) slabs.push_back(&slab);
   if (upside_down) std::reverse(slabs.begin(), slabs.end());
   Hanging hanging(0.0);
   double height = 0.0;
   for (std::size_t i = 0; i < slabs.size(); ++i) {
-    if (i > 0) hanging.compare(*slabs[i - 1], *slabs[i]);
+    const auto height_of = [&](std::size_t k) {
+      return slabs[k]->z_upper_mm - slabs[k]->z_lower_mm;
+    };
+    const bool near = i > 1 && height_of(i - 1) <= carried_mm + tolerance::kTouch_mm;
+    if (i > 0) hanging.compare(*slabs[i - 1], *slabs[i], near ? slabs[i - 2] : nullptr);
     height += slabs[i]->z_upper_mm - slabs[i]->z_lower_mm;
     hanging.to_height(height);
     double& lean = hanging.result.lean_rad;
@@ -101,6 +112,10 @@ Overhang overhang(const PartShape& part, bool upside_down) {
     for (const Outline& hole : slabs[i]->holes) lean = std::max(lean, lean_rad(hole));
   }
   return hanging.result;
+}
+
+Overhang overhang(const PartShape& part, bool upside_down, const Process& process) {
+  return overhang(part, upside_down, process.layer_mm);
 }
 
 double overhang_share(const Overhang& overhang, const Process& process) {

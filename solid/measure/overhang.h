@@ -16,8 +16,11 @@ struct Overhang {
   double lean_rad = 0.0;  ///< of the flanks of twisted teeth, from the vertical, at the tips
 };
 
-/// As the part lies on its lower or on its upper face.
-[[nodiscard]] Overhang overhang(const PartShape& part, bool upside_down);
+/// As the part lies on its lower or on its upper face. What lies no more than `carried_mm` above a
+/// face of the part is carried by it, as by a support; teeth by tips under them.
+[[nodiscard]] Overhang overhang(const PartShape& part, bool upside_down, double carried_mm = 0.0);
+/// The same as a process prints it: carried by what is a layer below.
+[[nodiscard]] Overhang overhang(const PartShape& part, bool upside_down, const Process& process);
 
 /// The worst of it, of what a process makes without support: above 1 it wants some. 0: a process
 /// without such limits.

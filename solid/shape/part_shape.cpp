@@ -341,7 +341,28 @@ class ShapeBuilder {
     neck.z_upper_mm = neck.z_lower_mm + gap_mm;
     const auto teeth = teeth_for_neck(lower, upper, slabs.back().outer, upper_teeth);
     neck.outer = teeth ? *teeth : Outline{CircleOutline{Point2::Zero(), root - inset}};
+    if (!teeth && shrink_neck(upper_teeth, slabs, neck)) return;
     slabs.push_back(std::move(neck));
+  }
+
+  /// A printed neck one layer high, where straight teeth of both sections may go on towards each other: the
+  /// upper ones are then printed on the lower ones, as on supports.
+  bool shrink_neck(const ToothedOutline& upper_teeth, std::vector<Slab>& slabs, Slab neck) const {
+    const auto& process = train_.design.made.process;
+    const auto* lower_teeth = std::get_if<ToothedOutline>(&slabs.back().outer);
+    if (!layout_ || !process || !(process->ledge_mm > 0.0) || !lower_teeth) return false;
+    if (!is_plain_prism(*lower_teeth) || !is_plain_prism(upper_teeth)) return false;
+    const double gap = neck.z_upper_mm - neck.z_lower_mm, layer = process->layer_mm;
+    // what is left between the teeth that go on and the other section's mates
+    const double left = 0.5 * (gap + layer);
+    if (!(gap > 2.0 * layer) || left < 0.5 * train_.design.machine->housing.clearance_mm) return false;
+    Slab lower = slabs.back(), upper = neck;
+    lower.z_lower_mm = neck.z_lower_mm;
+    lower.z_upper_mm = neck.z_lower_mm = neck.z_lower_mm + 0.5 * (gap - layer);
+    upper.z_lower_mm = neck.z_upper_mm = neck.z_lower_mm + layer;
+    upper.outer = upper_teeth;
+    for (Slab* slab : {&lower, &neck, &upper}) slabs.push_back(std::move(*slab));
+    return true;
   }
 
   void check_stack_without_neck(const TrainGear& lower, const TrainGear& upper) {

@@ -268,8 +268,8 @@ class MachineBuilder {
 void turn_over(const Process& process, PartShapes& shapes) {
   for (PartShape& part : shapes.parts) {
     if (!part.bought.empty()) continue;
-    const double share = overhang_share(overhang(part, part.upside_down), process);
-    if (share > 1.0 && overhang_share(overhang(part, !part.upside_down), process) < share)
+    const double share = overhang_share(overhang(part, part.upside_down, process), process);
+    if (share > 1.0 && overhang_share(overhang(part, !part.upside_down, process), process) < share)
       part.upside_down = !part.upside_down;
   }
 }
