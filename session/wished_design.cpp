@@ -2,6 +2,7 @@
 #include "trueflank/session/wished_design.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -24,10 +25,17 @@ namespace {
 /// How far the ratio may be off.
 constexpr double kRatioTolerance = 0.02;
 /// Tooth sets are searched in lots, those nearest to the ratio first: one lot takes some seconds.
-constexpr std::size_t kLot = 48, kMostSets = 240;
+constexpr std::size_t kLot = 48, kMostSets = 240, kTriedSets = 48;
+/// Where nothing is found: so much larger is tried.
+constexpr std::array<double, 3> kLarger{1.25, 1.6, 2.2};
+constexpr double kLargest_mm = 500.0;
 /// So many are judged of a lot at most; what as many warn of alike is put up with.
 constexpr std::size_t kMostJudged = 32, kMany = 8;
 constexpr double kLeastContactRatio = 1.2, kPrintedFriction = 0.15;
+
+/// The module is what so many teeth more than the largest gear's leave of the diameter; tips wider
+/// than this part of it leave no choice of shifts.
+constexpr double kTipTeeth = 5.0, kWidestTip = 0.6;
 
 /// Of the rack: teeth a little short, whose tips a printer still makes; the narrow gaps of rings
 /// take no rounder tool, and the sun's involute stays whole.
@@ -67,7 +75,22 @@ std::string material_named(const std::string& text) {
 
 class Wish {
  public:
-  Wish(const DesignWishes& wishes) : wishes_(wishes) {}
+  explicit Wish(const DesignWishes& wishes, std::size_t most_sets = kMostSets)
+      : wishes_(wishes), most_sets_(most_sets) {}
+
+  /// What gives a design instead, of each sort the first that does: each was tried.
+  [[nodiscard]] std::string what_would() const {
+    std::string found;
+    for (const std::vector<Trial>& sort : trials())
+      for (const Trial& trial : sort) {
+        Wish wish(trial.wishes, kTriedSets);
+        if (!wish.check().empty() || !wish.find("trial")) continue;
+        found += (found.empty() ? "" : ", or ") + trial.option;
+        break;
+      }
+    if (!found.empty()) return found + ": each was tried and gives a design";
+    return "another ratio: no larger diameter, other motor or kind that was tried gives a design";
+  }
 
   Errors check() {
     Errors errors;
@@ -80,7 +103,7 @@ class Wish {
                         .value = fixed_text(wishes_.ratio, 3),
                         .remedy = printed_number(sets_->ratio_min, "%g") + " to " +
                                   printed_number(sets_->ratio_max, "%g") + other_kinds()});
-    if (!(wishes_.outer_diameter_mm >= 40.0 && wishes_.outer_diameter_mm <= 500.0))
+    if (!(wishes_.outer_diameter_mm >= 40.0 && wishes_.outer_diameter_mm <= kLargest_mm))
       errors.push_back({.code = ErrorCode::kUsage,
                         .message = "no diameter of a gearbox",
                         .key = "--outer-diameter",
@@ -112,7 +135,7 @@ class Wish {
                        " have shifts that keep the limits" + most_fell(report),
             .key = "--ratio",
             .value = fixed_text(wishes_.ratio, 3),
-            .remedy = another_wish() + other_kinds()}});
+            .remedy = {}}});
     const FoundDesign& found = report.designs.front();
     GearboxDesign design = whole(found.design);
     design.name = design_name_from(name);
@@ -148,6 +171,40 @@ class Wish {
     named("--output", wishes_.output, members);
   }
 
+  /// One change of the wishes each: what a person would try next.
+  struct Trial {
+    std::string option;
+    DesignWishes wishes;
+  };
+  [[nodiscard]] std::vector<std::vector<Trial>> trials() const {
+    std::vector<Trial> larger, motors, kinds;
+    for (const double factor : kLarger) {
+      Trial trial{"", wishes_};
+      trial.wishes.outer_diameter_mm = 5.0 * std::ceil(0.2 * factor * wishes_.outer_diameter_mm);
+      if (trial.wishes.outer_diameter_mm > kLargest_mm) break;
+      trial.option = "--outer-diameter " + printed_number(trial.wishes.outer_diameter_mm, "%g");
+      larger.push_back(std::move(trial));
+    }
+    for (const char* motor : {"nema17", "nema14"}) {
+      if (!motor_ || wishes_.motor == motor) continue;
+      motors.push_back({std::string("--motor ") + motor, wishes_});
+      motors.back().wishes.motor = motor;
+    }
+    for (const WishedSets& sets : all_wished_sets()) {
+      const bool tried = std::any_of(kinds.begin(), kinds.end(), [&](const Trial& trial) {
+        return trial.wishes.kind == sets.kind;
+      });
+      if (tried || sets.kind == wishes_.kind || wishes_.ratio < sets.ratio_min ||
+          wishes_.ratio > sets.ratio_max)
+        continue;
+      kinds.push_back({"--kind " + sets.kind, wishes_});
+      kinds.back().wishes.kind = sets.kind;
+      kinds.back().wishes.input.clear();
+      kinds.back().wishes.output.clear();
+    }
+    return {std::move(larger), std::move(motors), std::move(kinds)};
+  }
+
   /// The kinds that have the ratio, as the end of a remedy.
   [[nodiscard]] std::string other_kinds() const {
     std::string names;
@@ -156,11 +213,6 @@ class Wish {
           wishes_.ratio <= sets.ratio_max && names.find(sets.kind) == std::string::npos)
         names += (names.empty() ? "" : " or ") + sets.kind;
     return names.empty() ? "" : ", or --kind " + names;
-  }
-
-  [[nodiscard]] std::string another_wish() const {
-    return std::string("another ratio, a larger --outer-diameter") +
-           (motor_ ? ", another --motor" : "");
   }
 
   /// Lot by lot, until one holds a design without a warning; where none does, one that warns least.
@@ -175,7 +227,7 @@ class Wish {
     const auto judge = [this](const GearTrain& train) { return judged(train); };
     std::vector<ToothSet> tried;
     SearchRecords records;
-    for (std::size_t from = 0; from < all.size() && tried.size() < kMostSets; from += kLot) {
+    for (std::size_t from = 0; from < all.size() && tried.size() < most_sets_; from += kLot) {
       const auto begin = all.begin() + static_cast<std::ptrdiff_t>(from),
                  end = all.begin() + static_cast<std::ptrdiff_t>(std::min(from + kLot, all.size()));
       SetEnumeration lot;
@@ -228,15 +280,25 @@ class Wish {
     r.outer_diameter_mm = wishes_.outer_diameter_mm - 2.0 * around;
     r.ratio_min = wishes_.ratio * (1.0 - kRatioTolerance);
     r.ratio_max = wishes_.ratio * (1.0 + kRatioTolerance);
+    // no more teeth than leave the tips that the process makes
+    const double most = process_->least_tip_mm > 0.0
+                            ? kWidestTip * *r.outer_diameter_mm / process_->least_tip_mm - kTipTeeth
+                            : 1e9;
+    const auto fewer = [&](ToothRange range) {
+      range.max = std::min(range.max, std::max(range.min, static_cast<int>(std::min(most, 1e6))));
+      return range;
+    };
     r.sun = sets_->sun;
-    r.planet1 = sets_->planet1;
-    if (sets_->planet2.max > 0) r.planet2 = sets_->planet2;
-    if (sets_->ring.max > 0) r.ring1 = r.ring2 = sets_->ring;
+    r.planet1 = fewer(sets_->planet1);
+    if (sets_->planet2.max > 0) r.planet2 = fewer(sets_->planet2);
+    if (sets_->ring.max > 0) r.ring1 = r.ring2 = fewer(sets_->ring);
     r.shift_min = -0.5;
     r.shift_max = 1.5;
     r.contact_ratio_min = kLeastContactRatio;
+    const int most_teeth =
+        std::max({r.sun.max, r.planet1.max, fewer(sets_->planet2).max, fewer(sets_->ring).max});
     r.tip_thickness =
-        std::max(0.2, process_->least_tip_mm * (sets_->most_teeth() + 5) / *r.outer_diameter_mm);
+        std::max(0.2, process_->least_tip_mm * (most_teeth + kTipTeeth) / *r.outer_diameter_mm);
     r.strength.material = material_;
     r.results = 1;
     r.listed = 0;  // the first that passes may rank anywhere
@@ -302,7 +364,10 @@ class Wish {
     if (!train) return {.failed = {"assembly"}, .warned = {}};
     if (train->design.machine) {
       const auto shapes = part_shapes(*train);
-      if (!shapes) return {.failed = {"wall"}, .warned = {}};
+      if (!shapes) {
+        examples_.insert({"wall", shapes.error().front().message});
+        return {.failed = {"wall"}, .warned = {}};
+      }
       take(check_machine(*train, *shapes));
       if (const auto layout = machine_layout(*train);
           2.0 * layout->least_outer_radius_mm > wishes_.outer_diameter_mm)
@@ -384,6 +449,7 @@ class Wish {
   }
 
   const DesignWishes& wishes_;
+  std::size_t most_sets_;
   Allowed allowed_ = Allowed::kNone;
   std::vector<std::string> tolerated_;  ///< ids of warnings
   std::size_t judged_ = 0;              ///< since judging began
@@ -401,7 +467,12 @@ class Wish {
 ResultAll<WishedDesign> wished_design(const std::string& name, const DesignWishes& wishes) {
   Wish wish(wishes);
   if (Errors errors = wish.check(); !errors.empty()) return fail_all(std::move(errors));
-  return wish.find(name);
+  auto found = wish.find(name);
+  if (found) return found;
+  Errors errors = found.error();
+  if (errors.size() == 1 && errors.front().code == ErrorCode::kInfeasible)
+    errors.front().remedy = wish.what_would();
+  return fail_all(std::move(errors));
 }
 
 }  // namespace trueflank

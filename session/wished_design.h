@@ -28,7 +28,8 @@ struct WishedDesign {
 /// Searches tooth numbers and shifts for the best forward efficiency (3k) or the largest torque
 /// (other kinds) among the sets of which no check fails or warns, with housing and bearings where a
 /// motor is named. Errors: kUsage (a name that is not known, a kind that is not searched),
-/// kInfeasible where nothing is found.
+/// kInfeasible where nothing is found: the remedy names changed wishes that were tried and give a
+/// design.
 [[nodiscard]] ResultAll<WishedDesign> wished_design(const std::string& name,
                                                     const DesignWishes& wishes);
 

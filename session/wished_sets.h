@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,11 +16,6 @@ struct WishedSets {
   ToothRange sun, planet1, planet2, ring;
   double face_width_mm = 10.0;
   SearchObjective objective = SearchObjective::kForward;
-
-  /// The largest gear of them; its teeth are the smallest.
-  [[nodiscard]] int most_teeth() const {
-    return std::max({sun.max, planet1.max, planet2.max, ring.max});
-  }
 };
 
 /// All of them, the usual input and output of each kind first.

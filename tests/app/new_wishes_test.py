@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 
@@ -54,6 +55,17 @@ class NewWishes(unittest.TestCase):
                 self.assertEqual(len(size), 1 if motor[0] in wishes else 0)
                 for value in size:
                     self.assertLessEqual(value, 90)
+
+    def test_what_cannot_be_met_names_what_can(self):
+        wishes = ["--kind", "pair", "--ratio", "1.39", "--motor", "nema23"]
+        told = run("new", "tight", *wishes, "--outer-diameter", "60")
+        self.assertEqual(told.returncode, 2)
+        self.assertIn("was tried and gives a design", told.stderr)
+        larger = re.search(r"--outer-diameter (\d+)", told.stderr)
+        self.assertIsNotNone(larger, told.stderr)
+        (OUTPUT / "wider.toml").unlink(missing_ok=True)
+        made = run("new", "wider", *wishes, "--outer-diameter", larger[1])
+        self.assertEqual(made.returncode, 0, made.stderr)
 
     def test_what_is_not_known_is_told(self):
         for option, value in (("--motor", "nema18"), ("--process", "fdm-0.5"), ("--material", "cheese"),
