@@ -8,79 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "trueflank/export/fitted_sizes.h"
 #include "trueflank/export/number_text.h"
-#include "trueflank/geometry/flank_tolerance.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank::io {
 namespace {
-
-using SizeTable = std::vector<std::pair<double, double>>;  // up to this size [mm], value
-
-double at_size(const SizeTable& table, double size_mm) {
-  for (const auto& [upto_mm, value] : table)
-    if (size_mm <= upto_mm) return value;
-  return kNaN;
-}
-
-/// Limits of a class of ISO 286-1; of a size beyond them the general ones.
-SizeLimits class_limits(const std::string& fit, double diameter_mm) {
-  const auto limits = fit_limits(fit, diameter_mm);
-  if (!limits) return general_limits(diameter_mm);
-  return {.lower_mm = limits->lower_mm, .upper_mm = limits->upper_mm, .fit = fit};
-}
-
-/// A size of which a gearbox has a fitted seat or journal.
-struct FittedSize {
-  double made_mm = 0.0, nominal_mm = 0.0;
-  bool hole = true;
-  std::string fit = {};  ///< its class
-};
-
-/// What fits: bores of parts that are not printed, and the seats and journals of a gearbox as far as they have classes.
-struct FittedSizes {
-  bool bores = false;
-  std::vector<FittedSize> sizes = {};
-
-  [[nodiscard]] const FittedSize* find(double diameter_mm, bool hole) const {
-    const auto found = std::find_if(sizes.begin(), sizes.end(), [&](const FittedSize& size) {
-      return size.hole == hole && std::abs(size.made_mm - diameter_mm) < 1e-6;
-    });
-    return found == sizes.end() ? nullptr : &*found;
-  }
-};
-
-FittedSizes fitted_sizes(const GearTrain& train) {
-  if (additive(train)) return {};
-  FittedSizes fitted{.bores = true};
-  const auto& machine = train.design.machine;
-  if (!machine) return fitted;
-  const auto add = [&](double nominal_mm, double made_mm, bool hole, const std::string& fit) {
-    if (fit_limits(fit, nominal_mm)) fitted.sizes.push_back({made_mm, nominal_mm, hole, fit});
-  };
-  const auto seat = [&](const SeatFit& fit, double size_mm) { add(size_mm, fit.hole_mm(size_mm), true, fit.hole); };
-  const auto journal = [&](const SeatFit& fit, double size_mm) { add(size_mm, fit.shaft_mm(size_mm), false, fit.shaft); };
-  const SeatFits fits = seat_fits(*machine);
-  const BearingsDesign& bearings = machine->bearings;
-  seat(fits.shaft, machine->motor.shaft_diameter_mm);
-  seat(fits.pilot, machine->motor.pilot_diameter_mm);
-  seat(fits.output, bearings.output.outer_mm);
-  journal(fits.output, bearings.output.bore_mm);
-  if (bearings.planet) seat(fits.planet, bearings.planet->outer_mm);
-  if (bearings.wheel) {
-    seat(fits.wheel, bearings.wheel->outer_mm);
-    journal(fits.wheel, bearings.wheel->bore_mm);
-  }
-  const auto layout = machine_layout(train);
-  const bool pair = layout->wheel_gear >= 0;
-  const SeatFit& ring = pair ? fits.rim : fits.ring;
-  const double ring_mm = 2.0 * (pair ? layout->cavity_radius_mm : layout->ring_radius_mm);
-  seat(ring, ring_mm);
-  journal(ring, ring_mm);
-  if (!pair) seat(fits.pin, layout->carrier.pin_diameter_mm);
-  return fitted;
-}
 
 bool is_toothed(const Outline& outline) { return std::holds_alternative<ToothedOutline>(outline); }
 
@@ -100,7 +34,8 @@ bool same_outer(const Outline& a, const Outline& b) {
 }
 
 /// A circle about the axis, the tips of a toothing, or a bore.
-std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, const FittedSizes& fitted) {
+std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole,
+                                        const FittedSizes& fitted) {
   PartDiameter d{.hole = hole};
   if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
     d.diameter_mm = 2.0 * teeth->profile->tip_radius_mm();
@@ -113,11 +48,13 @@ std::optional<PartDiameter> diameter_of(const Outline& outline, bool hole, const
     d.bore = std::get<BoreOutline>(outline).bore;
     d.diameter_mm = d.bore->diameter_mm;
   }
-  const bool of_class = d.bore && d.bore->kind != BoreKind::kHex && fitted.bores;
-  d.limits = of_class ? class_limits(kSeatClass, d.diameter_mm) : general_limits(d.diameter_mm);
+  d.made_mm = d.diameter_mm;
+  d.limits = general_limits(fitted.made(), d.diameter_mm, SizeDirection::kAcross);
+  if (d.bore && d.bore->kind != BoreKind::kHex) d.limits = fitted.limits(kSeatClass, d.diameter_mm);
   if (const FittedSize* size = d.tip ? nullptr : fitted.find(d.diameter_mm, hole)) {
-    d.diameter_mm = size->nominal_mm;  // drawings give the nominal size and its class
-    d.limits = class_limits(size->fit, size->nominal_mm);
+    d.diameter_mm = size->drawn_mm;
+    d.limits = fitted.limits(*size);
+    d.seat = true;
   }
   return d;
 }
@@ -135,9 +72,8 @@ std::vector<PartDiameter> diameters_of(const PartShape& part, const FittedSizes&
     add(slab.outer, slab, false);
     for (const Outline& hole : slab.holes) add(hole, slab, true);
   }
-  std::stable_sort(diameters.begin(), diameters.end(), [](const auto& a, const auto& b) {
-    return a.diameter_mm < b.diameter_mm;
-  });
+  std::stable_sort(diameters.begin(), diameters.end(),
+                   [](const auto& a, const auto& b) { return a.diameter_mm < b.diameter_mm; });
   return diameters;
 }
 
@@ -146,16 +82,29 @@ void choose_datum(std::vector<PartDiameter>& diameters, Teeth teeth) {
     if (!diameters.empty() && !diameters.back().tip) diameters.back().datum = true;
     return;
   }
-  const auto of_hole = std::find_if(diameters.begin(), diameters.end(),
-                                    [](const PartDiameter& d) { return d.hole && !d.tip; });
-  const auto chosen = of_hole == diameters.end() && teeth == Teeth::kNone ? diameters.begin() : of_hole;
-  if (chosen != diameters.end()) chosen->datum = true;
+  const auto is_hole = [](const PartDiameter& d) { return d.hole && !d.tip; };
+  auto of_hole = std::find_if(diameters.begin(), diameters.end(),
+                              [&](const PartDiameter& d) { return is_hole(d) && d.seat; });
+  if (of_hole == diameters.end())
+    of_hole = std::find_if(diameters.begin(), diameters.end(), is_hole);
+  if (teeth != Teeth::kNone) {
+    if (of_hole != diameters.end()) of_hole->datum = true;
+    return;
+  }
+  const auto largest_seat = std::find_if(diameters.rbegin(), diameters.rend(),
+                                         [](const PartDiameter& d) { return d.seat; });
+  if (largest_seat != diameters.rend())
+    largest_seat->datum = true;
+  else if (!diameters.empty())
+    diameters.back().datum = true;
 }
 
-std::vector<PartWidth> widths_of(const PartShape& part) {
+std::vector<PartWidth> widths_of(const PartShape& part, const Workmanship& made) {
   std::vector<PartWidth> widths;
   const auto add = [&](double from, double to) {
-    widths.push_back({.z_lower_mm = from, .z_upper_mm = to, .limits = general_limits(to - from)});
+    widths.push_back({.z_lower_mm = from,
+                      .z_upper_mm = to,
+                      .limits = general_limits(made, to - from, SizeDirection::kAlong)});
   };
   double from = part.slabs.front().z_lower_mm;
   for (std::size_t i = 0; i < part.slabs.size(); ++i) {
@@ -169,7 +118,8 @@ std::vector<PartWidth> widths_of(const PartShape& part) {
 }
 
 /// Heights of bores about the axis, where they end inside the part.
-std::vector<PartWidth> depths_of(const PartShape& part, const std::vector<PartWidth>& widths) {
+std::vector<PartWidth> depths_of(const PartShape& part, const std::vector<PartWidth>& widths,
+                                 const FittedSizes& fitted) {
   struct Bore {
     double diameter_mm = 0.0;
     PartWidth reach;
@@ -177,7 +127,7 @@ std::vector<PartWidth> depths_of(const PartShape& part, const std::vector<PartWi
   std::vector<Bore> bores;
   for (const Slab& slab : part.slabs)
     for (const Outline& hole : slab.holes) {
-      const auto d = diameter_of(hole, true, {});
+      const auto d = diameter_of(hole, true, fitted);
       if (!d) continue;
       if (!bores.empty() && std::abs(bores.back().diameter_mm - d->diameter_mm) < 1e-9 &&
           std::abs(bores.back().reach.z_upper_mm - slab.z_lower_mm) < 1e-9)
@@ -188,53 +138,34 @@ std::vector<PartWidth> depths_of(const PartShape& part, const std::vector<PartWi
   std::vector<PartWidth> depths;
   for (Bore& bore : bores) {
     const auto is_it = [&](const PartWidth& w) {
-      return std::abs(w.z_lower_mm - bore.reach.z_lower_mm) < 1e-9 && std::abs(w.z_upper_mm - bore.reach.z_upper_mm) < 1e-9;
+      return std::abs(w.z_lower_mm - bore.reach.z_lower_mm) < 1e-9 &&
+             std::abs(w.z_upper_mm - bore.reach.z_upper_mm) < 1e-9;
     };
-    if (std::any_of(widths.begin(), widths.end(), is_it) || std::any_of(depths.begin(), depths.end(), is_it)) continue;
-    bore.reach.limits = general_limits(bore.reach.width_mm());
+    if (std::any_of(widths.begin(), widths.end(), is_it) ||
+        std::any_of(depths.begin(), depths.end(), is_it))
+      continue;
+    bore.reach.limits = general_limits(fitted.made(), bore.reach.width_mm(), SizeDirection::kAlong);
     depths.push_back(bore.reach);
   }
   return depths;
 }
 
-std::vector<BoltCircle> bolt_circles_of(const std::vector<HolePattern>& patterns, const FittedSizes& fitted) {
+std::vector<BoltCircle> bolt_circles_of(const std::vector<HolePattern>& patterns,
+                                        const FittedSizes& fitted) {
   std::map<std::pair<long, long>, BoltCircle> groups;  // by both diameters in 1e-4 mm
   for (const HolePattern& pattern : patterns)
     for (const HoleStep& step : pattern.steps) {
-      BoltCircle& group = groups[{std::lround(1e4 * step.diameter_mm), std::lround(1e4 * pattern.circle_diameter_mm)}];
+      BoltCircle& group = groups[{std::lround(1e4 * step.diameter_mm),
+                                  std::lround(1e4 * pattern.circle_diameter_mm)}];
       const FittedSize* size = fitted.find(step.diameter_mm, true);
-      group = {size ? size->nominal_mm : step.diameter_mm, pattern.circle_diameter_mm,
-               group.count + static_cast<int>(pattern.centres.size()),
-               size ? class_limits(size->fit, size->nominal_mm) : general_limits(step.diameter_mm)};
+      group = {size ? size->drawn_mm : step.diameter_mm, pattern.circle_diameter_mm,
+               step.diameter_mm, group.count + static_cast<int>(pattern.centres.size()),
+               size ? fitted.limits(*size)
+                    : general_limits(fitted.made(), step.diameter_mm, SizeDirection::kAcross)};
     }
   std::vector<BoltCircle> circles;
   for (const auto& [key, circle] : groups) circles.push_back(circle);
   return circles;
-}
-
-/// Where a gear's teeth are in the part.
-std::pair<double, double> reach_of(const PartShape& part, const TrainGear& gear) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  const auto look = [&](const Slab& slab, const Outline& outline) {
-    const auto* teeth = std::get_if<ToothedOutline>(&outline);
-    if (!teeth || teeth->profile != &gear.profile) return;
-    low = std::min(low, slab.z_lower_mm);
-    high = std::max(high, slab.z_upper_mm);
-  };
-  for (const Slab& slab : part.slabs) {
-    look(slab, slab.outer);
-    for (const Outline& hole : slab.holes) look(slab, hole);
-  }
-  return {low, high};
-}
-
-/// A face that runs out by t leans by t / D and tilts teeth of width b by t b / D: a fifth of the
-/// helix tolerance, to whole micrometres. Faces smaller than that asks 10 um of do not guide: the bore
-/// does.
-FaceRunout face_runout_of(const PartShape& part, const TrainGear& gear, double total_helix_um) {
-  const double diameter = 2.0 * extent(part.slabs.back().outer).outer_radius_mm;
-  const double um = 0.2 * total_helix_um * diameter / gear.face_width_mm;
-  return {part.slabs.back().z_upper_mm, std::max(10.0, std::floor(um)) / 1000.0};
 }
 
 }  // namespace
@@ -245,33 +176,39 @@ const PartDiameter* PartDimensions::datum() const {
   return found == diameters.end() ? nullptr : &*found;
 }
 
-PartDimensions part_dimensions(const GearTrain& train, const PartShape& part, int tolerance_class) {
-  const FittedSizes fitted = fitted_sizes(train);
-  PartDimensions dimensions{.diameters = diameters_of(part, fitted), .widths = widths_of(part), .holes = hole_patterns(part)};
-  dimensions.depths = depths_of(part, dimensions.widths);
-  dimensions.bolt_circles = bolt_circles_of(dimensions.holes, fitted);
-  choose_datum(dimensions.diameters, teeth_of(part));
-  if (!dimensions.datum()) return dimensions;
-  for (const TrainGear* gear : gears_of(train, part)) {
-    const auto limits = flank_tolerances(tolerance_size(gear->profile.gear(), gear->face_width_mm),
-                                         tolerance_class);
-    if (!limits) continue;
-    const auto [low, high] = reach_of(part, *gear);
-    dimensions.tip_runouts.push_back({gear, low, high, limits->runout_um / 1000.0});
-    const FaceRunout face = face_runout_of(part, *gear, limits->total_helix_um);
-    if (!dimensions.face_runout || face.value_mm < dimensions.face_runout->value_mm)
-      dimensions.face_runout = face;
-  }
-  return dimensions;
+std::vector<GeometricTolerance> PartDimensions::of(ToleratedFeature feature) const {
+  std::vector<GeometricTolerance> found;
+  for (const GeometricTolerance& t : tolerances)
+    if (t.feature == feature) found.push_back(t);
+  return found;
 }
 
-SizeLimits general_limits(double size_mm) {
-  // ISO 2768-1:1989, table 1, class m
-  static const SizeTable kMedium_mm = {{6, 0.1},    {30, 0.2},   {120, 0.3}, {400, 0.5},
-                                       {1000, 0.8}, {2000, 1.2}, {4000, 2.0}};
-  constexpr double kSmallest_mm = 0.5;
-  const double either_mm = size_mm < kSmallest_mm ? kNaN : at_size(kMedium_mm, size_mm);
-  return {.lower_mm = -either_mm, .upper_mm = either_mm};
+PartDimensions part_dimensions(const GearTrain& train, const PartShape& part) {
+  const FittedSizes fitted(train);
+  PartDimensions dimensions{.diameters = diameters_of(part, fitted),
+                            .widths = widths_of(part, fitted.made()),
+                            .holes = hole_patterns(part)};
+  // a bore between the seats of bearings holds nothing itself
+  const auto& all = dimensions.diameters;
+  if (std::any_of(all.begin(), all.end(), [](const PartDiameter& d) { return d.seat && d.hole; }))
+    for (PartDiameter& d : dimensions.diameters)
+      if (d.bore && !d.seat)
+        d.limits = general_limits(fitted.made(), d.diameter_mm, SizeDirection::kAcross);
+  for (HolePattern& holes : dimensions.holes) {
+    holes.use = hole_use(train, holes);
+    for (HoleStep& step : holes.steps) {
+      const FittedSize* size = fitted.find(step.diameter_mm, true);
+      step.drawn_mm = size ? size->drawn_mm : step.diameter_mm;
+      step.limits = size ? fitted.limits(*size)
+                         : general_limits(fitted.made(), step.diameter_mm, SizeDirection::kAcross);
+      holes.use.carries_axis = holes.use.carries_axis || size != nullptr;
+    }
+  }
+  dimensions.depths = depths_of(part, dimensions.widths, fitted);
+  dimensions.bolt_circles = bolt_circles_of(dimensions.holes, fitted);
+  choose_datum(dimensions.diameters, teeth_of(part));
+  dimensions.tolerances = geometric_tolerances(train, part, dimensions, fitted.made());
+  return dimensions;
 }
 
 std::string drawing_number(double value, int decimals) {
@@ -280,6 +217,16 @@ std::string drawing_number(double value, int decimals) {
   std::string text;
   append_decimal(text, std::round(value * unit) / unit);
   return text;
+}
+
+std::string limits_text(const SizeLimits& limits) {
+  const auto with_sign = [](double value_mm) {
+    return (value_mm > 0.0 ? "+" : "") + drawing_number(value_mm, 3);
+  };
+  if (!limits.fit.empty())
+    return " " + limits.fit + " (" + with_sign(limits.upper_mm) + " / " +
+           with_sign(limits.lower_mm) + ")";
+  return limits.stated ? " ±" + drawing_number(limits.upper_mm, 3) : std::string();
 }
 
 std::string bore_shape_text(const BoreDesign& bore) {
@@ -305,10 +252,6 @@ std::vector<const TrainGear*> gears_of(const GearTrain& train, const PartShape& 
     for (const Outline& hole : slab.holes) add(hole);
   }
   return gears;
-}
-
-bool additive(const GearTrain& train) {
-  return train.design.made.process && train.design.made.process->layer_mm > 0.0;
 }
 
 }  // namespace trueflank::io

@@ -10,6 +10,7 @@
 #include "trueflank/export/reported_file.h"
 #include "trueflank/report/reported_cure.h"
 #include "trueflank/solid/measure/bill_of_materials.h"
+#include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/inertia.h"
@@ -44,6 +45,7 @@ struct Report {
   std::optional<ReportedInertia> inertia;
   std::vector<MeshSweep> sweeps;     ///< in the order of the train's meshes; may be empty
   bool inches = false;               ///< the main sizes in inches too
+  std::optional<PartShapes> shapes;  ///< whose sizes are told; none where they cannot be made
   BillOfMaterials bill;              ///< of a design with [housing]; empty otherwise
   double tolerance_um = kNaN;        ///< NaN for check
   std::vector<ReportedFile> files;   ///< empty for check

@@ -6,6 +6,7 @@
 #include "trueflank/report/flank_limits.h"
 #include "trueflank/report/gear_dimensions.h"
 #include "trueflank/report/inch_sizes.h"
+#include "trueflank/report/part_sizes_json.h"
 #include "trueflank/report/report.h"
 #include "trueflank/report/report_drive.h"
 #include "trueflank/train/mesh_face.h"
@@ -230,6 +231,7 @@ std::string report_json(const Report& report) {
   json["train"] = train_json(train);
   json["gears"] = Json::object();
   for (const TrainGear& gear : train.gears) json["gears"][gear.name] = gear_json(train, gear);
+  if (report.shapes) json["parts"] = Json::parse(part_sizes_json_text(train, *report.shapes));
   json["meshes"] = Json::object();
   for (std::size_t i = 0; i < train.meshes.size(); ++i)
     json["meshes"][train.meshes[i].name] = mesh_json(report, i);

@@ -80,6 +80,7 @@ io::Report evaluate(const Gearbox& gearbox, const StrengthOptions& strength_opti
   io::Report report;
   report.train = gearbox.shared_train();
   report.inches = gearbox.speaks_inches();
+  if (const auto& shapes = gearbox.parts()) report.shapes = *shapes;
   auto turning = begun_beside([&train] { return mesh_states(train); });
   add_drive(gearbox, strength_options, report);
   const std::vector<MeshState> states = turning.get();

@@ -32,8 +32,13 @@ class FaceFinder {
   }
   /// Holes whose axes are on a circle.
   [[nodiscard]] PmiFaces on_circle(const BoltCircle& bolts) const {
-    return cylinders(bolts.hole_diameter_mm, true, 0.5 * bolts.circle_diameter_mm, -kEverywhere,
+    return cylinders(bolts.made_mm, true, 0.5 * bolts.circle_diameter_mm, -kEverywhere,
                      kEverywhere);
+  }
+  /// One step of equal holes.
+  [[nodiscard]] PmiFaces of_step(const HolePattern& holes, const HoleStep& step) const {
+    return cylinders(step.diameter_mm, true, 0.5 * holes.circle_diameter_mm, step.z_lower_mm,
+                     step.z_upper_mm);
   }
   /// Planes across the axis, facing up or down.
   [[nodiscard]] PmiFaces at_height(double z_mm) const {
@@ -113,7 +118,7 @@ std::pair<PmiFaces, PmiFaces> hex_flats(const FaceFinder& find, const PartDiamet
 }
 
 PmiFaces datum_faces(const FaceFinder& find, const PartDiameter& d) {
-  if (!is_hex(d)) return find.about_axis(d.diameter_mm, d.hole);
+  if (!is_hex(d)) return find.about_axis(d.made_mm, d.hole);
   PmiFaces faces;
   for (int i = 0; i < 3; ++i) {
     const auto [one, other] = hex_flats(find, d, i);
@@ -132,35 +137,69 @@ std::string note_of(const PartDiameter& d) {
 void add_dimensions(StepPmi& pmi, const FaceFinder& find, const PartDimensions& dimensions) {
   for (const PartDiameter& d : dimensions.diameters) {
     PmiDimension size{{}, {}, d.diameter_mm, d.limits, note_of(d)};
-    if (is_hex(d)) std::tie(size.faces, size.other_faces) = hex_flats(find, d, 0);
-    else size.faces = find.about_axis(d.diameter_mm, d.hole);
+    if (is_hex(d))
+      std::tie(size.faces, size.other_faces) = hex_flats(find, d, 0);
+    else
+      size.faces = find.about_axis(d.made_mm, d.hole);
     if (!size.faces.empty() && is_hex(d) != size.other_faces.empty())
       pmi.dimensions.push_back(std::move(size));
   }
   for (const auto* lengths : {&dimensions.widths, &dimensions.depths})
     for (const PartWidth& w : *lengths) {
-      PmiDimension size{find.at_height(w.z_lower_mm), find.at_height(w.z_upper_mm), w.width_mm(), w.limits, {}};
-      if (!size.faces.empty() && !size.other_faces.empty()) pmi.dimensions.push_back(std::move(size));
+      PmiDimension size{
+          find.at_height(w.z_lower_mm), find.at_height(w.z_upper_mm), w.width_mm(), w.limits, {}};
+      if (!size.faces.empty() && !size.other_faces.empty())
+        pmi.dimensions.push_back(std::move(size));
     }
   for (const BoltCircle& bolts : dimensions.bolt_circles) {
-    PmiDimension size{find.on_circle(bolts), {}, bolts.hole_diameter_mm, bolts.limits,
+    PmiDimension size{find.on_circle(bolts),
+                      {},
+                      bolts.hole_diameter_mm,
+                      bolts.limits,
                       std::to_string(bolts.count) + " holes"};
     if (!size.faces.empty()) pmi.dimensions.push_back(std::move(size));
   }
 }
 
-void add_runouts(StepPmi& pmi, const FaceFinder& find, const PartDimensions& dimensions) {
-  for (const TipRunout& runout : dimensions.tip_runouts) {
-    const bool ring = runout.gear->profile.gear().kind == GearKind::kInternal;
-    const double diameter = 2.0 * runout.gear->profile.tip_radius_mm();
-    PmiFaces faces = find.about_axis(diameter, ring, runout.z_lower_mm, runout.z_upper_mm);
-    if (!faces.empty())
-      pmi.runouts.push_back({runout.gear->name + " tips", std::move(faces), runout.value_mm});
+/// The faces a tolerance is about, and how it is called.
+PmiTolerance on_faces(const FaceFinder& find, const GeometricTolerance& t,
+                      const PartDimensions& dimensions) {
+  PmiTolerance result{
+      .name = {}, .faces = {}, .kind = t.kind, .value_mm = t.value_mm, .datum = t.datum};
+  switch (t.feature) {
+    case ToleratedFeature::kTips: {
+      const bool ring = t.gear->profile.gear().kind == GearKind::kInternal;
+      result.name = t.gear->name + " tips";
+      result.faces =
+          find.about_axis(2.0 * t.gear->profile.tip_radius_mm(), ring, t.z_lower_mm, t.z_upper_mm);
+      break;
+    }
+    case ToleratedFeature::kUpperFace:
+    case ToleratedFeature::kLowerFace:
+      result.name = t.feature == ToleratedFeature::kUpperFace ? "upper face" : "lower face";
+      result.faces = find.at_height(t.z_upper_mm);
+      break;
+    case ToleratedFeature::kSeat:
+      result.name = "seat";
+      result.faces = find.about_axis(t.made_mm, t.hole);
+      break;
+    case ToleratedFeature::kHoles:
+      result.name = "holes";
+      for (const HoleStep& step : dimensions.holes[t.pattern].steps)
+        result.faces =
+            joined(std::move(result.faces), find.of_step(dimensions.holes[t.pattern], step));
+      break;
   }
-  if (!dimensions.face_runout) return;
-  PmiFaces faces = find.at_height(dimensions.face_runout->z_mm);
-  if (!faces.empty())
-    pmi.runouts.push_back({"upper face", std::move(faces), dimensions.face_runout->value_mm});
+  return result;
+}
+
+void add_tolerances(StepPmi& pmi, const FaceFinder& find, const PartDimensions& dimensions) {
+  for (const GeometricTolerance& t : dimensions.tolerances) {
+    PmiTolerance tolerance = on_faces(find, t, dimensions);
+    if (tolerance.faces.empty()) continue;
+    if (t.datum == 'B') pmi.datum_b = find.at_height(dimensions.widths.back().z_upper_mm);
+    pmi.tolerances.push_back(std::move(tolerance));
+  }
 }
 
 void add_gear_data(StepPmi& pmi, const TrainGear& gear) {
@@ -183,14 +222,13 @@ void add_gear_data(StepPmi& pmi, const TrainGear& gear) {
 
 }  // namespace
 
-StepPmi step_pmi(const GearTrain& train, const PartShape& part, const Brep& solid,
-                 int tolerance_class) {
-  const PartDimensions dimensions = part_dimensions(train, part, tolerance_class);
+StepPmi step_pmi(const GearTrain& train, const PartShape& part, const Brep& solid) {
+  const PartDimensions dimensions = part_dimensions(train, part);
   const FaceFinder find(solid);
   StepPmi pmi;
   if (const PartDiameter* datum = dimensions.datum()) pmi.datum = datum_faces(find, *datum);
   add_dimensions(pmi, find, dimensions);
-  if (!pmi.datum.empty()) add_runouts(pmi, find, dimensions);
+  if (!pmi.datum.empty()) add_tolerances(pmi, find, dimensions);
   for (const TrainGear* gear : gears_of(train, part)) add_gear_data(pmi, *gear);
   return pmi;
 }

@@ -10,7 +10,8 @@
 #include "trueflank/solid/brep/brep.h"
 
 // Product and manufacturing information of a part that a program can read: sizes with limits, the
-// datum, runouts, each tied to the faces it is about, and the data of the gears (ISO 10303-242).
+// datums, tolerances, each tied to the faces it is about, and the data of the gears (ISO
+// 10303-242).
 namespace trueflank::io {
 
 /// Indices into Brep::faces.
@@ -22,14 +23,16 @@ struct PmiDimension {
   PmiFaces other_faces;  ///< empty: a diameter
   double value_mm = 0.0;
   SizeLimits limits;
-  std::string note;      ///< "H7, flat 4.5"; may be empty
+  std::string note;  ///< "H7, flat 4.5"; may be empty
 };
 
-/// Circular runout against datum A.
-struct PmiRunout {
+/// Of the faces it is about.
+struct PmiTolerance {
   std::string name;
   PmiFaces faces;
+  ToleranceKind kind = ToleranceKind::kCircularRunout;
   double value_mm = 0.0;
+  char datum = 0;  ///< 'A', 'B' or none
 };
 
 /// A number or text of a gear, by the names of report.json.
@@ -41,16 +44,16 @@ struct PmiProperty {
 };
 
 struct StepPmi {
-  PmiFaces datum;  ///< whose axis is datum A; empty: there is none, and no runout
+  PmiFaces datum;    ///< whose axis is datum A; empty: there is none, and no tolerance
+  PmiFaces datum_b;  ///< the upper face, where something refers to it
   std::vector<PmiDimension> dimensions;
-  std::vector<PmiRunout> runouts;
+  std::vector<PmiTolerance> tolerances;
   std::vector<PmiProperty> properties;
 };
 
-/// What part_dimensions asks of a part, on the faces of its solid. What has no face of its own is left
-/// out: the tip circle of pointed teeth, and of teeth that a correction has displaced.
-[[nodiscard]] StepPmi step_pmi(const GearTrain& train, const PartShape& part, const Brep& solid,
-                               int tolerance_class = kDrawingToleranceClass);
+/// What part_dimensions asks of a part, on the faces of its solid. What has no face of its own is
+/// left out: the tip circle of pointed teeth, and of teeth that a correction has displaced.
+[[nodiscard]] StepPmi step_pmi(const GearTrain& train, const PartShape& part, const Brep& solid);
 
 /// What the information is tied to: entities of the part.
 struct PmiAnchor {

@@ -14,10 +14,10 @@ class PmiWriter {
 
   void write(const StepPmi& pmi) {
     for (const PmiDimension& dimension : pmi.dimensions) write_dimension(dimension);
-    if (!pmi.datum.empty()) {
-      const StepId system = write_datum(pmi.datum);
-      for (const PmiRunout& runout : pmi.runouts) write_runout(runout, system);
-    }
+    const StepId a = pmi.datum.empty() ? 0 : write_datum('A', pmi.datum);
+    const StepId b = pmi.datum_b.empty() ? 0 : write_datum('B', pmi.datum_b);
+    for (const PmiTolerance& tolerance : pmi.tolerances)
+      write_tolerance(tolerance, tolerance.datum == 'A' ? a : tolerance.datum == 'B' ? b : 0);
     for (const PmiProperty& property : pmi.properties) write_property(property);
   }
 
@@ -45,7 +45,8 @@ class PmiWriter {
   /// One face, or a group of single ones.
   StepId aspect_of(const PmiFaces& faces) {
     if (faces.size() == 1) return single_aspect(faces.front());
-    const StepId group = begin_aspect("COMPOSITE_GROUP_SHAPE_ASPECT('','multiple elements',", ",.T.");
+    const StepId group =
+        begin_aspect("COMPOSITE_GROUP_SHAPE_ASPECT('','multiple elements',", ",.T.");
     for (const int face : faces) relate(group, single_aspect(face));
     return group;
   }
@@ -56,8 +57,9 @@ class PmiWriter {
     return id;
   }
   StepId nominal(double value_mm) {
-    const StepId id = out_.begin("(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()"
-                                 "MEASURE_WITH_UNIT(LENGTH_MEASURE(");
+    const StepId id = out_.begin(
+        "(LENGTH_MEASURE_WITH_UNIT()MEASURE_REPRESENTATION_ITEM()"
+        "MEASURE_WITH_UNIT(LENGTH_MEASURE(");
     out_.put(value_mm).put("),").put(anchor_.millimetre);
     out_.put(")REPRESENTATION_ITEM('nominal value')").end();
     return id;
@@ -67,10 +69,13 @@ class PmiWriter {
     const StepId aspect = aspect_of(dimension.faces);
     const bool diameter = dimension.other_faces.empty();
     const StepId other = diameter ? 0 : aspect_of(dimension.other_faces);
-    const StepId size = out_.begin(diameter ? "DIMENSIONAL_SIZE(" : "DIMENSIONAL_LOCATION('linear distance',$,");
+    const StepId size =
+        out_.begin(diameter ? "DIMENSIONAL_SIZE(" : "DIMENSIONAL_LOCATION('linear distance',$,");
     out_.put(aspect);
-    if (diameter) out_.put(",'diameter'").end();
-    else out_.put(",").put(other).end();
+    if (diameter)
+      out_.put(",'diameter'").end();
+    else
+      out_.put(",").put(other).end();
     std::vector<StepId> items{nominal(dimension.value_mm)};
     if (!dimension.note.empty()) {
       items.push_back(out_.begin("DESCRIPTIVE_REPRESENTATION_ITEM('dimensional note',"));
@@ -91,25 +96,60 @@ class PmiWriter {
     out_.put(value).put(",").put(size).end();
   }
 
-  /// Datum A and the system of this one datum.
-  StepId write_datum(const PmiFaces& faces) {
-    const StepId feature = begin_aspect("DATUM_FEATURE('A',$,", ",.T.");
+  /// A datum and the system of this one datum.
+  StepId write_datum(char letter, const PmiFaces& faces) {
+    const std::string name(1, letter);
+    const StepId feature = begin_aspect("DATUM_FEATURE('" + name + "',$,", ",.T.");
     for (const int face : faces) tie(feature, face);
-    const StepId datum = begin_aspect("DATUM('A',$,", ",.F.,'A'");
+    const StepId datum = begin_aspect("DATUM('" + name + "',$,", ",.F.,'" + name + "'");
     relate(feature, datum);
     const StepId compartment = out_.begin("DATUM_REFERENCE_COMPARTMENT('',$,");
     out_.put(anchor_.shape).put(",.F.,").put(datum).put(",$").end();
-    const StepId system = out_.begin("DATUM_SYSTEM('A',$,");
+    const StepId system = out_.begin("DATUM_SYSTEM('" + name + "',$,");
     out_.put(anchor_.shape).put(",.F.,(").put(compartment).put(")").end();
     return system;
   }
 
-  void write_runout(const PmiRunout& runout, StepId system) {
-    const StepId aspect = aspect_of(runout.faces);
-    const StepId value = length(runout.value_mm);
-    out_.begin("CIRCULAR_RUNOUT_TOLERANCE(");
-    out_.put_quoted(runout.name).put(",$,").put(value).put(",").put(aspect);
-    out_.put(",(").put(system).put(")").end();
+  void write_tolerance(const PmiTolerance& tolerance, StepId system) {
+    const StepId aspect = aspect_of(tolerance.faces);
+    const StepId value = length(tolerance.value_mm);
+    if (tolerance.kind == ToleranceKind::kPosition) {
+      write_position(tolerance, system, aspect, value);
+      return;
+    }
+    out_.begin(entity_of(tolerance.kind));
+    out_.put_quoted(tolerance.name).put(",$,").put(value).put(",").put(aspect);
+    if (system != 0) out_.put(",(").put(system).put(")");
+    out_.end();
+  }
+  /// Its zone is a cylinder about each axis.
+  void write_position(const PmiTolerance& tolerance, StepId system, StepId aspect, StepId value) {
+    const StepId position = out_.begin("(GEOMETRIC_TOLERANCE(");
+    out_.put_quoted(tolerance.name).put(",$,").put(value).put(",").put(aspect);
+    out_.put(")GEOMETRIC_TOLERANCE_WITH_DATUM_REFERENCE((")
+        .put(system)
+        .put("))POSITION_TOLERANCE()")
+        .end();
+    const StepId form = out_.add("TOLERANCE_ZONE_FORM(", "'cylindrical or circular'");
+    out_.begin("TOLERANCE_ZONE('','',");
+    out_.put(anchor_.shape).put(",.F.,(").put(position).put("),").put(form).end();
+  }
+  static std::string_view entity_of(ToleranceKind kind) {
+    switch (kind) {
+      case ToleranceKind::kCircularRunout:
+        return "CIRCULAR_RUNOUT_TOLERANCE(";
+      case ToleranceKind::kTotalRunout:
+        return "TOTAL_RUNOUT_TOLERANCE(";
+      case ToleranceKind::kFlatness:
+        return "FLATNESS_TOLERANCE(";
+      case ToleranceKind::kParallelism:
+        return "PARALLELISM_TOLERANCE(";
+      case ToleranceKind::kCylindricity:
+        return "CYLINDRICITY_TOLERANCE(";
+      case ToleranceKind::kPosition:
+        break;
+    }
+    return "POSITION_TOLERANCE(";
   }
 
   void write_property(const PmiProperty& property) {
@@ -131,13 +171,14 @@ class PmiWriter {
     const StepId unit = property.unit == Unit::kMillimetre ? anchor_.millimetre
                         : property.unit == Unit::kDegree   ? degree()
                                                            : 0;
-    const StepId item = out_.begin(unit == 0 ? "VALUE_REPRESENTATION_ITEM(" : "MEASURE_REPRESENTATION_ITEM(");
+    const StepId item =
+        out_.begin(unit == 0 ? "VALUE_REPRESENTATION_ITEM(" : "MEASURE_REPRESENTATION_ITEM(");
     out_.put_quoted(property.name);
     const bool whole = std::holds_alternative<int>(property.value);
-    out_.put(whole                                  ? ",COUNT_MEASURE("
+    out_.put(whole                                ? ",COUNT_MEASURE("
              : property.unit == Unit::kMillimetre ? ",LENGTH_MEASURE("
              : property.unit == Unit::kDegree     ? ",PLANE_ANGLE_MEASURE("
-                                                    : ",NUMERIC_MEASURE(");
+                                                  : ",NUMERIC_MEASURE(");
     std::visit([&](auto value) { out_.put(static_cast<double>(value)); }, property.value);
     out_.put(")");
     if (unit != 0) out_.put(",").put(unit);

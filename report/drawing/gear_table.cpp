@@ -22,7 +22,8 @@ using Cell = std::function<std::string(const TrainGear&, const Json&)>;
 using LengthCell = std::function<std::string(const TrainGear&, const Json&, Unit)>;
 
 std::string length_text(double value_mm, int decimals, Unit unit) {
-  return unit == Unit::kInch ? drawing_number(value_mm / 25.4, decimals + 1) : drawing_number(value_mm, decimals);
+  return unit == Unit::kInch ? drawing_number(value_mm / 25.4, decimals + 1)
+                             : drawing_number(value_mm, decimals);
 }
 
 std::string length_of(const Json& gear, const char* key, int decimals, Unit unit) {
@@ -31,11 +32,15 @@ std::string length_of(const Json& gear, const char* key, int decimals, Unit unit
 }
 
 Cell number(const char* key, int decimals) {
-  return [key, decimals](const TrainGear&, const Json& gear) { return length_of(gear, key, decimals, Unit::kMillimetre); };
+  return [key, decimals](const TrainGear&, const Json& gear) {
+    return length_of(gear, key, decimals, Unit::kMillimetre);
+  };
 }
 
 LengthCell length(const char* key, int decimals) {
-  return [key, decimals](const TrainGear&, const Json& gear, Unit unit) { return length_of(gear, key, decimals, unit); };
+  return [key, decimals](const TrainGear&, const Json& gear, Unit unit) {
+    return length_of(gear, key, decimals, unit);
+  };
 }
 
 /// A size with its limits where the design has a thickness allowance.
@@ -64,13 +69,29 @@ std::string diametral_pitch(const TrainGear&, const Json& gear) {
   return drawing_number(25.4 / gear.at("normal_module_mm").get<double>(), 4);
 }
 
-/// Flank tolerances, or why there are none.
-LengthCell tolerance(int tolerance_class, double FlankTolerances::* value) {
+Result<FlankTolerances> flank_limits(const TrainGear& gear, int tolerance_class) {
+  return flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), tolerance_class);
+}
+
+/// Flank tolerances, or nothing.
+LengthCell tolerance(int tolerance_class, double FlankTolerances::*value) {
   return [=](const TrainGear& gear, const Json&, Unit unit) {
-    const auto tolerances =
-        flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), tolerance_class);
+    const auto tolerances = flank_limits(gear, tolerance_class);
     return tolerances ? length_text(1e-3 * (*tolerances).*value, 4, unit) : std::string();
   };
+}
+
+/// What a process holds of teeth without a class.
+void add_held(const std::function<void(const char*, const char*, const LengthCell&)>& add_length,
+              const Workmanship& made) {
+  if (made.flank_class > 0) return;
+  const auto held = [](double value_mm) {
+    return [value_mm](const TrainGear&, const Json&, Unit unit) {
+      return std::isnan(value_mm) ? std::string() : length_text(value_mm, 4, unit);
+    };
+  };
+  add_length("Tooth thickness on d holds", "±", held(made.thickness_mm));
+  add_length("Runout", "F_r", held(made.runout_mm));
 }
 
 /// The meshes of a gear, in the order of the train.
@@ -85,15 +106,19 @@ std::vector<const TrainMesh*> meshes_of(const GearTrain& train, const TrainGear&
 
 std::string mate_text(const GearTrain& train, const TrainMesh& mesh, const TrainGear& gear) {
   const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
-  const TrainGear& mate = &gear1 == &gear ? train.gears[static_cast<std::size_t>(mesh.gear2)] : gear1;
+  const TrainGear& mate =
+      &gear1 == &gear ? train.gears[static_cast<std::size_t>(mesh.gear2)] : gear1;
   return mate.name + ", z " + std::to_string(mate.profile.gear().teeth);
 }
 
 }  // namespace
 
-std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<const TrainGear*>& gears,
-                                     const Json& report, int tolerance_class) {
+std::vector<GearTableRow> gear_table(const GearTrain& train,
+                                     const std::vector<const TrainGear*>& gears,
+                                     const Json& report) {
   std::vector<GearTableRow> rows;
+  const Workmanship made = workmanship(train);
+  const int tolerance_class = made.flank_class;
   // the form of AGMA: a design in inches has a column of them beside each of millimetres
   std::vector<Unit> units = {Unit::kMillimetre};
   if (report.contains("inches")) units.push_back(Unit::kInch);
@@ -120,7 +145,7 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
   add("Normal diametral pitch", "P_nd", diametral_pitch);
   add("Normal pressure angle, deg", "α_n", number("normal_pressure_angle_deg", 4));
   add("Helix angle, deg", "β", helix);
-  add("Basic rack h_aP / h_fP / ρ_fP", "", rack_text);
+  add("Rack addendum/dedendum/radius", "of m_n", rack_text);
   add("Profile shift coefficient", "x", number("shift", 5));
   add_length("Reference diameter", "d", length("reference_diameter_mm", 4));
   add_length("Base diameter", "d_b", length("base_diameter_mm", 4));
@@ -132,7 +157,8 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
   add("Teeth spanned", "k", number("span_teeth", 0));
   add_length("Base tangent length", "W_k", with_limits("span_mm", "span_min_mm", "span_max_mm"));
   add_length("Pin or ball diameter", "D_M", length("pin_diameter_mm", 3));
-  add_length("Over or between pins", "M_d", with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
+  add_length("Over or between pins", "M_d",
+             with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
   add_length("Face width", "b", length("face_width_mm", 3));
   add_length("Lead", "p_z", length("lead_mm", 4));
   add_length("Centre distance", "a", [&](const TrainGear&, const Json&, Unit unit) {
@@ -144,26 +170,37 @@ std::vector<GearTableRow> gear_table(const GearTrain& train, const std::vector<c
       const auto meshes = meshes_of(train, g);
       return i < meshes.size() ? mate_text(train, *meshes[i], g) : std::string();
     });
-    add_length("Circumferential backlash with it", "j_wt", [&](const TrainGear& g, const Json&, Unit unit) {
-      const auto meshes = meshes_of(train, g);
-      return i < meshes.size() ? length_of(report.at("meshes").at(meshes[i]->name), "backlash_mm", 4, unit) : std::string();
-    });
+    add_length("Circumferential backlash with it", "j_wt",
+               [&](const TrainGear& g, const Json&, Unit unit) {
+                 const auto meshes = meshes_of(train, g);
+                 return i < meshes.size() ? length_of(report.at("meshes").at(meshes[i]->name),
+                                                      "backlash_mm", 4, unit)
+                                          : std::string();
+               });
     if (rows.size() == before) break;
   }
   add("Flank tolerance class", "ISO 1328-1", [&](const TrainGear& g, const Json&) {
-    return flank_tolerances(tolerance_size(g.profile.gear(), g.face_width_mm), tolerance_class)
-               ? std::to_string(tolerance_class)
-               : std::string("outside its scope");
+    if (tolerance_class == 0) return "none, " + made.process;
+    return flank_limits(g, tolerance_class) ? std::to_string(tolerance_class)
+                                            : std::string("outside its scope");
   });
-  add_length("Single pitch", "±f_pT", tolerance(tolerance_class, &FlankTolerances::single_pitch_um));
-  add_length("Cumulative pitch", "F_pT", tolerance(tolerance_class, &FlankTolerances::total_cumulative_pitch_um));
-  add_length("Profile slope", "±f_HαT", tolerance(tolerance_class, &FlankTolerances::profile_slope_um));
-  add_length("Profile form", "f_fαT", tolerance(tolerance_class, &FlankTolerances::profile_form_um));
-  add_length("Total profile", "F_αT", tolerance(tolerance_class, &FlankTolerances::total_profile_um));
+  add_length("Single pitch", "±f_pT",
+             tolerance(tolerance_class, &FlankTolerances::single_pitch_um));
+  add_length("Cumulative pitch", "F_pT",
+             tolerance(tolerance_class, &FlankTolerances::total_cumulative_pitch_um));
+  add_length("Profile slope", "±f_HαT",
+             tolerance(tolerance_class, &FlankTolerances::profile_slope_um));
+  add_length("Profile form", "f_fαT",
+             tolerance(tolerance_class, &FlankTolerances::profile_form_um));
+  add_length("Total profile", "F_αT",
+             tolerance(tolerance_class, &FlankTolerances::total_profile_um));
   add_length("Helix slope", "±f_HβT", tolerance(tolerance_class, &FlankTolerances::helix_slope_um));
   add_length("Helix form", "f_fβT", tolerance(tolerance_class, &FlankTolerances::helix_form_um));
   add_length("Total helix", "F_βT", tolerance(tolerance_class, &FlankTolerances::total_helix_um));
   add_length("Runout", "F_rT", tolerance(tolerance_class, &FlankTolerances::runout_um));
+  add_held(add_length, made);
+  add("Flank surface, Ra in µm", "ISO 21920",
+      [&](const TrainGear& g, const Json&) { return flank_surface_text(g, made); });
   return rows;
 }
 

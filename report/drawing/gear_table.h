@@ -11,16 +11,17 @@
 namespace trueflank::io {
 
 struct GearTableRow {
-  std::string name;                 ///< "Profile shift coefficient"
-  std::string symbol;               ///< "x"; may be empty
-  std::vector<std::string> values;  ///< one a gear of the part; two, mm and inches, of a design in inches
+  std::string name;    ///< "Profile shift coefficient"
+  std::string symbol;  ///< "x"; may be empty
+  std::vector<std::string>
+      values;  ///< one a gear of the part; two, mm and inches, of a design in inches
 };
 
-/// Rows of the gears of one part. Every number is that of report.json (`report`: the whole document),
-/// rounded to what a workshop reads; tolerances are those of ISO 1328-1:2013 in `tolerance_class`.
+/// Rows of the gears of one part. Every number is that of report.json (`report`: the whole
+/// document), rounded to what a workshop reads; tolerances are those of the class of ISO
+/// 1328-1:2013 that workmanship() has, or what the process holds.
 [[nodiscard]] std::vector<GearTableRow> gear_table(const GearTrain& train,
                                                    const std::vector<const TrainGear*>& gears,
-                                                   const nlohmann::ordered_json& report,
-                                                   int tolerance_class = kDrawingToleranceClass);
+                                                   const nlohmann::ordered_json& report);
 
 }  // namespace trueflank::io

@@ -22,11 +22,10 @@ struct DrawingModel {
   const PartShapes* shapes = nullptr;
   const nlohmann::ordered_json* report = nullptr;  ///< report.json: the source of every number in a table
   const StrengthOptions* materials = nullptr;
-  int tolerance_class = kDrawingToleranceClass;    ///< of the flanks, ISO 1328-1
 };
 
 /// One part on A4 or A3: section through the axis and view of the lower face in first-angle
-/// projection, diameters, widths, bore limits, datum and runout, table of gear data, notes, title block.
+/// projection, diameters, widths, limits, datums, tolerances, surfaces, table of gear data, holes, notes, title block.
 [[nodiscard]] Sheet part_sheet(const DrawingModel& model, const PartShape& part);
 /// The set in section and seen from below, with item numbers and the parts list.
 [[nodiscard]] Sheet assembly_sheet(const DrawingModel& model);

@@ -410,8 +410,8 @@ class ShapeBuilder {
     body.z_upper_mm -= depth;
     top.z_lower_mm = body.z_upper_mm;
     for (int i = 0; i < number; ++i)
-      top.holes.push_back(
-          CircleOutline{circle * unit_vector(step * (i - 0.5 * (number - 1))), hole});
+      part.marks.push_back({circle * unit_vector(step * (i - 0.5 * (number - 1))), hole});
+    top.holes.insert(top.holes.end(), part.marks.begin(), part.marks.end());
     part.slabs.push_back(std::move(top));
   }
 

@@ -72,6 +72,7 @@ struct PartShape {
   int member = kNoMember;  ///< of the topology: whose turning it follows
   PartRole role = PartRole::kOther;
   std::string bought = {};  ///< what to order: a standard's designation; empty: a part that is made
+  std::vector<CircleOutline> marks = {};  ///< of the holes of the last slab those that only mark where tooth 1 is
   bool upside_down = false;  ///< lies on a printer's bed with its upper face: nothing overhangs then
 };
 

@@ -18,7 +18,7 @@ OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 # key and places; what a gear has not is null
 KEYS = {"tip_diameter_mm": 4, "root_diameter_mm": 4, "base_diameter_mm": 4, "reference_diameter_mm": 4, "root_form_diameter_mm": 4,
         "start_active_profile_diameter_mm": 4, "reference_thickness_mm": 4, "face_width_mm": 3, "pin_diameter_mm": 3, "lead_mm": 4}
-EXAMPLES = ["bilateral_drive", "helical_planetary", "internal_pair", "printed_actuator", "boxed_pair"]
+EXAMPLES = ["bilateral_drive", "helical_planetary", "internal_pair", "printed_actuator", "boxed_pair", "carried_drive"]
 
 
 def shown(value, places):
@@ -44,12 +44,58 @@ def looked_for(report, gear):
                     yield key + " in inches", shown(value / 25.4, 4)
 
 
+def limits_of(size):
+    """What stands behind a size with limits of its own."""
+    if size["fit"]:
+        return f"{size['fit']} ({'+' if size['upper_mm'] > 0 else ''}{shown(size['upper_mm'], 3)}"
+    return ""
+
+
+def part_numbers(sizes):
+    """Texts of a part's sheet by its entry in report.json: sizes with fits, holes, tolerances, surfaces."""
+    for d in sizes["diameters"]:
+        yield ("AF " if d["shape"] == "hexagon" else "Ø") + " ".join(filter(None, [shown(d["diameter_mm"], 3), limits_of(d)]))
+    for length in sizes["widths"] + sizes["depths"]:
+        yield shown(length["length_mm"], 3)
+    for holes in sizes["holes"]:
+        yield str(holes["count"])
+        yield from holes["words"]
+        if holes["for"]:
+            yield "for " + holes["for"]
+        if holes["count"] == 1:
+            x, y = (shown(v, 3) if abs(v) > 5e-4 else "0" for v in holes["at_mm"][0])
+            yield f"x {x}, y {y}"
+        else:
+            yield "on Ø" + shown(holes["circle_diameter_mm"], 3)
+        for step in holes["steps"]:
+            if not any(f"Ø{shown(step['diameter_mm'], 3)}" in words for words in holes["words"]):
+                sys.exit(f"{holes['words']} without Ø{step['diameter_mm']}")
+    for tolerance in sizes["tolerances"]:
+        yield ("Ø" if tolerance["kind"] == "position" else "") + shown(tolerance["value_mm"], 4)
+    yield sizes["general_tolerances"]
+    if sizes["surfaces"]:
+        yield sizes["surfaces"]
+
+
+def missing_numbers(example, part, sizes, path):
+    """What of it neither PDF nor DXF has. Blanks are left out: upright texts come in pieces."""
+    def squeezed(text):
+        return "".join(text.split())
+    pdf = squeezed(subprocess.run(["pdftotext", "-raw", path / f"{part}.pdf", "-"], capture_output=True, text=True, check=True).stdout)
+    dxf = "\n".join(squeezed(line) for line in words_of_dxf(path / f"{part}_drawing.dxf"))
+    for number in part_numbers(sizes):
+        for kind, text in (("pdf", pdf), ("dxf", dxf)):
+            if squeezed(number) not in text:
+                yield f"{example} {part}.{kind}: {number}"
+
+
 def words_of_dxf(path):
     document = ezdxf.readfile(path)
     errors = document.audit().errors
     if errors:
         sys.exit(f"{path}: {errors[0].message}")
-    return {entity.dxf.text for entity in document.modelspace() if entity.dxftype() == "TEXT"}
+    texts = (entity.dxf.text for entity in document.modelspace() if entity.dxftype() == "TEXT")
+    return {text.replace("%%c", "Ø").replace("%%p", "±") for text in texts}
 
 
 def rows_of(text):
@@ -95,6 +141,10 @@ def check(example):
             missing += missing_items(example, report, text, words)
         # limits are one text, "8.028 .. 8.057"
         pages[part] = (set(text.split()), {word for line in words for word in line.split()})
+    if sorted(report["parts"]) != sorted(parts - {"assembly"}):
+        missing.append(f"{example}: parts {sorted(report['parts'])}, sheets {sorted(parts)}")
+    for part, sizes in report["parts"].items():
+        missing += missing_numbers(example, part, sizes, folder)
     for gear in report["gears"]:
         part = "planet" if gear.startswith("planet") else gear
         for key, value in looked_for(report, gear):

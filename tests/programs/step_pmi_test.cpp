@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// OpenCASCADE's document framework reads the product information of AP242 files: sizes, limits, datum
-// and runouts, and the faces they hang on.
+// OpenCASCADE's document framework reads the product information of AP242 files: sizes, limits,
+// datums and tolerances, and the faces they hang on.
 #include <gtest/gtest.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -41,8 +41,9 @@ struct ReadDimension {
   std::string note;
   Faces first, second;
 };
-struct ReadRunout {
+struct ReadTolerance {
   XCAFDimTolObjects_GeomToleranceType type;
+  XCAFDimTolObjects_GeomToleranceTypeValue zone;
   double value = 0.0;
   Faces faces;
   std::vector<std::string> datums;
@@ -50,7 +51,7 @@ struct ReadRunout {
 };
 struct ReadPmi {
   std::vector<ReadDimension> dimensions;
-  std::vector<ReadRunout> runouts;
+  std::vector<ReadTolerance> tolerances;
   int solids = 0;
 };
 
@@ -65,7 +66,11 @@ ReadDimension read_dimension(const XCAFDoc_DimTolTool& tool, const TDF_Label& la
   Handle(XCAFDoc_Dimension) attribute;
   EXPECT_TRUE(label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute));
   const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
-  ReadDimension read{.type = object->GetType(), .value = object->GetValue(), .note = {}, .first = {}, .second = {}};
+  ReadDimension read{.type = object->GetType(),
+                     .value = object->GetValue(),
+                     .note = {},
+                     .first = {},
+                     .second = {}};
   read.limited = object->IsDimWithPlusMinusTolerance();
   if (read.limited) {
     read.lower = object->GetLowerTolValue();
@@ -79,11 +84,15 @@ ReadDimension read_dimension(const XCAFDoc_DimTolTool& tool, const TDF_Label& la
   return read;
 }
 
-ReadRunout read_runout(const XCAFDoc_DimTolTool& tool, const TDF_Label& label) {
+ReadTolerance read_tolerance(const XCAFDoc_DimTolTool& tool, const TDF_Label& label) {
   Handle(XCAFDoc_GeomTolerance) attribute;
   EXPECT_TRUE(label.FindAttribute(XCAFDoc_GeomTolerance::GetID(), attribute));
-  ReadRunout read{.type = attribute->GetObject()->GetType(),
-                  .value = attribute->GetObject()->GetValue(), .faces = {}, .datums = {}, .datum_faces = {}};
+  ReadTolerance read{.type = attribute->GetObject()->GetType(),
+                     .zone = attribute->GetObject()->GetTypeOfValue(),
+                     .value = attribute->GetObject()->GetValue(),
+                     .faces = {},
+                     .datums = {},
+                     .datum_faces = {}};
   TDF_LabelSequence first, second, datums;
   tool.GetRefShapeLabel(label, first, second);
   read.faces = faces_of(first);
@@ -112,8 +121,10 @@ ReadPmi read_pmi(const std::string& text) {
   tool->GetDimensionLabels(dimensions);
   tool->GetGeomToleranceLabels(tolerances);
   ReadPmi read;
-  for (int i = 1; i <= dimensions.Length(); ++i) read.dimensions.push_back(read_dimension(*tool, dimensions.Value(i)));
-  for (int i = 1; i <= tolerances.Length(); ++i) read.runouts.push_back(read_runout(*tool, tolerances.Value(i)));
+  for (int i = 1; i <= dimensions.Length(); ++i)
+    read.dimensions.push_back(read_dimension(*tool, dimensions.Value(i)));
+  for (int i = 1; i <= tolerances.Length(); ++i)
+    read.tolerances.push_back(read_tolerance(*tool, tolerances.Value(i)));
   TDF_LabelSequence free;
   XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(free);
   for (int i = 1; i <= free.Length(); ++i)
@@ -144,6 +155,24 @@ void expect_dimension(const ReadDimension& read, double value_mm, const io::Size
   EXPECT_NEAR(read.upper, limits.upper_mm, 1e-15);
 }
 
+XCAFDimTolObjects_GeomToleranceType type_of(io::ToleranceKind kind) {
+  switch (kind) {
+    case io::ToleranceKind::kCircularRunout:
+      return XCAFDimTolObjects_GeomToleranceType_CircularRunout;
+    case io::ToleranceKind::kTotalRunout:
+      return XCAFDimTolObjects_GeomToleranceType_TotalRunout;
+    case io::ToleranceKind::kFlatness:
+      return XCAFDimTolObjects_GeomToleranceType_Flatness;
+    case io::ToleranceKind::kParallelism:
+      return XCAFDimTolObjects_GeomToleranceType_Parallelism;
+    case io::ToleranceKind::kCylindricity:
+      return XCAFDimTolObjects_GeomToleranceType_Cylindricity;
+    case io::ToleranceKind::kPosition:
+      return XCAFDimTolObjects_GeomToleranceType_Position;
+  }
+  return XCAFDimTolObjects_GeomToleranceType_None;
+}
+
 /// What is asked of the part stands in the file, on faces that have the sizes it says.
 void expect_same(const ReadPmi& read, const io::StepPmi& pmi) {
   ASSERT_EQ(read.dimensions.size(), pmi.dimensions.size());
@@ -162,24 +191,34 @@ void expect_same(const ReadPmi& read, const io::StepPmi& pmi) {
       EXPECT_EQ(d.type, XCAFDimTolObjects_DimensionType_Location_LinearDistance);
     }
   }
-  ASSERT_EQ(read.runouts.size(), pmi.runouts.size());
-  for (std::size_t i = 0; i < pmi.runouts.size(); ++i) {
-    EXPECT_EQ(read.runouts[i].type, XCAFDimTolObjects_GeomToleranceType_CircularRunout);
-    EXPECT_NEAR(read.runouts[i].value, pmi.runouts[i].value_mm, 1e-15);
-    EXPECT_EQ(read.runouts[i].faces.size(), pmi.runouts[i].faces.size());
-    EXPECT_EQ(read.runouts[i].datums, std::vector<std::string>{"A"});
-    EXPECT_EQ(read.runouts[i].datum_faces.size(), pmi.datum.size());
+  ASSERT_EQ(read.tolerances.size(), pmi.tolerances.size());
+  for (std::size_t i = 0; i < pmi.tolerances.size(); ++i) {
+    const io::PmiTolerance& asked = pmi.tolerances[i];
+    EXPECT_EQ(read.tolerances[i].type, type_of(asked.kind));
+    EXPECT_EQ(read.tolerances[i].zone, asked.kind == io::ToleranceKind::kPosition
+                                           ? XCAFDimTolObjects_GeomToleranceTypeValue_Diameter
+                                           : XCAFDimTolObjects_GeomToleranceTypeValue_None);
+    EXPECT_NEAR(read.tolerances[i].value, asked.value_mm, 1e-15);
+    EXPECT_EQ(read.tolerances[i].faces.size(), asked.faces.size());
+    const std::vector<std::string> datums =
+        asked.datum == 0 ? std::vector<std::string>{} : std::vector{std::string(1, asked.datum)};
+    EXPECT_EQ(read.tolerances[i].datums, datums) << asked.name;
+    EXPECT_EQ(read.tolerances[i].datum_faces.size(), asked.datum == 'A'   ? pmi.datum.size()
+                                                     : asked.datum == 'B' ? pmi.datum_b.size()
+                                                                          : 0U);
   }
 }
 
 std::string ap242(const PartShape& part, Brep solid, const io::StepPmi& pmi) {
-  return io::step_text({.name = part.name, .solid = std::move(solid), .pmi = pmi}, io::StepSchema::kAp242);
+  return io::step_text({.name = part.name, .solid = std::move(solid), .pmi = pmi},
+                       io::StepSchema::kAp242);
 }
 
 /// An example laid out, and its parts.
 struct Example {
   explicit Example(const std::string& name) {
-    const auto file = read_design_file(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + name + "/design.toml");
+    const auto file =
+        read_design_file(std::string(TRUEFLANK_SOURCE_DIR) + "/examples/" + name + "/design.toml");
     EXPECT_TRUE(file.has_value());
     train = std::make_shared<const GearTrain>(*lay_out(file->design));
     shapes = *part_shapes(*train);
@@ -201,7 +240,8 @@ struct Example {
   }
   [[nodiscard]] FlankTolerances limits(const std::string& name) const {
     const TrainGear& g = gear(name);
-    return *flank_tolerances(tolerance_size(g.profile.gear(), g.face_width_mm), io::kDrawingToleranceClass);
+    return *flank_tolerances(tolerance_size(g.profile.gear(), g.face_width_mm),
+                             io::kDrawingToleranceClass);
   }
   std::shared_ptr<const GearTrain> train;
   PartShapes shapes;
@@ -223,8 +263,11 @@ TEST(StepPmi, ABoreHasItsFitAndCarriesTheDatum) {
   ASSERT_EQ(bore_mm, 19.0);
   expect_dimension(*bore, bore_mm, {.lower_mm = 0.0, .upper_mm = 0.021});  // ISO 286-1, 18 to 30 mm
   expect_cylinders(bore->first, bore_mm);
-  ASSERT_EQ(pmi.runouts.size(), 3U);  // the tips of two gears, the upper face
-  for (const ReadRunout& runout : pmi.runouts) expect_cylinders(runout.datum_faces, bore_mm);
+  // the tips of two gears, the upper face (runout, flatness), the lower face, the bore
+  ASSERT_EQ(pmi.tolerances.size(), 6U);
+  for (const ReadTolerance& tolerance : pmi.tolerances)
+    if (tolerance.datums == std::vector<std::string>{"A"})
+      expect_cylinders(tolerance.datum_faces, bore_mm);
 }
 
 TEST(StepPmi, TipsRunAsTrueAsTheTeethHaveTo) {
@@ -233,20 +276,22 @@ TEST(StepPmi, TipsRunAsTrueAsTheTeethHaveTo) {
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string name = i == 0 ? "planet1" : "planet2";
     const TrainGear& gear = example.gear(name);
-    EXPECT_NEAR(pmi.runouts[i].value, example.limits(name).runout_um / 1000.0, 1e-15);
-    EXPECT_EQ(static_cast<int>(pmi.runouts[i].faces.size()), gear.profile.gear().teeth);
-    expect_cylinders(pmi.runouts[i].faces, 2.0 * gear.profile.tip_radius_mm());
+    EXPECT_NEAR(pmi.tolerances[i].value, example.limits(name).runout_um / 1000.0, 1e-15);
+    EXPECT_EQ(static_cast<int>(pmi.tolerances[i].faces.size()), gear.profile.gear().teeth);
+    expect_cylinders(pmi.tolerances[i].faces, 2.0 * gear.profile.tip_radius_mm());
   }
 }
 
 TEST(StepPmi, WidthsAreBetweenTheFacesTheySpan) {
   const Example example("bilateral_drive");
   const ReadPmi pmi = example.read("planet");
-  const double whole_mm = example.gear("planet1").face_width_mm + example.gear("planet2").face_width_mm +
+  const double whole_mm = example.gear("planet1").face_width_mm +
+                          example.gear("planet2").face_width_mm +
                           example.train->design.layer_gap_mm;
   const ReadDimension& whole = pmi.dimensions.back();
   EXPECT_EQ(whole.type, XCAFDimTolObjects_DimensionType_Location_LinearDistance);
-  expect_dimension(whole, whole_mm, {.lower_mm = -0.2, .upper_mm = 0.2});  // ISO 2768-1 m, 6 to 30 mm
+  expect_dimension(whole, whole_mm,
+                   {.lower_mm = -0.2, .upper_mm = 0.2});  // ISO 2768-1 m, 6 to 30 mm
   ASSERT_EQ(whole.first.size(), 1U);
   ASSERT_EQ(whole.second.size(), 1U);
   EXPECT_NEAR(height_of(whole.first[0]), 0.0, 1e-12);
@@ -256,12 +301,35 @@ TEST(StepPmi, WidthsAreBetweenTheFacesTheySpan) {
 TEST(StepPmi, ARingIsHeldByItsOuterCylinder) {
   const Example example("bilateral_drive");
   const ReadPmi pmi = example.read("ring1");
-  ASSERT_EQ(pmi.runouts.size(), 2U);
+  ASSERT_EQ(pmi.tolerances.size(), 5U);  // tips, upper face twice, lower face, bolts
   const double outer_mm = *find_gear(example.train->design, "ring1")->outer_diameter_mm;
-  for (const ReadRunout& runout : pmi.runouts) expect_cylinders(runout.datum_faces, outer_mm);
-  expect_cylinders(pmi.runouts[0].faces, 2.0 * example.gear("ring1").profile.tip_radius_mm());
-  ASSERT_EQ(pmi.runouts[1].faces.size(), 1U);
-  EXPECT_NEAR(height_of(pmi.runouts[1].faces[0]), example.gear("ring1").face_width_mm, 1e-12);
+  for (std::size_t i : {0, 1}) expect_cylinders(pmi.tolerances[i].datum_faces, outer_mm);
+  expect_cylinders(pmi.tolerances[0].faces, 2.0 * example.gear("ring1").profile.tip_radius_mm());
+  ASSERT_EQ(pmi.tolerances[1].faces.size(), 1U);
+  EXPECT_NEAR(height_of(pmi.tolerances[1].faces[0]), example.gear("ring1").face_width_mm, 1e-12);
+}
+
+TEST(StepPmi, FacesAreFlatAndParallelAndHolesStandInTheirZones) {
+  const Example example("carried_drive");
+  const ReadPmi planet = example.read("planet"), plate = example.read("carrier");
+  const auto of_type = [](const ReadPmi& pmi, XCAFDimTolObjects_GeomToleranceType type) {
+    const auto found = std::find_if(pmi.tolerances.begin(), pmi.tolerances.end(),
+                                    [&](const ReadTolerance& t) { return t.type == type; });
+    return found == pmi.tolerances.end() ? nullptr : &*found;
+  };
+  const ReadTolerance* parallel = of_type(planet, XCAFDimTolObjects_GeomToleranceType_Parallelism);
+  ASSERT_NE(parallel, nullptr);
+  EXPECT_EQ(parallel->datums, std::vector<std::string>{"B"});
+  ASSERT_EQ(parallel->datum_faces.size(), 1U);
+  EXPECT_NEAR(height_of(parallel->faces.at(0)), 0.0, 1e-12);
+  EXPECT_NEAR(height_of(parallel->datum_faces[0]), 27.0, 1e-12);
+  const ReadTolerance* position = of_type(plate, XCAFDimTolObjects_GeomToleranceType_Position);
+  ASSERT_NE(position, nullptr);
+  EXPECT_EQ(position->zone, XCAFDimTolObjects_GeomToleranceTypeValue_Diameter);
+  EXPECT_NEAR(position->value, 0.021, 1e-15);
+  EXPECT_EQ(position->faces.size(), 3U);
+  expect_cylinders(position->faces, 10.02);
+  expect_cylinders(position->datum_faces, 32.0);
 }
 
 TEST(StepPmi, AnAssemblyHasTheInformationOfEveryPart) {
@@ -273,12 +341,13 @@ TEST(StepPmi, AnAssemblyHasTheInformationOfEveryPart) {
     ASSERT_TRUE(solid);
     io::StepPmi pmi = io::step_pmi(*example.train, shape, *solid);
     dimensions += pmi.dimensions.size();
-    runouts += pmi.runouts.size();
+    runouts += pmi.tolerances.size();
     parts.push_back({.name = shape.name, .solid = std::move(*solid), .pmi = std::move(pmi)});
   }
-  const ReadPmi read = read_pmi(io::step_text(parts, example.shapes.assembly, "set", io::StepSchema::kAp242));
+  const ReadPmi read =
+      read_pmi(io::step_text(parts, example.shapes.assembly, "set", io::StepSchema::kAp242));
   EXPECT_EQ(read.dimensions.size(), dimensions);
-  EXPECT_EQ(read.runouts.size(), runouts);
+  EXPECT_EQ(read.tolerances.size(), runouts);
   EXPECT_GE(runouts, 5U);
 }
 
@@ -318,10 +387,11 @@ TEST(StepPmi, RandomPartsReadBackAsAsked) {
       ++parts;
       rings += gears.front()->profile.gear().kind == GearKind::kInternal;
       twisted += gears.front()->profile.gear().helix_angle_rad != 0.0;
-      runouts += static_cast<int>(pmi.runouts.size());
+      runouts += static_cast<int>(pmi.tolerances.size());
     }
   }
-  std::cout << parts << " parts, " << rings << " rings, " << twisted << " twisted, " << runouts << " runouts\n";
+  std::cout << parts << " parts, " << rings << " rings, " << twisted << " twisted, " << runouts
+            << " runouts\n";
   EXPECT_GE(parts, 12);
   EXPECT_GE(rings, 1);
   EXPECT_GE(twisted, 4);
