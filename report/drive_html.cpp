@@ -25,21 +25,24 @@ std::string escaped(const std::string& text) {
 
 /// Mean efficiencies of the cells of one direction, in per cent.
 struct Map {
+  bool by_driven;  ///< load is the torque on the driven side: the bench held that one
   CellAxis speed, load;
   enum Kind { kMeasured, kBefore, kAfter, kResidual };
   std::array<std::vector<double>, 4> value;
   double low = 1e300, high = -1e300, most_residual = 1e-9;
 
   Map(const DriveLoop& closed, bool forward)
-      : speed(values_of(closed, forward, &BenchPoint::speed_rpm)),
-        load(values_of(closed, forward, &BenchPoint::driving_nm)) {
+      : by_driven(CellAxis(values_of(closed, forward, &BenchPoint::driven_nm)).count() <
+                  CellAxis(values_of(closed, forward, &BenchPoint::driving_nm)).count()),
+        speed(values_of(closed, forward, &BenchPoint::speed_rpm)),
+        load(values_of(closed, forward, load_member())) {
     const std::size_t cells = static_cast<std::size_t>(speed.count() * load.count());
     std::vector<double> lossless(cells, 0.0);
     for (auto& v : value) v.assign(cells, 0.0);
     for (std::size_t i = 0; i < closed.table.points.size(); ++i) {
       const BenchPoint& p = closed.table.points[i];
       if (p.forward != forward) continue;
-      const auto c = static_cast<std::size_t>(speed.cell(p.speed_rpm) + speed.count() * load.cell(p.driving_nm));
+      const auto c = static_cast<std::size_t>(speed.cell(p.speed_rpm) + speed.count() * load.cell(p.*load_member()));
       lossless[c] += p.load_nm * (forward ? closed.model.ratio : 1.0);
       value[kMeasured][c] += p.driven_nm;
       value[kBefore][c] += p.driven_nm - closed.before_nm[i];
@@ -64,6 +67,9 @@ struct Map {
     high = std::max(std::clamp(high, 1.0, 120.0), low + 1.0);
   }
 
+  [[nodiscard]] double BenchPoint::*load_member() const {
+    return by_driven ? &BenchPoint::driven_nm : &BenchPoint::driving_nm;
+  }
   static std::vector<double> values_of(const DriveLoop& closed, bool forward,
                                        double BenchPoint::*member) {
     std::vector<double> values;
@@ -110,18 +116,20 @@ std::string chart(const Map& map, Map::Kind kind, const char* caption, const cha
              " N m: " + printed_number(value) + " %</title></rect>";
       if (w < 26.0 || h < 11.0) continue;
       svg += "<text x='" + printed_number(x + 0.5 * w) + "' y='" + printed_number(y + 0.5 * h + 3.0) +
-             "' style='fill:" + ink(map, kind, value) + "'>" + printed_number(value, "%.1f") + "</text>";
+             "' style='text-anchor:middle;fill:" + ink(map, kind, value) + "'>" + printed_number(value, "%.1f") + "</text>";
     }
   const auto label = [&](double x, double y, const char* anchor, const std::string& text) {
     svg += "<text x='" + printed_number(x) + "' y='" + printed_number(y) + "' style='text-anchor:" + anchor +
            "'>" + text + "</text>";
   };
-  label(kLeft, 216, "start", printed_number(map.speed.centres.front(), "%.4g"));
-  label(kLeft + kWidth, 216, "end", printed_number(map.speed.centres.back(), "%.4g"));
-  label(kLeft + 0.5 * kWidth, 230, "middle", "input speed, rpm");
-  label(kLeft - 3, kTop + kHeight - 2, "end", printed_number(map.load.centres.front(), "%.3g"));
-  label(kLeft - 3, kTop + 9, "end", printed_number(map.load.centres.back(), "%.3g"));
-  svg += "<text transform='translate(12 106) rotate(-90)'>" + std::string(torque_side) +
+  for (int v = 0; v < map.speed.count(); ++v)
+    if (w >= 34.0 || v == 0 || v + 1 == map.speed.count())
+      label(kLeft + (v + 0.5) * w, 217, "middle", printed_number(map.speed.centres[v], "%.4g"));
+  label(kLeft + 0.5 * kWidth, 234, "middle", "input speed, rpm");
+  for (int t = 0; t < map.load.count(); ++t)
+    if (h >= 11.0 || t == 0 || t + 1 == map.load.count())
+      label(kLeft - 3, kTop + kHeight - (t + 0.5) * h + 3.0, "end", printed_number(map.load.centres[t], "%.3g"));
+  svg += "<text transform='translate(12 106) rotate(-90)' style='text-anchor:middle'>" + std::string(torque_side) +
          " torque, N m</text>";
   return svg + "</svg></figure>";
 }
@@ -129,11 +137,11 @@ std::string chart(const Map& map, Map::Kind kind, const char* caption, const cha
 std::string maps_of(const DriveLoop& closed, bool forward) {
   if (!closed.table.has(forward)) return {};
   const Map map(closed, forward);
-  const char* side = forward ? "input" : "output";
+  const char* side = forward != map.by_driven ? "input" : "output";
   std::string html = std::string("<h2>Efficiency, ") +
                      (forward ? "forward (the input drives)" : "backward (the output drives)") +
                      "</h2><p>Measured and models from " + printed_number(map.low, "%.1f") + " % (dark) to " +
-                     printed_number(map.high, "%.1f") + " % (bright); residual to +-" +
+                     printed_number(map.high, "%.1f") + " % (bright); residual to ±" +
                      printed_number(map.most_residual, "%.2g") +
                      " points (red: more than the model). White: no load, or not measured.</p><div class='four'>";
   html += chart(map, Map::kMeasured, "measured", side);

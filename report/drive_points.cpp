@@ -109,7 +109,7 @@ std::vector<Quantity> quantities_of(const DriveLoop& closed) {
       {"load", "N m at the input", [](const BenchPoint& p) { return p.load_nm; }},
       {"input speed", "rpm", [](const BenchPoint& p) { return p.speed_rpm; }}};
   if (closed.table.has_temperature)
-    list.push_back({"temperature", "C", [](const BenchPoint& p) { return p.temperature_c; }});
+    list.push_back({"temperature", "°C", [](const BenchPoint& p) { return p.temperature_c; }});
   if (closed.table.has_angle)
     list.push_back(
         {"input angle", "turns", [](const BenchPoint& p) { return p.angle_rad / kTwoPi; }});

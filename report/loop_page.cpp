@@ -33,16 +33,17 @@ h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;fon
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.8rem;margin:1.25rem 0 0}
 .cards>div,.card,figure{background:var(--card);border:1px solid var(--line);border-radius:12px;box-shadow:var(--shadow)}
 .cards>div{padding:.8rem 1rem}.cards dt{color:var(--soft);font-size:.85rem}
-.cards dd{margin:.1rem 0 0;font-size:1.5rem;font-weight:650;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
+.cards dd{margin:.1rem 0 0;line-height:1.2;font-size:1.5rem;font-weight:650;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
 .cards small{font-size:.85rem;font-weight:500;color:var(--soft);margin-left:.3em;letter-spacing:0}
 .card{padding:1rem 1.2rem;margin:0 0 .9rem}.card p{margin:.4rem 0}.id{color:var(--soft);font-weight:500;font-size:.9rem;margin-left:.5em}
-.share{height:.5rem;border-radius:9px;background:var(--none-soft);overflow:hidden;max-width:24rem}.share i{display:block;height:100%;background:var(--accent)}
+.share{height:.5rem;margin-bottom:.6rem;border-radius:9px;background:var(--none-soft);overflow:hidden;max-width:24rem}.share i{display:block;height:100%;background:var(--accent)}
 .note{color:var(--soft);font-size:.92rem;max-width:50rem}
 .two{display:grid;grid-template-columns:1fr 1fr;gap:.8rem}figure{margin:0;padding:.7rem .8rem}figcaption{font-size:.9rem;color:var(--soft)}
 figcaption b{color:var(--ink)}svg{display:block;width:100%;height:auto}svg text{fill:var(--soft);font-size:12px}
 .grid{stroke:var(--line);fill:none}.zero{stroke:var(--soft);fill:none;stroke-width:.7;opacity:.6}
 .f{fill:var(--none);opacity:.55}.a{fill:var(--accent)}.z{stroke:var(--line);fill:none}
-.four{display:grid;grid-template-columns:1fr 1fr;gap:.8rem;max-width:64rem}.four svg text{font-size:8px}
+.four{display:grid;grid-template-columns:repeat(auto-fit,minmax(max(19rem,23%),1fr));gap:.8rem}.four svg text{font-size:11px}
+.effects{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(25rem,100%),1fr));gap:.9rem}.effects .card{margin:0}.effects td:not(:last-child){white-space:nowrap}
 .points text{font-size:13px}.points .w{fill:#c77700;opacity:.5}.points .a{opacity:.75}.am,.wm{fill:none;stroke:var(--accent);stroke-width:2.4;stroke-linejoin:round}
 .wm{stroke:#c77700;stroke-dasharray:6 4}.key span{display:inline-block;margin-right:.5rem;font-weight:600}
 .key span::before{content:"";display:inline-block;width:.75em;height:.75em;border-radius:50%;margin-right:.4em;background:var(--accent)}.key .w::before{background:#c77700}
@@ -51,8 +52,11 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.95re
 th{color:var(--soft);font-weight:600}td+td,th+th{text-align:right}.words :is(td,th){text-align:left;vertical-align:top}.scroll{overflow-x:auto}
 pre{white-space:pre-wrap;font-size:.85rem;background:var(--card);border:1px solid var(--line);border-radius:12px;padding:1rem}
 summary{cursor:pointer;color:var(--accent)}
-@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}.points text{font-size:21px}.four svg text{font-size:9px}}
-@media print{body{background:#fff}figure,.card{break-inside:avoid;box-shadow:none}details{display:none}}
+@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}.points text{font-size:21px}.four svg text{font-size:11px}}
+@media print{@page{margin:14mm}body{background:#fff;font-size:10pt}main{padding:0}h2,h2+p{break-after:avoid}h2{margin-top:1.2rem}
+.cards{grid-template-columns:repeat(6,1fr)}.cards>div{padding:.4rem .6rem}.cards dd{font-size:1.1rem}.say{font-size:1rem}.effects td{white-space:normal}
+figure,.card,.cards,.four,tr{break-inside:avoid;box-shadow:none}.two,.four,.effects{grid-template-columns:1fr 1fr}details{display:none}h2:has(+details){display:none}
+.scroll{overflow:visible}svg{print-color-adjust:exact;-webkit-print-color-adjust:exact}.share{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
 /// The value under the pointer, of every chart that carries its values (data-chart).
@@ -176,12 +180,13 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   const double percent = 100.0 * e.explained_fraction;
   html += "<p>It explains " + number(percent, "%.1f") + " % of the variance.</p><div class='share'><i style='width:" +
           number(std::isnan(percent) ? 0.0 : std::fmin(100.0, std::fmax(0.0, percent)), "%.1f") + "%'></i></div>";
-  if (!e.correction.empty()) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
+  // the sentence mostly ends with it
+  if (!e.correction.empty() && e.sentence.find(e.correction) == std::string::npos) html += "<p><b>What to do:</b> " + escaped(e.correction) + "</p>";
   html += "<details><summary>form and cause</summary><p>" + escaped(e.description) + "</p>";
   if (!e.cause.empty()) html += "<p><b>Cause:</b> " + escaped(e.cause) + "</p>";
   html += "</details>";
   if (!e.confounded_with.empty())
-    html += "<p class='note'>These data cannot distinguish it from " + escaped(joined(e.confounded_with)) + ".</p>";
+    html += "<p class='note'>These data cannot distinguish it from " + escaped(words(joined(e.confounded_with))) + ".</p>";
   return html + "</div>";
 }
 
@@ -201,7 +206,7 @@ std::string left_over(const LoopResult& r) {
   };
   list("Measure next:", r.measure_next);
   if (!r.not_observable.empty())
-    html += "<p><b>These data cannot show:</b> " + escaped(joined(r.not_observable)) + "</p>";
+    html += "<p><b>These data cannot show:</b> " + escaped(words(joined(r.not_observable))) + "</p>";
   list("Notes:", r.notes);
   return html;
 }
@@ -223,7 +228,9 @@ std::string loop_page_opening(const LoopResult& r, const std::string& heading,
       "</style></head><body><main><p class='brand'>Trueflank</p><h1>" + escaped(heading) +
       "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + alarm(r, not_adding_up) + figure_cards(r);
   page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
+  if (!r.effects.empty()) page += "<div class='effects'>";
   for (const FoundEffect& effect : r.effects) page += effect_card(effect, !r.unit.efficiency_points);
+  if (!r.effects.empty()) page += "</div>";
   return page + left_over(r);
 }
 
