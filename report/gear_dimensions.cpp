@@ -56,4 +56,22 @@ std::string measured_with(const Gear& gear) {
   return straight || opposite ? "pins" : "balls";
 }
 
+MeasuredLimits measured_limits(const TrainGear& gear, double least_mm, double most_mm) {
+  const Gear& g = gear.profile.gear();
+  const int span_teeth = recommended_span_teeth(g);
+  const double pin_mm = recommended_pin_diameter_mm(g);
+  const Gear thick = thinned(g, least_mm), thin = thinned(g, most_mm);
+  // thicker teeth of a ring leave less room between its pins
+  const bool external = g.kind == GearKind::kExternal;
+  const Gear &widest = external ? thick : thin, &narrowest = external ? thin : thick;
+  MeasuredLimits limits;
+  if (span_obstacle(gear, span_teeth).empty()) {
+    limits.span_min_mm = base_tangent_length_mm(thin, span_teeth);
+    limits.span_max_mm = base_tangent_length_mm(thick, span_teeth);
+  }
+  limits.over_pins_min_mm = over_pins_mm(narrowest, pin_mm);
+  limits.over_pins_max_mm = over_pins_mm(widest, pin_mm);
+  return limits;
+}
+
 }  // namespace trueflank::io

@@ -20,4 +20,13 @@ namespace trueflank::io {
 /// does not lie in the gap: helical rings, and helical gears with an odd number of teeth.
 [[nodiscard]] std::string measured_with(const Gear& gear);
 
+/// What a workshop measures of a gear whose teeth may differ; NaN: cannot be measured.
+struct MeasuredLimits {
+  double span_min_mm = kNaN, span_max_mm = kNaN;
+  double over_pins_min_mm = kNaN, over_pins_max_mm = kNaN;  ///< of a ring between pins
+};
+/// Of teeth thinned by least_mm to most_mm (transverse, on the reference circle), by the spanned teeth and the pin that
+/// are recommended for the gear.
+[[nodiscard]] MeasuredLimits measured_limits(const TrainGear& gear, double least_mm, double most_mm);
+
 }  // namespace trueflank::io

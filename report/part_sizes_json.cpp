@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trueflank/export/part_dimensions.h"
+#include "trueflank/report/gear_dimensions.h"
 
 namespace trueflank::io {
 namespace {
@@ -107,6 +108,27 @@ Json list_of(const Items& items, const Write& write) {
   return list;
 }
 
+/// Class and texture of the flanks; without an allowance in the design the thickness that is held,
+/// and what measures it.
+Json flanks_json(const TrainGear& gear, const Workmanship& made) {
+  const bool by_class = made.flank_class > 0;
+  Json json = Json::object();
+  json["tolerance_class"] = by_class ? Json(made.flank_class) : Json(nullptr);
+  json["runout_mm"] = by_class ? kNaN : made.runout_mm;
+  json["roughness_um"] = flank_roughness_um(gear, made);
+  const double either = gear.thinning_limits ? kNaN : made.thickness_mm;
+  const double thinning = gear.profile.gear().thinning_mm;
+  const MeasuredLimits limits = std::isnan(either)
+                                    ? MeasuredLimits{}
+                                    : measured_limits(gear, thinning - either, thinning + either);
+  json["thickness_holds_mm"] = either;
+  json["span_min_mm"] = limits.span_min_mm;
+  json["span_max_mm"] = limits.span_max_mm;
+  json["over_pins_min_mm"] = limits.over_pins_min_mm;
+  json["over_pins_max_mm"] = limits.over_pins_max_mm;
+  return json;
+}
+
 Json part_json(const GearTrain& train, const PartShape& part, const Workmanship& made) {
   const PartDimensions dimensions = part_dimensions(train, part);
   Json json = Json::object();
@@ -118,14 +140,8 @@ Json part_json(const GearTrain& train, const PartShape& part, const Workmanship&
   json["holes"] = list_of(dimensions.holes, holes_json);
   json["tolerances"] = list_of(dimensions.tolerances, tolerance_json);
   json["flanks"] = Json::object();
-  for (const TrainGear* gear : gears_of(train, part)) {
-    const double ra = flank_roughness_um(*gear, made);
-    json["flanks"][gear->name] = {
-        {"tolerance_class", made.flank_class > 0 ? Json(made.flank_class) : Json(nullptr)},
-        {"thickness_holds_mm", made.flank_class > 0 ? kNaN : made.thickness_mm},
-        {"runout_mm", made.flank_class > 0 ? kNaN : made.runout_mm},
-        {"roughness_um", ra}};
-  }
+  for (const TrainGear* gear : gears_of(train, part))
+    json["flanks"][gear->name] = flanks_json(*gear, made);
   json["index_marks"] = part.marks.size();
   return json;
 }

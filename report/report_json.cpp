@@ -67,25 +67,22 @@ Json train_json(const GearTrain& train) {
 }
 
 /// Sizes at both ends of a thickness allowance; null without one.
-Json thickness_json(const TrainGear& gear, int span_teeth, double pin_mm) {
+Json thickness_json(const TrainGear& gear) {
   if (!gear.thinning_limits) return nullptr;
   const ThinningLimits& limits = *gear.thinning_limits;
   const Gear thick = thinned(gear.profile.gear(), limits.least_mm);
   const Gear thin = thinned(gear.profile.gear(), limits.most_mm);
-  const bool external = thick.kind == GearKind::kExternal;
   const double r = reference_radius_mm(thick);
-  // thicker teeth of a ring leave less room between its pins
-  const Gear &widest = external ? thick : thin, &narrowest = external ? thin : thick;
+  const MeasuredLimits measured = measured_limits(gear, limits.least_mm, limits.most_mm);
   Json json = Json::object();
   json["upper_um"] = um_from_mm(limits.upper_mm);
   json["lower_um"] = um_from_mm(limits.lower_mm);
   json["reference_thickness_min_mm"] = tooth_thickness_mm(thin, r);
   json["reference_thickness_max_mm"] = tooth_thickness_mm(thick, r);
-  const bool spans = span_obstacle(gear, span_teeth).empty();
-  json["span_min_mm"] = spans ? base_tangent_length_mm(thin, span_teeth) : kNaN;
-  json["span_max_mm"] = spans ? base_tangent_length_mm(thick, span_teeth) : kNaN;
-  json["over_pins_min_mm"] = over_pins_mm(narrowest, pin_mm);
-  json["over_pins_max_mm"] = over_pins_mm(widest, pin_mm);
+  json["span_min_mm"] = measured.span_min_mm;
+  json["span_max_mm"] = measured.span_max_mm;
+  json["over_pins_min_mm"] = measured.over_pins_min_mm;
+  json["over_pins_max_mm"] = measured.over_pins_max_mm;
   return json;
 }
 
@@ -143,7 +140,7 @@ Json gear_json(const GearTrain& train, const TrainGear& gear) {
   json["relief_groove_mm"] = gear.twist.relief_groove_mm;
   json["modified"] = !gear.deviation.empty() || gear.edge_chamfer_mm > 0.0 || g.tip_rounding_mm > 0.0;
   json["protuberance_undercut_um"] = um_from_mm(notes.protuberance_undercut_mm);
-  json["thickness_allowance"] = thickness_json(gear, span_teeth, pin);
+  json["thickness_allowance"] = thickness_json(gear);
   return json;
 }
 

@@ -43,13 +43,24 @@ LengthCell length(const char* key, int decimals) {
   };
 }
 
-/// A size with its limits where the design has a thickness allowance.
-LengthCell with_limits(const char* key, const char* least, const char* most) {
-  return [=](const TrainGear&, const Json& gear, Unit unit) {
+/// Limits of a gear's thickness: the design's allowance, else what the process holds; null: none
+/// are known.
+Json thickness_limits(const Json& report, const std::string& gear) {
+  const Json& allowance = report.at("gears").at(gear).at("thickness_allowance");
+  if (!allowance.is_null() || !report.contains("parts")) return allowance;
+  for (const Json& part : report.at("parts"))
+    if (part.at("flanks").contains(gear)) return part.at("flanks").at(gear);
+  return nullptr;
+}
+
+/// A size with its limits where they are known.
+LengthCell with_limits(const Json& report, const char* key, const char* least, const char* most) {
+  return [=, &report](const TrainGear& g, const Json& gear, Unit unit) {
     std::string text = length_of(gear, key, 3, unit);
-    const Json& allowance = gear.at("thickness_allowance");
-    if (text.empty() || allowance.is_null() || !allowance.at(least).is_number()) return text;
-    return length_of(allowance, least, 3, unit) + " .. " + length_of(allowance, most, 3, unit);
+    if (text.empty()) return text;
+    const Json limits = thickness_limits(report, g.name);
+    if (limits.is_null() || !limits.at(least).is_number()) return text;
+    return length_of(limits, least, 3, unit) + " .. " + length_of(limits, most, 3, unit);
   };
 }
 
@@ -81,17 +92,16 @@ LengthCell tolerance(int tolerance_class, double FlankTolerances::*value) {
   };
 }
 
-/// What a process holds of teeth without a class.
+/// What a process holds of the teeth, of those without a class the runout too.
 void add_held(const std::function<void(const char*, const char*, const LengthCell&)>& add_length,
               const Workmanship& made) {
-  if (made.flank_class > 0) return;
   const auto held = [](double value_mm) {
     return [value_mm](const TrainGear&, const Json&, Unit unit) {
       return std::isnan(value_mm) ? std::string() : length_text(value_mm, 4, unit);
     };
   };
   add_length("Tooth thickness on d holds", "±", held(made.thickness_mm));
-  add_length("Runout", "F_r", held(made.runout_mm));
+  if (made.flank_class == 0) add_length("Runout", "F_r", held(made.runout_mm));
 }
 
 /// The meshes of a gear, in the order of the train.
@@ -155,10 +165,11 @@ std::vector<GearTableRow> gear_table(const GearTrain& train,
   add_length("Start of active profile", "d_Nf", length("start_active_profile_diameter_mm", 4));
   add_length("Thickness on d, transverse", "s_t", length("reference_thickness_mm", 4));
   add("Teeth spanned", "k", number("span_teeth", 0));
-  add_length("Base tangent length", "W_k", with_limits("span_mm", "span_min_mm", "span_max_mm"));
+  add_length("Base tangent length", "W_k",
+             with_limits(report, "span_mm", "span_min_mm", "span_max_mm"));
   add_length("Pin or ball diameter", "D_M", length("pin_diameter_mm", 3));
   add_length("Over or between pins", "M_d",
-             with_limits("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
+             with_limits(report, "over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
   add_length("Face width", "b", length("face_width_mm", 3));
   add_length("Lead", "p_z", length("lead_mm", 4));
   add_length("Centre distance", "a", [&](const TrainGear&, const Json&, Unit unit) {

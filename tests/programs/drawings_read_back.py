@@ -34,7 +34,7 @@ def looked_for(report, gear):
         yield key, shown(values[key], places)
         if "inches" in report:
             yield key + " in inches", shown(values[key] / 25.4, places + 1)
-    allowance = values["thickness_allowance"]
+    allowance = values["thickness_allowance"] or next(part["flanks"][gear] for part in report["parts"].values() if gear in part["flanks"])
     for key, least, most in (("span_mm", "span_min_mm", "span_max_mm"), ("over_pins_mm", "over_pins_min_mm", "over_pins_max_mm")):
         limits = [allowance[least], allowance[most]] if allowance and allowance[least] is not None else [values[key]]
         for value in limits:

@@ -37,6 +37,7 @@ struct Drawn {
     shapes = *part_shapes(*train);
     Report document;
     document.train = train;
+    document.shapes = shapes;
     document.efficiency = efficiency(*train);
     report = nlohmann::ordered_json::parse(report_json(document));
   }
@@ -162,6 +163,16 @@ TEST(WorkshopDrawings, WhatIsPrintedIsNotAskedForWhatIsMachined) {
     EXPECT_FALSE(says(sheet, words)) << words;
   for (const GeometricTolerance& t : part_dimensions(*drawn.train, drawn.part("planet")).tolerances)
     EXPECT_EQ(t.value_mm, 0.08) << to_text(t.kind);
+}
+
+TEST(WorkshopDrawings, SpanAndPinsHaveTheLimitsThatTheProcessHolds) {
+  const Drawn drawn("printed_actuator");
+  const auto& flanks = drawn.report["parts"]["planet"]["flanks"]["planet1"];
+  const double least = flanks["span_min_mm"], most = flanks["span_max_mm"];
+  // +-0.04 of thickness on the reference circle is that times the cosine of 20 degrees along the base tangent
+  EXPECT_NEAR(most - least, 0.08 * std::cos(rad_from_deg(20.0)), 1e-9);
+  EXPECT_TRUE(says(part_sheet(drawn.model(), drawn.part("planet")), drawing_number(least, 3) + " .. " + drawing_number(most, 3)));
+  EXPECT_TRUE(Drawn("external_pair").report["parts"]["pinion"]["flanks"]["pinion"]["span_min_mm"].is_null());
 }
 
 TEST(WorkshopDrawings, TheClassIsTheDesignsThenTheProcesssThenSeven) {
