@@ -17,7 +17,8 @@ constexpr std::size_t kGroupsOfWork = 128;
 BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
     : problem_(problem),
       value_(problem.value),
-      model_(problem.nuisance) {
+      model_(problem.nuisance),
+      panels_(panels_of(problem.groups)) {
   for (int i = 0; i < value_.size(); ++i) {
     if (problem.fold[i] == 0) continue;
     order_.push_back(i);
@@ -26,7 +27,8 @@ BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
     total_weight_ += problem.weight[i];
   }
   std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
-    return std::pair(problem.unit[a], problem.fold[a]) < std::pair(problem.unit[b], problem.fold[b]);
+    return std::pair(problem.unit[a], problem.fold[a]) <
+           std::pair(problem.unit[b], problem.fold[b]);
   });
   centre_on_zeros();
   unit_sums_.resize(units_);
@@ -142,27 +144,33 @@ int BlockStatistics::add_group(int group) {
   return first;
 }
 
+/// Values of one unit within one fold, in the order of all.
+struct BlockStatistics::Part {
+  std::size_t begin = 0, end = 0;
+  int unit = 0, fold = 0;
+};
+
 void BlockStatistics::add_model_sums(int first) {
-  const int m = model_columns();
+  const int m = model_columns(), added = m - first;
   const auto p = candidates().cols();
   const auto grow = [&](Sums& sums) {
     sums.model_model.conservativeResize(m, m);
-    sums.model_model.rightCols(m - first).setZero();
-    sums.model_model.bottomRows(m - first).setZero();
+    sums.model_model.rightCols(added).setZero();
+    sums.model_model.bottomRows(added).setZero();
     sums.model_value.conservativeResize(m);
-    sums.model_value.tail(m - first).setZero();
-    sums.model_candidate.conservativeResize(m, p);
-    sums.model_candidate.bottomRows(m - first).setZero();
+    sums.model_value.tail(added).setZero();
   };
   for (Sums& sums : unit_sums_) grow(sums);
   for (Sums& sums : fold_sums_) grow(sums);
   grow(all_);
-  const int added = m - first;
+  for (Sums& sums : fold_sums_)
+    sums.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
+  all_.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
+  unit_candidates_.resize(static_cast<std::size_t>(m));
+  for (int k = first; k < m; ++k)
+    unit_candidates_[static_cast<std::size_t>(k)].assign(
+        panels_.size() * static_cast<std::size_t>(units_), PanelRow{});
   // One unit within one fold at a time, so that each value is added once.
-  struct Part {
-    std::size_t begin, end;
-    std::array<Sums*, 3> sums;
-  };
   std::vector<Part> parts;
   for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
     const int unit = problem_.unit[order_[begin]], fold = problem_.fold[order_[begin]];
@@ -177,34 +185,19 @@ void BlockStatistics::add_model_sums(int first) {
         part_value[k] += a * value_[i];
       }
     }
-    parts.push_back({begin, end, {&unit_sums_[unit], &fold_sums_[fold], &all_}});
-    for (Sums* sums : parts.back().sums) {
+    parts.push_back({begin, end, unit, fold});
+    for (Sums* sums : {&unit_sums_[unit], &fold_sums_[fold], &all_}) {
       sums->model_model.rightCols(added) += part_model;
       sums->model_value.tail(added) += part_value;
     }
   }
-  // Candidates do not ask each other: the same sums on any number of processors.
-  const CandidateMatrix& candidates = this->candidates();
-  constexpr Eigen::Index kColumnsOfWork = 256;
-  for_each_piece(
-      static_cast<std::size_t>((p + kColumnsOfWork - 1) / kColumnsOfWork), [&](std::size_t piece) {
-        const Eigen::Index at = static_cast<Eigen::Index>(piece) * kColumnsOfWork;
-        const Eigen::Index columns = std::min(kColumnsOfWork, p - at);
-        Eigen::MatrixXd part_candidate(columns, added);
-        Eigen::VectorXd x(columns);
-        for (const Part& part : parts) {
-          part_candidate.setZero();
-          for (std::size_t r = part.begin; r < part.end; ++r) {
-            const int i = order_[r];
-            x = candidates.row(i).segment(at, columns).transpose().cast<double>();
-            for (int k = 0; k < added; ++k)
-              part_candidate.col(k) += problem_.weight[i] * model_(i, first + k) * x;
-          }
-          for (Sums* sums : part.sums)
-            sums->model_candidate.block(m - added, at, added, columns) +=
-                part_candidate.transpose();
-        }
-      });
+  // Candidates do not ask each other: the same sums on any number of processors. Some panels at a
+  // time, so that what is read of a row of the candidates lies together.
+  constexpr std::size_t kPanelsOfWork = 8;
+  for_each_piece((panels_.size() + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
+    const std::size_t from = piece * kPanelsOfWork;
+    add_candidate_sums(parts, first, from, std::min(panels_.size(), from + kPanelsOfWork));
+  });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();
@@ -212,6 +205,45 @@ void BlockStatistics::add_model_sums(int first) {
   for (Sums& sums : unit_sums_) mirror(sums);
   for (Sums& sums : fold_sums_) mirror(sums);
   mirror(all_);
+}
+
+/// Products of the model columns from `first` on with the candidates of some panels.
+void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int first,
+                                         std::size_t from, std::size_t to) {
+  const CandidateMatrix& candidates = this->candidates();
+  const int added = model_columns() - first;
+  Panel x;
+  std::vector<double> factors;
+  for (const Part& part : parts) {
+    const std::size_t rows = part.end - part.begin;
+    x.assign(rows, PanelRow{});
+    factors.resize(rows * static_cast<std::size_t>(added));
+    for (std::size_t r = 0; r < rows; ++r) {
+      const int i = order_[part.begin + r];
+      for (int k = 0; k < added; ++k)
+        factors[static_cast<std::size_t>(k) * rows + r] = problem_.weight[i] * model_(i, first + k);
+    }
+    for (std::size_t p = from; p < to; ++p) {
+      const PanelColumns& panel = panels_[p];
+      for (std::size_t r = 0; r < rows; ++r) {
+        const float* row = candidates.row(order_[part.begin + r]).data() + panel.first_column;
+        std::copy_n(row, panel.columns, x[r].begin());
+        std::fill(x[r].begin() + panel.columns, x[r].end(), 0.0);
+      }
+      for (int k = 0; k < added; ++k) {
+        PanelRow sum{};
+        add_rows(sum, factors.data() + static_cast<std::size_t>(k) * rows, x.data(), rows);
+        const auto column = static_cast<std::size_t>(first + k);
+        PanelRow& of_unit = unit_candidates_[column][p * static_cast<std::size_t>(units_) +
+                                                     static_cast<std::size_t>(part.unit)];
+        for (std::size_t j = 0; j < kPanelColumns; ++j) of_unit[j] += sum[j];
+        const Eigen::Map<const Eigen::VectorXd> used(sum.data(), panel.columns);
+        fold_sums_[part.fold].model_candidate[column].segment(panel.first_column, panel.columns) +=
+            used;
+        all_.model_candidate[column].segment(panel.first_column, panel.columns) += used;
+      }
+    }
+  }
 }
 
 }  // namespace trueflank::loop

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/discovery.h"
 
 namespace trueflank::loop {
@@ -34,9 +35,10 @@ class BlockStatistics {
 
   /// Sums over one unit or fold; M model columns, P candidates.
   struct Sums {
-    Eigen::MatrixXd model_model;      ///< M x M
-    Eigen::VectorXd model_value;      ///< M
-    Eigen::MatrixXd model_candidate;  ///< M x P
+    Eigen::MatrixXd model_model;  ///< M x M
+    Eigen::VectorXd model_value;  ///< M
+    /// M of P: a model column with every candidate; of folds and all, not of units
+    std::vector<Eigen::VectorXd> model_candidate;
     Eigen::VectorXd candidate_value;  ///< P
     double value_value = 0.0;
     double weight = 0.0;
@@ -45,6 +47,14 @@ class BlockStatistics {
   /// 1 ... folds().
   [[nodiscard]] const Sums& fold(int i) const { return fold_sums_[i]; }
   [[nodiscard]] const Sums& all() const { return all_; }
+  [[nodiscard]] const std::vector<PanelColumns>& panels() const { return panels_; }
+  /// Sums of a model column with the candidates of a panel over a unit; those of the next unit
+  /// follow.
+  [[nodiscard]] const PanelRow& unit_candidates(int model_column, std::size_t panel,
+                                                int unit) const {
+    return unit_candidates_[static_cast<std::size_t>(
+        model_column)][panel * static_cast<std::size_t>(units_) + static_cast<std::size_t>(unit)];
+  }
   /// Gram matrix of a group, over a fold (1 ...) or over all (0).
   [[nodiscard]] const Eigen::MatrixXd& group_gram(int group, int fold) const {
     return group_grams_[fold][group];
@@ -57,6 +67,9 @@ class BlockStatistics {
   void sum_candidates();
   void sum_groups(std::size_t from, std::size_t to, const std::map<int, double>& trace_weight);
   void add_model_sums(int first);
+  struct Part;
+  void add_candidate_sums(const std::vector<Part>& parts, int first, std::size_t from,
+                          std::size_t to);
 
   const DiscoveryProblem& problem_;
   CandidateMatrix centred_;  ///< the candidates less their zeros; empty: there are none
@@ -66,6 +79,9 @@ class BlockStatistics {
   int units_ = 0, folds_ = 0;
   double total_weight_ = 0.0;
   std::vector<Sums> unit_sums_, fold_sums_;
+  std::vector<PanelColumns> panels_;
+  std::vector<std::vector<PanelRow>>
+      unit_candidates_;  ///< of model columns: panel after panel, in it the units
   Sums all_;
   std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
   std::vector<Eigen::MatrixXd> zero_loss_;

@@ -10,12 +10,11 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/loop/discovery/block_statistics.h"
+#include "trueflank/loop/discovery/cross_validation.h"
 #include "trueflank/loop/discovery/structure_test.h"
 
 namespace trueflank::loop {
 namespace {
-
-using FoldErrors = Eigen::VectorXd;
 
 /// Chi-square by which anchors tell two models apart.
 constexpr double kAnchorsTell = 4.0;
@@ -95,81 +94,10 @@ class Selection {
            });
   }
 
-  /// Squared error on every fold of the model of some columns and perhaps one group more, fitted to
-  /// the other folds.
-  class CrossValidation {
-   public:
-    CrossValidation(const DiscoveryProblem& problem, const BlockStatistics& statistics,
-                    std::vector<int> columns)
-        : problem_(problem), statistics_(statistics), columns_(std::move(columns)) {
-      for (int fold = 1; fold <= statistics_.folds(); ++fold) {
-        const auto& sums = statistics_.fold(fold);
-        Fold f;
-        f.test_gram = sums.model_model(columns_, columns_);
-        f.test_value = sums.model_value(columns_);
-        const Eigen::MatrixXd all = statistics_.all().model_model(columns_, columns_);
-        Eigen::MatrixXd train = all - f.test_gram;
-        // A column that lives only in this fold cannot be learnt from the others.
-        train.diagonal() += 1e-10 * all.diagonal() +
-                            Eigen::VectorXd::Constant(train.rows(), 1e-30);
-        f.train.compute(train);
-        f.train_value = statistics_.all().model_value(columns_) - f.test_value;
-        f.base = f.train.solve(f.train_value);
-        folds_.push_back(std::move(f));
-      }
-    }
-    [[nodiscard]] FoldErrors base_errors() const {
-      FoldErrors errors(static_cast<Eigen::Index>(folds_.size()));
-      for (std::size_t i = 0; i < folds_.size(); ++i) {
-        const Fold& f = folds_[i];
-        errors[i] = statistics_.fold(static_cast<int>(i) + 1).value_value -
-                    2.0 * f.base.dot(f.test_value) + f.base.dot(f.test_gram * f.base);
-      }
-      return errors;
-    }
-    [[nodiscard]] FoldErrors errors_with(int group) const {
-      const CandidateGroup& g = problem_.groups[group];
-      const auto candidate = Eigen::seqN(g.first_column, g.columns);
-      const Eigen::MatrixXd all_cross = statistics_.all().model_candidate(columns_, candidate);
-      FoldErrors errors(static_cast<Eigen::Index>(folds_.size()));
-      for (std::size_t i = 0; i < folds_.size(); ++i) {
-        const Fold& f = folds_[i];
-        const int fold = static_cast<int>(i) + 1;
-        const auto& sums = statistics_.fold(fold);
-        const Eigen::MatrixXd test_cross = sums.model_candidate(columns_, candidate);
-        const Eigen::MatrixXd& test_group = statistics_.group_gram(group, fold);
-        const Eigen::VectorXd test_right = sums.candidate_value(candidate);
-        const Eigen::MatrixXd cross = all_cross - test_cross;
-        const Eigen::MatrixXd solved = f.train.solve(cross);
-        Eigen::MatrixXd schur = statistics_.group_gram(group, 0) - test_group -
-                                cross.transpose() * solved;
-        schur.diagonal() += 1e-6 * statistics_.group_gram(group, 0).diagonal() +
-                            Eigen::VectorXd::Constant(g.columns, 1e-30);
-        const Eigen::VectorXd right = statistics_.all().candidate_value(candidate) - test_right -
-                                      solved.transpose() * f.train_value;
-        const Eigen::VectorXd b = schur.ldlt().solve(right);
-        const Eigen::VectorXd a = f.base - solved * b;
-        errors[i] = sums.value_value - 2.0 * (a.dot(f.test_value) + b.dot(test_right)) +
-                    a.dot(f.test_gram * a) + 2.0 * a.dot(test_cross * b) + b.dot(test_group * b);
-      }
-      return errors;
-    }
-
-   private:
-    struct Fold {
-      Eigen::LDLT<Eigen::MatrixXd> train;
-      Eigen::VectorXd train_value, base, test_value;
-      Eigen::MatrixXd test_gram;
-    };
-    const DiscoveryProblem& problem_;
-    const BlockStatistics& statistics_;
-    std::vector<int> columns_;
-    std::vector<Fold> folds_;
-  };
-
   void forward() {
     while (true) {
       const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
+      tested_ = active();
       if (result_.observable.empty()) result_.observable = test.observable();
       const bool first = chosen_.empty();
       if (first) result_.first_p_value = std::min(test.p_value(), test.local_p_value());
@@ -202,12 +130,13 @@ class Selection {
   std::optional<int> best_candidate(const StructureTest& test, double level) const {
     const CrossValidation model(problem_, statistics_, active());
     const FoldErrors base = model.base_errors();
+    std::vector<int> asked;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      if (allowed(g) && problem_.groups[g].local_family < 0 && !(test.p_value_of(g) > level))
+        asked.push_back(g);
+    const std::vector<FoldErrors> with = model.errors_with(asked);
     std::vector<Tried> tried;
-    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
-      if (!allowed(g) || problem_.groups[g].local_family >= 0 || test.p_value_of(g) > level)
-        continue;
-      tried.push_back({g, base - model.errors_with(g)});
-    }
+    for (std::size_t i = 0; i < asked.size(); ++i) tried.push_back({asked[i], base - with[i]});
     if (tried.empty()) return std::nullopt;
     const auto best = std::max_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) {
       return a.gain.sum() < b.gain.sum();
@@ -267,19 +196,24 @@ class Selection {
         const int limit = std::min(a.preference, b.preference);
         const int most = std::max(a.preference, b.preference);
         const double earned = (model.base_errors() - full).sum();
-        int best = -1;
-        double best_loss = 1e300;
+        std::vector<int> asked;
         for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
           const CandidateGroup& group = problem_.groups[g];
-          if (!allowed(g) || group.local_family >= 0 ||
-              group.preference > (group.named && a.named != b.named ? most : limit) ||
-              group.columns >= a.columns + b.columns)
-            continue;
-          const FoldErrors loss = model.errors_with(g) - full;
-          const bool nearly = group.preference < most && loss.sum() < kNearly * earned;
+          if (allowed(g) && group.local_family < 0 &&
+              group.preference <= (group.named && a.named != b.named ? most : limit) &&
+              group.columns < a.columns + b.columns)
+            asked.push_back(g);
+        }
+        const std::vector<FoldErrors> with = model.errors_with(asked);
+        int best = -1;
+        double best_loss = 1e300;
+        for (std::size_t n = 0; n < asked.size(); ++n) {
+          const FoldErrors loss = with[n] - full;
+          const bool nearly =
+              problem_.groups[asked[n]].preference < most && loss.sum() < kNearly * earned;
           if ((is_tie(loss) || nearly) && loss.sum() < best_loss) {
             best_loss = loss.sum();
-            best = g;
+            best = asked[n];
           }
         }
         if (best < 0) continue;
@@ -299,16 +233,21 @@ class Selection {
       const CandidateGroup& now = problem_.groups[chosen_[i].record.group];
       if (now.local_family >= 0) continue;
       const CrossValidation model(problem_, statistics_, active(i));
-      std::vector<Tried> tried;
-      int best = -1;
+      std::vector<int> asked;
       for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
         const CandidateGroup& group = problem_.groups[g];
         const bool kin = now.kin >= 0 && group.kin == now.kin && !is_chosen(g);
         if ((!allowed(g) && !kin) || group.local_family >= 0 || !result_.observable[g]) continue;
         if (!options_.banned.empty() && options_.banned[g]) continue;
-        const FoldErrors gain = full - model.errors_with(g);
+        asked.push_back(g);
+      }
+      const std::vector<FoldErrors> with = model.errors_with(asked);
+      std::vector<Tried> tried;
+      int best = -1;
+      for (std::size_t n = 0; n < asked.size(); ++n) {
+        const FoldErrors gain = full - with[n];
         if (is_tie(gain) || is_tie(0.5 * gain)) continue;
-        tried.push_back({g, gain});
+        tried.push_back({asked[n], gain});
         if (best < 0 || gain.sum() > tried[best].gain.sum()) best = static_cast<int>(tried.size()) - 1;
       }
       if (best < 0 || tried[best].gain.sum() <= 2.0 * total_error_of(tried[best].gain)) continue;
@@ -334,6 +273,7 @@ class Selection {
       find_confounded(i, model, full);
       result_.chosen.push_back(record);
     }
+    if (active() == tested_) return;
     const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
     result_.p_left = test.p_value();
     result_.likest_left = test.likest();
@@ -358,16 +298,21 @@ class Selection {
   void find_confounded(int i, const CrossValidation& without, const FoldErrors& full) {
     ChosenGroup& record = chosen_[i].record;
     const CandidateGroup& own = problem_.groups[record.group];
+    std::vector<int> asked;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
       const CandidateGroup& group = problem_.groups[g];
       if (g == record.group || is_chosen(g) || group.local_family >= 0 || !result_.observable[g])
         continue;
       if (own.kin >= 0 && group.kin == own.kin) continue;
-      const FoldErrors loss = without.errors_with(g) - full;
+      asked.push_back(g);
+    }
+    const std::vector<FoldErrors> with = without.errors_with(asked);
+    for (std::size_t n = 0; n < asked.size(); ++n) {
+      const FoldErrors loss = with[n] - full;
       // As good within a standard error, and close to what the effect itself earns.
       const double earned = record.gain * statistics_.total_weight();
       if (is_tie(loss) && loss.sum() < 0.1 * earned)
-        record.confounded.push_back(g);
+        record.confounded.push_back(asked[n]);
     }
   }
 
@@ -376,6 +321,7 @@ class Selection {
   BlockStatistics statistics_;
   std::vector<int> nuisance_;
   std::vector<Chosen> chosen_;
+  std::vector<int> tested_;  ///< columns beside which structure was looked for last
   DiscoveryResult result_;
 };
 

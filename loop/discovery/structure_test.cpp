@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
 
@@ -53,21 +54,37 @@ StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatist
   test_local(banned);
 }
 
+/// What is asked of every unit: its sums over the fitted columns.
+struct StructureTest::UnitSums {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd left;  ///< products with what the fit leaves
+};
+struct StructureTest::FittedToUnits {
+  const std::vector<int>& columns;
+  const std::vector<UnitSums>& units;
+  PanelSolver solver;  ///< of the fitted columns over all units
+};
+
 /// Scores of every unit and Gram matrices of every group, beside the fitted columns.
 void StructureTest::project(const std::vector<int>& columns) {
   const auto& all = statistics_.all();
   const auto p = all.candidate_value.size();
   const auto m = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(m, m);
-  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(m, p);
-  Eigen::VectorXd fitted = Eigen::VectorXd::Zero(m);
+  Eigen::MatrixXd gram = all.model_model(columns, columns);
+  gram.diagonal() *= 1.0 + 1e-12;
+  gram.diagonal().array() += 1e-30;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(gram);
+  Eigen::MatrixXd cross(m, p);
+  for (Eigen::Index k = 0; k < m; ++k)
+    cross.row(k) =
+        all.model_candidate[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])]
+            .transpose();
+  absorbed_ = Eigen::MatrixXd::Zero(m, p);
+  fitted_ = Eigen::VectorXd::Zero(m);
   if (m > 0) {
-    Eigen::MatrixXd gram = all.model_model(columns, columns);
-    gram.diagonal() *= 1.0 + 1e-12;
-    gram.diagonal().array() += 1e-30;
-    inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
-    coefficients = inverse * all.model_candidate(columns, Eigen::all);
-    fitted = inverse * all.model_value(columns);
+    const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(m, m));
+    absorbed_ = inverse * cross;
+    fitted_ = inverse * all.model_value(columns);
   }
   const std::size_t groups = problem_.groups.size();
   projected_.resize(groups);
@@ -75,36 +92,90 @@ void StructureTest::project(const std::vector<int>& columns) {
   for (std::size_t g = 0; g < groups; ++g) {
     const CandidateGroup& group = problem_.groups[g];
     const auto seq = Eigen::seqN(group.first_column, group.columns);
-    const Eigen::MatrixXd cross = all.model_candidate(columns, seq);
     projected_[g] = statistics_.group_gram(static_cast<int>(g), 0) -
-                    cross.transpose() * coefficients(Eigen::all, seq);
+                    cross(Eigen::all, seq).transpose() * absorbed_(Eigen::all, seq);
     flipped_[g] = projected_[g] - statistics_.zero_loss(static_cast<int>(g));
   }
-  absorbed_ = coefficients;
-  fitted_ = fitted;
-  const Eigen::MatrixXd asked_coefficients = coefficients(Eigen::all, asked_columns_);
-  unit_scores_.resize(p, statistics_.units());
+  std::vector<UnitSums> units(static_cast<std::size_t>(statistics_.units()));
   for (int unit = 0; unit < statistics_.units(); ++unit) {
     const auto& sums = statistics_.unit(unit);
-    if (m == 0) {
-      unit_scores_.col(unit) = sums.candidate_value;
-      continue;
+    UnitSums& one = units[static_cast<std::size_t>(unit)];
+    one.gram = sums.model_model(columns, columns);
+    one.left = sums.model_value(columns) - one.gram * fitted_;
+  }
+  unit_scores_.resize(p, statistics_.units());
+  const FittedToUnits fitted{columns, units, m > 0 ? PanelSolver(solver) : PanelSolver()};
+  // Candidates do not ask each other: the same sums on any number of processors.
+  constexpr std::size_t kPanelsOfWork = 4;
+  const std::size_t panels = statistics_.panels().size();
+  for_each_piece((panels + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
+    for (std::size_t k = piece * kPanelsOfWork; k < std::min(panels, (piece + 1) * kPanelsOfWork);
+         ++k)
+      project_panel(k, fitted);
+  });
+  judge_what_can_be_seen();
+}
+
+/// Scores of the candidates of a panel in every unit, and what the fitted columns of every unit
+/// take from their groups' spread under flips.
+void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
+  const std::size_t m = fitted.columns.size();
+  const PanelColumns& panel = statistics_.panels()[p];
+  const auto columns = static_cast<std::size_t>(panel.columns);
+  // Needed of the groups that flips judge, which of a gear of many teeth are the smaller part.
+  int most = 0;
+  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
+    if (asked_at_[static_cast<std::size_t>(g)] >= 0)
+      most = std::max(most, problem_.groups[static_cast<std::size_t>(g)].columns);
+  Panel absorbed(m, PanelRow{}), overlap(m, PanelRow{});
+  for (std::size_t k = 0; k < m; ++k)
+    for (std::size_t c = 0; c < columns; ++c)
+      absorbed[k][c] = absorbed_(static_cast<Eigen::Index>(k),
+                                 panel.first_column + static_cast<Eigen::Index>(c));
+  // Of products of columns that stand 0, 1, ... apart.
+  std::vector<PanelRow> lost(static_cast<std::size_t>(most), PanelRow{});
+  for (int unit = 0; unit < statistics_.units(); ++unit) {
+    const UnitSums& sums = fitted.units[static_cast<std::size_t>(unit)];
+    PanelRow score{};
+    std::copy_n(statistics_.unit(unit).candidate_value.data() + panel.first_column, columns,
+                score.begin());
+    for (std::size_t k = 0; k < m; ++k) {
+      const PanelRow& cross = statistics_.unit_candidates(fitted.columns[k], p, unit);
+      const double own = fitted_[static_cast<Eigen::Index>(k)],
+                   left = sums.left[static_cast<Eigen::Index>(k)];
+      for (std::size_t j = 0; j < kPanelColumns; ++j)
+        score[j] -= own * cross[j] + left * absorbed[k][j];
     }
-    const Eigen::MatrixXd gram = sums.model_model(columns, columns);
-    const Eigen::VectorXd left = sums.model_value(columns) - gram * fitted;
-    const Eigen::MatrixXd cross = sums.model_candidate(columns, Eigen::all);
-    unit_scores_.col(unit) = sums.candidate_value - cross.transpose() * fitted -
-                             coefficients.transpose() * left;
-    // Needed of the groups that flips judge, which of a gear of many teeth are the smaller part.
-    const Eigen::MatrixXd overlap =
-        cross(Eigen::all, asked_columns_) - gram * asked_coefficients;
-    const Eigen::MatrixXd weighted = inverse * overlap;
-    for (std::size_t g = 0; g < groups; ++g) {
-      if (asked_at_[g] < 0) continue;
-      const auto seq = Eigen::seqN(asked_at_[g], problem_.groups[g].columns);
-      flipped_[g] -= overlap(Eigen::all, seq).transpose() * weighted(Eigen::all, seq);
+    std::copy_n(score.begin(), columns, unit_scores_.col(unit).data() + panel.first_column);
+    if (most == 0 || m == 0) continue;
+    for (std::size_t k = 0; k < m; ++k) {
+      const std::size_t row = fitted.solver.row_at(k);
+      overlap[k] = statistics_.unit_candidates(fitted.columns[row], p, unit);
+      subtract_rows(overlap[k], sums.gram.col(static_cast<Eigen::Index>(row)).data(),
+                    absorbed.data(), m);
+    }
+    fitted.solver.solve_lower(overlap);
+    for (std::size_t k = 0; k < m; ++k) {
+      const double inverse = fitted.solver.inverse_pivot(k);
+      for (std::size_t apart = 0; apart < lost.size(); ++apart)
+        for (std::size_t j = 0; j + apart < kPanelColumns; ++j)
+          lost[apart][j] += overlap[k][j + apart] * (inverse * overlap[k][j]);
     }
   }
+  for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
+    if (asked_at_[static_cast<std::size_t>(g)] < 0) continue;
+    Eigen::MatrixXd& flipped = flipped_[static_cast<std::size_t>(g)];
+    const int at = problem_.groups[static_cast<std::size_t>(g)].first_column - panel.first_column;
+    for (int a = 0; a < flipped.rows(); ++a)
+      for (int b = 0; b < flipped.cols(); ++b)
+        flipped(a, b) -= lost[static_cast<std::size_t>(std::abs(a - b))]
+                             [static_cast<std::size_t>(at + std::min(a, b))];
+  }
+}
+
+/// Groups that the data show beside the fitted columns, and those of them that flips can judge.
+void StructureTest::judge_what_can_be_seen() {
+  const std::size_t groups = problem_.groups.size();
   observable_.assign(groups, true);
   testable_.assign(groups, true);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -117,8 +188,7 @@ void StructureTest::project(const std::vector<int>& columns) {
       else if (!(flipped_[g](k, k) > 0.05 * projected_[g](k, k)))
         testable_[g] = false;
     }
-    if (observable_[g] && projected_[g].determinant() <=
-                            1e-6 * projected_[g].diagonal().prod())
+    if (observable_[g] && projected_[g].determinant() <= 1e-6 * projected_[g].diagonal().prod())
       observable_[g] = testable_[g] = false;
   }
 }
@@ -139,7 +209,8 @@ void StructureTest::test_by_flips(int flips) {
     const auto seq = Eigen::seqN(group.first_column, group.columns);
     const Eigen::LDLT<Eigen::MatrixXd> under_flips(flipped_[g]);
     if (under_flips.info() != Eigen::Success || !under_flips.isPositive()) continue;
-    const Eigen::MatrixXd s = scores(Eigen::seqN(asked_at_[g], group.columns), Eigen::all).cast<double>();
+    const Eigen::MatrixXd s =
+        scores(Eigen::seqN(asked_at_[g], group.columns), Eigen::all).cast<double>();
     const Eigen::MatrixXd inverse =
         under_flips.solve(Eigen::MatrixXd::Identity(group.columns, group.columns));
     statistic = s.cwiseProduct(inverse * s).colwise().sum().transpose();
@@ -162,8 +233,8 @@ void StructureTest::test_by_flips(int flips) {
   std::sort(largest.data(), largest.data() + flips);
   for (std::size_t g = 0; g < groups; ++g) {
     if (own[g] < 0.0) continue;
-    const auto above = largest.data() + flips -
-                       std::lower_bound(largest.data(), largest.data() + flips, own[g]);
+    const auto above =
+        largest.data() + flips - std::lower_bound(largest.data(), largest.data() + flips, own[g]);
     group_p_values_[g] = (1.0 + static_cast<double>(above)) / (flips + 1.0);
   }
   p_value_ = group_p_values_[likest_];
@@ -212,15 +283,15 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     std::vector<double> score;
     double sum = 0.0, squares = 0.0;
     for (const int g : members) {
-      const double value = observed[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
+      const double value =
+          observed[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
       score.push_back(value);
       sum += value;
       squares += value * value;
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
       const double mean = (sum - score[i]) / (n - 1.0);
-      const double variance =
-          (squares - score[i] * score[i] - (n - 1.0) * mean * mean) / (n - 2.0);
+      const double variance = (squares - score[i] * score[i] - (n - 1.0) * mean * mean) / (n - 2.0);
       if (!(variance > 0.0)) continue;
       const double t = (score[i] - mean) / std::sqrt(variance * n / (n - 1.0));
       const double p = std::min(1.0, tested * student_two_sided(std::abs(t), n - 2.0));

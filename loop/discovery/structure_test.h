@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/block_statistics.h"
+#include "trueflank/loop/discovery/column_panels.h"
 
 namespace trueflank::loop {
 
 /// Does the residual of a model hold structure of the candidates' kinds? Sign flips of whole units:
 /// under no structure the scores of independent, symmetric errors are as likely with any signs.
-/// Source: Hemerik, Goeman, Finos 2020, doi 10.1111/rssb.12369 (sign flips of effective scores), here
-/// with the mean spread each group loses to the fitted columns put back.
-/// Of few traces or flanks all signs are soon tried: candidates that differ between them fit any signs. There
+/// Source: Hemerik, Goeman, Finos 2020, doi 10.1111/rssb.12369 (sign flips of effective scores),
+/// here with the mean spread each group loses to the fitted columns put back. Of few traces or
+/// flanks all signs are soon tried: candidates that differ between them fit any signs. There
 /// whether they agree is asked, too: an F test (agreement.h) with Bonferroni's correction.
 class StructureTest {
  public:
@@ -31,20 +32,25 @@ class StructureTest {
   [[nodiscard]] const std::vector<bool>& observable() const { return observable_; }
 
  private:
+  struct UnitSums;
+  struct FittedToUnits;
   void project(const std::vector<int>& columns);
+  void project_panel(std::size_t panel, const FittedToUnits& fitted);
+  void judge_what_can_be_seen();
   void test_by_flips(int flips);
   void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
-  std::vector<Eigen::Index> asked_columns_;  ///< of the groups that flips judge: neither local nor banned
-  std::vector<Eigen::Index> asked_at_;       ///< per group: its first one among them; -1: not asked
-  Eigen::MatrixXd unit_scores_;                ///< P x units
-  Eigen::MatrixXd absorbed_;                   ///< M x P: coefficients of the candidates on the model
-  Eigen::VectorXd fitted_;                     ///< M: of the value
-  std::vector<Eigen::MatrixXd> projected_;     ///< per group: Gram matrix after projection
-  std::vector<Eigen::MatrixXd> flipped_;       ///< per group asked: mean Gram matrix under flips
+  std::vector<Eigen::Index>
+      asked_columns_;  ///< of the groups that flips judge: neither local nor banned
+  std::vector<Eigen::Index> asked_at_;      ///< per group: its first one among them; -1: not asked
+  Eigen::MatrixXd unit_scores_;             ///< P x units
+  Eigen::MatrixXd absorbed_;                ///< M x P: coefficients of the candidates on the model
+  Eigen::VectorXd fitted_;                  ///< M: of the value
+  std::vector<Eigen::MatrixXd> projected_;  ///< per group: Gram matrix after projection
+  std::vector<Eigen::MatrixXd> flipped_;    ///< per group asked: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;
   std::vector<double> group_p_values_;
   double p_value_ = 1.0, local_p_value_ = 1.0, likest_single_p_value_ = 1.0;

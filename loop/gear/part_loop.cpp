@@ -189,7 +189,7 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 }
 
 /// Columns of candidates that stayed as they were are kept.
-const DiscoveryProblem& PartLoop::candidates_problem() {
+DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
     problem_ = make_problem(geometry_, table_, patches_, candidates_);
   } else {
@@ -202,7 +202,8 @@ const DiscoveryProblem& PartLoop::candidates_problem() {
 }
 
 void PartLoop::select() {
-  DiscoveryProblem problem = candidates_problem();
+  DiscoveryProblem& problem = candidates_problem();
+  const Eigen::Index of_pose = problem.nuisance.cols();
   if (!options_.given.empty())
     add_nuisance(problem, make_problem(geometry_, table_, patches_, options_.given));
   DiscoveryOptions options;
@@ -214,6 +215,7 @@ void PartLoop::select() {
       options_.given.empty() ? options.first_level / options_.tables : options.next_level;
   options.local_level /= options_.tables;
   discovery_ = discover(problem, options);
+  problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
   if (is_rounding()) {
     discovery_.chosen.clear();
     discovery_.first_p_value = discovery_.p_left = 1.0;

@@ -97,7 +97,7 @@ class PartLoop {
   void leave_out_across_steps();
   void divide_into_patches();
   void forget_fits();
-  [[nodiscard]] const DiscoveryProblem& candidates_problem();
+  [[nodiscard]] DiscoveryProblem& candidates_problem();
 
   const FlankGeometry& geometry_;
   Options options_;

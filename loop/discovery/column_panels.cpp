@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/column_panels.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "trueflank/base/contract.h"
+
+namespace trueflank::loop {
+
+std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups) {
+  std::vector<PanelColumns> panels;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    TRUEFLANK_EXPECTS(groups[g].columns <= kPanelColumns);
+    const bool is_local = groups[g].local_family >= 0;
+    if (panels.empty() || panels.back().columns + groups[g].columns > kPanelColumns ||
+        is_local != (groups[g - 1].local_family >= 0))
+      panels.push_back({static_cast<int>(g), 0, groups[g].first_column, 0});
+    ++panels.back().groups;
+    panels.back().columns += groups[g].columns;
+  }
+  return panels;
+}
+
+PanelSolver::PanelSolver(const Eigen::LDLT<Eigen::MatrixXd>& ldlt)
+    : rows_(static_cast<std::size_t>(ldlt.rows())),
+      lower_(ldlt.matrixLDLT().transpose()),
+      upper_(ldlt.matrixLDLT()) {
+  std::iota(rows_.begin(), rows_.end(), std::size_t{0});
+  const auto& swaps = ldlt.transpositionsP().indices();
+  for (Eigen::Index i = 0; i < ldlt.rows(); ++i) {
+    std::swap(rows_[static_cast<std::size_t>(i)], rows_[static_cast<std::size_t>(swaps[i])]);
+    // as in Eigen's own solver
+    const double pivot = ldlt.vectorD()[i];
+    inverse_pivots_.push_back(std::abs(pivot) > std::numeric_limits<double>::min() ? 1.0 / pivot
+                                                                                   : 0.0);
+  }
+}
+
+void PanelSolver::solve_lower(Panel& panel) const {
+  for (std::size_t i = 1; i < size(); ++i)
+    subtract_rows(panel[i], lower_.col(static_cast<Eigen::Index>(i)).data(), panel.data(), i);
+}
+
+void PanelSolver::solve_upper(Panel& panel) const {
+  for (std::size_t i = size(); i-- > 0;) {
+    for (double& value : panel[i]) value *= inverse_pivots_[i];
+    subtract_rows(panel[i], upper_.col(static_cast<Eigen::Index>(i)).data() + i + 1,
+                  panel.data() + i + 1, size() - i - 1);
+  }
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "trueflank/loop/discovery/discovery.h"
+
+// Solving for many columns at once: the same sums for each of a panel of columns, which the
+// compiler does several at a time. Every column is computed as if it stood alone.
+namespace trueflank::loop {
+
+/// Columns that are worked on at once, and how many of them the innermost loop takes.
+constexpr int kPanelColumns = 32, kPanelStep = 8;
+static_assert(kPanelColumns % kPanelStep == 0);
+
+/// One row of a panel; columns that are not used are 0.
+using PanelRow = std::array<double, kPanelColumns>;
+/// As many rows as a model has columns.
+using Panel = std::vector<PanelRow>;
+
+/// Neighbouring columns of a panel: whole groups, all of them local ones or none.
+struct PanelColumns {
+  int first_group = 0, groups = 0, first_column = 0, columns = 0;
+};
+/// The columns of groups that stand beside each other, in order.
+[[nodiscard]] std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups);
+
+/// row += sum of factors[k] * others[k], in the order of k.
+inline void add_rows(PanelRow& row, const double* factors, const PanelRow* others,
+                     std::size_t count) {
+  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
+    double sum[kPanelStep];
+    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] += factors[k] * others[k][from + j];
+    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
+  }
+}
+
+/// row -= sum of factors[k] * others[k], in the order of k.
+inline void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others,
+                          std::size_t count) {
+  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
+    double sum[kPanelStep];
+    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] -= factors[k] * others[k][from + j];
+    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
+  }
+}
+
+/// The inverse of a positive semidefinite matrix P^T L D L^T P, for panels.
+class PanelSolver {
+ public:
+  PanelSolver() = default;
+  explicit PanelSolver(const Eigen::LDLT<Eigen::MatrixXd>& ldlt);
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  /// The row of the matrix that stands at a place of a panel: a row of P.
+  [[nodiscard]] std::size_t row_at(std::size_t place) const { return rows_[place]; }
+  /// 1 / D; 0 where that is nothing.
+  [[nodiscard]] double inverse_pivot(std::size_t place) const { return inverse_pivots_[place]; }
+  /// Rows in the order of places become L^-1 times them.
+  void solve_lower(Panel& panel) const;
+  /// The same with L^-T D^-1.
+  void solve_upper(Panel& panel) const;
+
+ private:
+  std::vector<std::size_t> rows_;
+  Eigen::MatrixXd lower_, upper_;  ///< L^T and L: factors of one row stand beside each other
+  std::vector<double> inverse_pivots_;
+};
+
+}  // namespace trueflank::loop
