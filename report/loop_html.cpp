@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/export/xml_text.h"
 #include "trueflank/report/loop_charts.h"
 #include "trueflank/report/loop_page.h"
@@ -11,7 +12,7 @@
 namespace trueflank::loop {
 namespace {
 
-std::string charts(const GearLoop& closed) {
+std::string charts(const GearLoop& closed, const ResidualGrid& before, const ResidualGrid& after) {
   struct Section {
     ChartKind kind;
     const char *title, *lead;
@@ -22,7 +23,6 @@ std::string charts(const GearLoop& closed) {
       {ChartKind::kIndex, "Place of every flank", "Index deviation [µm] by tooth"},
       {ChartKind::kOrders, "Orders around the gear", "Amplitude [µm] of the flanks' places by order"},
       {ChartKind::kTopography, "Topography", "Mean of all teeth [µm]: root to tip over the face"}};
-  const ResidualGrid before = residual_grid(closed, false), after = residual_grid(closed, true);
   const GearKind gear = closed.geometry.gear().kind;
   std::string html, missing;
   for (const Section& section : kSections) {
@@ -48,8 +48,7 @@ std::string charts(const GearLoop& closed) {
 }
 
 /// What the fit leaves, tooth by tooth.
-std::string remainder(const GearLoop& closed) {
-  const ResidualGrid after = residual_grid(closed, true);
+std::string remainder(const GearLoop& closed, const ResidualGrid& after) {
   const GearKind gear = closed.geometry.gear().kind;
   std::string html;
   for (const ChartKind kind : {ChartKind::kProfileMap, ChartKind::kHelixMap}) {
@@ -93,7 +92,10 @@ std::string iso_table(const LoopResult& r) {
 
 std::string loop_html(const GearLoop& closed) {
   const LoopResult& r = closed.result;
-  return loop_page_opening(r, "What the measured " + r.gear + " shows") + remainder(closed) + charts(closed) + iso_table(r) +
+  auto before_sought = begun_beside([&] { return residual_grid(closed, false); });
+  const ResidualGrid after = residual_grid(closed, true), before = before_sought.get();
+  return loop_page_opening(r, "What the measured " + r.gear + " shows") + remainder(closed, after) +
+         charts(closed, before, after) + iso_table(r) +
          loop_page_end(r);
 }
 

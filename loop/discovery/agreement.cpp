@@ -9,13 +9,15 @@
 #include <map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
 namespace {
 
 constexpr std::size_t kFewest = 4, kMost = 24;
-/// Share of a group's information that must lie in whole traces, and below which a trace holds none of it.
+/// Share of a group's information that must lie in whole traces, and below which a trace holds none
+/// of it.
 constexpr double kInWholes = 0.9, kNone = 1e-3;
 
 /// What a trace shows about its own course counts as so many more traces, from so many values on.
@@ -33,20 +35,22 @@ Eigen::MatrixXd courses(Eigen::Index n) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(n, kCourse);
 }
 
-/// What is left of errors that hang together by rho from one to the next, once a course of n is taken
-/// out: mean square, and mean product of neighbours.
+/// What is left of errors that hang together by rho from one to the next, once a course of n is
+/// taken out: mean square, and mean product of neighbours.
 std::pair<double, double> left_of_chain(Eigen::Index n, double rho) {
   const Eigen::MatrixXd q = courses(n);
   Eigen::MatrixXd chain(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index k = 0; k < n; ++k) chain(i, k) = std::pow(rho, static_cast<double>(std::abs(i - k)));
+    for (Eigen::Index k = 0; k < n; ++k)
+      chain(i, k) = std::pow(rho, static_cast<double>(std::abs(i - k)));
   const Eigen::MatrixXd half = chain - q * (q.transpose() * chain);
   const Eigen::MatrixXd left = half - (half * q) * q.transpose();
   return {left.diagonal().mean(), left.diagonal(1).mean()};
 }
 
-/// Variance that slow candidates meet in a trace, by what traces scatter about their own courses and by
-/// how that hangs together from one value to the next; 0 where there are no traces of enough values.
+/// Variance that slow candidates meet in a trace, by what traces scatter about their own courses
+/// and by how that hangs together from one value to the next; 0 where there are no traces of enough
+/// values.
 double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& statistics,
                       const std::map<int, std::vector<int>>& wholes) {
   double squares = 0.0, products = 0.0, values = 0.0, pairs = 0.0, traces = 0.0;
@@ -95,7 +99,7 @@ void add_whole(Agreement& sum, const GroupMatrix& gram, const GroupVector& score
     ++sum.degrees;
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own{Eigen::MatrixXd(gram)};
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram};
   for (Eigen::Index k = 0; k < gram.rows(); ++k) {
     if (!(own.eigenvalues()[k] > kNone * information)) continue;
     const GroupVector direction = own.eigenvectors().col(k);
@@ -124,7 +128,7 @@ double p_of(const Agreement& sum, int fitted, double within) {
 /// The values of one whole, what is fitted to them and what that leaves.
 struct WholeRows {
   std::vector<int> rows;
-  Eigen::MatrixXd fitted;
+  Eigen::MatrixXd fitted;  ///< M x values
   Eigen::VectorXd weight, weighted_left;
 };
 
@@ -136,27 +140,39 @@ struct Asked {
   const std::vector<bool>& observable;
 };
 
-/// What every whole says of some groups, whose columns stand beside each other.
-void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, std::size_t from,
-                std::size_t to, std::vector<Agreement>& sums) {
+/// What every whole says of the groups of a panel.
+void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const PanelColumns& panel,
+                std::vector<Agreement>& sums) {
   const std::vector<CandidateGroup>& groups = asked.problem.groups;
-  const int first = groups[from].first_column;
-  const auto columns = Eigen::seq(first, groups[to - 1].first_column + groups[to - 1].columns - 1);
-  const Eigen::MatrixXd absorbed = asked.model.absorbed(Eigen::all, columns);
+  if (groups[panel.first_group].local_family >= 0) return;
+  const Eigen::Index m = asked.model.absorbed.rows();
+  Panel absorbed(static_cast<std::size_t>(m), PanelRow{}), beside;
+  for (Eigen::Index k = 0; k < m; ++k)
+    for (int c = 0; c < panel.columns; ++c)
+      absorbed[k][c] = asked.model.absorbed(k, panel.first_column + c);
+  int most = 1;
+  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
+    most = std::max(most, groups[g].columns);
   for (const WholeRows& whole : wholes) {
-    const Eigen::MatrixXd beside =
-        asked.statistics.candidates()(whole.rows, columns).cast<double>() -
-        whole.fitted * absorbed;
-    const Eigen::MatrixXd weighted = whole.weight.asDiagonal() * beside;
-    for (std::size_t g = from; g < to; ++g) {
-      if (!asked.observable[g] || groups[g].local_family >= 0) continue;
-      const int own = groups[g].columns, at = groups[g].first_column - first;
+    std::vector<PanelRow> products(static_cast<std::size_t>(most), PanelRow{});
+    PanelRow scores{};
+    beside.assign(whole.rows.size(), PanelRow{});
+    for (std::size_t r = 0; r < whole.rows.size(); ++r) {
+      const float* row =
+          asked.statistics.candidates().row(whole.rows[r]).data() + panel.first_column;
+      std::copy_n(row, panel.columns, beside[r].begin());
+      subtract_rows(beside[r], whole.fitted.col(r).data(), absorbed.data(), absorbed.size());
+      add_products(products, whole.weight[r], beside[r]);
+    }
+    add_rows(scores, whole.weighted_left.data(), beside.data(), beside.size());
+    for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
+      if (!asked.observable[g]) continue;
+      const int own = groups[g].columns, at = groups[g].first_column - panel.first_column;
       GroupMatrix gram(own, own);
       GroupVector score(own);
       for (int k = 0; k < own; ++k) {
-        score[k] = beside.col(at + k).dot(whole.weighted_left);
-        for (int l = 0; l <= k; ++l)
-          gram(k, l) = gram(l, k) = weighted.col(at + k).dot(beside.col(at + l));
+        score[k] = scores[at + k];
+        for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
       }
       add_whole(sums[g], gram, score,
                 asked.projected[g].trace() / static_cast<double>(wholes.size()));
@@ -183,17 +199,18 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
   }
   std::vector<WholeRows> values;
   for (const auto& [whole, rows] : wholes) {
-    WholeRows one{rows, statistics.model()(rows, model.columns), problem.weight(rows), {}};
-    one.weighted_left =
-        one.weight.cwiseProduct(statistics.value()(rows) - one.fitted * model.fitted);
+    const Eigen::MatrixXd fitted = statistics.model()(rows, model.columns);
+    WholeRows one{rows, fitted.transpose(), problem.weight(rows), {}};
+    one.weighted_left = one.weight.cwiseProduct(statistics.value()(rows) - fitted * model.fitted);
     values.push_back(std::move(one));
   }
   // Groups do not ask each other: the same sums on any number of processors.
-  constexpr std::size_t kGroupsOfWork = 96;
-  for_each_piece((groups + kGroupsOfWork - 1) / kGroupsOfWork, [&](std::size_t piece) {
-    const std::size_t from = piece * kGroupsOfWork;
-    add_wholes(values, {problem, statistics, model, projected, observable}, from,
-               std::min(groups, from + kGroupsOfWork), sums);
+  constexpr std::size_t kPanelsOfWork = 4;
+  const std::vector<PanelColumns>& panels = statistics.panels();
+  for_each_piece((panels.size() + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
+    const std::size_t from = piece * kPanelsOfWork;
+    for (std::size_t p = from; p < std::min(panels.size(), from + kPanelsOfWork); ++p)
+      add_wholes(values, {problem, statistics, model, projected, observable}, panels[p], sums);
   });
   const double within = scatter_within(problem, statistics, wholes);
   std::vector<double> single(groups, 1.0);

@@ -28,29 +28,16 @@ struct PanelColumns {
 /// The columns of groups that stand beside each other, in order.
 [[nodiscard]] std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups);
 
+/// @name Sums, eight columns at a time
+/// The same digits on every processor: wider registers add the same numbers in the same order.
+/// @{
 /// row += sum of factors[k] * others[k], in the order of k.
-inline void add_rows(PanelRow& row, const double* factors, const PanelRow* others,
-                     std::size_t count) {
-  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
-    double sum[kPanelStep];
-    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] += factors[k] * others[k][from + j];
-    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
-  }
-}
-
+void add_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count);
 /// row -= sum of factors[k] * others[k], in the order of k.
-inline void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others,
-                          std::size_t count) {
-  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
-    double sum[kPanelStep];
-    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] -= factors[k] * others[k][from + j];
-    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
-  }
-}
+void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count);
+/// sums[d][j] += factor * row[j] * row[j + d]: products of columns that stand d apart.
+void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& row);
+/// @}
 
 /// The inverse of a positive semidefinite matrix P^T L D L^T P, for panels.
 class PanelSolver {

@@ -155,12 +155,8 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
                     absorbed.data(), m);
     }
     fitted.solver.solve_lower(overlap);
-    for (std::size_t k = 0; k < m; ++k) {
-      const double inverse = fitted.solver.inverse_pivot(k);
-      for (std::size_t apart = 0; apart < lost.size(); ++apart)
-        for (std::size_t j = 0; j + apart < kPanelColumns; ++j)
-          lost[apart][j] += overlap[k][j + apart] * (inverse * overlap[k][j]);
-    }
+    for (std::size_t k = 0; k < m; ++k)
+      add_products(lost, fitted.solver.inverse_pivot(k), overlap[k]);
   }
   for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
     if (asked_at_[static_cast<std::size_t>(g)] < 0) continue;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/local/dents.h"
@@ -141,10 +142,16 @@ class RemainderSearch {
       : geometry_(geometry), table_(table), patches_(patches), row_um_(row_um), which_(which) {}
 
   std::vector<RemainderFinding> run() {
+    // None of the three asks the others.
+    auto spots = begun_beside([this] {
+      return which_ == RemainderOf::kAll ? spots_of_scans(geometry_, table_, patches_, row_um_)
+                                         : std::vector<FlankSpot>();
+    });
+    auto spectrum = begun_beside([this] { return spectrum_across(); });
     gather();
     for (auto& [key, courses] : courses_) look_along(key, courses);
-    if (which_ == RemainderOf::kAll) look_for_spots();
-    look_across();
+    if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
+    look_across(spectrum.get());
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
@@ -337,21 +344,25 @@ class RemainderSearch {
         found.amount, true);
   }
 
-  void look_for_spots() {
+  void look_for_spots(const std::vector<FlankSpot>& spots) {
     ++looks_;
-    for (const FlankSpot& spot : spots_of_scans(geometry_, table_, patches_, row_um_))
+    for (const FlankSpot& spot : spots)
       add("unnamed_spot", flank_choice(geometry_, spot.side > 0 ? 1 : 0),
           {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm, spot.half_profile_mm,
            spot.half_face_mm},
           spot.p_value, spot.amount_um, true);
   }
 
-  /// Waves across the flanks of scans, and flanks that stand each by itself.
-  void look_across() {
-    if (table_.points_mm.empty()) return;
+  [[nodiscard]] FlankSpectrum spectrum_across() const {
+    if (table_.points_mm.empty()) return {};
     std::vector<bool> used(table_.rows.size());
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
-    const FlankSpectrum spectrum = flank_spectrum(geometry_, table_, row_um_, used);
+    return flank_spectrum(geometry_, table_, row_um_, used);
+  }
+
+  /// Waves across the flanks of scans, and flanks that stand each by itself.
+  void look_across(const FlankSpectrum& spectrum) {
+    if (table_.points_mm.empty()) return;
     looks_ += 2;
     if (const auto& wave = spectrum.waves)
       add("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),

@@ -134,7 +134,9 @@ TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shap
   const Eigen::Index first = first_column_[effect], count = moved.columns();
   const Eigen::MatrixXd columns = columns_of(moved);
   Eigen::MatrixXd gram = gram_;
-  gram.middleCols(first, count) = columns_.transpose() * columns;
+  // (of few columns: a product of matrices would copy all the others first)
+  for (Eigen::Index k = 0; k < count; ++k)
+    gram.col(first + k).noalias() = columns_.transpose() * columns.col(k);
   // (a copy: a first effect's rows and columns begin at the same place)
   gram.middleRows(first, count) = gram.middleCols(first, count).transpose().eval();
   gram.block(first, first, count, count) = columns.transpose() * columns;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/discovery/column_panels.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "trueflank/loop/discovery/cross_validation.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Groups of one, two and three columns, some of them local, over values in six units and four
+/// folds.
+DiscoveryProblem random_problem(int seed) {
+  std::mt19937 random(static_cast<std::uint32_t>(seed));
+  std::normal_distribution<double> normal;
+  constexpr int kValues = 90, kModel = 5, kGroups = 40;
+  DiscoveryProblem problem;
+  for (int g = 0, column = 0; g < kGroups; ++g) {
+    CandidateGroup group;
+    group.first_column = column;
+    group.columns = 1 + g % 3;
+    group.local_family = g > 20 && g < 25 ? 0 : -1;
+    column += group.columns;
+    problem.groups.push_back(group);
+  }
+  const auto columns = problem.groups.back().first_column + problem.groups.back().columns;
+  problem.value = Eigen::VectorXd::NullaryExpr(kValues, [&] { return normal(random); });
+  problem.weight =
+      Eigen::VectorXd::NullaryExpr(kValues, [&] { return 0.5 + std::abs(normal(random)); });
+  problem.nuisance = Eigen::MatrixXd::NullaryExpr(kValues, kModel, [&] { return normal(random); });
+  problem.candidates = Eigen::MatrixXf::NullaryExpr(
+      kValues, columns, [&] { return static_cast<float>(normal(random)); });
+  for (int i = 0; i < kValues; ++i) {
+    problem.unit.push_back(i % 6);
+    problem.fold.push_back(i % 5);  // 0 is locked
+    problem.zero.push_back(-1);
+  }
+  return problem;
+}
+
+TEST(ColumnPanels, HoldWholeGroupsAndNoLocalOnesBesideOthers) {
+  const DiscoveryProblem problem = random_problem(1);
+  int next = 0;
+  for (const PanelColumns& panel : panels_of(problem.groups)) {
+    EXPECT_EQ(panel.first_group, next);
+    EXPECT_LE(panel.columns, kPanelColumns);
+    int columns = 0;
+    for (int g = next; g < next + panel.groups; ++g) {
+      EXPECT_EQ(problem.groups[g].local_family, problem.groups[next].local_family);
+      columns += problem.groups[g].columns;
+    }
+    EXPECT_EQ(panel.columns, columns);
+    next += panel.groups;
+  }
+  EXPECT_EQ(next, static_cast<int>(problem.groups.size()));
+}
+
+TEST(ColumnPanels, AreSolvedAsOneColumnAfterTheOther) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return normal(random); };
+  constexpr Eigen::Index kSize = 9;
+  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(kSize, kSize, any);
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(root * root.transpose());
+  const Eigen::MatrixXd right = Eigen::MatrixXd::NullaryExpr(kSize, kPanelColumns, any);
+  const PanelSolver solver(ldlt);
+  Panel panel(kSize);
+  for (std::size_t k = 0; k < kSize; ++k)
+    for (std::size_t j = 0; j < kPanelColumns; ++j)
+      panel[k][j] =
+          right(static_cast<Eigen::Index>(solver.row_at(k)), static_cast<Eigen::Index>(j));
+  solver.solve_lower(panel);
+  solver.solve_upper(panel);
+  const Eigen::MatrixXd expected = ldlt.solve(right);
+  for (std::size_t k = 0; k < kSize; ++k)
+    for (std::size_t j = 0; j < kPanelColumns; ++j)
+      EXPECT_NEAR(
+          panel[k][j],
+          expected(static_cast<Eigen::Index>(solver.row_at(k)), static_cast<Eigen::Index>(j)),
+          1e-9 * expected.norm());
+}
+
+/// Fitted to the values of the other folds, asked on one: without sums of any kind.
+double error_by_hand(const DiscoveryProblem& problem, const CandidateGroup& group, int fold) {
+  std::vector<Eigen::Index> learnt, asked;
+  for (Eigen::Index i = 0; i < problem.value.size(); ++i) {
+    const int own = problem.fold[static_cast<std::size_t>(i)];
+    if (own > 0) (own == fold ? asked : learnt).push_back(i);
+  }
+  Eigen::MatrixXd columns(problem.value.size(), problem.nuisance.cols() + group.columns);
+  columns << problem.nuisance,
+      problem.candidates.middleCols(group.first_column, group.columns).cast<double>();
+  const Eigen::VectorXd root = problem.weight.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * columns;
+  const Eigen::VectorXd values = root.cwiseProduct(problem.value);
+  const Eigen::VectorXd b =
+      weighted(learnt, Eigen::all).colPivHouseholderQr().solve(Eigen::VectorXd(values(learnt)));
+  return (values(asked) - weighted(asked, Eigen::all) * b).squaredNorm();
+}
+
+TEST(CrossValidation, OfAGroupMoreIsAFitToTheOtherFolds) {
+  const DiscoveryProblem problem = random_problem(2);
+  const BlockStatistics statistics(problem);
+  const CrossValidation model(problem, statistics, {0, 1, 2, 3, 4});
+  std::vector<int> groups;
+  for (int g = 39; g >= 0; g -= 2) groups.push_back(g);  // in any order
+  const std::vector<FoldErrors> errors = model.errors_with(groups);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (int fold = 1; fold <= 4; ++fold)
+      EXPECT_NEAR(errors[i][fold - 1], error_by_hand(problem, problem.groups[groups[i]], fold),
+                  2e-4)
+          << "group " << groups[i] << ", fold " << fold;
+}
+
+}  // namespace
+}  // namespace trueflank::loop
