@@ -32,9 +32,11 @@ LEAST_SHARE = 0.01
 
 # A thread's share of work that is done in pieces on all processors: which pieces differs from run to run.
 BESIDE = r"std::thread::_State_impl<.*trueflank::for_each_piece<"
+# Work begun on a thread of its own.
+ON_A_THREAD = r"std::__future_base::_Async_state_impl<std::thread::_Invoker<std::tuple<"
 # Inclusive instructions of these functions, threads added up. What one stage calls of another counts in both.
 STAGES = {
-    "check": r"trueflank::check_gearbox\(",
+    "check": r"trueflank::check_gearbox\(|" + ON_A_THREAD + r"trueflank::cure_text.*::_M_run",
     "cure of corner contact": r"trueflank::.*corner_contact_cure|trueflank::.*cure_of_corner",
     "meshing": r"trueflank::part_mesh\(",
     "measuring meshes": r"trueflank::measure_accuracy\(",
@@ -50,8 +52,8 @@ STAGES = {
     "patches": r"trueflank::loop::make_patches\(",
     "columns of candidates": r"std::_Function_handler<bool \(\), trueflank::loop::set_candidates\(",
     "discovery": r"trueflank::loop::discover\(|" + BESIDE +
-                 r"trueflank::loop::(BlockStatistics|agreement_of_wholes)",
-    "what is left": r"trueflank::loop::look_at_remainder\(",
+                 r"trueflank::loop::(BlockStatistics|StructureTest|CrossValidation|agreement_of_wholes)",
+    "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run",
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE + r"trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\(",
     "reading meshes": r"trueflank::io::read_mesh\(",

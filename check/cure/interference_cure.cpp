@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/check/mesh_findings.h"
 #include "trueflank/check/quantity_text.h"
 
@@ -122,13 +123,15 @@ std::string cure_text(const GearTrain& train, const TrainMesh& mesh, bool tip_of
                       const CureMargin& margin) {
   const GearPair pair = train.pair(mesh);
   const std::string &name1 = gear1_name(train, mesh), &name2 = gear2_name(train, mesh);
+  // The two do not ask each other.
+  auto shift_sought = begun_beside([&] { return shift_cure(train, mesh, margin); });
   std::string text;
   if (const auto radius = tip_radius_cure_mm(pair, tip_of_gear1, margin)) {
     const double now = (tip_of_gear1 ? pair.profile1 : pair.profile2)->tip_radius_mm();
     text = "tip diameter of " + (tip_of_gear1 ? name1 : name2) + " " +
            bound_text(2.0 * *radius, *radius > now ? Rounded::kUp : Rounded::kDown) + " mm (" + (*radius > now ? "+" : "") + mm_text(2.0 * (*radius - now)) + ")";
   }
-  if (const auto shift = shift_cure(train, mesh, margin)) {
+  if (const auto shift = shift_sought.get()) {
     text += text.empty() ? "" : "; or ";
     text += "shift of " + name1 + " " + number_text(shift->shift1) + " (" +
             (shift->change > 0.0 ? "+" : "") + number_text(shift->change, 3) + ") with " + name2 +
