@@ -20,7 +20,7 @@ int run_loop(const LoopOptions& options) {
         {.gear = options.gear, .aligned = options.aligned, .effects_file = options.effects});
   }();
   if (!closed) return report_errors(closed.error());
-  for (const std::string& row : closed->left_out_rows()) std::cerr << row << "\n";
+  for (const std::string& row : closed->left_out_rows()) std::cerr << without_control(row) << "\n";
   if (auto ok = write_loop(*closed, options.folder); !ok) return report_errors({ok.error()});
   const std::string page = (std::filesystem::path(options.folder) / "loop.html").string();
   if (!options.quiet)

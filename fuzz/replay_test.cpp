@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The corpus of every fuzz target, each file as it is and changed in many small ways, as ordinary
-// tests.
+// tests. TRUEFLANK_CHANGES and TRUEFLANK_SEED ask for more changes and for others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +23,12 @@ namespace fs = std::filesystem;
 /// Of the processor, for one input; sanitizers included.
 constexpr double kAtOnce_s = 4.0;
 /// Changed inputs a target, shared by its files.
-constexpr int kChanges = 400;
+constexpr unsigned kChanges = 400, kSeed = 20261122;
+
+unsigned asked(const char* variable, unsigned otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : otherwise;
+}
 
 class Replay : public testing::TestWithParam<Target> {
  protected:
@@ -44,6 +51,18 @@ class Replay : public testing::TestWithParam<Target> {
   }
 };
 
+/// The number in a text nearest behind a place, as begin and length; nothing of length 0.
+std::pair<std::size_t, std::size_t> number_behind(const std::string& bytes, std::size_t at) {
+  const auto is_of_number = [&](std::size_t i) {
+    return i < bytes.size() && (std::isdigit(static_cast<unsigned char>(bytes[i])) != 0 ||
+                                bytes[i] == '.' || bytes[i] == '-');
+  };
+  while (at < bytes.size() && !is_of_number(at)) ++at;
+  std::size_t end = at;
+  while (is_of_number(end)) ++end;
+  return {at, end - at};
+}
+
 /// One of what slips, transfers and malice do to a file.
 std::string changed(std::string bytes, std::minstd_rand& random) {
   const auto below = [&](std::size_t count) { return count == 0 ? 0 : random() % count; };
@@ -65,7 +84,7 @@ std::string changed(std::string bytes, std::minstd_rand& random) {
   const int times = 1 + static_cast<int>(below(4));
   for (int i = 0; i < times; ++i) {
     const std::size_t at = below(bytes.size() + 1);
-    switch (below(6)) {
+    switch (below(8)) {
       case 0:
         if (!bytes.empty()) bytes[below(bytes.size())] = static_cast<char>(random());
         break;
@@ -81,6 +100,15 @@ std::string changed(std::string bytes, std::minstd_rand& random) {
       case 4:
         bytes.insert(at, bytes.substr(below(bytes.size() + 1), 1 + below(60)));
         break;
+      case 5:
+      case 6: {
+        static const std::vector<std::string> numbers = {
+            "1e308",      "-1e308",     "1e-320", "nan", "-0", "0", "-1", "1e9", "1e15", "1e19", "65535",
+            "2147483648", "4294967296", "99999999999999999999", "1.0000000000000002", "0.1e-6"};
+        const auto [begin, length] = number_behind(bytes, at);
+        if (length > 0) bytes.replace(begin, length, numbers[below(numbers.size())]);
+        break;
+      }
       default:
         bytes.replace(at, std::min<std::size_t>(below(6), bytes.size() - at),
                       words[below(words.size())]);
@@ -108,10 +136,10 @@ TEST_P(Replay, TakesEveryFileOfItsCorpus) {
 }
 
 TEST_P(Replay, TakesItsCorpusChangedInAnyWay) {
-  std::minstd_rand random(20261122);
+  std::minstd_rand random(asked("TRUEFLANK_SEED", kSeed));
   const auto files = corpus(GetParam().name);
-  for (int i = 0; i < kChanges; ++i) {
-    const fs::path& file = files[static_cast<std::size_t>(i) % files.size()];
+  for (unsigned i = 0; i < asked("TRUEFLANK_CHANGES", kChanges); ++i) {
+    const fs::path& file = files[i % files.size()];
     run(changed(content_of(file), random), file.string() + ", change " + std::to_string(i));
   }
 }

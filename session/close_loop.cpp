@@ -25,25 +25,29 @@ struct ClosedLoop::Data {
 namespace {
 
 /// Bench files are of the whole drive, all others of one gear: not both in one run.
-Result<bool> all_are_bench_files(const std::vector<std::string>& files, const std::string& gear) {
+ResultAll<bool> all_are_bench_files(const std::vector<std::string>& files, const std::string& gear) {
   std::string other;
   std::size_t bench = 0;
+  Errors unread;
   for (const std::string& file : files) {
-    if (loop::is_bench_file(file)) ++bench;
+    const auto is_bench = loop::is_bench_file(file);
+    if (!is_bench) unread.push_back(is_bench.error());
+    else if (*is_bench) ++bench;
     else other = file;
   }
+  if (!unread.empty()) return fail_all(std::move(unread));
   if (bench == 0) return false;
   if (bench < files.size())
-    return fail({.code = ErrorCode::kUsage,
-                 .message = "bench files are of the whole drive, and this file is of a gear",
-                 .remedy = "bench files in one run, a gear's files in another",
-                 .file = other});
+    return fail_all({{.code = ErrorCode::kUsage,
+                      .message = "bench files are of the whole drive, and this file is of a gear",
+                      .remedy = "bench files in one run, a gear's files in another",
+                      .file = other}});
   if (!gear.empty())
-    return fail({.code = ErrorCode::kUsage,
-                 .message = "bench files are of the whole drive",
-                 .key = "--gear",
-                 .value = gear,
-                 .remedy = "no --gear with bench files"});
+    return fail_all({{.code = ErrorCode::kUsage,
+                      .message = "bench files are of the whole drive",
+                      .key = "--gear",
+                      .value = gear,
+                      .remedy = "no --gear with bench files"}});
   return true;
 }
 
@@ -99,7 +103,7 @@ std::string ClosedLoop::html() const {
 ResultAll<ClosedLoop> close_loop(const Gearbox& gearbox, const std::vector<std::string>& files,
                                  const CloseLoopOptions& options) {
   const auto bench = all_are_bench_files(files, options.gear);
-  if (!bench) return fail_all({bench.error()});
+  if (!bench) return fail_all(bench.error());
   return *bench ? close_drive_loop(gearbox, files) : close_gear_loop(gearbox, files, options);
 }
 

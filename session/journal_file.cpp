@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/session/journal_file.h"
 
-#include <limits>
+#include <algorithm>
 
 #include "trueflank/design/design_file.h"
 #include "trueflank/export/atomic_file.h"
@@ -10,22 +10,30 @@ namespace trueflank {
 namespace {
 
 constexpr double kFlushEvery_s = 1.0;
+/// More than a set's line takes, of which a journal has one of each; and than any journal.
+constexpr std::size_t kMostBytesOfSet = 1U << 14, kMostBytesBeside = 1U << 20, kMostBytes = std::size_t{4} << 30;
 
 }  // namespace
+
+Result<SearchJournal> read_journal_file(const SearchTask& task, const std::filesystem::path& path) {
+  const std::size_t most = std::min(kMostBytes, kMostBytesBeside + kMostBytesOfSet * task.enumeration.sets.size());
+  auto text = read_text_file(path.string(), most);
+  if (!text) {
+    if (text.error().code == ErrorCode::kOutOfRange) text.error().remedy = "a journal of these requirements";
+    return fail(text.error());
+  }
+  auto read = read_journal(*text, task.requirements, task.enumeration);
+  if (!read) read.error().file = path.string();
+  return read;
+}
 
 Result<SearchJournal> JournalFile::open(const SearchTask& task, const std::filesystem::path& path,
                                         bool resume, JournalFile& journal) {
   SearchJournal found;
   std::error_code ignored;
   if (resume && std::filesystem::exists(path, ignored)) {
-    const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
-    if (!text) return fail(text.error());
-    auto read = read_journal(*text, task.requirements, task.enumeration);
-    if (!read) {
-      Error error = read.error();
-      error.file = path.string();
-      return fail(std::move(error));
-    }
+    auto read = read_journal_file(task, path);
+    if (!read) return read;
     found = std::move(*read);
   }
   journal.path_ = path;

@@ -10,6 +10,10 @@
 
 namespace trueflank {
 
+/// Errors: those of reading; kOutOfRange for what is longer than any journal of the task, or never ends; of
+/// read_journal().
+[[nodiscard]] Result<SearchJournal> read_journal_file(const SearchTask& task, const std::filesystem::path& path);
+
 /// The journal of a part: appended while a search runs, so that nothing found is lost.
 class JournalFile {
  public:

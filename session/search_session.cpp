@@ -2,7 +2,6 @@
 #include "trueflank/session/search_session.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <regex>
 
@@ -130,16 +129,12 @@ ResultAll<SearchRecords> merge_search(const SearchTask& task,
                         .file = folder});
     std::sort(journals.begin(), journals.end());
     for (const auto& path : journals) {
-      const auto text = read_text_file(path.string(), std::numeric_limits<std::size_t>::max());
-      auto read = text ? read_journal(*text, task.requirements, task.enumeration)
-                       : Result<SearchJournal>(fail(text.error()));
+      const auto read = read_journal_file(task, path);
       if (read) {
         all.records.insert(all.records.end(), read->records.begin(), read->records.end());
         all.ended.insert(all.ended.end(), read->ended.begin(), read->ended.end());
       } else {
-        Error wrong = read.error();
-        wrong.file = path.string();
-        errors.push_back(std::move(wrong));
+        errors.push_back(read.error());
       }
     }
   }

@@ -92,7 +92,8 @@ struct MeasuredData {
 /// Errors: all files' together; kSyntax with file and line where nothing usable is left.
 [[nodiscard]] ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& paths);
 
-/// True where a CSV file's header is a bench record's.
-[[nodiscard]] bool is_bench_file(const std::string& path);
+/// Whether a CSV file's header is a bench record's. Errors: the file cannot be read; kUnsupported for pipes and devices,
+/// whose data would be gone.
+[[nodiscard]] Result<bool> is_bench_file(const std::string& argument);
 
 }  // namespace trueflank::loop

@@ -139,9 +139,15 @@ ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& path
 namespace {
 
 /// The first line that says something; of a file on a disk its beginning alone is read.
-std::string header_line_of(const std::string& path) {
+Result<std::string> header_line_of(const std::string& path) {
   constexpr std::size_t kBeginning = 1U << 16;
   io::InputFile file(path);
+  std::error_code ignored;
+  if (file.error_number() == 0 && !file.regular_size() && !std::filesystem::is_directory(path, ignored))
+    return fail({.code = ErrorCode::kUnsupported,
+                 .message = "measured data are read twice, and a pipe or device only once",
+                 .remedy = "a file on a disk",
+                 .file = path});
   if (file.regular_size().value_or(0) > kBeginning) {
     std::string beginning(kBeginning, '\0');
     beginning.resize(file.fill(beginning.data(), beginning.size()));
@@ -153,15 +159,19 @@ std::string header_line_of(const std::string& path) {
     if (!header.empty()) return std::string(header);
   }
   const auto text = read_whole_file(path);
-  return text ? std::string(header_of(*text)) : std::string();
+  if (!text) return fail(text.error());
+  return std::string(header_of(*text));
 }
 
 }  // namespace
 
-bool is_bench_file(const std::string& path) {
-  const std::string header = header_line_of(path);
+Result<bool> is_bench_file(const std::string& argument) {
+  const auto [part, path] = part_and_path(argument);
+  const auto header = header_line_of(path);
+  if (!header) return fail(header.error());
+  if (!part.empty()) return false;  // of a part: not of the whole drive
   std::vector<std::string_view> fields;
-  split_fields(header, fields);
+  split_fields(*header, fields);
   if (has_column(fields, "direction") || has_column(fields, "input_torque_nm")) return true;
   if (!has_column(fields, "quantity") || has_column(fields, "value_mm")) return false;
   return has_column(fields, "value");

@@ -28,6 +28,10 @@ module_mm = 1
 PAIR = GEAR.replace('kind = "gear"', 'kind = "pair"\nmodule_mm = 1').replace("[gear]", "[pinion]").replace(
     "module_mm = 1\n", "") + "[wheel]\nteeth = 13\nface_width_mm = 2\n"
 PAIR = PAIR.replace('kind = "pair"\n', 'kind = "pair"\nmodule_mm = 1\n')
+FAILS = PAIR.replace("teeth = 11\nshift = 0.4", "teeth = 9\nshift = 0").replace("teeth = 13", "teeth = 23")
+BENCH = "direction,input_speed_rpm,input_torque_nm,output_torque_nm\n" + "".join(
+    f"{d},{n},{t},{(0.93 if d == 'forward' else 1.08) * t * 2 + 0.01 * ((7 * k) % 5)}\n"
+    for k, (d, n, t) in enumerate((d, n, t) for d in ("forward", "backward") for n in (100, 400) for t in (0.5, 1, 2, 4)))
 LOOP = ('{"format": "trueflank-loop", "version": 1, "gear": "gear", "effects": [{"id": "eccentricity", '
         '"parameters": {"amplitude_um": {"value": 30}, "phase_deg": {"value": 0}}}]}')
 NEEDS = """format = 1
@@ -42,6 +46,12 @@ sun_min = 12
 sun_max = 12
 planet1_min = 39
 planet1_max = 39
+ring1_min = 90
+ring1_max = 90
+planet2_min = 32
+planet2_max = 32
+ring2_min = 81
+ring2_max = 81
 [search]
 results = 1
 """
@@ -111,11 +121,20 @@ def main():
     shutil.rmtree(OUTPUT, ignore_errors=True)
     OUTPUT.mkdir(parents=True)
     for file, text in (("gear.toml", GEAR), ("pair.toml", PAIR), ("loop.json", LOOP), ("needs.toml", NEEDS),
+                       ("fails.toml", FAILS), ("bench.csv", BENCH),
                        ("traces.csv", "record,tooth,flank,diameter_mm,z_mm,deviation_um\n" + CENTRES)):
         (OUTPUT / file).write_text(text)
     gear, pair = OUTPUT / "gear.toml", OUTPUT / "pair.toml"
     assert run(["make", gear, "-o", OUTPUT / "golden", "--formats", "stl,obj", "--tolerance-um", 20]).returncode == 0
     golden = OUTPUT / "golden"
+    assert run(["search", OUTPUT / "needs.toml", "-o", OUTPUT / "searched"]).returncode == 0
+    searched = (OUTPUT / "searched" / "search.journal").read_text().splitlines(keepends=True)
+
+    def interrupted(folder):
+        """A search that ended before its first set was done."""
+        (folder / "search.journal").write_text(searched[0])
+        return ["search", OUTPUT / "needs.toml", "-o", folder, "--resume"]
+
     commands = {
         "make": lambda d: ["make", pair, "-o", d, "--formats", "stl,3mf,glb,step,svg,dxf,scad,pdf", "--tolerance-um",
                            20, "--allow-failing"],
@@ -125,11 +144,19 @@ def main():
         "check": lambda d: ["check", pair, "--json", d / "c.json", "--html", d / "c.html"],
         "compare": lambda d: ["compare", golden / "gear.stl", golden / "gear.obj", "--json", d / "c.json"],
         "new": lambda d: ["new", d / "mine"],
+        "fix": lambda d: ["fix", OUTPUT / "fails.toml", "-o", d / "mended.toml"],
+        "shifts": lambda d: ["shifts", OUTPUT / "needs.toml", "--teeth", "12/39/90/32/81", "--points", 11, "-o", d],
+        "bench": lambda d: ["loop", pair, OUTPUT / "bench.csv", "-o", d],
+        "resume": interrupted,
+        "merge": lambda d: ["search", OUTPUT / "needs.toml", "-o", d, "--merge", OUTPUT / "searched"],
         "loop": lambda d: ["loop", gear, OUTPUT / "traces.csv", "--gear", "gear", "-o", d],
         "search": lambda d: ["search", OUTPUT / "needs.toml", "-o", d, "--threads", 2],
     }
+    kinds = ("thread", "rename", "open", "close", "write", "malloc")
+    if PLACES > 100:  # two seconds each, and memory is the search's
+        commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 2.5]
     for name, arguments in commands.items():
-        for kind in ("thread", "rename", "open", "close", "write", "malloc"):
+        for kind in kinds if name != "wished" else kinds[:-1]:
             calls, tried = try_command(name, arguments, kind)
             print(f"{name}: {kind} fails at {tried} places of {calls} calls", flush=True)
 

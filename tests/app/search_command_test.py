@@ -253,6 +253,11 @@ def main():
     run(OUTPUT / "none.toml", "-o", whole, code=3)
     run(needs, "-o", whole, "--shard", "3/2", code=2)
     run(needs, "-o", whole, "--shard", "1/2", "--merge", whole, code=2)
+    endless = OUTPUT / "endless"
+    endless.mkdir()
+    (endless / "search.journal").symlink_to("/dev/zero")
+    assert "journal" in run(needs, "-o", endless, "--resume", code=2).stderr
+    assert "journal" in run(needs, "-o", whole, "--merge", endless, code=2).stderr
     needs.write_text(NEEDS.replace("min = 95", "min = 98"))
     assert "ratio.max" in run(needs, "-o", whole, code=2).stderr
     needs.write_text(NEEDS.replace("results = 3", "results = 3\n[shift]\nmax = 1.5"))

@@ -178,6 +178,18 @@ class ControlCharacters(unittest.TestCase):
         design.write_text(FAILING.replace('"p"', '"p\\u001b[2J\\u0007"'))
         self.expect_plain(run("check", design))
 
+    def test_of_measured_rows_that_are_left_out_too(self):
+        design, data = self.folder / "gear.toml", self.folder / "t\x1b]0;x\x07.csv"
+        design.write_text('format = 1\nname = "g"\n[gearbox]\nkind = "gear"\nmodule_mm = 1.0\n'
+                          '[gear]\nteeth = 12\nshift = 0.3\nface_width_mm = 4.0\n')
+        data.write_text("record,tooth,flank,diameter_mm,z_mm,deviation_um\n" + "".join(
+            f"profile,{t},{f},{10.8 + 0.1 * k:.1f},1,{0.3 * ((7 * t + 3 * k) % 5)}\n"
+            for t in (1, 4, 8) for f in ("left", "right") for k in range(20)) + "pro\x1b[2Jfile,1,left,11,1,2\n")
+        result = run("loop", design, data, "-o", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("left out", result.stderr)
+        self.expect_plain(result)
+
     def test_umlauts_stay(self):
         self.assertIn("größe.toml", run("check", "größe.toml").stderr)
 

@@ -268,5 +268,14 @@ TEST(MeasuredFiles, MissingFileIsAnErrorOfTheEnvironment) {
   EXPECT_EQ(exit_code(data.error().front().code), 3);
 }
 
+TEST(BenchFile, WhatCannotBeReadIsNoFileOfAGear) {
+  const auto missing = is_bench_file("/nowhere/a.csv");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(exit_code(missing.error().code), 3);
+  const auto device = is_bench_file("/dev/null");
+  ASSERT_FALSE(device);
+  EXPECT_EQ(exit_code(device.error().code), 2);
+}
+
 }  // namespace
 }  // namespace trueflank::loop
