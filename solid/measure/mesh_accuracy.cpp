@@ -35,6 +35,11 @@ constexpr std::size_t kSampleStride = 3;
 constexpr double kLongEdge = 0.05;
 /// One facet in so many of a twisted wall is looked at in its middle, too.
 constexpr std::size_t kFacetsPerMiddle = 4;
+/// A chord over a bend is farthest off near one of its ends, but in its middle nearly half as far. Where that is as
+/// much as this share of the largest distance yet, one edge in so many (teeth and rows repeat each) is looked at beside
+/// its middle, and where it is off as much there, up to the place that is farthest.
+constexpr double kWorthALook = 0.3, kAsMuchBeside = 0.9;
+constexpr std::uint32_t kEdgesPerLook = 3;
 
 /// An outline of a slab: its curves and the cut's segments that lie on it.
 struct Wall {
@@ -210,10 +215,33 @@ class Measurement {
       if (!std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end())) continue;
       const bool is_long = (to - from).squaredNorm() >
                            std::pow(kLongEdge, 2) * from.head<2>().squaredNorm();
-      const int parts = is_long ? 4 : 2;
-      for (int k = 1; k < parts; ++k)
-        measure_on_wall(slab, from + (to - from) * (static_cast<double>(k) / parts));
+      // by no rule that the rows of a grid could follow
+      const bool look = is_long || (edges_++ * 2654435761U >> 16U) % kEdgesPerLook == 0;
+      measure_edge(slab, from, to, look);
+      if (is_long)
+        for (const double share : {0.25, 0.75}) measure_on_wall(slab, from + share * (to - from));
     }
+  }
+
+  /// An edge in its middle; with `look_beside` also beside it, where it could be farther off than all yet. Returns the
+  /// wall the middle belongs to.
+  std::size_t measure_edge(std::size_t slab, const Point3& from, const Point3& to, bool look_beside) {
+    const auto distance_at = [&](double share) {
+      measure_on_wall(slab, from + share * (to - from));
+      return last_distance_mm_;
+    };
+    const double yet = result_.facets_to_surface_mm;
+    const std::size_t wall = measure_on_wall(slab, 0.5 * (from + to));
+    const double middle = last_distance_mm_;
+    if (!look_beside || middle < kWorthALook * yet) return wall;
+    for (const double quarter : {0.25, 0.75}) {
+      double share = quarter, largest = distance_at(share);
+      if (largest < kAsMuchBeside * middle) continue;
+      for (double step = 0.125; step > 0.02; step *= 0.5)
+        for (const double next : {share - step, share + step})
+          if (const double there = distance_at(next); there > largest) largest = there, share = next;
+    }
+    return wall;
   }
 
   /// A facet of a wall seen from above is a chord.
@@ -243,15 +271,20 @@ class Measurement {
     last_slab_ = slab;
     last_from_ = from.head<2>();
     last_to_ = to.head<2>();
-    const int parts = length > std::pow(kLongChord, 2) * from.head<2>().squaredNorm() ? 8 : 2;
-    for (int i = 1; i < parts; ++i)
-      last_wall_ = measure_on_wall(slab, from + (to - from) * (static_cast<double>(i) / parts));
+    if (length <= std::pow(kLongChord, 2) * from.head<2>().squaredNorm()) {
+      last_wall_ = measure_edge(slab, from, to, true);
+      return;
+    }
+    constexpr int kParts = 8;
+    for (int i = 1; i < kParts; ++i)
+      last_wall_ = measure_on_wall(slab, from + (to - from) * (static_cast<double>(i) / kParts));
   }
 
   /// Returns the wall the point belongs to.
   std::size_t measure_on_wall(std::size_t slab, const Point3& p) {
     const NearestWall nearest = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest);
     slabs_[slab].last_nearest = nearest.wall;
+    last_distance_mm_ = std::abs(nearest.excess_mm);
     Wall& wall = slabs_[slab].walls[nearest.wall];
     if (std::abs(nearest.excess_mm) > wall.error_mm) {
       wall.error_mm = std::abs(nearest.excess_mm);
@@ -405,6 +438,8 @@ class Measurement {
   std::vector<std::int32_t> measured_;  ///< slab a vertex was last measured in
   std::vector<std::size_t> vertex_walls_;  ///< of vertices measured in slabs that are no prisms
   std::size_t twisted_facets_ = 0;
+  std::uint32_t edges_ = 0;  ///< of twisted walls
+  double last_distance_mm_ = 0.0;  ///< of measure_on_wall()
   std::size_t last_slab_ = 0, last_wall_ = 0;  ///< of the chord measured last
   Point2 last_from_ = Point2::Zero(), last_to_ = Point2::Zero(), last_vertex_ = Point2::Zero();
   Accuracy result_;

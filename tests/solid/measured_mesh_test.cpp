@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/solid/kept_tolerance.h"
+#include "tests/support/sampled_deviation.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
 #include "trueflank/solid/measure/mesh_validity.h"
@@ -75,6 +76,57 @@ profile_crowning_um = 8.3
 edge_chamfer_mm = 0.2237
 tip_rounding_mm = 0.0658
 )";
+
+/// A tip of the tool that is nearly sharp: chords over the fillet's bend are farthest off an eighth from their ends.
+constexpr const char* kSharpFillet = R"(format = 1
+name = "random"
+
+[gearbox]
+kind = "pair"
+module_mm = 2.63778
+backlash_mm = 0.0089
+helix_angle_deg = 30.69801
+
+[rack]
+pressure_angle_deg = 24.15766
+addendum = 0.94276
+dedendum = 1.36917
+root_radius = 0.02981
+
+[pinion]
+teeth = 16
+face_width_mm = 5.25427
+[pinion.modifications]
+tip_relief_um = 15.05875
+tip_relief_start_diameter_mm = 50.49368
+tip_relief_shape = "linear"
+profile_crowning_um = 37.21415
+profile_slope_um = 13.73751
+crowning_um = 32.51786
+helix_slope_um = -31.60316
+edge_chamfer_mm = 0.41943
+
+[wheel]
+teeth = 8
+face_width_mm = 1.96833
+thinning_um = 230.69939
+bore_mm = 9.23316
+)";
+
+TEST(MeasuredMesh, KeepsTheToleranceBesideTheMiddlesOfChordsToo) {
+  const auto design = read_design_text(kSharpFillet, "design.toml");
+  ASSERT_TRUE(design);
+  const GearTrain train = lay_out(*design).value();
+  const PartShapes shapes = part_shapes(train).value();
+  const PartShape& pinion = shapes.parts.front();
+  constexpr double kTolerance_mm = 0.005188;
+  const PartMesh once = part_mesh(pinion, {.tolerance_mm = kTolerance_mm});
+  EXPECT_NEAR(measure_accuracy(once.mesh, pinion).largest_mm(), 0.005636, 0.0001);
+  const MeasuredMesh made = measured_part_mesh(pinion, {.tolerance_mm = kTolerance_mm});
+  const auto seen = test::sampled_deviation(made.part.mesh, pinion, 400, 7, kTolerance_mm);
+  ASSERT_TRUE(seen);
+  EXPECT_LE(seen->largest_mm(), kTolerance_mm);
+}
 
 TEST(MeasuredMesh, KeepsTheToleranceWhereTheMesherAloneMissedIt) {
   const struct {

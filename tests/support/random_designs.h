@@ -17,7 +17,9 @@ namespace trueflank::test {
 /// can be laid out is for the caller to ask.
 class RandomDesigns {
  public:
-  explicit RandomDesigns(std::uint64_t seed) : engine_(seed) {}
+  /// kSmall: few teeth and narrow faces, so that thousands can be tried; with shaped rings, thinned teeth and bolts, too.
+  enum class Size { kAny, kSmall };
+  explicit RandomDesigns(std::uint64_t seed, Size size = Size::kAny) : engine_(seed), size_(size) {}
 
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
@@ -51,6 +53,8 @@ class RandomDesigns {
       design.gears.push_back(next_gear(gear, design));
     for (const TopologyMesh& mesh : design.topology.meshes) fit(mesh, design);
     for (GearDesign& gear : design.gears) dress(gear, design);
+    if (size_ == Size::kSmall)
+      for (GearDesign& gear : design.gears) dress_further(gear, design);
     return design;
   }
 
@@ -60,9 +64,10 @@ class RandomDesigns {
     GearDesign result{.name = gear.name};
     const bool ring = gear.name.starts_with("ring") || (either && chance(0.4));
     result.kind = ring ? GearKind::kInternal : GearKind::kExternal;
-    result.teeth = ring ? whole(25, 90) : whole(8, 45);
+    const bool small = size_ == Size::kSmall;
+    result.teeth = ring ? whole(small ? 14 : 25, small ? 40 : 90) : whole(small ? 6 : 8, small ? 16 : 45);
     if (design.topology.meshes.empty() || chance(0.5)) result.shift = between(-0.2, 0.6);
-    result.face_width_mm = log_between(1.5, 14.0) * design.module_mm;
+    result.face_width_mm = log_between(small ? 0.5 : 1.5, small ? 4.0 : 14.0) * design.module_mm;
     return result;
   }
 
@@ -108,7 +113,25 @@ class RandomDesigns {
       gear.outer_diameter_mm = pitch_mm + between(5.0, 12.0) * m;
   }
 
+  /// What next() of any size does not have, so that its designs stay those of their seeds.
+  void dress_further(GearDesign& gear, const GearboxDesign& design) {
+    const double m = design.module_mm, pitch_mm = m * gear.teeth / std::cos(design.helix_angle_rad);
+    if (chance(0.3)) gear.thinning_mm = between(0.0, 0.1) * m;
+    if (gear.kind == GearKind::kExternal) return;
+    if (chance(0.4)) {
+      gear.root = RingRoot::kShaper;
+      gear.cutter = ShaperCutter{.teeth = std::max(5, static_cast<int>(gear.teeth * between(0.15, 0.6))),
+                                 .shift = between(-0.2, 0.3),
+                                 .tip_radius = between(0.0, 0.3)};
+    }
+    if (chance(0.3)) {
+      gear.outer_diameter_mm = pitch_mm + 10.0 * m;
+      gear.bolt_circle = {whole(2, 8), pitch_mm + 6.5 * m, between(0.2, 1.2) * m};
+    }
+  }
+
   std::mt19937_64 engine_;
+  Size size_;
 };
 
 }  // namespace trueflank::test
