@@ -4,7 +4,7 @@
 A run ends with the exit code of the environment (3) or did not need the call (0, and files as ever). What stands
 under a final name is byte for byte what an undisturbed run writes; nothing temporary stays; nothing crashes.
 
-Arguments: the library that lets calls fail, and how many places of each kind are tried.
+Arguments: the library that lets calls fail, how many places of each kind are tried, and the commands (all).
 """
 import os
 import pathlib
@@ -155,7 +155,8 @@ def main():
     kinds = ("thread", "rename", "open", "close", "write", "malloc")
     if PLACES > 100:  # two seconds each, and memory is the search's
         commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 2.5]
-    for name, arguments in commands.items():
+    for name in sys.argv[3:] or commands:
+        arguments = commands[name]
         for kind in kinds if name != "wished" else kinds[:-1]:
             calls, tried = try_command(name, arguments, kind)
             print(f"{name}: {kind} fails at {tried} places of {calls} calls", flush=True)

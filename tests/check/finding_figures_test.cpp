@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The figures that findings tell and cures ask for, against formulas of textbooks. Changes of
+// single operators in these checks (scripts/mutate) went unnoticed where only the status was looked
+// at.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/check/check_designs.h"
+#include "trueflank/check/axial.h"
+#include "trueflank/check/backlash.h"
+#include "trueflank/check/centre_distance.h"
+#include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/planet_spacing.h"
+#include "trueflank/check/tip_clearance.h"
+#include "trueflank/check/tip_thickness.h"
+
+namespace trueflank::test {
+namespace {
+
+/// The number that follows some words; NaN where they are missing.
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
+}
+
+double involute(double angle) { return std::tan(angle) - angle; }
+const double kCos20 = std::cos(kPi / 9.0);
+
+TEST(PlanetSpacingFigures, AreTheChordBetweenTheAxes) {
+  GearboxDesign d = simple_design(12, 30, 72, 4);
+  const Finding f = check_planet_spacing(laid_out(d))[0];
+  const double chord = 2.0 * 21.0 * std::sin(kPi / 4.0);
+  EXPECT_NEAR(f.value, chord - 32.0, 1e-9);
+  EXPECT_EQ(f.margin, f.value);
+  EXPECT_NEAR(number_after(f.message, "of diameter "), 32.0, 1e-4);
+  EXPECT_NEAR(number_after(f.message, "overlap by "), 32.0 - chord, 1e-4);
+  EXPECT_EQ(number_after(f.message, "up to "), 3.0);
+  EXPECT_EQ(number_after(f.cure, "at most "), 3.0);
+  EXPECT_NEAR(number_after(f.cure, "below "), chord, 1e-3);
+  d.planets = 3;
+  EXPECT_NEAR(number_after(check_planet_spacing(laid_out(d))[0].message, "clear each other by "),
+              42.0 * std::sin(kPi / 3.0) - 32.0, 1e-4);
+}
+
+TEST(PlanetSpacingFigures, AreThoseOfTheNearestNeighbours) {
+  GearTrain train = laid_out(simple_design(12, 30, 72, 3));
+  for (const auto& [positions, nearest] :
+       {std::pair<std::vector<double>, double>{{0.0, 3.0, 1.0}, 1.0},
+        {{0.0, 2.0, 3.5}, 1.5},
+        {{0.1, 2.5, 6.2}, kTwoPi - 6.1}}) {
+    train.phases.planet_position_rad = positions;
+    EXPECT_NEAR(check_planet_spacing(train)[0].value, 42.0 * std::sin(0.5 * nearest) - 32.0, 1e-9);
+  }
+}
+
+TEST(PlanetSpacingFigures, MostPlanetsAreThoseThatOneMoreWouldOverlap) {
+  for (const double tip : {0.05, 0.11, 0.26, 0.3, 0.49, 0.499, 0.501, 0.7, 0.86, 0.87, 0.95}) {
+    int most = 1;
+    while (std::sin(kPi / (most + 1)) > tip) ++most;
+    EXPECT_EQ(most_planets(1.0, tip), most) << tip;
+    EXPECT_EQ(most_planets(8.0, 8.0 * tip), most) << tip;
+  }
+  EXPECT_EQ(most_planets(1.0, 1.0), 1);
+  EXPECT_EQ(most_planets(1.0, 3.0), 1);
+}
+
+TEST(ContactRatioFigures, TheLimitIsOneBelowOneAndTheWantedAbove) {
+  GearboxDesign d = pair_design(20, 40, false);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  gear(d, "pinion").tip_diameter_mm = 21.2;
+  gear(d, "wheel").tip_diameter_mm = 41.2;
+  const double c = kCos20, s = std::sin(kPi / 9.0);
+  const double ratio =
+      (std::sqrt(10.6 * 10.6 - 100.0 * c * c) + std::sqrt(20.6 * 20.6 - 400.0 * c * c) - 30.0 * s) /
+      (kPi * c);
+  Finding f = check_contact_ratio(laid_out(d))[0];
+  ASSERT_GT(ratio, 1.0);
+  ASSERT_LT(ratio, 1.1);
+  EXPECT_EQ(f.status, CheckStatus::kWarn);
+  EXPECT_NEAR(f.value, ratio, 1e-9);
+  EXPECT_EQ(f.limit, 1.1);
+  EXPECT_NEAR(f.margin, ratio - 1.1, 1e-9);
+  gear(d, "pinion").tip_diameter_mm = number_after(f.cure, "tip diameter of pinion of ");
+  EXPECT_NEAR(check_contact_ratio(laid_out(d))[0].value, 1.1, 1e-3);
+  gear(d, "pinion").tip_diameter_mm = gear(d, "wheel").tip_diameter_mm = std::nullopt;
+  d.gears[0].tip_diameter_mm = 20.6;
+  d.gears[1].tip_diameter_mm = 40.6;
+  f = check_contact_ratio(laid_out(d))[0];
+  EXPECT_EQ(f.status, CheckStatus::kFail);
+  EXPECT_EQ(f.limit, 1.0);
+  EXPECT_NEAR(f.margin, f.value - 1.0, 1e-12);
+}
+
+TEST(ContactRatioFigures, TheHelixAddsItsOverlap) {
+  GearboxDesign d = pair_design(20, 40, false);
+  d.helix_angle_rad = 0.3;
+  gear(d, "pinion").face_width_mm = gear(d, "wheel").face_width_mm = 7.0;
+  const Finding f = check_contact_ratio(laid_out(d))[0];
+  const double overlap = 7.0 * std::sin(0.3) / kPi;
+  EXPECT_NEAR(number_after(f.message, "and "), overlap, 1e-3);
+  EXPECT_NEAR(f.value, number_after(f.message, "transverse ") + overlap, 1e-3);
+}
+
+TEST(ContactRatioFigures, BetweenTheStartsOfReliefs) {
+  GearboxDesign d = pair_design(20, 40, false);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  for (GearDesign& g : d.gears) {
+    g.modifications.tip_relief_um = 20.0;
+    g.modifications.tip_relief_start_diameter_mm = g.teeth + 0.8;
+  }
+  const double c = kCos20, s = std::sin(kPi / 9.0);
+  const double between =
+      (std::sqrt(10.4 * 10.4 - 100.0 * c * c) + std::sqrt(20.4 * 20.4 - 400.0 * c * c) - 30.0 * s) /
+      (kPi * c);
+  const Finding f = check_contact_ratio(laid_out(d))[0];
+  ASSERT_LT(between, 1.0);
+  EXPECT_NEAR(number_after(f.message, "starts of the reliefs "), between, 1e-3);
+  EXPECT_EQ(f.status, CheckStatus::kWarn);
+  EXPECT_NEAR(number_after(f.cure, "tip and root, by "), (1.0 - between) * kPi * c, 1e-3);
+}
+
+TEST(TipClearanceFigures, NameTheTipThatIsTooNear) {
+  GearboxDesign d = pair_design(20, 40, false);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  gear(d, "wheel").tip_diameter_mm = 42.0 + 2.0 * 0.2;
+  Finding f = check_tip_clearance(laid_out(d))[0];
+  EXPECT_NEAR(f.value, 0.05, 1e-9);
+  EXPECT_NEAR(f.margin, -0.05, 1e-9);
+  EXPECT_NEAR(number_after(f.message, "tip of pinion to root of wheel "), 0.25, 1e-6);
+  EXPECT_NEAR(number_after(f.message, "tip of wheel to root of pinion "), 0.05, 1e-6);
+  EXPECT_NEAR(number_after(f.cure, "tip diameter of wheel of "), 42.3, 1e-6);
+  EXPECT_NEAR(number_after(f.cure, " mm ("), -0.1, 1e-6);
+  EXPECT_NEAR(number_after(f.cure, "gives "), 0.1, 1e-6);
+  GearboxDesign ring = pair_design(20, 60, true);
+  gear(ring, "pinion").shift = gear(ring, "wheel").shift = 0.0;
+  gear(ring, "wheel").tip_diameter_mm = 58.0 - 2.0 * 0.2;
+  f = check_tip_clearance(laid_out(ring))[0];
+  EXPECT_NEAR(number_after(f.cure, "tip diameter of wheel of "), 57.7, 1e-6);
+  EXPECT_NEAR(number_after(f.cure, " mm (+"), 0.1, 1e-6);
+}
+
+TEST(TipThicknessFigures, AreTheInvolutes) {
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
+  d.gears = {{.name = "gear", .teeth = 10, .shift = 0.6}};
+  const Finding f = check_tip_thickness(laid_out(d))[0];
+  const double tip = number_after(f.message, "tip diameter ");
+  EXPECT_NEAR(tip, 10.0 + 2.0 * 1.6, 1e-4);
+  const double thickness = tip * ((kPi / 2.0 + 1.2 * std::tan(kPi / 9.0)) / 10.0 +
+                                  involute(kPi / 9.0) - involute(std::acos(10.0 * kCos20 / tip)));
+  EXPECT_NEAR(f.value, thickness, 1e-6);
+  EXPECT_NEAR(number_after(f.message, "gear: "), thickness, 1e-4);
+  EXPECT_NEAR(f.margin, f.value - f.limit, 1e-12);
+}
+
+TEST(BacklashFigures, ThinningIsOnTheReferenceCircle) {
+  GearboxDesign d = pair_design(20, 40, false, -0.02);
+  gear(d, "pinion").shift = 0.6;
+  gear(d, "wheel").shift = 0.4;
+  const GearTrain train = laid_out(d);
+  const Finding f = check_backlash(train)[0];
+  EXPECT_EQ(f.status, CheckStatus::kFail);
+  EXPECT_NEAR(f.value, -0.02, 1e-9);
+  EXPECT_NEAR(number_after(f.message, "circumferential backlash "), -0.02, 1e-6);
+  // pitch circle 1 is a third of the centre distance
+  EXPECT_NEAR(number_after(f.cure, "another "), 20.0 * 30.0 / train.centre_distance_mm, 0.02);
+}
+
+TEST(CentreDistanceFigures, OfTheCureHold) {
+  GearboxDesign d = pair_design(20, 40, false);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.2;
+  d.centre_distance_mm = 30.1;
+  const Finding f = check_centre_distance(laid_out(d))[0];
+  ASSERT_EQ(f.status, CheckStatus::kFail);
+  EXPECT_NEAR(number_after(f.message, "at centre distance "), 30.1, 1e-6);
+  const double shift = number_after(f.cure, "shift of wheel ");
+  const double change = number_after(f.cure, "(");
+  EXPECT_LT(change, 0.0);
+  EXPECT_NEAR(0.2 + change, shift, 1e-5);
+  d.centre_distance_mm = number_after(f.cure, "centre distance ");
+  EXPECT_NEAR(check_centre_distance(laid_out(d))[0].value, 0.0, 1e-4);
+}
+
+TEST(AxialFigures, AreTheGapBetweenTheLayers) {
+  GearboxDesign d = paper_design();
+  EXPECT_NEAR(number_after(check_axial(laid_out(d))[0].message, "stand "), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace trueflank::test
