@@ -222,6 +222,15 @@ class DeviationBuilder {
                             .twist = face_,
                             .deviation = field.empty() ? nullptr : &field,
                             .edge_chamfer_mm = m_.edge_chamfer_mm};
+    // the chamfer lowers the tip at the end faces, where the fillet must not be reached
+    const double flank_mm = std::abs(profile_.tip_form_radius_mm() - profile_.root_form_radius_mm());
+    if (m_.edge_chamfer_mm >= flank_mm && m_.edge_chamfer_mm > 0.0) {
+      report("edge_chamfer_mm", m_.edge_chamfer_mm,
+             "lowers the tip at the end faces below the flank, which is " + short_text(flank_mm) +
+                 " mm high between its form circles",
+             "less than " + short_text(flank_mm));
+      return;
+    }
     double least = 1e300, most = -1e300, at = 0.0;
     constexpr int kHeights = 16;
     if (const ProfilePiece& last = profile_.pieces().back(); last.kind == PieceKind::kInvolute) {

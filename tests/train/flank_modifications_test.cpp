@@ -154,6 +154,25 @@ TEST(FlankModifications, AReliefShorterThanItsDepthIsRefusedHoweverSmallItIs) {
   EXPECT_NE(train.error().front().message.find("would lean"), std::string::npos) << train.error().front().message;
 }
 
+TEST(FlankModifications, AChamferEndsOnTheFlank) {
+  // so undercut that the involute begins just below the tip: the section would cross itself
+  GearboxDesign design = single(GearKind::kExternal, {});
+  design.gears[0].teeth = 10;
+  design.gears[0].shift = -0.7057;
+  design.rack = {.pressure_angle_rad = rad_from_deg(17.3), .addendum = 0.767, .dedendum = 1.167, .root_radius = 0.179};
+  const auto bare = lay_out(design);
+  ASSERT_TRUE(bare);
+  const ToothProfile& profile = bare->gears[0].profile;
+  const double flank = profile.tip_form_radius_mm() - profile.root_form_radius_mm();
+  ASSERT_GT(flank, 0.0);
+  design.gears[0].modifications.edge_chamfer_mm = 0.9 * flank;
+  EXPECT_TRUE(lay_out(design));
+  design.gears[0].modifications.edge_chamfer_mm = 1.01 * flank;
+  const auto refused = lay_out(design);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().key, "gear.modifications.edge_chamfer_mm");
+}
+
 TEST(FlankModifications, FlanksThatMeetInTheGapStayThere) {
   // a ring whose spaces close before its root circle has no root that could take up a difference
   GearboxDesign design = single(GearKind::kInternal, {});
