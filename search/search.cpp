@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "trueflank/search/search_certify.h"
 #include "trueflank/search/search_values.h"
 #include "trueflank/train/efficiency.h"
 
@@ -221,6 +222,22 @@ bool might_lack_one(const SearchRequirements& requirements, const SearchReport& 
   });
 }
 
+/// How much better the shifts of a design could be at most.
+void certify(const SearchRequirements& r, FoundDesign& found) {
+  const SearchObjective objective = r.objectives.front();
+  const bool forward = objective == SearchObjective::kForward;
+  if (r.objectives.size() > 1 || (!forward && objective != SearchObjective::kBackward)) return;
+  const DriveDirection direction = forward ? DriveDirection::kForward : DriveDirection::kBackward;
+  const SearchModel model(r, found.set);
+  const FreeShifts& free = found.candidate.free;
+  const double known = model.efficiency(model.layer1(free.centre_distance, free.layer1_shift),
+                                        model.layer2(free.centre_distance, free.layer2_shift), direction);
+  const double bound = certified_bound(r, found.set, direction, {.known = known}).efficiency;
+  const ToldEfficiencies told = told_efficiencies(r, found.set, bound, bound);
+  found.certified_bound = forward ? told.forward : told.backward;
+  found.certified_gap = std::max(0.0, found.certified_bound - found.candidate.merit(objective));
+}
+
 }  // namespace
 
 SearchReport conclude_search(const SearchRequirements& requirements,
@@ -235,6 +252,7 @@ SearchReport conclude_search(const SearchRequirements& requirements,
                       {.done = more.optimised.empty() ? records.optimised : more.optimised});
     report = judged(requirements, enumeration, more, judge);
   }
+  for (FoundDesign& found : report.designs) certify(requirements, found);
   for (FoundDesign& found : report.designs)
     found.binding = binding_limits(requirements, found.set, found.candidate, found.reserve,
                                    &found - report.designs.data() < kRelaxed);

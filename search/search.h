@@ -100,6 +100,9 @@ struct FoundDesign {
   DesignVerdict verdict;
   double exact_forward = kNaN, exact_backward = kNaN;  ///< by the path integral
   FormulaEfficiency by_formula;
+  /// The first objective where it is the only one and an efficiency: no shifts of the set that keep
+  /// the limits give more (search_certify.h), and how much more that is; else NaN.
+  double certified_bound = kNaN, certified_gap = kNaN;
   LimitReserve reserve{};                ///< that the checks asked for beyond the limits
   std::vector<BindingLimit> binding;     ///< limits it stands on, and what each costs
   /// The greatest reserve, in modules.

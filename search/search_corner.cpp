@@ -20,6 +20,9 @@ constexpr double kClose_mm = 0.02;
 /// matter: between them the clearance changes by less than half of it.
 constexpr int kSkipped = 4;
 constexpr double kFar_mm = 0.2;
+/// Clearance where the corner never gets to.
+constexpr double kNever_mm = 1e9;
+constexpr int kEdgeSteps = 20;
 
 /// Tip corner of the mate, in the frame of the visited gear.
 struct CornerPath {
@@ -57,7 +60,7 @@ struct CornerPath {
 double clearance_at(const CornerPath& path, const Point2& point, int teeth) {
   const double radius = point.norm();
   const double widest = path.widest_angle(radius);
-  if (widest < 0.0) return 1e9;
+  if (widest < 0.0) return kNever_mm;
   const double gap = kPi / teeth - std::atan2(point.y(), point.x());
   return radius * (gap - widest);
 }
@@ -84,8 +87,22 @@ double least_over(const CornerPath& path, const Curve& curve, double from, doubl
     if (here < least) least = here, nearest = i;
   }
   if (least > kClose_mm) return least;
-  double low = std::max(0, nearest - 1) / static_cast<double>(count);
-  double high = std::min(count, nearest + 1) / static_cast<double>(count);
+  const double at_nearest = nearest / static_cast<double>(count);
+  // A corner that reaches no farther than a little beyond a sample is at its closest there: the
+  // search goes as far as it reaches.
+  const auto reached = [&](double end) {
+    double inside = at_nearest;
+    if (clearance(end) < kNever_mm) return end;
+    for (int i = 0; i < kEdgeSteps; ++i) {
+      const double middle = 0.5 * (inside + end);
+      const double here = clearance(middle);
+      least = std::min(least, here);
+      (here < kNever_mm ? inside : end) = middle;
+    }
+    return inside;
+  };
+  double low = reached(std::max(0, nearest - 1) / static_cast<double>(count));
+  double high = reached(std::min(count, nearest + 1) / static_cast<double>(count));
   constexpr double kGolden = 0.6180339887498949;
   double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
   double at_left = clearance(left), at_right = clearance(right);

@@ -96,6 +96,18 @@ class SearchModel {
   [[nodiscard]] bool has_layer2() const { return set_.train->layers.size() > 1; }
   [[nodiscard]] std::size_t limits() const { return set_.train->limits.size(); }
 
+  /// A mesh in the torque balance.
+  struct BalanceMesh {
+    int layer = 0;
+    bool internal = false;
+    double teeth_ratio = kNaN;  ///< of gear 2 to gear 1, negative where internal
+    bool gear1_drives_forward = true;
+    int member1 = 0, member2 = 0;
+  };
+  [[nodiscard]] const std::vector<BalanceMesh>& balance() const { return balance_; }
+  /// Input speed over output speed, signed.
+  [[nodiscard]] double ratio() const { return ratio_; }
+
  private:
   /// Shifts at their places; 0 where there is no gear.
   using Shifts = std::array<double, kTrainPlaces>;
@@ -108,14 +120,6 @@ class SearchModel {
                ring_at = TrainPlace::kRing1;
   };
   enum class Profiles { kMade, kLeftOut };
-  /// A mesh in the torque balance.
-  struct BalanceMesh {
-    int layer = 0;
-    bool internal = false;
-    double teeth_ratio = kNaN;  ///< of gear 2 to gear 1, negative where internal
-    bool gear1_drives_forward = true;
-    int member1 = 0, member2 = 0;
-  };
 
   [[nodiscard]] LayerEvaluation layer(
       int number, double centre_distance, double shift, double stop_below,

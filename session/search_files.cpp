@@ -108,6 +108,8 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
           ", \"output_torque_nm\": " + json_number(found.candidate.torque_nm) +
           ", \"outer_diameter_mm\": " + json_number(found.candidate.size_mm) +
           ", \"gap\": " + json_number(found.candidate.gap) +
+          ", \"certified_bound\": " + json_figure(found.certified_bound) +
+          ", \"certified_gap\": " + json_figure(found.certified_gap) +
           ", \"tightened\": " + json_number(found.tightened());
   for (const SearchObjective figure : other_figures())
     text += ", " + json_string(objective_entry(figure).column) + ": " +

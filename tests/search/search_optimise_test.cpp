@@ -264,6 +264,19 @@ TEST(SearchCorner, IsTheClearanceFoundByTurningTheGears) {
   }
 }
 
+TEST(SearchCorner, SeesACutBetweenTheEndOfTheFlankAndTheFirstSample) {
+  // the ring's tip reaches 0.012 modules below the form circle; by turning the mate in numpy, the
+  // root swept by the rack (tests/search/brute_force.py): 0.053 um deep
+  const SearchRequirements r = requirements();
+  const SearchModel model(r, set_of(r, 16, 28, 71, 21, 66));
+  const LayerEvaluation layer2 = model.layer2(21.986516, 0.133407);
+  double least = 1.0;
+  for (std::size_t i = model.train().layer1_limits; i < model.limits(); ++i)
+    if (model.train().limits[i].limit == Limit::kFillet)
+      least = std::min(least, layer2.margins[i - model.train().layer1_limits]);
+  EXPECT_NEAR(least, -5.27e-5, 2e-7);
+}
+
 /// Best of a grid, by exhaustion at each centre distance.
 double dense_grid(const SearchRequirements& r, const ToothSet& set, int n) {
   const SearchModel model(r, set);
