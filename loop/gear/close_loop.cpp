@@ -90,6 +90,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
                                      result.not_observable, makings, loop.unseen(),
                                      explained_by(result.before, result.after), {}, &loop.table()});
+  say_where_records_differ(loop.alone(), result);
   result.measure_next = measurements_that_separate(result.effects, result.not_observable);
   for (int e = 0; e < static_cast<int>(loop.effects().size()); ++e)
     if (!orders_alike(geometry, loop.table(), fit, e).empty()) {

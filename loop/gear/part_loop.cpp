@@ -79,6 +79,7 @@ void PartLoop::run() {
   if (scan_for_more && drop_idle_forms()) explain();
   for (int round = 0; scan_for_more && round < kMostBans && ban_what_forms_explain(); ++round)
     explain();
+  if (scan_for_more) hold_to_single_values();
   if (!is_rounding()) look_at_single_teeth();
   look_at_sizes();
   drop_impossible();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
+#include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/local/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/remainder.h"
@@ -53,8 +54,16 @@ class PartLoop {
   [[nodiscard]] bool structure_is_left() const;
   [[nodiscard]] double structure_left_p_value() const;
   [[nodiscard]] std::string structure_left() const;
+  /// Named effects that values one a tooth (index, runout) show alone; empty: none, or nothing else
+  /// was measured.
+  [[nodiscard]] const std::vector<FoundEffect>& alone() const { return alone_; }
 
  private:
+  void hold_to_single_values();
+  [[nodiscard]] bool adopt(const std::vector<Effect>& more, const std::vector<double>& p_values);
+  void drop_what_new_ones_say(std::size_t first_new);
+  void remove_effect(std::size_t effect);
+  [[nodiscard]] std::vector<FoundEffect> told() const;
   void ban_what_cannot_be_seen();
   void ban_given();
   [[nodiscard]] bool is_rounding() const;
@@ -124,10 +133,15 @@ class PartLoop {
   Kept kept_;
   mutable std::vector<std::shared_ptr<const PointFit>> fits_;  ///< the one asked for last first
   mutable std::shared_ptr<const PointFit> plain_fit_;
+  std::vector<FoundEffect> alone_;
   std::vector<RemainderFinding> remainder_;  ///< what no effect found took up
 };
 
 /// Columns of effects that are fitted whatever is selected.
 void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted);
+
+/// Where an effect's interval and that of values one a tooth alone have nothing in common: says so
+/// in the notes, and the interval holds both.
+void say_where_records_differ(const std::vector<FoundEffect>& alone, LoopResult& result);
 
 }  // namespace trueflank::loop

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values one a tooth (index, runout) are few beside those of traces, and say what traces with zeros
+// of their own hardly show. What they say alone must not be lost in the joint answer.
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+bool is_one_a_tooth(const Observation& row) {
+  return row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
+}
+
+/// The table with these values alone; its places and traces keep their numbers.
+Observations values_one_a_tooth(const Observations& table) {
+  Observations single = table;
+  std::erase_if(single.rows, [](const Observation& row) { return !is_one_a_tooth(row); });
+  single.notes.clear();
+  return single;
+}
+
+/// Straight slopes over the profile or the face that come and go once per turn: in these traces
+/// differ where another clamping, or a tilt, is in them too. Low degrees come first in complexity.
+bool is_wave_of_slopes(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  constexpr double kStraight = 1.5;
+  return effect.is_term() && effect.order() == 1.0 && effect.family->complexity &&
+         effect.family->complexity(effect.shape) < kStraight &&
+         needs.along_profile != needs.along_face;
+}
+
+}  // namespace
+
+/// Takes an effect out of the answer, wherever it stands.
+void PartLoop::remove_effect(std::size_t e) {
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const auto at = static_cast<std::ptrdiff_t>(e);
+  effects_.erase(effects_.begin() + at);
+  discovery_.chosen.erase(discovery_.chosen.begin() + at);
+  if (e >= options_.given.size()) return;
+  options_.given.erase(options_.given.begin() + at);
+  given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(e - told));
+}
+
+/// Takes out what the effects from `first_new` on say as well, forms without a name before names,
+/// and of the new ones those that earn nothing.
+void PartLoop::drop_what_new_ones_say(std::size_t first_new) {
+  constexpr double kIdle = 25.0, kDisplaced = 0.1;  // chi-square a column; share of what it earned
+  const auto loss_of = [](const PointFit& fit, std::size_t e) {
+    std::vector<bool> with(fit.effects().size(), true);
+    with[e] = false;
+    return fit.residual_square(with) - fit.residual_square();
+  };
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  std::vector<double> most(effects_.size());  // what it may earn and still go
+  const std::vector<Effect> old(effects_.begin(),
+                                effects_.begin() + static_cast<std::ptrdiff_t>(first_new));
+  const auto before = fit_of(old);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    most[e] = kIdle * effects_[e].columns();
+    if (e < first_new) most[e] = std::min(most[e], kDisplaced * loss_of(*before, e));
+  }
+  while (effects_.size() > told) {
+    const auto fit = fit_of(effects_);
+    std::size_t idle = effects_.size();
+    double least = 0.0;
+    for (std::size_t e = told; e < effects_.size(); ++e) {
+      const double loss = loss_of(*fit, e);
+      if (loss > most[e]) continue;
+      const bool term = effects_[e].is_term();
+      if (idle < effects_.size() && (term != effects_[idle].is_term() ? !term : loss >= least))
+        continue;
+      idle = e;
+      least = loss;
+    }
+    if (idle == effects_.size()) return;
+    remove_effect(idle);
+    most.erase(most.begin() + static_cast<std::ptrdiff_t>(idle));
+  }
+}
+
+/// Puts effects into the answer and takes out what they make idle. Kept where no more is left for
+/// the columns that it costs and the hold-out does not lose; false: it is as it was.
+bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>& p_values) {
+  // Chi-square: five standard errors, and what a column takes out by chance; of the held-out error.
+  constexpr double kClearly = 25.0, kByChance = 4.0, kNoLoss = 1e-3;
+  const std::vector<Effect> effects = effects_, given = options_.given;
+  const std::vector<ChosenGroup> chosen = discovery_.chosen;
+  const std::vector<double> given_p_values = given_p_values_;
+  for (std::size_t e = 0; e < more.size(); ++e) {
+    if (std::find(effects_.begin(), effects_.end(), more[e]) != effects_.end()) continue;
+    ChosenGroup record;
+    record.group = -1;
+    record.p_value = p_values[e];
+    effects_.push_back(more[e]);
+    discovery_.chosen.push_back(record);
+  }
+  drop_what_new_ones_say(effects.size());
+  const auto held_out_um = [&](const std::vector<Effect>& of) {
+    return fit_of(of)->errors(std::vector<bool>(of.size(), true)).held_out_rms_um;
+  };
+  int columns = 0;
+  for (const Effect& effect : effects_) columns += effect.columns();
+  for (const Effect& effect : effects) columns -= effect.columns();
+  const double gain = fit_of(effects)->residual_square() - fit_of(effects_)->residual_square();
+  if (gain > kByChance * columns + (columns > 0 ? kClearly : 0.0) &&
+      !(held_out_um(effects_) > (1.0 + kNoLoss) * held_out_um(effects)))
+    return true;
+  effects_ = effects;
+  discovery_.chosen = chosen;
+  options_.given = given;
+  given_p_values_ = given_p_values;
+  return false;
+}
+
+/// What values one a tooth say alone and the joint answer lacks enters it, with the waves of slopes
+/// in which traces may differ from it, or without them.
+void PartLoop::hold_to_single_values() {
+  const bool traced =
+      std::any_of(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+        return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+      });
+  if (!traced || !measured_.points_mm.empty()) return;
+  Observations single = values_one_a_tooth(measured_);
+  if (single.rows.empty()) return;
+  Options options = options_;
+  options.given.resize(options_.given.size() - given_p_values_.size());
+  PartLoop alone(geometry_, std::move(single), std::move(options));
+  alone.run();
+  alone_ = alone.told();
+  std::vector<Effect> more;
+  std::vector<double> p_values;
+  const auto add = [&](const Effect& effect, double p_value) {
+    if (std::find(effects_.begin(), effects_.end(), effect) != effects_.end()) return;
+    more.push_back(effect);
+    p_values.push_back(p_value);
+  };
+  for (std::size_t e = 0; e < alone.effects_.size(); ++e)
+    if (!alone.effects_[e].family->local)
+      add(alone.effects_[e], alone.discovery_.chosen[e].p_value);
+  if (more.empty()) return;
+  const std::vector<Effect> without_slopes = more;
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (!banned_[g] && is_wave_of_slopes(candidates_[g])) add(candidates_[g], discovery_.p_left);
+  if (!adopt(more, p_values)) (void)adopt(without_slopes, p_values);
+}
+
+/// The named effects as people read them.
+std::vector<FoundEffect> PartLoop::told() const {
+  const auto fit = fit_of(effects_);
+  const ShapeUncertainty uncertainty = shape_uncertainty(geometry_, table_, patches_, *fit);
+  const std::vector<std::string> hidden = not_observable();
+  std::vector<FoundEffect> found = describe_effects(
+      {geometry_, *fit, discovery_, candidates_, uncertainty, hidden, options_.makings, unseen_});
+  std::erase_if(found, [](const FoundEffect& effect) { return !effect.named; });
+  return found;
+}
+
+namespace {
+
+/// One wave, or one effect: ids, flanks and what has no interval (an order) agree.
+bool is_the_same(const FoundEffect& a, const FoundEffect& b) {
+  return a.named && a.id == b.id && a.flank == b.flank &&
+         std::equal(a.parameters.begin(), a.parameters.end(), b.parameters.begin(),
+                    b.parameters.end(), [](const Parameter& p, const Parameter& q) {
+                      return p.name == q.name && (p.low < p.high || p.value == q.value);
+                    });
+}
+
+/// A phase within half a period of another.
+Parameter turned_towards(Parameter phase, const Parameter& other, double period) {
+  const double turns = period * std::round((other.value - phase.value) / period);
+  phase.value += turns;
+  phase.low += turns;
+  phase.high += turns;
+  return phase;
+}
+
+}  // namespace
+
+void say_where_records_differ(const std::vector<FoundEffect>& alone, LoopResult& result) {
+  for (FoundEffect& joint : result.effects)
+    for (const FoundEffect& single : alone) {
+      if (!is_the_same(joint, single)) continue;
+      const EffectFamily* family = find_family(joint.id);
+      for (std::size_t k = 0; k < joint.parameters.size(); ++k) {
+        Parameter& both = joint.parameters[k];
+        Parameter one = single.parameters[k];
+        if (family != nullptr && both.name == "phase_deg")
+          one = turned_towards(one, both, 360.0 / family->phase_divisor);
+        if (!(both.low < both.high) || (both.low <= one.high && one.low <= both.high)) continue;
+        result.notes.push_back(joint.id + ", " + both.name +
+                               printed(": values one a tooth (index, runout) alone say %.4g [%.4g, "
+                                       "%.4g], with the traces it is %.4g [%.4g, %.4g]: they "
+                                       "contradict each other, the interval holds both",
+                                       one.value, one.low, one.high, both.value, both.low,
+                                       both.high));
+        both.low = std::min(both.low, one.low);
+        both.high = std::max(both.high, one.high);
+      }
+    }
+}
+
+}  // namespace trueflank::loop
