@@ -246,7 +246,29 @@ class CourseScan {
     return power;
   }
 
+  /// How much louder than the usual course each course of a set is, by its second differences,
+  /// which a spot hardly touches; 1 where that is no more than chance.
+  [[nodiscard]] VectorXd loudness_of(const MatrixXd& set) const {
+    constexpr double kByChance = 1.5;
+    constexpr Index kFewest = 5;
+    VectorXd loud = VectorXd::Ones(set.cols());
+    if (set.cols() < kFewest || m_ < 3) return loud;
+    std::vector<double> scatters;
+    for (Index c = 0; c < set.cols(); ++c) {
+      const VectorXd bends =
+          set.col(c).head(m_ - 2) - 2.0 * set.col(c).segment(1, m_ - 2) + set.col(c).tail(m_ - 2);
+      scatters.push_back(spread_of({bends.data(), bends.data() + bends.size()}));
+      loud[c] = scatters.back();
+    }
+    const double usual = median(std::move(scatters));
+    if (!(usual > 0.0)) return VectorXd::Ones(set.cols());
+    loud /= usual;
+    return (loud.array() > kByChance).select(loud, 1.0);
+  }
+
   void look_for_spots() {
+    std::vector<VectorXd> louds;
+    for (const MatrixXd& set : sets_) louds.push_back(loudness_of(set));
     CourseFinding best{Kind::kSpot};
     double tests = 0.0;
     for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
@@ -261,6 +283,7 @@ class CourseScan {
         MatrixXd sums(m_ - width + 1, apart.cols());
         for (Index i = 0; i + width <= m_; ++i)
           sums.row(i) = apart.middleRows(i, width).colwise().mean();
+        sums.array().rowwise() /= louds[s].transpose().array();
         all.insert(all.end(), sums.data(), sums.data() + sums.size());
         spreads.push_back(static_cast<double>(sums.cols()) * apart_each < kEnough
                               ? 0.0

@@ -111,6 +111,16 @@ TEST(CourseScan, ASpotOnOneCourseIsFoundThereAndAWildPointIsNone) {
   EXPECT_EQ(find(wild, Kind::kSpot), nullptr);
 }
 
+TEST(CourseScan, ACourseOfLouderErrorsHasNoSpots) {
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    MatrixXd courses = errors(100, 24, 0.5, seed);
+    courses.col(7) *= 4.0;
+    alarms += find(scan_courses({centred(courses)}), Kind::kSpot) != nullptr;
+  }
+  EXPECT_LE(alarms, 1);
+}
+
 std::vector<int> all_places(int n) {
   std::vector<int> place(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) place[static_cast<std::size_t>(i)] = i;
