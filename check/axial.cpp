@@ -20,9 +20,12 @@ int member_of(const GearTrain& train, const TrainGear& gear) {
 }
 
 Reach reach_of(const GearTrain& train, const TrainGear& gear) {
-  const double tip = gear.profile.tip_radius_mm(), a = train.centre_distance_mm;
+  const double tip = gear.profile.tip_radius_mm();
   if (gear.profile.gear().kind == GearKind::kInternal) return {tip, 1e300};  // the rim is unbounded here
-  if (train.topology().is_planet(member_of(train, gear))) return {a - tip, a + tip};
+  if (const int member = member_of(train, gear); train.topology().is_planet(member)) {
+    const double a = train.axis_distance_mm(member);
+    return {a - tip, a + tip};
+  }
   return {0.0, tip};
 }
 
@@ -91,7 +94,8 @@ Findings check_axial(const GearTrain& train) {
     finding.message = "all parts are in one layer, or pass each other";
   }
   Findings findings{finding};
-  if (const auto carrier = carrier_layout(train)) findings.push_back(judge_carrier(train, *carrier));
+  for (const GearTrain* stage : train.each_stage())
+    if (const auto carrier = carrier_layout(*stage)) findings.push_back(judge_carrier(*stage, *carrier));
   return findings;
 }
 

@@ -29,11 +29,40 @@ void append(Findings& all, Findings some) {
   all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
 }
 
+/// What a stage's finding is of in the whole train.
+Findings of_stage(Findings findings, std::size_t stage) {
+  for (Finding& finding : findings)
+    if (finding.where == "train") finding.where = "stage" + std::to_string(stage + 1);
+  return findings;
+}
+
+/// The stages one after another, check by check; across them only heights matter.
+Findings check_stages(const GearTrain& train, const std::vector<MeshState>& states) {
+  std::vector<Findings> each;
+  auto first = states.begin();
+  for (const GearTrain& stage : train.stages) {
+    const auto last = first + static_cast<std::ptrdiff_t>(stage.meshes.size());
+    each.push_back(of_stage(check_gearbox(stage, {first, last}), each.size()));
+    first = last;
+  }
+  Findings all;
+  std::vector<std::size_t> done(each.size(), 0);
+  while (done[0] < each[0].size()) {
+    const std::string id = each[0][done[0]].id;
+    for (std::size_t s = 0; s < each.size(); ++s)
+      for (; done[s] < each[s].size() && each[s][done[s]].id == id; ++done[s])
+        if (id != "axial") all.push_back(each[s][done[s]]);
+    if (id == "axial") append(all, check_axial(train));
+  }
+  return all;
+}
+
 }  // namespace
 
 Findings check_gearbox(const GearTrain& train) { return check_gearbox(train, mesh_states(train)); }
 
 Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& states) {
+  if (!train.stages.empty()) return check_stages(train, states);
   Findings all;
   for (const auto check :
        {check_profile, check_undercut, check_tip_thickness, check_centre_distance, check_backlash,

@@ -22,7 +22,7 @@ double smallest_angle_rad(const std::vector<double>& positions) {
 
 Finding planet_spacing_finding(const GearTrain& train, const TrainGear& gear) {
   const double a = train.centre_distance_mm, tip = gear.profile.tip_radius_mm();
-  const double angle = std::min(smallest_angle_rad(train.phases.planet_position_rad), kPi);
+  const double angle = std::min(smallest_angle_rad(train.phases.positions_rad(train.topology().first_planet())), kPi);
   const double gap = 2.0 * a * std::sin(0.5 * angle) - 2.0 * tip;
   const int most = most_planets(a, tip);
   Finding finding{.id = "planet_spacing",
@@ -55,7 +55,7 @@ int most_planets(double centre_distance_mm, double tip_radius_mm) {
 
 Findings check_planet_spacing(const GearTrain& train) {
   Findings findings;
-  if (train.phases.planet_position_rad.size() > 1)
+  if (train.phases.positions_rad(train.topology().first_planet()).size() > 1)
     for (std::size_t i = 0; i < train.gears.size(); ++i)
       if (train.topology().is_planet_gear(i)) findings.push_back(planet_spacing_finding(train, train.gears[i]));
   if (findings.empty())

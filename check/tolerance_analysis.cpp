@@ -70,7 +70,11 @@ void draw_sets(const GearTrain& train, const ToleranceOptions& options,
                const std::vector<GearSpread>& spreads, std::vector<ClearanceField>& fields,
                ToleranceResult& result) {
   Normal normal(options.seed);
-  const std::size_t planets = std::max<std::size_t>(train.phases.planet_position_rad.size(), 1);
+  const Topology& topology = train.topology();
+  std::size_t planets = 1;  // of the stage with most
+  for (const std::vector<double>& positions : train.phases.position_rad)
+    planets = std::max(planets, positions.size());
+  std::vector<double> pins(static_cast<std::size_t>(topology.stage_count()));
   std::vector<int> jams(train.meshes.size(), 0);
   int any = 0;
   for (int set = 0; set < options.sets; ++set) {
@@ -79,10 +83,14 @@ void draw_sets(const GearTrain& train, const ToleranceOptions& options,
     for (std::size_t g = 0; g < train.gears.size(); ++g) errors[g] = draw(spreads[g], normal);
     for (std::size_t i = 0; i < planets; ++i) {
       // sun and rings are one part, each planet is its own, on its own pin
-      const double pin = normal.within(mm_from_um(options.centre_distance_um));
+      for (double& pin : pins) pin = normal.within(mm_from_um(options.centre_distance_um));
       for (std::size_t g = 0; g < train.gears.size(); ++g)
         if (i > 0 && train.topology().is_planet_gear(g)) errors[g] = draw(spreads[g], normal);
       for (std::size_t m = 0; m < train.meshes.size(); ++m) {
+        const TopologyGear& gear1 = topology.gears[static_cast<std::size_t>(train.meshes[m].gear1)];
+        const TopologyGear& gear2 = topology.gears[static_cast<std::size_t>(train.meshes[m].gear2)];
+        if (static_cast<int>(i) >= std::max(train.copies_of(gear1.member), train.copies_of(gear2.member))) continue;
+        const double pin = pins[static_cast<std::size_t>(gear1.stage) - 1];
         const GearError& e1 = errors[static_cast<std::size_t>(train.meshes[m].gear1)];
         const GearError& e2 = errors[static_cast<std::size_t>(train.meshes[m].gear2)];
         const double wobble = e1.eccentricity + e2.eccentricity;

@@ -25,7 +25,8 @@ Standing standing(const GearTrain& train, const AssemblyPhases& phases, const Tr
   };
   const bool with_planet = topology.is_planet_gear(static_cast<std::size_t>(mesh.gear1)) ||
                            topology.is_planet_gear(static_cast<std::size_t>(mesh.gear2));
-  return {rotation(mesh.gear1), rotation(mesh.gear2), with_planet ? phases.planet_position_rad[place] : 0.0};
+  return {rotation(mesh.gear1), rotation(mesh.gear2),
+          with_planet ? phases.positions_rad(topology.first_planet())[place] : 0.0};
 }
 
 /// How far gear 2 is turned out of the position in which a tooth of one faces a gap of the other.
@@ -42,7 +43,8 @@ double phase_error_rad(const GearPair& pair, const Standing& s) {
 TrainTurning turn_train(const GearTrain& train, const std::vector<MeshState>& states) {
   TrainTurning worst;
   if (train.meshes.empty()) return worst;
-  const std::size_t planets = std::max<std::size_t>(train.phases.planet_position_rad.size(), 1);
+  const std::size_t planets =
+      std::max<std::size_t>(train.phases.positions_rad(train.topology().first_planet()).size(), 1);
   std::size_t worst_mesh = 0;
   double worst_rad = 0.0;
   for (int k = 0; k < kPositions; ++k) {

@@ -144,8 +144,10 @@ class Contradictions {
   [[nodiscard]] std::optional<double> module_mm(const GearDesign& gear) const {
     const std::string own = gear.name + ".module_mm";
     if (reading_.has(own)) return reading_.good(own) ? gear.module_mm : std::nullopt;
-    if (!reading_.good("gearbox.module_mm")) return std::nullopt;
-    return design_.module_mm;
+    for (const char* shared : {"gearbox.module_mm", "stage2.module_mm"})
+      if (reading_.has(shared) && !reading_.good(shared)) return std::nullopt;
+    if (!reading_.has("gearbox.module_mm")) return std::nullopt;
+    return module_of(design_, gear);
   }
 
   void check_mesh(const std::string& name1, const std::string& name2) {
@@ -393,16 +395,17 @@ class Contradictions {
     check_pins(carrier);
   }
 
-  /// The gear whose bore the pins go through, where its table is there.
-  [[nodiscard]] const GearDesign* planet_of_design() const {
+  /// The gears whose bores the pins go through, where their tables are there.
+  void check_pins(const CarrierDesign& carrier) {
     const Topology& topology = design_.topology;
-    const int planet = topology.first_planet();
-    if (planet == kNoMember) return nullptr;
-    return find_gear(design_, topology.gears[static_cast<std::size_t>(topology.first_gear_of(planet))].name);
+    for (std::size_t m = 0; m < topology.members.size(); ++m) {
+      if (!topology.is_planet(static_cast<int>(m))) continue;
+      const int gear = topology.first_gear_of(static_cast<int>(m));
+      check_pin(carrier, find_gear(design_, topology.gears[static_cast<std::size_t>(gear)].name));
+    }
   }
 
-  void check_pins(const CarrierDesign& carrier) {
-    const GearDesign* planet = planet_of_design();
+  void check_pin(const CarrierDesign& carrier, const GearDesign* planet) {
     if (!planet) return;
     const std::string bore = planet->name + ".bore_mm";
     if (!reading_.has(bore) && !(planet->bore.diameter_mm > 0.0)) {

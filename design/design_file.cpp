@@ -42,6 +42,7 @@ std::string place_of(std::string_view name) {
   if (in(file_keys())) return "the top of the file";
   if (in(gearbox_keys())) return "[gearbox]";
   if (in(rack_keys())) return "[rack]";
+  if (in(stage_keys())) return "[stage2]";
   if (in(carrier_keys())) return "[carrier]";
   if (in(shafts_keys())) return "[shafts]";
   if (in(housing_keys())) return "[housing]";
@@ -55,6 +56,9 @@ std::string place_of(std::string_view name) {
   return "";
 }
 
+/// Of all kinds.
+constexpr int kMostStages = 2;
+
 class DesignReader {
  public:
   explicit DesignReader(TomlDocument& document)
@@ -67,6 +71,7 @@ class DesignReader {
     read_tool_tables(file);
     read_top();
     if (const TomlTable* table = section("gearbox")) read_gearbox(*table);
+    read_stages();
     if (const TomlTable* table = section("rack")) read_rack(*table);
     read_gears();
     read_carrier();
@@ -96,7 +101,7 @@ class DesignReader {
  private:
   void read_top() {
     std::vector<std::string> known = all_gear_names();
-    known.insert(known.end(), {"gearbox", "rack", "carrier", "shafts", "made", "losses", "strength", "motor", "housing",
+    known.insert(known.end(), {"gearbox", "stage2", "rack", "carrier", "shafts", "made", "losses", "strength", "motor", "housing",
                               "output", "bearings", "fasteners"});
     for (const TomlEntry& entry : root_.entries) {
       const auto is = [&](const std::string& name) { return name == entry.key; };
@@ -136,6 +141,32 @@ class DesignReader {
       if (place == KeyPlace::kOutput) return kind && kind->output_required;
       return place != KeyPlace::kUnlessEveryGear;
     });
+  }
+
+  /// [stage2] and so on, as many as the kind has.
+  void read_stages() {
+    const int stages = kind_known_ ? file_.design.topology.stage_count() : kMostStages;
+    for (int number = 2; number <= kMostStages; ++number) {
+      const std::string name = "stage" + std::to_string(number);
+      const TomlTable* table = section(name);
+      if (number > stages) {
+        if (root_.find(name))
+          reading_.contradiction(name, "kind \"" + file_.design.topology.kind + "\" has one stage", "no such table");
+        continue;
+      }
+      if (!table && !kind_known_) continue;
+      StageDesign& stage = file_.design.later_stages.emplace_back();
+      if (table) {
+        read_keys(name, *table, stage_keys(), stage);
+        report_missing(name, stage_keys(), [](KeyPlace) { return true; });
+      } else if (!root_.find(name)) {
+        reading_.report({.code = ErrorCode::kMissingKey,
+                         .message = "the table is missing",
+                         .key = name,
+                         .remedy = "[" + name + "] with planets = 3 and, where it is not the gearbox's, module_mm",
+                         .line = reading_.line("gearbox.kind")});
+      }
+    }
   }
 
   /// The topology of a kind with the output the file names; with the usual one where that does not fit.

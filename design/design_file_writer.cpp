@@ -56,6 +56,8 @@ std::vector<WrittenKey> written_keys(const GearboxDesign& design) {
   std::vector<WrittenKey> all;
   write_keys(all, "", file_keys(), design);
   write_keys(all, "gearbox", gearbox_keys(), design);
+  for (std::size_t i = 0; i < design.later_stages.size(); ++i)
+    write_keys(all, "stage" + std::to_string(i + 2), stage_keys(), design.later_stages[i]);
   write_keys(all, "rack", rack_keys(), design.rack);
   for (const GearDesign& gear : design.gears) write_gear(all, gear);
   if (design.carrier) write_keys(all, "carrier", carrier_keys(), *design.carrier);

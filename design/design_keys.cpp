@@ -189,7 +189,8 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
          return d.corner_contact_limit_mm ? Value(file_um(*d.corner_contact_limit_mm)) : Value();
        }},
       {{.name = "layer_gap_mm", .unit = "mm", .lower = 0, .upper = 1000, .by_default = "1",
-        .meaning = "3k: axial gap between planet1 (z = 0 to its face width) and planet2 above it"},
+        .meaning = "3k, stepped: axial gap between planet1 (z = 0 to its face width) and planet2 above it; "
+                   "two-stage: between the stages, with the plates of their carriers"},
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.layer_gap_mm = number(v); },
        [](const D& d) { return unless(d.layer_gap_mm, D{}.layer_gap_mm); }},
@@ -216,6 +217,29 @@ const std::vector<DesignKey<GearboxDesign>>& gearbox_keys() {
        KeyPlace::kAnywhere,
        [](D& d, const KeyValue& v) { d.relief_groove_mm = number(v); },
        [](const D& d) { return unless(d.relief_groove_mm, 0.0); }},
+  };
+  return keys;
+}
+
+const std::vector<DesignKey<StageDesign>>& stage_keys() {
+  using S = StageDesign;
+  static const std::vector<DesignKey<S>> keys{
+      {{.name = "planets", .type = KeyType::kWhole, .lower = 1, .upper = 50, .required = true,
+        .meaning = "number of planets of the stage"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.planets = whole(v); },
+       [](const S& s) { return whole_value(s.planets); }},
+      {{.name = "module_mm", .unit = "mm", .lower = 0.01, .upper = 100, .by_default = "the gearbox's",
+        .meaning = "module of every gear of the stage that does not set its own"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.module_mm = number(v); },
+       [](const S& s) { return if_given(s.module_mm); }},
+      {{.name = "centre_distance_mm", .unit = "mm", .lower = 0.01, .upper = 100000,
+        .by_default = "from the shifts",
+        .meaning = "distance of the stage's axes; that of `[gearbox]` is of stage 1"},
+       KeyPlace::kAnywhere,
+       [](S& s, const KeyValue& v) { s.centre_distance_mm = number(v); },
+       [](const S& s) { return if_given(s.centre_distance_mm); }},
   };
   return keys;
 }

@@ -37,6 +37,8 @@ inline constexpr int kDesignFormat = 1;
 [[nodiscard]] const std::vector<DesignKey<GearboxDesign>>& file_keys();
 /// `[gearbox]`.
 [[nodiscard]] const std::vector<DesignKey<GearboxDesign>>& gearbox_keys();
+/// `[stage2]`.
+[[nodiscard]] const std::vector<DesignKey<StageDesign>>& stage_keys();
 /// `[rack]`.
 [[nodiscard]] const std::vector<DesignKey<BasicRack>>& rack_keys();
 /// A gear's own table.

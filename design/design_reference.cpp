@@ -135,7 +135,8 @@ std::string gears_of_kinds() {
   }
   return text +
          "\nAll gears of the kind must be there, and no others; only `[sun]` of a 3k with "
-         "`input = \"carrier\"` may be\nleft out. planet1 and planet2 are one body.\n";
+         "`input = \"carrier\"` may be\nleft out. planet1 and planet2 are one body, but in a two-stage: there sun2 is "
+         "one body with the carrier of stage 1.\n";
 }
 
 }  // namespace
@@ -144,6 +145,10 @@ std::string design_reference() {
   std::string text = kIntroduction + gears_of_kinds();
   describe(text, "Top of the file", "", file_keys());
   describe(text, "`[gearbox]`", "", gearbox_keys());
+  describe(text, "`[stage2]`",
+           "Of kind two-stage, and needed there: what its second stage has of its own. All else is the "
+           "gearbox's.",
+           stage_keys());
   describe(text, "`[rack]`",
            "The basic rack that all gears share; ISO 53 profile A where nothing is said. The table "
            "may be\nleft out.",
@@ -161,7 +166,8 @@ std::string design_reference() {
   describe(text, "`[carrier]`",
            "Of kinds with planets; without this table no carrier is built. Two plates, `carrier` "
            "below the\nplanets and `carrier_top` above them, held by the pins `carrier_pin` on which "
-           "the planets turn.",
+           "the planets turn. A two-stage has `carrier1` and `carrier2`, both of these sizes; the upper plate of "
+           "carrier1 is one body with sun2.",
            carrier_keys());
   describe(text, "`[housing]`",
            "Makes a gearbox of the gears ([gearbox](gearbox.md)); the four tables below stand only beside "

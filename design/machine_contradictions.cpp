@@ -37,6 +37,9 @@ class MachineContradictions {
  private:
   /// Which trains a housing is made for, and what of its keys they have.
   void check_housed(const Topology& topology) {
+    if (topology.stage_count() > 1)
+      return reading_.contradiction("housing", "no housing is made for several stages",
+                                    "another kind, or no [housing]; [carrier] makes plates and pins");
     if (!has_housing(topology))
       return reading_.contradiction("housing", "no housing is made for a single gear",
                                     "another kind, or no [housing]");

@@ -221,7 +221,7 @@ void bind_gearbox(py::module_& module) {
       py::arg("text"), py::arg("name") = "design.toml",
       "The same for the text of a design file; `name` stands for the file in errors.");
   module.def("new_design", &new_design, py::arg("kind") = "3k", py::arg("name") = "my-gearbox",
-             "A commented design file to start from, of kind 3k, stepped, simple, pair or gear, as text.");
+             "A commented design file to start from, of kind 3k, stepped, simple, two-stage, pair or gear, as text.");
 
   py::class_<Gearbox>(module, "Gearbox",
       "A design laid out. From read() or read_text(). Never changes.")
@@ -229,7 +229,7 @@ void bind_gearbox(py::module_& module) {
                              "Name of the design.")
       .def_property_readonly(
           "kind", [](const Gearbox& self) { return self.train().topology().kind; },
-          "3k, stepped, simple, pair or gear.")
+          "3k, stepped, simple, two-stage, pair or gear.")
       .def_property_readonly(
           "gears",
           [](const Gearbox& self) {

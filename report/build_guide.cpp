@@ -370,7 +370,7 @@ class Writer {
                 " Seen from the output's side, against the line from the middle of the gearbox "
                 "outwards through the planet, counter-clockwise, ") +
             (alike && marked ? "the hole" : "it") + " stands at ";
-    const auto& positions = train_.phases.planet_position_rad;
+    const auto& positions = train_.phases.positions_rad(train_.topology().first_planet());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const double turned =
           train_.phases.rotation_rad(train_.topology().first_planet(), i) - positions[i];

@@ -43,7 +43,9 @@ std::string inch_table(const GearTrain& train) {
     for (const auto& [name, value] : sizes_of(gear)) text += column(inch_text(value), 11, false);
     text += "\n";
   }
-  if (!train.meshes.empty()) text += "centre distance " + inch_text(inches(train.centre_distance_mm)) + " in\n";
+  if (!train.meshes.empty())
+    for (const GearTrain* stage : train.each_stage())
+      text += "centre distance " + inch_text(inches(stage->centre_distance_mm)) + " in\n";
   for (const TrainMesh& mesh : train.meshes)
     text += "backlash " + mesh.name + " " + inch_text(inches(mesh.backlash_mm)) + " in\n";
   return text + "\n";
@@ -52,6 +54,7 @@ std::string inch_table(const GearTrain& train) {
 std::string inch_json_text(const GearTrain& train) {
   Json json = Json::object();
   if (!train.meshes.empty()) json["centre_distance_in"] = inches(train.centre_distance_mm);
+  for (const GearTrain& stage : train.stages) json["stages"].push_back({{"centre_distance_in", inches(stage.centre_distance_mm)}});
   json["gears"] = Json::object();
   for (const TrainGear& gear : train.gears)
     for (const auto& [name, value] : sizes_of(gear)) json["gears"][gear.name][name] = value;

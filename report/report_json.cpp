@@ -43,11 +43,12 @@ Json train_json(const GearTrain& train) {
   json["kind"] = topology.kind;
   json["output"] = topology.output == kNoMember ? "none" : topology.name_of(topology.output);
   json["input"] = topology.meshes.empty() ? "none" : topology.name_of(topology.input);
-  json["planets"] = has_planets ? Json(train.design.planets) : Json(nullptr);
+  const bool one_set = has_planets && train.stages.empty();
+  json["planets"] = one_set ? Json(train.design.planets) : Json(nullptr);
   json["ratio"] = std::isnan(output) ? Json(nullptr) : Json(std::abs(1.0 / output));
   json["direction"] = std::isnan(output) ? Json(nullptr) : Json(output > 0.0 ? "same" : "opposite");
   json["centre_distance_mm"] = train.centre_distance_mm;
-  if (has_planets) {
+  if (one_set) {
     json["assembles"] = train.assembly.equal_spacing;
     json["identical_planets"] = train.assembly.identical_planets;
     json["planet_offsets_deg"] = degrees(train.assembly.planet_offsets_rad);
@@ -62,6 +63,12 @@ Json train_json(const GearTrain& train) {
                             "nearest_angles_deg", "nearest_bodies", "indexed_angles_deg",
                             "indexed_offsets_deg", "angle_step_deg"})
       json[key] = nullptr;
+  }
+  if (!train.stages.empty()) {  // each with the same keys
+    json["assembles"] = train.assembly.equal_spacing;
+    json["identical_planets"] = train.assembly.identical_planets;
+    json["stages"] = Json::array();
+    for (const GearTrain& stage : train.stages) json["stages"].push_back(train_json(stage));
   }
   return json;
 }

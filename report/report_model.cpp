@@ -283,7 +283,7 @@ PartShapes bare_shapes(const GearTrain& train) {
     const TrainGear* below = nullptr;
     for (const int g : gears) {
       const TrainGear& gear = train.gear(g);
-      Slab slab = slab_of(gear, phases.offset_rad(g, place), first.z_lower_mm);
+      Slab slab = slab_of(gear, g == gears.front() ? 0.0 : phases.offset_rad(g, place), first.z_lower_mm);
       if (below && slab.z_lower_mm > slabs.back().z_upper_mm) {
         const double neck_mm = std::min(below->profile.root_radius_mm(), gear.profile.root_radius_mm());
         slabs.push_back({slabs.back().z_upper_mm, slab.z_lower_mm, CircleOutline{Point2::Zero(), neck_mm}, {}});
@@ -292,16 +292,17 @@ PartShapes bare_shapes(const GearTrain& train) {
       below = &gear;
     }
     const Point2 at = axis_centre_mm(train, phases, member, place);
-    shapes.assembly.push_back({static_cast<int>(shapes.parts.size()) - 1, name,
-                               phases.rotation_rad(member, place), {at.x(), at.y(), first.z_lower_mm}});
+    const double turned = phases.rotation_rad(member, place) + phases.offset_rad(gears.front(), place);
+    shapes.assembly.push_back({static_cast<int>(shapes.parts.size()) - 1, name, turned, {at.x(), at.y(), first.z_lower_mm}});
   };
   for (std::size_t i = 0; i < topology.gears.size(); ++i) {
     const int member = topology.gears[i].member;
-    const std::string& name = topology.members[static_cast<std::size_t>(member)].name;
+    const std::string& name =
+        topology.is_carrier(member) ? topology.gears[i].name : topology.members[static_cast<std::size_t>(member)].name;
     if (topology.first_gear_of(member) != static_cast<int>(i)) continue;
     if (!topology.is_planet(member)) add(member, 0, name, name);
     else
-      for (std::size_t place = 0; place < phases.planet_position_rad.size(); ++place) {
+      for (std::size_t place = 0; place < phases.positions_rad(member).size(); ++place) {
         const std::string number = std::to_string(place + 1);
         add(member, place, name + "_" + number, name + " " + number);
       }

@@ -106,6 +106,12 @@ std::string heading_text(const Report& report) {
   if (!std::isnan(train.centre_distance_mm))
     text += ", centre distance " + formatted("%.4f", train.centre_distance_mm) + " mm";
   text += "\n";
+  for (std::size_t s = 0; s < train.stages.size(); ++s) {
+    const GearTrain& stage = train.stages[s];
+    text += "stage " + std::to_string(s + 1) + ": ratio " + formatted("%.4f", std::abs(1.0 / stage.speeds.output)) +
+            ", " + std::to_string(stage.design.planets) + " planets, centre distance " +
+            formatted("%.4f", stage.centre_distance_mm) + " mm\n";
+  }
   const EfficiencyResult& e = report.efficiency;
   if (!std::isnan(e.forward)) {
     text += "efficiency at friction " + formatted("%g", e.friction) + ": forward " +

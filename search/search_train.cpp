@@ -96,7 +96,7 @@ std::vector<SearchTrain> all_trains() {
     for (const std::string& input : kind.inputs)
       for (const std::string& output : kind.outputs) {
         Topology topology = kind.topology(output, input);
-        if (topology.meshes.empty()) continue;
+        if (topology.meshes.empty() || topology.stage_count() > 1) continue;
         const bool either =
             std::any_of(topology.gears.begin(), topology.gears.end(),
                         [](const TopologyGear& g) { return g.form == GearForm::kEither; });

@@ -12,7 +12,7 @@ struct NewDesignOptions {
   std::string kind = "3k";
 };
 
-/// The kinds there are: "3k, stepped, simple, pair or gear".
+/// The kinds there are: "3k, stepped, simple, two-stage, pair or gear".
 [[nodiscard]] std::string new_design_kinds();
 
 /// A commented design file to start from, as text. Errors: kUsage, no such kind.

@@ -65,7 +65,7 @@ double wall_of_output_mm(const GearTrain& train, const MachineLayout& m) {
     for (const Point2& pillar : m.pillars)
       wall = std::min(wall,
                       (at - pillar).norm() - insert - 0.5 * m.carrier_screws.screw.insert_hole_mm);
-    for (const double angle : train.phases.planet_position_rad)
+    for (const double angle : train.phases.positions_rad(train.topology().first_planet()))
       wall = std::min(wall, (at - train.centre_distance_mm * unit_vector(angle)).norm() - insert -
                                 0.5 * m.carrier.pin_hole_diameter_mm);
     wall = std::min(wall, at.norm() - insert - m.stop_hole_radius_mm);

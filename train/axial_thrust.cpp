@@ -15,9 +15,11 @@ AxialThrust axial_thrust(const GearTrain& train, const DirectionEfficiency& forw
       members.push_back(gear.member);
       thrust.bodies.push_back({topology.name_of(gear.member), 0.0});
     }
-  const double planets = topology.has_planets() ? train.design.planets : 1;
   for (std::size_t k = 0; k < train.meshes.size() && k < forward.meshes.size(); ++k) {
     const GearPair pair = train.pair(train.meshes[k]);
+    const TopologyMesh& gears = topology.meshes[k];
+    const double planets = std::max(train.copies_of(topology.gears[static_cast<std::size_t>(gears.gear1)].member),
+                                    train.copies_of(topology.gears[static_cast<std::size_t>(gears.gear2)].member));
     const auto& flow = forward.meshes[k];
     const double sign = flow.torque1 < 0.0 ? -1.0 : 1.0;
     const double pull = sign * 0.5 *

@@ -13,6 +13,7 @@
 #include "trueflank/train/flank_modifications.h"
 #include "trueflank/train/planet_phase.h"
 #include "trueflank/train/shift_solution.h"
+#include "trueflank/train/stages.h"
 #include "trueflank/train/thickness_allowance.h"
 
 namespace trueflank {
@@ -327,6 +328,7 @@ ResultAll<std::vector<TrainGear>> made_gears(const GearTrain& train, const std::
 
 ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
   if (Errors wrong = gear_errors(design); !wrong.empty()) return fail_all(std::move(wrong));
+  if (design.topology.stage_count() > 1) return lay_out_stages(design);
   GearTrain train;
   train.design = design;
   for (const TopologyMesh& mesh : design.topology.meshes)
@@ -339,6 +341,7 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
   auto solution = solve_shifts(design, train.meshes);
   if (!solution) return fail_all(solution.error());
   train.centre_distance_mm = solution->centre_distance_mm;
+  for (TrainMesh& mesh : train.meshes) mesh.centre_distance_mm = train.centre_distance_mm;
 
   std::vector<Gear> gears = gears_without_tips(design, *solution);
   for (std::size_t k = 0; k < train.meshes.size(); ++k)
@@ -391,7 +394,7 @@ Point2 axis_centre_mm(const GearTrain& train, const AssemblyPhases& phases, int 
                       std::size_t place) {
   const Topology& topology = train.topology();
   if (topology.is_planet(member))
-    return train.centre_distance_mm * unit_vector(phases.planet_position_rad[place]);
+    return train.axis_distance_mm(member) * unit_vector(phases.positions_rad(member)[place]);
   if (topology.members[static_cast<std::size_t>(member)].axis == 0) return Point2::Zero();
   const bool internal =
       train.gear(topology.first_gear_of(member)).profile.gear().kind == GearKind::kInternal;
@@ -403,9 +406,9 @@ AssemblyPhases turned(const GearTrain& train, double input_turn_rad) {
   const Topology& topology = train.topology();
   for (std::size_t m = 0; m < topology.members.size(); ++m)
     for (double& rotation : phases.member_rotation_rad[m]) rotation += train.speeds.of[m] * input_turn_rad;
-  if (const int planet = topology.first_planet(); planet != kNoMember)
-    for (double& position : phases.planet_position_rad)
-      position += train.speeds.of_arm(topology.carrier_of(planet)) * input_turn_rad;
+  for (std::size_t m = 0; m < topology.members.size(); ++m)
+    for (double& position : phases.position_rad[m])
+      position += train.speeds.of_arm(topology.carrier_of(static_cast<int>(m))) * input_turn_rad;
   return phases;
 }
 
@@ -421,7 +424,23 @@ BodyMotion motion_of(const GearTrain& train, int member) {
 GearPair GearTrain::pair(const TrainMesh& mesh) const {
   return {.profile1 = &gears[static_cast<std::size_t>(mesh.gear1)].profile,
           .profile2 = &gears[static_cast<std::size_t>(mesh.gear2)].profile,
-          .centre_distance_mm = centre_distance_mm};
+          .centre_distance_mm = mesh.centre_distance_mm};
+}
+
+double GearTrain::axis_distance_mm(int member) const {
+  if (topology().members[static_cast<std::size_t>(member)].axis == 0) return 0.0;
+  if (stages.empty()) return centre_distance_mm;
+  const std::string& name = topology().members[static_cast<std::size_t>(member)].name;
+  for (const GearTrain& stage : stages)
+    if (const int own = stage.topology().find_member(name); own != kNoMember) return stage.axis_distance_mm(own);
+  return kNaN;
+}
+
+std::vector<const GearTrain*> GearTrain::each_stage() const {
+  if (stages.empty()) return {this};
+  std::vector<const GearTrain*> all;
+  for (const GearTrain& stage : stages) all.push_back(&stage);
+  return all;
 }
 
 }  // namespace trueflank

@@ -50,6 +50,7 @@ struct TrainGear {
 struct TrainMesh {
   std::string name;  ///< "sun-planet1", ...
   int gear1 = 0, gear2 = 0;             ///< indices into GearTrain::gears
+  double centre_distance_mm = kNaN;     ///< of their axes
   double backlash_mm = kNaN;            ///< circumferential, at the working pitch circle, as it comes out
   double implied_backlash_mm = 0.0;     ///< the part shifts and centre distance imply, thinning aside
   /// With all thickness allowances at their ends, at the exact centre distance; NaN where neither
@@ -61,12 +62,18 @@ struct TrainMesh {
 /// half the backlash on either flank. Angles are of tooth 1, counter-clockwise from +x. A body on a
 /// standing axis is there once, a planet as often as there are positions.
 struct AssemblyPhases {
-  std::vector<double> planet_position_rad;  ///< centres of the planets, from +x, planet 1 at 0
+  /// [member][place]: centres of planets, from +x, planet 1 at 0; empty for bodies on standing axes.
+  std::vector<std::vector<double>> position_rad;
   /// [member][place]: of the member's first gear; of a carrier, what it has turned.
   std::vector<std::vector<double>> member_rotation_rad;
-  /// [gear][place]: ahead of the first gear of its body; 0 for first gears.
+  /// [gear][place]: ahead of its member; 0 for first gears but those on a carrier.
   std::vector<std::vector<double>> gear_offset_rad;
 
+  /// Where the planets of a body stand; empty for kNoMember and bodies on standing axes.
+  [[nodiscard]] const std::vector<double>& positions_rad(int member) const {
+    static const std::vector<double> none;
+    return member == kNoMember ? none : position_rad[static_cast<std::size_t>(member)];
+  }
   /// `place` counts planets and means nothing to bodies on standing axes.
   [[nodiscard]] double rotation_rad(int member, std::size_t place) const {
     const auto& turns = member_rotation_rad[static_cast<std::size_t>(member)];
@@ -95,21 +102,26 @@ struct AssemblyCondition {
 
 struct GearTrain {
   GearboxDesign design;
-  double centre_distance_mm = kNaN;  ///< NaN for a single gear
+  double centre_distance_mm = kNaN;  ///< NaN for a single gear, and where each stage has its own
   std::vector<TrainGear> gears;      ///< in the order of the design
   std::vector<TrainMesh> meshes;
   AssemblyCondition assembly;
   MemberSpeeds speeds;
   AssemblyPhases phases;  ///< at the design's spacing: equal, or the nearest angles where it must be
+  /// Of a train of several stages: each as a train of its own, at its height in the whole and with the names
+  /// of the whole; what is said of one set of planets is said there. Empty where there is one stage.
+  std::vector<GearTrain> stages = {};
 
   [[nodiscard]] const Topology& topology() const { return design.topology; }
   [[nodiscard]] const TrainGear* find(const std::string& name) const;
   [[nodiscard]] const TrainGear& gear(int index) const { return gears[static_cast<std::size_t>(index)]; }
   /// How often a body is there: a planet as often as there are planets.
-  [[nodiscard]] int copies_of(int member) const {
-    return topology().is_planet(member) ? design.planets : 1;
-  }
-  /// The external gear that the planets run round; nullptr where there is none.
+  [[nodiscard]] int copies_of(int member) const { return planets_of(design, member); }
+  /// Of a member's axis from the train's; 0 where it is the same.
+  [[nodiscard]] double axis_distance_mm(int member) const;
+  /// The stages; the train itself where it has one.
+  [[nodiscard]] std::vector<const GearTrain*> each_stage() const;
+  /// The external gear that the planets run round, of the first stage; nullptr where there is none.
   [[nodiscard]] const TrainGear* sun() const;
   [[nodiscard]] GearPair pair(const TrainMesh& mesh) const;
 };

@@ -6,6 +6,15 @@
 #include "trueflank/train/machine/seat_fits.h"
 
 namespace trueflank {
+namespace {
+
+/// nullptr for the first.
+const StageDesign* later_stage(const GearboxDesign& design, int stage) {
+  const auto index = static_cast<std::size_t>(stage - 2);
+  return stage >= 2 && index < design.later_stages.size() ? &design.later_stages[index] : nullptr;
+}
+
+}  // namespace
 
 const GearDesign* find_gear(const GearboxDesign& design, const std::string& name) {
   const auto it = std::find_if(design.gears.begin(), design.gears.end(),
@@ -41,7 +50,18 @@ double bore_between(const Bearing& bearing) {
 }
 
 double module_of(const GearboxDesign& design, const GearDesign& gear) {
-  return gear.module_mm.value_or(design.module_mm);
+  if (gear.module_mm) return *gear.module_mm;
+  const int index = design.later_stages.empty() ? -1 : design.topology.find_gear(gear.name);
+  const StageDesign* stage = index < 0 ? nullptr : later_stage(design, design.topology.gears[static_cast<std::size_t>(index)].stage);
+  return stage ? stage->module_mm.value_or(design.module_mm) : design.module_mm;
+}
+
+int planets_of(const GearboxDesign& design, int member) {
+  const Topology& topology = design.topology;
+  if (!topology.is_planet(member)) return 1;
+  const int gear = topology.first_gear_of(member);
+  const StageDesign* stage = later_stage(design, topology.gears[static_cast<std::size_t>(gear)].stage);
+  return stage ? stage->planets : design.planets;
 }
 
 /// In a housing the ring that drives out is one part with its cup.

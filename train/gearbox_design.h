@@ -175,6 +175,15 @@ struct StrengthDesign {
   bool operator==(const StrengthDesign&) const = default;
 };
 
+/// What a stage behind the first says of itself; all else is the gearbox's.
+struct StageDesign {
+  int planets = 1;
+  std::optional<double> module_mm = {};  ///< omitted: the gearbox's
+  std::optional<double> centre_distance_mm = {};
+
+  bool operator==(const StageDesign&) const = default;
+};
+
 /// A gearbox as designed.
 struct GearboxDesign {
   std::string name;
@@ -200,6 +209,7 @@ struct GearboxDesign {
   std::string tools_file = {};  ///< the user's racks, cutters and processes; empty: none
   std::optional<LossesDesign> losses = {};  ///< none: friction of the meshes alone
   StrengthDesign strength = {};
+  std::vector<StageDesign> later_stages = {};  ///< stage 2, ...: one for each that the topology has
 
   bool operator==(const GearboxDesign&) const = default;
 };
@@ -212,7 +222,10 @@ struct GearboxDesign {
 [[nodiscard]] const GearDesign& first_of_body(const GearboxDesign& design, std::size_t gear);
 /// The bore that the motor's shaft goes into: a D where the shaft has a flat.
 [[nodiscard]] BoreDesign shaft_bore(const MachineDesign& machine);
+/// Its own, its stage's or the gearbox's.
 [[nodiscard]] double module_of(const GearboxDesign& design, const GearDesign& gear);
+/// Planets on the axis of a member; 1 where that stands.
+[[nodiscard]] int planets_of(const GearboxDesign& design, int member);
 /// Whether a herringbone ring is made as two parts that meet at the apex: asked for, or in a housing.
 [[nodiscard]] bool is_made_in_halves(const GearboxDesign& design, const GearDesign& gear);
 

@@ -14,14 +14,13 @@ double square(double x) { return x * x; }
 /// Kinetic energy of everything but the output member, per half the square of the input speed.
 double input_side(const GearTrain& train, const BodyInertias& bodies) {
   const Topology& topology = train.topology();
-  const double orbit_m = train.centre_distance_mm * 1e-3;
   double inertia = 0.0;
   for (std::size_t m = 0; m < bodies.size(); ++m) {
     const int member = static_cast<int>(m);
     if (member == topology.output) continue;
     double of_body = bodies[m].axial_kg_m2 * square(train.speeds.of[m]);
     if (topology.is_planet(member))
-      of_body += bodies[m].mass_kg * square(orbit_m * train.speeds.of_arm(topology.carrier_of(member)));
+      of_body += bodies[m].mass_kg * square(train.axis_distance_mm(member) * 1e-3 * train.speeds.of_arm(topology.carrier_of(member)));
     inertia += train.copies_of(member) * of_body;
   }
   return inertia;

@@ -152,7 +152,7 @@ void place_standing(const GearTrain& train, AssemblyPhases& phases) {
 /// of the equivalent rotations, the one that needs the least offset.
 void place_body(const std::vector<PlanetGear>& gears, int planet, std::size_t place,
                 const std::function<double(int gear)>& central_rad, AssemblyPhases& phases) {
-  const double phi = phases.planet_position_rad[place];
+  const double phi = phases.positions_rad(planet)[place];
   const auto wanted = [&](const PlanetGear& gear) {
     return planet_rotation_rad(gear.teeth, gear.mate_teeth[0], central_rad(gear.mates[0]), phi);
   };
@@ -194,7 +194,7 @@ void place_planets(const GearTrain& train, int planet, AssemblyPhases& phases) {
     for (std::size_t i = 0; i < gear.mates.size(); ++i)
       if (gear.gear != gears[0].gear || i > 0)
         central_rad(gear.mates[i]) = central_rotation_rad(gear.mate_teeth[i], gear.teeth, first);
-  for (std::size_t place = 0; place < phases.planet_position_rad.size(); ++place)
+  for (std::size_t place = 0; place < phases.positions_rad(planet).size(); ++place)
     place_body(gears, planet, place, central_rad, phases);
 }
 
@@ -249,10 +249,12 @@ AssemblyPhases phases_in_mesh(const GearTrain& train) {
   const Topology& topology = train.topology();
   const int planet = topology.first_planet();
   const int n = train.design.planets;
+  phases.position_rad.resize(topology.members.size());
   if (planet != kNoMember) {
-    for (int i = 0; i < n; ++i) phases.planet_position_rad.push_back(kTwoPi * i / n);
+    std::vector<double>& positions = phases.position_rad[static_cast<std::size_t>(planet)];
+    for (int i = 0; i < n; ++i) positions.push_back(kTwoPi * i / n);
     if (!train.assembly.equal_spacing && !train.assembly.nearest_angles_rad.empty())
-      phases.planet_position_rad = train.assembly.nearest_angles_rad;
+      positions = train.assembly.nearest_angles_rad;
   }
   for (std::size_t m = 0; m < topology.members.size(); ++m)
     phases.member_rotation_rad.emplace_back(

@@ -63,6 +63,8 @@ int Topology::first_planet() const {
   return kNoMember;
 }
 
+int Topology::stage_count() const { return gears.empty() ? 1 : gears.back().stage; }
+
 std::string Topology::name_of(int member) const {
   return member == kNoMember ? "" : members[static_cast<std::size_t>(member)].name;
 }

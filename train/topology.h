@@ -9,7 +9,7 @@
 // the meshes, and which bodies are driven, loaded and held. Kinematics, torque balance, phases,
 // assembly, parts and reports all follow from it; the kinds of the design file (design/kinds/) are
 // values of it. Any number of axes, carriers and stages can be written down; lay_out() places those
-// with one centre distance.
+// whose stages have one centre distance each.
 namespace trueflank {
 
 /// Stands in for a member: nothing that turns.
@@ -41,6 +41,9 @@ struct TopologyGear {
   int layer = 1;  ///< 2 lies above 1
   GearForm form = GearForm::kExternal;
   bool optional = false;  ///< a design may leave it out: it idles
+  /// Gears that are tied by meshes have one: it has one centre distance and at most one set of planets.
+  /// Gears stand in the order of their stages, and layers count through them.
+  int stage = 1;
 
   bool operator==(const TopologyGear&) const = default;
 };
@@ -81,8 +84,10 @@ struct Topology {
   [[nodiscard]] int find_member(std::string_view name) const;
   /// -1 where there is none of this name.
   [[nodiscard]] int find_gear(std::string_view name) const;
-  /// The first planet body; kNoMember where there is none.
+  /// The first planet body; kNoMember where there is none. The only one of a stage.
   [[nodiscard]] int first_planet() const;
+  /// How many there are; 1 where there is no gear.
+  [[nodiscard]] int stage_count() const;
   /// "" for kNoMember.
   [[nodiscard]] std::string name_of(int member) const;
   [[nodiscard]] std::string mesh_name(const TopologyMesh& mesh) const;

@@ -8,7 +8,7 @@ _trueflank() {
     return
   fi
   case $before in
-    --kind) mapfile -t COMPREPLY < <(compgen -W "3k stepped simple pair gear" -- "$word"); return ;;
+    --kind) mapfile -t COMPREPLY < <(compgen -W "3k stepped simple two-stage pair gear" -- "$word"); return ;;
     --gear | --part)
       mapfile -t COMPREPLY < <(compgen -W "sun planet planet1 ring1 planet2 ring2 ring pinion wheel gear carrier carrier_top carrier_pin" -- "$word")
       return ;;

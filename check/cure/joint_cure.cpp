@@ -23,6 +23,7 @@
 #include "trueflank/check/profile.h"
 #include "trueflank/check/tip_thickness.h"
 #include "trueflank/check/undercut.h"
+#include "trueflank/train/stages.h"
 
 namespace trueflank {
 namespace {
@@ -392,6 +393,34 @@ class Search {
   std::map<std::set<std::string>, int> failed_together_;
 };
 
+/// Each stage that fails (or, where none does, that warns) cured by itself, one after the other, and the whole
+/// judged.
+JointCure cure_of_stages(const GearTrain& train, const Findings& findings, const JointCureOptions& options) {
+  JointCure whole{.design = train.design, .findings = findings};
+  const bool failing = verdict(findings) == CheckStatus::kFail;
+  for (int number = 1; number <= train.topology().stage_count(); ++number) {
+    const auto stage = lay_out(stage_design(whole.design, number));
+    if (!stage) continue;
+    const Findings own = check_gearbox(*stage);
+    if (failing && verdict(own) != CheckStatus::kFail) continue;
+    const JointCure cure = joint_cure(*stage, own, options);
+    whole.search_ended = whole.search_ended && cure.search_ended;
+    if (whole.conflict.empty()) whole.conflict = cure.conflict;
+    if (!cure.changed) continue;
+    GearboxDesign changed = whole.design;
+    set_stage(cure.design, number, changed);
+    const auto laid = lay_out(changed);
+    if (!laid) continue;
+    Findings after = check_gearbox(*laid);
+    if (count(after, CheckStatus::kFail) > count(whole.findings, CheckStatus::kFail)) continue;
+    whole.design = std::move(changed);
+    whole.findings = std::move(after);
+    whole.changed = true;
+  }
+  if (whole.cured()) whole.conflict.clear();
+  return whole;
+}
+
 }  // namespace
 
 JointCure joint_cure(const GearTrain& train, const JointCureOptions& options) {
@@ -400,6 +429,7 @@ JointCure joint_cure(const GearTrain& train, const JointCureOptions& options) {
 
 JointCure joint_cure(const GearTrain& train, const Findings& findings,
                      const JointCureOptions& options, const AroundGears& around) {
+  if (!train.stages.empty()) return cure_of_stages(train, findings, options);
   Search search(train, options, around);
   JointCure near = search.run(findings);
   if (near.cured() || !options.farther || search.gears_pass(near.findings)) return near;

@@ -8,7 +8,8 @@
 namespace trueflank {
 
 const std::vector<TrainKind>& train_kinds() {
-  static const std::vector<TrainKind> kinds{kind_3k(), kind_stepped(), kind_simple(), kind_pair(), kind_gear()};
+  static const std::vector<TrainKind> kinds{kind_3k(),        kind_stepped(), kind_simple(),
+                                            kind_two_stage(), kind_pair(),    kind_gear()};
   return kinds;
 }
 

@@ -39,6 +39,7 @@ struct TrainKind {
 [[nodiscard]] TrainKind kind_3k();
 [[nodiscard]] TrainKind kind_stepped();
 [[nodiscard]] TrainKind kind_simple();
+[[nodiscard]] TrainKind kind_two_stage();
 [[nodiscard]] TrainKind kind_pair();
 [[nodiscard]] TrainKind kind_gear();
 

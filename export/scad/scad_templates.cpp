@@ -64,8 +64,7 @@ std::string part_of(const GearTrain& train, const std::string& gear) {
   const Topology& topology = train.topology();
   const int member = topology.gears[static_cast<std::size_t>(topology.find_gear(gear))].member;
   const bool alike = !topology.is_planet(member) || planet_bodies_alike(train.assembly) ||
-                     train.phases.planet_position_rad.size() == 1 ||
-                     topology.gears_of(member).size() == 1;
+                     train.copies_of(member) == 1 || topology.gears_of(member).size() == 1;
   return topology.name_of(member) + (alike ? "" : "_1");
 }
 std::string section_module(const GearTrain& train, const std::string& module,
@@ -87,7 +86,7 @@ class TemplateFiller {
   }
 
   std::vector<FilledTemplate> fill() {
-    const bool planetary = !train_.phases.planet_position_rad.empty();
+    const bool planetary = train_.topology().has_planets();
     // a moving ring below the fixed one turns where the housing's floor would hold
     const bool housed = fixed_ && (!moving_ || moving_->z_lower_mm >= top_mm(*fixed_));
     if (planetary && housed) add_housing();
@@ -101,12 +100,22 @@ class TemplateFiller {
     return std::move(files_);
   }
 
+  /// What a stage needs for itself; housing, motor and output are of the whole train, and are not made for
+  /// several stages.
+  std::vector<FilledTemplate> fill_stage(const std::string& number) {
+    stage_ = "_stage" + number;
+    add_carrier();
+    add_test_jig();
+    add_fit_coupon();
+    return std::move(files_);
+  }
+
  private:
   [[nodiscard]] const GearDesign& design_of(const TrainGear& gear) const {
     return *find_gear(train_.design, gear.name);
   }
   void add(const char* name, std::string_view text, const std::string& gears = {}) {
-    files_.push_back({std::string("template_") + name + ".scad",
+    files_.push_back({std::string("template_") + name + stage_ + ".scad",
                       filled(text, values_, gears, one_line(train_.design.name))});
     values_.clear();
   }
@@ -170,7 +179,7 @@ class TemplateFiller {
     }
     const CarrierLayout layout = *carrier_layout(carried);
     std::string angles;
-    for (double angle : train_.phases.planet_position_rad)
+    for (double angle : train_.phases.positions_rad(topology.first_planet()))
       angles += (angles.empty() ? "[" : ", ") + number(deg_from_rad(angle));
     values_["pin_angles"] = angles + "]";
     set("centre_distance", train_.centre_distance_mm);
@@ -245,13 +254,19 @@ class TemplateFiller {
   const TrainGear* fixed_ = nullptr;
   const TrainGear* moving_ = nullptr;
   Values values_;
+  std::string stage_;  ///< of file names; empty where there is one
   std::vector<FilledTemplate> files_;
 };
 
 }  // namespace
 
 std::vector<FilledTemplate> scad_templates(const GearTrain& train) {
-  return TemplateFiller(train).fill();
+  if (train.stages.empty()) return TemplateFiller(train).fill();
+  std::vector<FilledTemplate> files;
+  for (std::size_t s = 0; s < train.stages.size(); ++s)
+    for (FilledTemplate& file : TemplateFiller(train.stages[s]).fill_stage(std::to_string(s + 1)))
+      files.push_back(std::move(file));
+  return files;
 }
 
 Result<std::vector<ReportedFile>> write_scad_templates(const std::filesystem::path& folder,

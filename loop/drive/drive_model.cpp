@@ -9,57 +9,75 @@
 namespace trueflank::loop {
 namespace {
 
-/// A wave of order n on a gear is met n times per turn of that gear against its mates' place: the
-/// carrier for sun and rings, so a planet's counts against the carrier too.
-std::vector<MemberOrder> member_orders(const GearTrain& train) {
-  const Topology& topology = train.topology();
-  const std::vector<double>& w = train.speeds.of;
-  std::vector<MemberOrder> orders;
-  const auto add = [&](const std::string& member, double order) {
+/// Orders by their names; each also twice where a shaft's own errors show so.
+class Orders {
+ public:
+  void add(const std::string& member, double order) {
     order = std::abs(order);
     if (!std::isfinite(order) || order < 1e-6) return;
-    orders.push_back({member, order});
-  };
-  const auto add_twice = [&](const std::string& member, double order) {
+    all.push_back({member, order});
+  }
+  void add_twice(const std::string& member, double order) {
     add(member, order);
     add(member + ", twice", 2.0 * order);
-  };
-  add_twice("input shaft", 1.0);
-  if (topology.has_planets()) {
-    const int planets = train.design.planets, planet = topology.first_planet();
-    const double carrier = train.speeds.of_arm(topology.carrier_of(planet));
-    const TrainGear* first = nullptr;
-    double first_against = 0.0;
-    int central = 0;
-    // the gears on the train's own axis in their order, carrier and planets after the first of them
-    for (std::size_t g = 0; g < train.gears.size(); ++g) {
-      if (topology.is_planet_gear(g)) continue;
-      const TrainGear& gear = train.gears[g];
-      const double against = w[static_cast<std::size_t>(topology.gears[g].member)] - carrier;
-      if (++central == 1) {
-        first = &gear;
-        first_against = against;
-        add_twice(gear.name + " against the carrier", against);
-        add("planets passing the " + gear.name, planets * against);
-        add_twice("carrier", carrier);
-        add_twice("planet against the carrier", w[static_cast<std::size_t>(planet)] - carrier);
-        continue;
-      }
-      add(gear.name + " against the carrier", against);
-      add("planets passing " + gear.name, planets * against);
-      if (central == 2)
-        add("mesh of " + first->name + " and planets", first->profile.gear().teeth * first_against);
-      if (gear.layer > 1)
-        add("mesh of planets and " + gear.name, gear.profile.gear().teeth * against);
+  }
+
+  std::vector<MemberOrder> all;
+};
+
+/// A wave of order n on a gear is met n times per turn of that gear against its mates' place: the
+/// carrier for sun and rings, so a planet's counts against the carrier too. `planet`: the set's body.
+void add_planet_set(const GearTrain& train, int planet, Orders& orders) {
+  const Topology& topology = train.topology();
+  const std::vector<double>& w = train.speeds.of;
+  const TopologyGear& lowest = topology.gears[static_cast<std::size_t>(topology.first_gear_of(planet))];
+  const bool one_set = train.stages.empty();
+  const int planets = train.copies_of(planet), arm = topology.carrier_of(planet);
+  const double carrier = train.speeds.of_arm(arm);
+  const std::string carrier_name = one_set ? "carrier" : topology.name_of(arm);
+  const std::string planet_name = one_set ? "planet" : topology.name_of(planet);
+  const std::string set_name = one_set ? "planets" : "planets of stage " + std::to_string(lowest.stage);
+  const TrainGear* first = nullptr;
+  double first_against = 0.0;
+  int central = 0;
+  // the gears on the train's own axis in their order, carrier and planets after the first of them
+  for (std::size_t g = 0; g < train.gears.size(); ++g) {
+    if (topology.is_planet_gear(g) || topology.gears[g].stage != lowest.stage) continue;
+    const TrainGear& gear = train.gears[g];
+    const double against = w[static_cast<std::size_t>(topology.gears[g].member)] - carrier;
+    if (++central == 1) {
+      first = &gear;
+      first_against = against;
+      orders.add_twice(gear.name + " against the " + carrier_name, against);
+      orders.add(set_name + " passing the " + gear.name, planets * against);
+      orders.add_twice(carrier_name, carrier);
+      orders.add_twice(planet_name + " against the " + carrier_name, w[static_cast<std::size_t>(planet)] - carrier);
+      continue;
     }
-    add("output", train.speeds.output);
+    orders.add(gear.name + " against the " + carrier_name, against);
+    orders.add(set_name + " passing " + gear.name, planets * against);
+    if (central == 2)
+      orders.add("mesh of " + first->name + " and " + set_name, first->profile.gear().teeth * first_against);
+    if (gear.layer > lowest.layer)
+      orders.add("mesh of " + set_name + " and " + gear.name, gear.profile.gear().teeth * against);
+  }
+}
+
+std::vector<MemberOrder> member_orders(const GearTrain& train) {
+  const Topology& topology = train.topology();
+  Orders orders;
+  orders.add_twice("input shaft", 1.0);
+  for (std::size_t m = 0; m < topology.members.size(); ++m)
+    if (topology.is_planet(static_cast<int>(m))) add_planet_set(train, static_cast<int>(m), orders);
+  if (topology.has_planets()) {
+    orders.add("output", train.speeds.output);
   } else {
-    add_twice(topology.name_of(topology.output), train.speeds.output);
-    add("mesh", train.gears[0].profile.gear().teeth);
+    orders.add_twice(topology.name_of(topology.output), train.speeds.output);
+    orders.add("mesh", train.gears[0].profile.gear().teeth);
   }
   // Of orders that coincide the first name stands, with the other beside it.
   std::vector<MemberOrder> distinct;
-  for (const MemberOrder& order : orders) {
+  for (const MemberOrder& order : orders.all) {
     bool known = false;
     for (MemberOrder& other : distinct)
       if (std::abs(other.order - order.order) < 1e-6) {

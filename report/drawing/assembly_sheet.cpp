@@ -248,6 +248,10 @@ class AssemblySheet {
     const auto& train = model_.report->at("train");
     if (train.at("centre_distance_mm").is_number())
       all.push_back("Centre distance " + drawing_number(train.at("centre_distance_mm").get<double>(), 4) + ".");
+    if (train.contains("stages"))
+      for (std::size_t s = 0; s < train.at("stages").size(); ++s)
+        all.push_back("Centre distance of stage " + std::to_string(s + 1) + ": " +
+                      drawing_number(train.at("stages")[s].at("centre_distance_mm").get<double>(), 4) + ".");
     if (train.at("ratio").is_number())
       all.push_back("Ratio " + drawing_number(train.at("ratio").get<double>(), 4) + ", output turns in the " +
                     train.at("direction").get<std::string>() + " direction.");

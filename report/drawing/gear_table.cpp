@@ -172,8 +172,9 @@ std::vector<GearTableRow> gear_table(const GearTrain& train,
              with_limits(report, "over_pins_mm", "over_pins_min_mm", "over_pins_max_mm"));
   add_length("Face width", "b", length("face_width_mm", 3));
   add_length("Lead", "p_z", length("lead_mm", 4));
-  add_length("Centre distance", "a", [&](const TrainGear&, const Json&, Unit unit) {
-    return length_of(report.at("train"), "centre_distance_mm", 4, unit);
+  add_length("Centre distance", "a", [&](const TrainGear& g, const Json&, Unit unit) {
+    const auto meshes = meshes_of(train, g);
+    return meshes.empty() ? std::string() : length_text(meshes.front()->centre_distance_mm, 4, unit);
   });
   for (std::size_t i = 0;; ++i) {
     const std::size_t before = rows.size();

@@ -150,7 +150,7 @@ Image GearboxPictures::cut_open(double towards_rad, const std::vector<Eigen::Vec
 /// Between two planets, so that the sun is seen; beside a planet that is alone.
 double GearboxPictures::opening_rad() const {
   if (!train_.topology().has_planets()) return kPairAzimuth_rad;
-  const auto& planets = train_.phases.planet_position_rad;
+  const auto& planets = train_.phases.positions_rad(train_.topology().first_planet());
   const double first = planets.empty() ? 0.0 : planets[0];
   const double next = planets.size() > 1 ? planets[1] : first + kTwoPi / 3.0;
   return 0.5 * (first + next) + kOffSymmetry_rad;

@@ -16,8 +16,9 @@ constexpr double kLeastWall_mm = 0.4;
 
 class CarrierBuilder {
  public:
-  CarrierBuilder(const GearTrain& train, const CarrierLayout& layout, PartShapes& shapes)
-      : train_(train), layout_(layout), shapes_(shapes) {}
+  /// `whole`: whose stage the train is, or the train itself.
+  CarrierBuilder(const GearTrain& whole, const GearTrain& train, const CarrierLayout& layout, PartShapes& shapes)
+      : whole_(whole), train_(train), layout_(layout), shapes_(shapes) {}
 
   Errors build() {
     check_pins();
@@ -91,13 +92,17 @@ class CarrierBuilder {
   }
 
   [[nodiscard]] double nearest_pins_mm() const {
-    const auto& angles = train_.phases.planet_position_rad;
+    const auto& angles = positions_rad();
     double apart = 1e300;
     for (std::size_t i = 0; i < angles.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         apart = std::min(apart, 2.0 * train_.centre_distance_mm *
                                     std::abs(std::sin(0.5 * (angles[i] - angles[j]))));
     return apart;
+  }
+
+  [[nodiscard]] const std::vector<double>& positions_rad() const {
+    return train_.phases.positions_rad(train_.topology().first_planet());
   }
 
   // ------------------------------------------------------------------------------------- shapes
@@ -112,7 +117,7 @@ class CarrierBuilder {
     upper.push_back(plate_slab(0.0, thickness - depth, opening));
     if (depth > 0.0) upper.push_back(plate_slab(thickness - depth, thickness, seat));
     add_plate("", std::move(lower), layout_.lower_plate);
-    add_plate("_top", std::move(upper), layout_.upper_plate);
+    if (!bears_gear(whole_.topology(), member())) add_plate("_top", std::move(upper), layout_.upper_plate);
     add_pins();
   }
 
@@ -122,19 +127,23 @@ class CarrierBuilder {
               .outer = CircleOutline{Point2::Zero(), 0.5 * layout_.outer_diameter_mm},
               .holes = {}};
     if (opening_mm > 0.0) slab.holes.push_back(CircleOutline{Point2::Zero(), 0.5 * opening_mm});
-    for (double angle : train_.phases.planet_position_rad)
+    for (double angle : positions_rad())
       slab.holes.push_back(CircleOutline{train_.centre_distance_mm * unit_vector(angle),
                                          0.5 * layout_.pin_hole_diameter_mm});
     return slab;
   }
 
+  /// In the whole.
+  [[nodiscard]] int member() const {
+    const Topology& topology = train_.topology();
+    return whole_.topology().find_member(topology.name_of(topology.carrier_of(topology.first_planet())));
+  }
+
   /// The carrier's parts are named after it.
   void add_part(const char* suffix, std::vector<Slab> slabs) {
-    const Topology& topology = train_.topology();
-    const int carrier = topology.carrier_of(topology.first_planet());
-    shapes_.parts.push_back({.name = topology.name_of(carrier) + suffix,
+    shapes_.parts.push_back({.name = whole_.topology().name_of(member()) + suffix,
                              .slabs = std::move(slabs),
-                             .member = carrier,
+                             .member = member(),
                              .role = PartRole::kCarrier});
   }
 
@@ -152,7 +161,7 @@ class CarrierBuilder {
                        .outer = CircleOutline{Point2::Zero(), 0.5 * layout_.pin_diameter_mm},
                        .holes = {}}});
     int number = 0;
-    for (double angle : train_.phases.planet_position_rad) {
+    for (double angle : positions_rad()) {
       const Point2 centre = train_.centre_distance_mm * unit_vector(angle);
       shapes_.assembly.push_back({.part = static_cast<int>(shapes_.parts.size()) - 1,
                                   .name = shapes_.parts.back().name + " " + std::to_string(++number),
@@ -160,6 +169,7 @@ class CarrierBuilder {
     }
   }
 
+  const GearTrain& whole_;
   const GearTrain& train_;
   const CarrierLayout& layout_;
   PartShapes& shapes_;
@@ -169,9 +179,13 @@ class CarrierBuilder {
 }  // namespace
 
 Errors add_carrier(const GearTrain& train, PartShapes& shapes) {
-  const auto layout = carrier_layout(train);
-  if (!layout) return {};
-  return CarrierBuilder(train, *layout, shapes).build();
+  Errors errors;
+  for (const GearTrain* stage : train.each_stage())
+    if (const auto layout = carrier_layout(*stage))
+      for (Error& error : CarrierBuilder(train, *stage, *layout, shapes).build()) errors.push_back(std::move(error));
+  return errors;
 }
+
+bool bears_gear(const Topology& topology, int carrier) { return !topology.gears_of(carrier).empty(); }
 
 }  // namespace trueflank

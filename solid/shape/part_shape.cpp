@@ -25,6 +25,9 @@ constexpr double kLeastBoltWall_mm = 2.0;
 constexpr double kNeckInset = 0.25;
 /// The groove between the halves of a herringbone is cut this part of the module deeper than the roots.
 constexpr double kGrooveInset = 0.1;
+/// Wall of the neck between a gear and the plate of the carrier that drives it, to the pins of that, and gap to
+/// the next carrier's plate.
+constexpr double kLeastNeckWall_mm = 0.4;
 /// A layer gap below this is no gap that can be made.
 constexpr double kLeastGap_mm = 0.01;
 
@@ -123,12 +126,65 @@ class ShapeBuilder {
   void add_single(int member) {
     const TrainGear& gear = train_.gear(train_.topology().first_gear_of(member));
     if (is_made_in_halves(train_.design, design_of(gear))) return add_halves(member, gear);
-    shapes_.parts.push_back({.name = train_.topology().name_of(member),
+    const bool on_carrier = train_.topology().is_carrier(member);
+    shapes_.parts.push_back({.name = on_carrier ? gear.name : train_.topology().name_of(member),
                              .slabs = is_ring(gear) ? ring_slabs(gear) : body_slabs(member, 0),
                              .member = member,
                              .role = role_of(train_, member)});
-    place(shapes_.parts.back().name, train_.phases.rotation_rad(member, 0),
-          axis_centre_mm(train_, train_.phases, member), gear.z_lower_mm);
+    double lower_mm = gear.z_lower_mm;
+    if (on_carrier) lower_mm = set_on_carrier(member, gear, shapes_.parts.back().slabs);
+    const int first = train_.topology().first_gear_of(member);
+    place(shapes_.parts.back().name, train_.phases.rotation_rad(member, 0) + train_.phases.offset_rad(first, 0),
+          axis_centre_mm(train_, train_.phases, member), lower_mm);
+  }
+
+  /// A gear that a carrier drives is one body with the upper plate of that, where the design has plates; a neck
+  /// joins them. Returns the height of the body's lower face.
+  double set_on_carrier(int member, const TrainGear& gear, std::vector<Slab>& slabs) {
+    for (const GearTrain* stage : train_.each_stage()) {
+      const int planet = stage->topology().first_planet();
+      if (stage->topology().name_of(stage->topology().carrier_of(planet)) != train_.topology().name_of(member)) continue;
+      const auto carrier = carrier_layout(*stage);
+      if (!carrier || !errors_.empty()) break;
+      const HeightRange plate = carrier->upper_plate;
+      const double bore = largest_radius_mm(bore_through(gear)), root = gear.profile.root_radius_mm();
+      const double pins = stage->centre_distance_mm - 0.5 * carrier->pin_hole_diameter_mm - kLeastNeckWall_mm;
+      const double neck = std::min(root - std::min(kNeckInset * module_mm(gear), 0.5 * (root - bore)), pins);
+      if (!(neck >= bore + kLeastNeckWall_mm)) {
+        infeasible(gear.name + ".bore_mm",
+                   gear.name + ": the bore leaves no wall in the neck to the carrier's plate, "
+                               "which ends at radius " + text(neck) + " mm, inside the pins",
+                   "a bore whose farthest point stays within radius " +
+                       text(std::max(0.0, neck - kLeastNeckWall_mm)) + " mm");
+        break;
+      }
+      check_opening(gear, neck);
+      StackedBody body;
+      body.add(plate, CircleOutline{Point2::Zero(), 0.5 * carrier->outer_diameter_mm});
+      if (gear.z_lower_mm > plate.upper_mm)
+        body.add({plate.upper_mm, gear.z_lower_mm}, CircleOutline{Point2::Zero(), neck});
+      body.add(slabs, gear.z_lower_mm);
+      for (const Outline& hole : slabs.front().holes) body.drill({plate.lower_mm, gear.z_lower_mm}, hole);
+      const double turned = train_.phases.offset_rad(train_.topology().first_gear_of(member), 0);
+      for (const double angle : stage->phases.positions_rad(planet))
+        body.drill(plate, CircleOutline{stage->centre_distance_mm * unit_vector(angle - turned),
+                                        0.5 * carrier->pin_hole_diameter_mm});
+      slabs = body.slabs();
+      return plate.lower_mm;
+    }
+    return gear.z_lower_mm;
+  }
+
+  /// The neck goes through the lower plate of the carrier that runs round the gear.
+  void check_opening(const TrainGear& gear, double neck_mm) {
+    for (const GearTrain* stage : train_.each_stage()) {
+      const auto carrier = stage->find(gear.name) ? carrier_layout(*stage) : std::nullopt;
+      if (!carrier || 0.5 * carrier->opening_diameter_mm >= neck_mm + kLeastNeckWall_mm) continue;
+      infeasible("carrier.opening_diameter_mm",
+                 "the neck of " + gear.name + ", of diameter " + text(2.0 * neck_mm) +
+                     " mm, goes through the carrier's opening of " + text(carrier->opening_diameter_mm) + " mm",
+                 "at least " + text(2.0 * (neck_mm + kLeastNeckWall_mm)) + " mm, or no such key");
+    }
   }
 
   /// A gear's slab, parted by the groove between the halves of a herringbone where it has one.
@@ -246,7 +302,7 @@ class ShapeBuilder {
       });
     });
     const std::size_t errors_before = errors_.size();
-    for (std::size_t i = 0; i < phases.planet_position_rad.size(); ++i) {
+    for (std::size_t i = 0; i < phases.positions_rad(member).size(); ++i) {
       const std::string number = std::to_string(i + 1);
       if (i == 0 || !alike) {
         PartShape part{.name = alike ? name : name + "_" + number,
@@ -264,6 +320,11 @@ class ShapeBuilder {
   }
 
   // -------------------------------------------------------------- bodies of one gear and of several
+
+  /// A gear ahead of the first of its body, whose tooth 1 is on +x of the part.
+  [[nodiscard]] double offset_in_body_rad(int first, int gear, std::size_t place) const {
+    return gear == first ? 0.0 : train_.phases.offset_rad(gear, place);
+  }
 
   /// External gears stacked upon each other, as body number `place` needs them turned.
   std::vector<Slab> body_slabs(int member, std::size_t place) {
@@ -287,7 +348,7 @@ class ShapeBuilder {
       }
       for (Slab& slab : with_groove(gear, {.z_lower_mm = floor,
                                            .z_upper_mm = floor + gear.face_width_mm,
-                                           .outer = toothed(gear, train_.phases.offset_rad(g, place), floor),
+                                           .outer = toothed(gear, offset_in_body_rad(gears.front(), g, place), floor),
                                            .holes = bore}))
         slabs.push_back(std::move(slab));
       below = &gear;
@@ -431,7 +492,8 @@ PartRole role_of(const GearTrain& train, int member) {
   const std::vector<int> gears = topology.gears_of(member);
   if (gears.empty()) return PartRole::kCarrier;
   const TrainGear& gear = train.gear(gears.front());
-  if (gears.front() == 0 && gear.profile.gear().kind == GearKind::kExternal) return PartRole::kSun;
+  if ((gears.front() == 0 || topology.has_planets()) && gear.profile.gear().kind == GearKind::kExternal)
+    return PartRole::kSun;
   return gear.layer > 1 ? PartRole::kUpperRing : PartRole::kRing;
 }
 

@@ -69,14 +69,17 @@ const column = (title) => ({title, number: true});
 Object.assign(window.trueflank, {h, byId, isNumber, text, number, inches, properName, table, column});
 
 // --------------------------------------------------------------------------------------- header
-const kinds = {'3k': '3K (Wolfrom) planetary gearbox', stepped: 'planetary gearbox with stepped planets', simple: 'planetary gearbox', pair: 'gear pair', gear: 'single gear'};
+const kinds = {'3k': '3K (Wolfrom) planetary gearbox', stepped: 'planetary gearbox with stepped planets', simple: 'planetary gearbox',
+  'two-stage': 'planetary gearbox of two stages', pair: 'gear pair', gear: 'single gear'};
 function summary() {
   const train = report.train;
   const parts = [kinds[train.kind] ?? train.kind];
-  if (train.planets) parts.push(`${train.planets} ${train.identical_planets ? 'identical planets, equally spaced'
-    : train.assembles ? 'planets equally spaced, not all alike' : 'planets that do not go in at equal spacing'}`);
+  const stages = train.stages ?? [train];
+  for (const stage of stages.filter((s) => s.planets))
+    parts.push(`${stage.planets} ${stage.identical_planets ? 'identical planets, equally spaced'
+      : stage.assembles ? 'planets equally spaced, not all alike' : 'planets that do not go in at equal spacing'}`);
   if (train.input !== 'none')
-    parts.push(`${train.input} drives` + (train.planets ? `, ${train.output} is the output` : ''));
+    parts.push(`${train.input} drives` + (stages[0].planets ? `, ${train.output} is the output` : ''));
   const teeth = Object.entries(report.gears).map(([name, gear]) => `${name} ${gear.teeth}`).join(', ');
   return `${parts.join(', ')}. Teeth: ${teeth}.`;
 }
@@ -105,6 +108,9 @@ function drawHeader() {
   if (report.train.centre_distance_mm !== null)
     cards.push(card('Centre distance', number('train/centre_distance_mm', 4), h('small', {}, 'mm'),
       report.inches ? [' ', inches('train/centre_distance_mm'), h('small', {}, 'in')] : null));
+  (report.train.stages ?? []).forEach((stage, i) => cards.push(card(`Stage ${i + 1}`,
+    number(`train/stages/${i}/ratio`, 4), h('small', {}, ': 1, axes '),
+    number(`train/stages/${i}/centre_distance_mm`, 4), h('small', {}, 'mm'))));
   const strength = model.strength?.output_torque_nm;
   if (isNumber(strength)) cards.push(card('Allowable output torque', text(strength, 2), h('small', {}, `N m, ${report.strength.limiting_material}`)));
   const runs = report.checks.find((c) => c.id === 'tolerance' && c.where === 'train' && isNumber(c.value));

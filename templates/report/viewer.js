@@ -83,7 +83,7 @@ class Viewer {
       const part = model.parts[body.part], {geometry, edges, slabs} = built[body.part];
       const group = new Group(), radius = Math.hypot(body.at[0], body.at[1]);
       // in a quarter view the gears, their pins and bearings, and the motor stay whole
-      const whole = ['sun', 'planet'].includes(part.role) || /^(pin_|carrier_pin|motor_)/.test(part.name) || (radius > 0 && part.name.startsWith('bearing_'));
+      const whole = ['sun', 'planet'].includes(part.role) || /^(pin_|carrier\d?_pin|motor_)/.test(part.name) || (radius > 0 && part.name.startsWith('bearing_'));
       const mesh = new Mesh(geometry, this.material(part));
       mesh.castShadow = mesh.receiveShadow = true;
       group.add(mesh, new LineSegments(edges, this.lineMaterial()));

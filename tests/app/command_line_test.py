@@ -447,7 +447,7 @@ class Compare(Case):
 
 class New(Case):
     def test_what_it_writes_makes_at_once(self):
-        for kind in ["3k", "stepped", "simple", "pair", "gear"]:
+        for kind in ["3k", "stepped", "simple", "two-stage", "pair", "gear"]:
             result = run("new", f"d{kind}", "--kind", kind, cwd=self.folder)
             self.assertEqual(result.returncode, 0, result.stderr)
             made = run("make", self.folder / f"d{kind}.toml", "-o", self.folder / kind, "-q",

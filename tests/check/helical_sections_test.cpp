@@ -67,7 +67,7 @@ void expect_centred_at_all_heights(const GearTrain& train) {
     const TrainGear& gear1 = train.gears[static_cast<std::size_t>(mesh.gear1)];
     const TrainGear& gear2 = train.gears[static_cast<std::size_t>(mesh.gear2)];
     const GearDistance distance2(gear2.profile);
-    const std::size_t planets = std::max<std::size_t>(1, train.phases.planet_position_rad.size());
+    const std::size_t planets = std::max<std::size_t>(1, train.phases.positions_rad(train.topology().first_planet()).size());
     const double half = 0.5 * mesh.backlash_mm * std::cos(working_pressure_angle_rad(train.pair(mesh)));
     for (std::size_t i = 0; i < planets; ++i)
       for (double share : {0.0, 0.37, 0.5, 1.0}) {

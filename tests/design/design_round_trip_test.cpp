@@ -31,6 +31,11 @@ class RandomDesigns {
     if (planetary) d.planets = whole(1, 50);
     d.module_mm = real(1.0, 3.0);
     if (!alone && coin()) d.centre_distance_mm = real(0.01, 1e5);
+    for (int stage = 2; stage <= d.topology.stage_count(); ++stage) {
+      StageDesign& later = d.later_stages.emplace_back(StageDesign{.planets = whole(1, 50)});
+      if (coin()) later.module_mm = real(1.0, 3.0);
+      if (coin()) later.centre_distance_mm = real(0.01, 1e5);
+    }
     d.friction = real(0.0, 1.0);
     d.backlash_mm = coin() ? real(0.0, 1.0) : 0.0;
     d.layer_gap_mm = coin() ? real(0.0, 9.0) : 1.0;

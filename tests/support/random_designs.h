@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "trueflank/base/units.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gearbox_design.h"
 
-// Random gearboxes of every kind with whatever modifications, for properties of what is made of
-// them.
+// Random gearboxes of every kind of one stage with whatever modifications, for properties of what is
+// made of them. Two stages: two_stage_designs.h.
 namespace trueflank::test {
 
 /// The next design of a seed. Teeth fit each other as far as their numbers go; whether such a set
@@ -33,7 +34,8 @@ class RandomDesigns {
   bool chance(double share) { return between(0.0, 1.0) < share; }
 
   GearboxDesign next() {
-    const auto& kinds = train_kinds();
+    std::vector<TrainKind> kinds = train_kinds();
+    std::erase_if(kinds, [](const TrainKind& kind) { return train_topology(kind.name).stage_count() > 1; });
     const TrainKind& kind =
         kinds[static_cast<std::size_t>(whole(0, static_cast<int>(kinds.size()) - 1))];
     GearboxDesign design{.name = "random"};

@@ -154,7 +154,7 @@ double out_of_mesh(double z1, double angle1, double z2, double angle2, double co
 }
 
 void expect_in_mesh(const GearTrain& train, const AssemblyPhases& p, double tolerance) {
-  for (std::size_t i = 0; i < p.planet_position_rad.size(); ++i)
+  for (std::size_t i = 0; i < p.positions_rad(train.topology().first_planet()).size(); ++i)
     for (const TrainMesh& mesh : train.meshes) {
       const auto turned = [&](int gear) {
         const int member = train.topology().gears[static_cast<std::size_t>(gear)].member;
@@ -162,7 +162,7 @@ void expect_in_mesh(const GearTrain& train, const AssemblyPhases& p, double tole
       };
       const Gear &g1 = train.pair(mesh).gear1(), &g2 = train.pair(mesh).gear2();
       EXPECT_LT(out_of_mesh(g1.teeth, turned(mesh.gear1), g2.teeth, turned(mesh.gear2),
-                            p.planet_position_rad[i], g2.kind == GearKind::kInternal),
+                            p.positions_rad(train.topology().first_planet())[i], g2.kind == GearKind::kInternal),
                 tolerance)
           << mesh.name << " of planet " << i + 1;
     }

@@ -91,7 +91,7 @@ class Layout {
       else if (!topology().is_planet_gear(i))
         room = std::min(room, at.norm() - tip - m_.pillar_radius_mm - m_.clearance_mm);
       if (!topology().is_planet_gear(i)) continue;
-      for (const double angle : train_.phases.planet_position_rad)
+      for (const double angle : train_.phases.positions_rad(train_.topology().first_planet()))
         room = std::min(room, (at - train_.centre_distance_mm * unit_vector(angle)).norm() - tip -
                                   m_.pillar_radius_mm - m_.clearance_mm);
     }
@@ -101,7 +101,7 @@ class Layout {
   void place_pillars() {
     const Screw& screw = machine_.fasteners.carrier;
     m_.pillar_radius_mm = 0.5 * screw.hole_mm + m_.wall_mm;
-    std::vector<double> angles = train_.phases.planet_position_rad;
+    std::vector<double> angles = train_.phases.positions_rad(train_.topology().first_planet());
     std::sort(angles.begin(), angles.end());
     m_.pillar_room_mm = 1e300;
     for (std::size_t i = 0; i < angles.size(); ++i) {

@@ -146,7 +146,7 @@ class MachineBuilder {
     near.add(z(m_.near.lower_mm, m_.near.upper_mm),
              circle(m_.fixed_gear < 0 ? held_radius_mm() : outer));
     far.add(z(m_.far.lower_mm, m_.far.upper_mm), circle(outer));
-    for (const double angle : train_.phases.planet_position_rad) {
+    for (const double angle : train_.phases.positions_rad(train_.topology().first_planet())) {
       const CircleOutline hole = circle(0.5 * m_.carrier.pin_hole_diameter_mm,
                                         train_.centre_distance_mm * unit_vector(angle));
       near.drill(z(m_.near.upper_mm - m_.pin_depth_mm, m_.near.upper_mm), hole);
@@ -231,7 +231,7 @@ class MachineBuilder {
     pieces_.add_bought(bought, output_, held_turn_, output_turn_);
     bought.add_screws(m_.carrier_screws, carrier_, 0.0);
     std::vector<Point2> planets;
-    for (const double angle : train_.phases.planet_position_rad)
+    for (const double angle : train_.phases.positions_rad(train_.topology().first_planet()))
       planets.push_back(train_.centre_distance_mm * unit_vector(angle));
     const double pin = m_.near.upper_mm - m_.pin_depth_mm + 0.1;
     bought.add_pins(m_.carrier.pin_diameter_mm, m_.pin_length_mm, m_.pin_is_standard, planets, pin,
