@@ -14,5 +14,7 @@ inline constexpr double kTouch_mm = 1e-6;
 inline constexpr double kAngle_rad = 1e-10;
 /// Two ways of giving one centre distance agree when closer than this (0.01 um).
 inline constexpr double kCentreDistance_mm = 1e-5;
+/// Sizes of one part that are equal but for rounding (1 nm).
+inline constexpr double kSameSize_mm = 1e-6;
 
 }  // namespace trueflank::tolerance

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/train/carrier.h"
 #include "trueflank/train/machine/fit_class.h"
 #include "trueflank/train/machine/machine_layout.h"
@@ -12,7 +13,6 @@
 namespace trueflank::io {
 namespace {
 
-constexpr double kSame_mm = 1e-6;
 constexpr const char* kPinClass =
     "h6";  // of pins that are made: bearings and bores of planets slide onto them
 
@@ -29,7 +29,9 @@ void FittedSizes::add_machine(const GearTrain& train) {
     if (!(nominal_mm > 0.0)) return;
     // with a clearance of its own the size is drawn as it is made
     sizes_.push_back({made_mm, grade.empty() ? made_mm : nominal_mm, hole,
-                      !grade.empty() ? grade : hole ? kSeatClass : kJournalClass});
+                      !grade.empty() ? grade
+                      : hole         ? kSeatClass
+                                     : kJournalClass});
   };
   const auto seat = [&](const SeatFit& fit, double size_mm) {
     add(size_mm, fit.hole_mm(size_mm), true, fit.hole);
@@ -77,7 +79,7 @@ void FittedSizes::add_carrier(const GearTrain& train) {
 
 const FittedSize* FittedSizes::find(double diameter_mm, bool hole) const {
   const auto found = std::find_if(sizes_.begin(), sizes_.end(), [&](const FittedSize& size) {
-    return size.hole == hole && std::abs(size.made_mm - diameter_mm) < kSame_mm;
+    return size.hole == hole && std::abs(size.made_mm - diameter_mm) < tolerance::kSameSize_mm;
   });
   return found == sizes_.end() ? nullptr : &*found;
 }

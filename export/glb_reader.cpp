@@ -9,7 +9,7 @@
 namespace trueflank::io {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using Matrix = Eigen::Matrix4d;
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
@@ -36,16 +36,16 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
 }
 
 /// JSON knows numbers of any size, signs and fractions; a number, count or offset in a file is none of these.
-std::size_t whole(const json& value) {
+std::size_t whole(const Json& value) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kMost)
     broken("a number, count or offset of the GLB file is impossible");
   return value.get<std::size_t>();
 }
 
-std::size_t index_of(const json& owner, const char* key) { return whole(owner.at(key)); }
+std::size_t index_of(const Json& owner, const char* key) { return whole(owner.at(key)); }
 
-std::size_t index_or(const json& owner, const char* key, std::size_t otherwise) {
+std::size_t index_or(const Json& owner, const char* key, std::size_t otherwise) {
   const auto found = owner.find(key);
   return found == owner.end() ? otherwise : whole(*found);
 }
@@ -63,7 +63,7 @@ struct View {
 
 class Reader {
  public:
-  Reader(const json& document, std::string_view bin, Reading& reading)
+  Reader(const Json& document, std::string_view bin, Reading& reading)
       : document_(document), bin_(bin), reading_(reading) {}
 
   Bodies bodies() {
@@ -76,14 +76,14 @@ class Reader {
     to_mm(2, 1) = 1000.0;
     to_mm(3, 3) = 1.0;
     const std::size_t scene = index_or(document_, "scene", 0);
-    for (const json& node : document_.at("scenes").at(scene).value("nodes", json::array()))
+    for (const Json& node : document_.at("scenes").at(scene).value("nodes", Json::array()))
       add_node(whole(node), to_mm, 0);
     return std::move(bodies_);
   }
 
  private:
   View view_of(std::size_t accessor_index, const char* type, std::size_t components) {
-    const json& accessor = document_.at("accessors").at(accessor_index);
+    const Json& accessor = document_.at("accessors").at(accessor_index);
     if (accessor.contains("sparse") || !accessor.contains("bufferView"))
       unsupported("sparse accessors in a GLB file are not read");
     if (accessor.at("type") != type) broken("an accessor of the GLB file has the wrong type");
@@ -91,7 +91,7 @@ class Reader {
     view.component = index_of(accessor, "componentType");
     view.count = index_of(accessor, "count");
     const std::size_t width = view.component == kUint8 ? 1 : view.component == kUint16 ? 2 : 4;
-    const json& buffer_view = document_.at("bufferViews").at(index_of(accessor, "bufferView"));
+    const Json& buffer_view = document_.at("bufferViews").at(index_of(accessor, "bufferView"));
     if (index_or(buffer_view, "buffer", 0) != 0) unsupported("GLB files with more than one buffer");
     view.stride = index_or(buffer_view, "byteStride", components * width);
     const std::size_t begin =
@@ -119,7 +119,7 @@ class Reader {
     return value;
   }
 
-  void add_primitive(const json& primitive, TriangleMesh& mesh) {
+  void add_primitive(const Json& primitive, TriangleMesh& mesh) {
     demand(reading_.take_piece());
     if (index_or(primitive, "mode", kTriangles) != kTriangles)
       unsupported("only lists of triangles are read from a GLB file");
@@ -143,7 +143,7 @@ class Reader {
       mesh.triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
   }
 
-  static Matrix local_matrix(const json& node) {
+  static Matrix local_matrix(const Json& node) {
     if (node.contains("matrix")) {
       const auto values = node["matrix"].get<std::array<double, 16>>();
       return Eigen::Map<const Matrix>(values.data());  // both column by column
@@ -161,12 +161,12 @@ class Reader {
 
   void add_node(std::size_t index, const Matrix& outer, int depth) {
     demand(reading_.take_piece(depth));
-    const json& node = document_.at("nodes").at(index);
+    const Json& node = document_.at("nodes").at(index);
     const Matrix global = outer * local_matrix(node);
     if (node.contains("mesh")) {
-      const json& shape = document_.at("meshes").at(index_of(node, "mesh"));
+      const Json& shape = document_.at("meshes").at(index_of(node, "mesh"));
       MeshBody body{node.value("name", shape.value("name", std::string())), {}};
-      for (const json& primitive : shape.at("primitives")) add_primitive(primitive, body.mesh);
+      for (const Json& primitive : shape.at("primitives")) add_primitive(primitive, body.mesh);
       for (auto& v : body.mesh.vertices) {
         const Eigen::Vector4d p = global * Eigen::Vector4d(v[0], v[1], v[2], 1.0);
         v = {p[0], p[1], p[2]};
@@ -175,11 +175,11 @@ class Reader {
         for (auto& triangle : body.mesh.triangles) std::swap(triangle[1], triangle[2]);
       bodies_.push_back(std::move(body));
     }
-    for (const json& child : node.value("children", json::array()))
+    for (const Json& child : node.value("children", Json::array()))
       add_node(whole(child), global, depth + 1);
   }
 
-  const json& document_;
+  const Json& document_;
   std::string_view bin_;
   Reading& reading_;
   Bodies bodies_;
@@ -198,7 +198,7 @@ Bodies read(std::string_view content, Reading& reading) {
     at += 8 + length;
   }
   if (text.size() > kMostJsonBytes) unsupported("the GLB file describes more parts than are read");
-  const json document = json::parse(text);
+  const Json document = Json::parse(text);
   return Reader(document, bin, reading).bodies();
 }
 
@@ -209,7 +209,7 @@ Result<Bodies> parse_glb(std::string_view content, Reading& reading) {
     return read(content, reading);
   } catch (const Broken& what) {
     return fail(Error{.code = what.code, .message = what.message, .remedy = what.remedy});
-  } catch (const json::exception& what) {
+  } catch (const Json::exception& what) {
     return syntax_error(std::string("the GLB file is damaged: ") + what.what());
   }
 }

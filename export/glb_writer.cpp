@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF is written as it lies in memory");
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125;               // componentType
+constexpr int kFloatType = 5126, kUnsignedInt = 5125;               // componentType
 constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;      // bufferView target
 
 std::string json_quoted(const std::string& text) {
@@ -83,7 +83,7 @@ void append_geometry(std::string& json, const Scene& scene, std::size_t& bin_byt
       return;
     }
     const Bounds bounds = bounds_of(mesh);
-    append(json, "{\"bufferView\":", i, ",\"componentType\":", kFloat,
+    append(json, "{\"bufferView\":", i, ",\"componentType\":", kFloatType,
            ",\"count\":", mesh.vertices.size(), ",\"type\":\"VEC3\",");
     append_array(json, "min", 3, [&](int k) { append_shortest(json, bounds.low[k]); });
     json += ',';

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/part_dimensions.h"
 #include "trueflank/solid/shape/outline_loop.h"
@@ -12,9 +13,7 @@
 namespace trueflank::io {
 namespace {
 
-constexpr double kSame_mm = 1e-6;
-
-bool same(double a, double b) { return std::abs(a - b) < kSame_mm; }
+bool same(double a, double b) { return std::abs(a - b) < tolerance::kSameSize_mm; }
 
 struct Stack {
   Point2 centre;
@@ -24,7 +23,7 @@ struct Stack {
 bool is_mark(const PartShape& part, const Slab& slab, const CircleOutline& circle) {
   return &slab == &part.slabs.back() &&
          std::any_of(part.marks.begin(), part.marks.end(), [&](const CircleOutline& mark) {
-           return (mark.centre - circle.centre).norm() < kSame_mm &&
+           return (mark.centre - circle.centre).norm() < tolerance::kSameSize_mm &&
                   same(mark.radius_mm, circle.radius_mm);
          });
 }
@@ -35,9 +34,9 @@ std::vector<Stack> stacks_of(const PartShape& part) {
   for (const Slab& slab : part.slabs)
     for (const Outline& outline : slab.holes) {
       const auto* circle = std::get_if<CircleOutline>(&outline);
-      if (!circle || circle->centre.norm() < kSame_mm || is_mark(part, slab, *circle)) continue;
+      if (!circle || circle->centre.norm() < tolerance::kSameSize_mm || is_mark(part, slab, *circle)) continue;
       const auto below = std::find_if(stacks.begin(), stacks.end(), [&](const Stack& s) {
-        return (s.centre - circle->centre).norm() < kSame_mm &&
+        return (s.centre - circle->centre).norm() < tolerance::kSameSize_mm &&
                same(s.steps.back().z_upper_mm, slab.z_lower_mm);
       });
       const HoleStep step{.diameter_mm = 2.0 * circle->radius_mm,

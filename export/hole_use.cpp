@@ -3,17 +3,16 @@
 #include <array>
 #include <cmath>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/export/hole_patterns.h"
 #include "trueflank/export/part_dimensions.h"
 
 namespace trueflank::io {
 namespace {
 
-constexpr double kSame_mm = 1e-6;
-
 bool has_step(const HolePattern& pattern, double diameter_mm) {
   return std::any_of(pattern.steps.begin(), pattern.steps.end(), [&](const HoleStep& step) {
-    return std::abs(step.diameter_mm - diameter_mm) < kSame_mm;
+    return std::abs(step.diameter_mm - diameter_mm) < tolerance::kSameSize_mm;
   });
 }
 
@@ -48,7 +47,7 @@ HoleUse by_clearance_hole(const HolePattern& pattern) {
   double least = pattern.steps.front().diameter_mm;
   for (const HoleStep& step : pattern.steps) least = std::min(least, step.diameter_mm);
   for (const Row& row : kHoles)
-    if (least > row.fine - kSame_mm && least < row.coarse + kSame_mm)
+    if (least > row.fine - tolerance::kSameSize_mm && least < row.coarse + tolerance::kSameSize_mm)
       return {.what = "screw M" + drawing_number(row.screw, 2), .play_mm = least - row.screw};
   return {};
 }
@@ -63,9 +62,9 @@ HoleUse hole_use(const GearTrain& train, const HolePattern& pattern) {
       if (HoleUse use = of_fastener(*screw, pattern); !use.what.empty()) return use;
     return {};
   }
-  const bool pins =
-      train.topology().has_planets() &&
-      std::abs(pattern.circle_diameter_mm - 2.0 * train.centre_distance_mm) < kSame_mm;
+  const bool pins = train.topology().has_planets() &&
+                    std::abs(pattern.circle_diameter_mm - 2.0 * train.centre_distance_mm) <
+                        tolerance::kSameSize_mm;
   return pins ? HoleUse{.what = "pin", .carries_axis = true} : by_clearance_hole(pattern);
 }
 

@@ -19,7 +19,7 @@ namespace trueflank {
 namespace {
 
 /// Halvings of a range after which a stretch is a point.
-constexpr int kFinest = 28;
+constexpr int kFinestHalving = 28;
 /// A stretch of centre distances is halved before its cells where it is wider than this share of
 /// one: shift sums change about twice as fast as the distance.
 constexpr double kDistanceShare = 0.5;
@@ -90,7 +90,7 @@ class Certificate {
       };
       if (look_closer(top)) {
         keep(std::move(top));
-      } else if (top.distance >> kFinest) {
+      } else if (top.distance >> kFinestHalving) {
         break;
       } else {
         for (const Part half : {2 * top.distance, 2 * top.distance + 1}) {
@@ -145,7 +145,7 @@ class Certificate {
         if (!look(l, s.distance, cells[best])) drop(cells, best);
         closer = true;
       } else if (kDistanceShare * part_of(shifts_, cells[best].shift).width() > width &&
-                 !(cells[best].shift >> kFinest)) {
+                 !(cells[best].shift >> kFinestHalving)) {
         halve(l, s.distance, cells, best);
         closer = true;
       }

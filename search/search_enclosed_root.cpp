@@ -7,7 +7,7 @@ namespace trueflank {
 namespace {
 
 constexpr int kSamples = 12;
-constexpr int kGoldenSteps = 10;
+constexpr int kRootSteps = 10;
 constexpr double kGolden = 0.6180339887498949;
 /// More than profiles are off (tooth_profile.h).
 constexpr double kProfileError = 1e-8;
@@ -123,7 +123,7 @@ RootPlace closest_place(const BasicRack& rack, const EnclosedGear<double>& own,
   double from = low + std::max(0, nearest - 1) * step,
          to = low + std::min(kSamples, nearest + 1) * step;
   double best = low + nearest * step;
-  for (int i = 0; i < kGoldenSteps; ++i) {
+  for (int i = 0; i < kRootSteps; ++i) {
     const double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
     const double at_left = clearance_at(rack, own, mate, a, left),
                  at_right = clearance_at(rack, own, mate, a, right);

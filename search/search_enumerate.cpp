@@ -18,12 +18,12 @@
 namespace trueflank {
 namespace {
 
-struct Interval {
+struct DistanceRange {
   double low = 0.0, high = -1.0;
   [[nodiscard]] bool empty() const { return !(low <= high); }
 };
 
-Interval common(const Interval& a, const Interval& b) {
+DistanceRange common(const DistanceRange& a, const DistanceRange& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
@@ -43,7 +43,7 @@ class CentreDistances {
   }
 
   /// Where shifts within their bounds give zero backlash.
-  [[nodiscard]] Interval interval(int tooth_sum, bool internal, double module) {
+  [[nodiscard]] DistanceRange interval(int tooth_sum, bool internal, double module) {
     const auto key = std::pair{internal ? -tooth_sum : tooth_sum, module};
     const auto it = cache_.find(key);
     if (it != cache_.end()) return it->second;
@@ -54,14 +54,14 @@ class CentreDistances {
     const auto a_low = zero_backlash_centre_distance_mm(teeth, low);
     // a sum so small that the base circles meet first: the distance where they do
     const double least = reference_centre_distance_mm(teeth) * std::cos(r_.rack.pressure_angle_rad);
-    Interval result;
+    DistanceRange result;
     if (a_high) result = {a_low ? *a_low : least * (1.0 + 1e-12), *a_high};
     return cache_[key] = result;
   }
 
  private:
   const SearchRequirements& r_;
-  std::map<std::pair<int, double>, Interval> cache_;
+  std::map<std::pair<int, double>, DistanceRange> cache_;
 };
 
 double shift_sum_at(const MeshTeeth& mesh, double centre_distance) {
@@ -71,12 +71,12 @@ double shift_sum_at(const MeshTeeth& mesh, double centre_distance) {
 
 /// The distances a layer allows. Sun, planet and ring share the planet between two meshes: x_s +
 /// x_r = sum of both shift sums, within bounds.
-Interval layer_interval(const SearchRequirements& r, CentreDistances& distances, int z_s, int z_p,
+DistanceRange layer_interval(const SearchRequirements& r, CentreDistances& distances, int z_s, int z_p,
                         int z_r) {
   if (z_r == 0) return distances.interval(z_s + z_p, false, 1.0);
   if (z_r <= z_p) return {};
   if (z_s == 0) return distances.interval(z_r - z_p, true, 1.0);
-  Interval both =
+  DistanceRange both =
       common(distances.interval(z_s + z_p, false, 1.0), distances.interval(z_r - z_p, true, 1.0));
   if (both.empty()) return both;
   const MeshTeeth external = CentreDistances::mesh(r, z_s + z_p, false, 1.0);
@@ -96,7 +96,7 @@ Interval layer_interval(const SearchRequirements& r, CentreDistances& distances,
 }
 
 /// A bound on the tip radius of a planet of layer 1 that no choice of shifts goes below.
-double least_planet1_tip(const SearchRequirements& r, int z_s, int z_p, const Interval& a) {
+double least_planet1_tip(const SearchRequirements& r, int z_s, int z_p, const DistanceRange& a) {
   if (z_s == 0) return 0.5 * z_p + r.rack.addendum + r.shift_min;
   const double y = a.low - 0.5 * (z_s + z_p);  // tip shortening at the least distance
   return 0.5 * z_p + r.rack.addendum + std::min(r.shift_min, y - r.shift_max);
@@ -200,7 +200,7 @@ class Enumerator {
         .sun = z_s, .planet1 = z_p, .ring1 = z_r, .train = trains_.front(), .planets = planets_};
     if (!set.train->accepts_planets(set.teeth(), planets_))
       return reject(kAssembly, behind_layer1_);
-    const Interval a = layer_interval(r_, distances_, z_s, z_p, z_r);
+    const DistanceRange a = layer_interval(r_, distances_, z_s, z_p, z_r);
     if (a.empty()) return reject(kDistance1, behind_layer1_);
     if (neighbours_collide(r_, set, a.high, least_planet1_tip(r_, z_s, z_p, a)))
       return reject(kPlanets1, behind_layer1_);
@@ -215,13 +215,13 @@ class Enumerator {
     }
   }
 
-  void layer2(ToothSet set, const Interval& layer1) {
+  void layer2(ToothSet set, const DistanceRange& layer1) {
     long long with_distance = 0;
     const int centre =
         static_cast<int>(std::lround((layer1.low + layer1.high) / set.layer2_module_ratio));
     const auto try_difference = [&](int difference) {
       if (difference < 1) return false;
-      const Interval a =
+      const DistanceRange a =
           common(layer1, distances_.interval(difference, true, set.layer2_module_ratio));
       if (a.empty()) return false;
       set.centre_distance_min = a.low;
@@ -238,7 +238,7 @@ class Enumerator {
     reject(kDistance2, (pairs - with_distance) * static_cast<long long>(trains_.size()));
   }
 
-  bool fits(const Interval& layer1, int difference, double module) {
+  bool fits(const DistanceRange& layer1, int difference, double module) {
     return !common(layer1, distances_.interval(difference, true, module)).empty();
   }
 

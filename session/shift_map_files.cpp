@@ -12,7 +12,7 @@
 namespace trueflank {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 420, kLeft = 70, kTop = 20, kRight = 250, kBottom = 55;
+constexpr double kMapWidth = 520, kMapHeight = 420, kMapLeft = 70, kMapTop = 20, kMapRight = 250, kMapBottom = 55;
 constexpr int kColours = 24;
 constexpr const char* kBorders[] = {"#d62728", "#1f77b4", "#2ca02c", "#ff7f0e",
                                     "#9467bd", "#8c564b", "#e377c2", "#17becf"};
@@ -56,10 +56,10 @@ class Picture {
       : set_(set), map_(map), best_(best), colours_(colours) {}
 
   std::string text() {
-    text_ = "<svg viewBox=\"0 0 " + fixed_text(kLeft + kWidth + kRight, 0) + " " +
-            fixed_text(kTop + kHeight + kBottom, 0) + "\" font-size=\"12\">\n<rect x=\"" +
-            fixed_text(kLeft, 0) + "\" y=\"" + fixed_text(kTop, 0) + "\" width=\"" +
-            fixed_text(kWidth, 0) + "\" height=\"" + fixed_text(kHeight, 0) +
+    text_ = "<svg viewBox=\"0 0 " + fixed_text(kMapLeft + kMapWidth + kMapRight, 0) + " " +
+            fixed_text(kMapTop + kMapHeight + kMapBottom, 0) + "\" font-size=\"12\">\n<rect x=\"" +
+            fixed_text(kMapLeft, 0) + "\" y=\"" + fixed_text(kMapTop, 0) + "\" width=\"" +
+            fixed_text(kMapWidth, 0) + "\" height=\"" + fixed_text(kMapHeight, 0) +
             "\" fill=\"#e4e6ea\"/>\n";
     cells();
     borders();
@@ -72,9 +72,9 @@ class Picture {
   static double place(const std::vector<double>& line, double value) {
     return (value - line.front()) / (line.back() - line.front());
   }
-  [[nodiscard]] double x(double value) const { return kLeft + kWidth * place(map_.x, value); }
+  [[nodiscard]] double x(double value) const { return kMapLeft + kMapWidth * place(map_.x, value); }
   [[nodiscard]] double y(double value) const {
-    return kTop + kHeight * (1.0 - place(map_.y, value));
+    return kMapTop + kMapHeight * (1.0 - place(map_.y, value));
   }
   [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return j * map_.x.size() + i; }
 
@@ -84,18 +84,18 @@ class Picture {
     for (std::size_t k = 0; k < map_.efficiency.size(); ++k)
       if (map_.feasible(k) && map_.efficiency[k] == map_.efficiency[k])
         low = std::min(low, map_.efficiency[k]), high = std::max(high, map_.efficiency[k]);
-    const double w = kWidth / static_cast<double>(map_.x.size() - 1),
-                 h = kHeight / static_cast<double>(map_.y.size() - 1);
+    const double w = kMapWidth / static_cast<double>(map_.x.size() - 1),
+                 h = kMapHeight / static_cast<double>(map_.y.size() - 1);
     std::map<int, std::string> paths;
     for (std::size_t j = 0; j < map_.y.size(); ++j)
       for (std::size_t i = 0; i < map_.x.size(); ++i) {
         const double efficiency = map_.efficiency[at(i, j)];
         if (!map_.feasible(at(i, j)) || efficiency != efficiency) continue;
         const int level = high > low ? static_cast<int>((efficiency - low) / (high - low) * (kColours - 1) + 0.5) : 0;
-        const double left = std::max(kLeft, x(map_.x[i]) - 0.5 * w),
-                     right = std::min(kLeft + kWidth, x(map_.x[i]) + 0.5 * w),
-                     top = std::max(kTop, y(map_.y[j]) - 0.5 * h),
-                     bottom = std::min(kTop + kHeight, y(map_.y[j]) + 0.5 * h);
+        const double left = std::max(kMapLeft, x(map_.x[i]) - 0.5 * w),
+                     right = std::min(kMapLeft + kMapWidth, x(map_.x[i]) + 0.5 * w),
+                     top = std::max(kMapTop, y(map_.y[j]) - 0.5 * h),
+                     bottom = std::min(kMapTop + kMapHeight, y(map_.y[j]) + 0.5 * h);
         paths[level] += "M" + fixed_text(left, 1) + " " + fixed_text(top, 1) + "H" +
                         fixed_text(right, 1) + "V" + fixed_text(bottom, 1) + "H" +
                         fixed_text(left, 1) + "z";
@@ -108,10 +108,10 @@ class Picture {
   }
 
   void note(int row, const std::string& colour, const std::string& words) {
-    const double top = kTop + 16.0 * row;
-    text_ += "<rect x=\"" + fixed_text(kLeft + kWidth + 10, 0) + "\" y=\"" + fixed_text(top, 0) +
+    const double top = kMapTop + 16.0 * row;
+    text_ += "<rect x=\"" + fixed_text(kMapLeft + kMapWidth + 10, 0) + "\" y=\"" + fixed_text(top, 0) +
              "\" width=\"12\" height=\"12\" fill=\"" + colour + "\"/><text x=\"" +
-             fixed_text(kLeft + kWidth + 28, 0) + "\" y=\"" + fixed_text(top + 10, 0) + "\">" +
+             fixed_text(kMapLeft + kMapWidth + 28, 0) + "\" y=\"" + fixed_text(top + 10, 0) + "\">" +
              io::xml_escaped(words) + "</text>\n";
   }
 
@@ -155,15 +155,15 @@ class Picture {
     for (int k = 0; k <= 4; ++k) {
       const double u = map_.x.front() + (map_.x.back() - map_.x.front()) * k / 4,
                    v = map_.y.front() + (map_.y.back() - map_.y.front()) * k / 4;
-      text_ += "<text x=\"" + fixed_text(x(u), 1) + "\" y=\"" + fixed_text(kTop + kHeight + 18, 0) +
+      text_ += "<text x=\"" + fixed_text(x(u), 1) + "\" y=\"" + fixed_text(kMapTop + kMapHeight + 18, 0) +
                "\" text-anchor=\"middle\">" + fixed_text(u, 3) + "</text><text x=\"" +
-               fixed_text(kLeft - 6, 0) + "\" y=\"" + fixed_text(y(v) + 4, 1) +
+               fixed_text(kMapLeft - 6, 0) + "\" y=\"" + fixed_text(y(v) + 4, 1) +
                "\" text-anchor=\"end\">" + fixed_text(v, 3) + "</text>\n";
     }
-    text_ += "<text x=\"" + fixed_text(kLeft + kWidth / 2, 0) + "\" y=\"" +
-             fixed_text(kTop + kHeight + 42, 0) + "\" text-anchor=\"middle\">" +
+    text_ += "<text x=\"" + fixed_text(kMapLeft + kMapWidth / 2, 0) + "\" y=\"" +
+             fixed_text(kMapTop + kMapHeight + 42, 0) + "\" text-anchor=\"middle\">" +
              title_of(set_, map_.across) + " [modules]</text><text transform=\"translate(16," +
-             fixed_text(kTop + kHeight / 2, 0) + ") rotate(-90)\" text-anchor=\"middle\">" +
+             fixed_text(kMapTop + kMapHeight / 2, 0) + ") rotate(-90)\" text-anchor=\"middle\">" +
              title_of(set_, map_.up) + " [modules]</text>\n";
   }
 

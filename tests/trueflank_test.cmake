@@ -23,6 +23,7 @@ function(trueflank_test name)
     ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
   target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # tests name their own helpers alike
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
   if(arg_SLOW)

@@ -226,9 +226,9 @@ class DeviationBuilder {
     const double flank_mm = std::abs(profile_.tip_form_radius_mm() - profile_.root_form_radius_mm());
     if (m_.edge_chamfer_mm >= flank_mm && m_.edge_chamfer_mm > 0.0) {
       report("edge_chamfer_mm", m_.edge_chamfer_mm,
-             "lowers the tip at the end faces below the flank, which is " + short_text(flank_mm) +
+             "lowers the tip at the end faces below the flank, which is " + trimmed_number(flank_mm) +
                  " mm high between its form circles",
-             "less than " + short_text(flank_mm));
+             "less than " + trimmed_number(flank_mm));
       return;
     }
     double least = 1e300, most = -1e300, at = 0.0;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <map>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/scad/scad_template_texts.h"
@@ -17,15 +18,7 @@ namespace {
 using Values = std::map<std::string, std::string>;
 
 /// Sizes of sleeves and pins are not sharper than a tenth of a micrometre.
-std::string number(double value) {
-  char buffer[64];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 4);
-  std::string text(buffer, end.ptr);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
-}
+std::string size_text(double value_mm) { return trimmed_number(value_mm, 4); }
 
 /// Replaces what parameters of the section "From the design" are set to, line by line, and the
 /// lines between "// GEARS" and "// END GEARS".
@@ -53,7 +46,7 @@ std::string filled(std::string_view text, const Values& values, const std::strin
   return result;
 }
 
-std::string one_line(std::string text) {
+std::string spaced_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
   return text;
@@ -116,10 +109,10 @@ class TemplateFiller {
   }
   void add(const char* name, std::string_view text, const std::string& gears = {}) {
     files_.push_back({std::string("template_") + name + stage_ + ".scad",
-                      filled(text, values_, gears, one_line(train_.design.name))});
+                      filled(text, values_, gears, spaced_line(train_.design.name))});
     values_.clear();
   }
-  void set(const char* name, double value) { values_[name] = number(value); }
+  void set(const char* name, double value) { values_[name] = size_text(value); }
 
   /// As solid/part_shape.cpp makes a rim that the design leaves open.
   [[nodiscard]] double ring_diameter_mm(const TrainGear& ring) const {
@@ -180,7 +173,7 @@ class TemplateFiller {
     const CarrierLayout layout = *carrier_layout(carried);
     std::string angles;
     for (double angle : train_.phases.positions_rad(topology.first_planet()))
-      angles += (angles.empty() ? "[" : ", ") + number(deg_from_rad(angle));
+      angles += (angles.empty() ? "[" : ", ") + size_text(deg_from_rad(angle));
     values_["pin_angles"] = angles + "]";
     set("centre_distance", train_.centre_distance_mm);
     set("pin_diameter", layout.pin_diameter_mm);

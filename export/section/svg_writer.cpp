@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMargin_mm = 2.0;
 
-void append_attribute(std::string& text, std::string_view name, double value) {
+void append_svg_attribute(std::string& text, std::string_view name, double value) {
   text += ' ';
   text += name;
   text += "=\"";
@@ -48,9 +48,9 @@ void append_path_data(std::string& text, const Contour& contour) {
 void append_outline(std::string& text, const Contour& contour) {
   if (contour.circle) {
     text += "<circle";
-    append_attribute(text, "cx", contour.circle->centre.x());
-    append_attribute(text, "cy", contour.circle->centre.y());
-    append_attribute(text, "r", contour.circle->radius_mm);
+    append_svg_attribute(text, "cx", contour.circle->centre.x());
+    append_svg_attribute(text, "cy", contour.circle->centre.y());
+    append_svg_attribute(text, "r", contour.circle->radius_mm);
     text += "/>\n";
     return;
   }

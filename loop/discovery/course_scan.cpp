@@ -250,9 +250,9 @@ class CourseScan {
   /// which a spot hardly touches; 1 where that is no more than chance.
   [[nodiscard]] VectorXd loudness_of(const MatrixXd& set) const {
     constexpr double kByChance = 1.5;
-    constexpr Index kFewest = 5;
+    constexpr Index kFewestCourses = 5;
     VectorXd loud = VectorXd::Ones(set.cols());
-    if (set.cols() < kFewest || m_ < 3) return loud;
+    if (set.cols() < kFewestCourses || m_ < 3) return loud;
     std::vector<double> scatters;
     for (Index c = 0; c < set.cols(); ++c) {
       const VectorXd bends =

@@ -12,11 +12,11 @@ namespace trueflank::loop {
 namespace {
 
 /// Of the columns of one group: few, and so without memory of their own.
-constexpr int kMostColumns = 8;
-static_assert(kMostColumns <= kPanelColumns);
+constexpr int kMostBatchColumns = 8;
+static_assert(kMostBatchColumns <= kPanelColumns);
 using GroupMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
-using GroupVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostBatchColumns, kMostBatchColumns>;
+using GroupVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostBatchColumns, 1>;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ std::vector<FoldErrors> CrossValidation::errors_with(const std::vector<int>& gro
   int columns = kPanelColumns;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const int own = problem_.groups[static_cast<std::size_t>(groups[i])].columns;
-    TRUEFLANK_EXPECTS(own <= kMostColumns);
+    TRUEFLANK_EXPECTS(own <= kMostBatchColumns);
     if (columns + own > kPanelColumns) {
       starts.push_back(i);
       columns = 0;

@@ -36,13 +36,13 @@ struct CourseKey {
 };
 
 /// A value, or the sum of so many, at a place.
-struct Sample {
+struct RemainderSample {
   double at = 0.0, um = 0.0, count = 1.0;
 };
 
 /// The samples of one set of courses, left and right flanks apart.
 struct Courses {
-  std::array<std::map<int, std::vector<Sample>>, 2> of_flank;
+  std::array<std::map<int, std::vector<RemainderSample>>, 2> of_flank;
   std::array<std::map<int, int>, 2> tooth_of;
   double low = 1e300, high = -1e300;
   std::size_t samples = 0;
@@ -57,13 +57,13 @@ struct Courses {
 
   /// Courses of scans are gathered in narrow cells at once: there are many values.
   void add_to_cell(int side, int course, double share, double um) {
-    std::vector<Sample>& cells = of_flank[side][course];
+    std::vector<RemainderSample>& cells = of_flank[side][course];
     if (cells.empty()) {
       cells.resize(kCells);
       for (int i = 0; i < kCells; ++i)
         cells[static_cast<std::size_t>(i)] = {low + (high - low) * (i + 0.5) / kCells, 0.0, 0.0};
     }
-    Sample& cell = cells[static_cast<std::size_t>(
+    RemainderSample& cell = cells[static_cast<std::size_t>(
         std::clamp(static_cast<int>(share * kCells), 0, kCells - 1))];
     cell.um += um;
     cell.count += 1.0;
@@ -88,7 +88,7 @@ struct Courses {
     courses.clear();
     for (const auto& [course, list] : of_flank[side]) {
       std::vector<double> sum(static_cast<std::size_t>(places), 0.0), count(sum);
-      for (const Sample& sample : list) {
+      for (const RemainderSample& sample : list) {
         // The first and the last of a trace stand at the middle of the end places.
         const double share = (sample.at - low) / (high - low);
         const int i =

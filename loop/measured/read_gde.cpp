@@ -11,7 +11,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr double kMostTeeth = 1e6;
+constexpr double kMostGdeTeeth = 1e6;
 
 /// One step through XML text: an opening tag, a closing tag, or text between.
 struct Token {
@@ -142,7 +142,7 @@ class GdeReader {
   }
   /// `tooth_width = 12.5` is no tooth's number, and `tooth = 1e30` is none that can be.
   void tooth_of(const std::string& name, double value, const std::string& text, int line) {
-    if (value >= 1.0 && value <= kMostTeeth && value == std::floor(value)) {
+    if (value >= 1.0 && value <= kMostGdeTeeth && value == std::floor(value)) {
       tooth_ = static_cast<int>(value);
     } else if (name == "tooth" || holds(name, {"number", "no"})) {
       if (text.empty()) return;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kUndefined = -2147483.0;  // the machine's mark for a missing point, rounded down
 
-constexpr int kMostTeeth = 1'000'000;
-constexpr std::size_t kMostValues = 5'000'000;  // machines write some thousand a tooth
+constexpr int kMostMkaTeeth = 1'000'000;
+constexpr std::size_t kMostMkaValues = 5'000'000;  // machines write some thousand a tooth
 
 /// A numbered header line: label before the first colon after the code, numbers behind it.
 struct Header {
@@ -76,7 +76,7 @@ bool read_block_head(std::string_view line, Block& block) {
   block.record = profile ? RecordKind::kProfile : RecordKind::kHelix;
   // a number too large for a tooth makes its rows useless, not the file: add_rows() says so
   const auto parsed = std::from_chars(low.data() + number, low.data() + low.size(), block.tooth);
-  if (parsed.ec != std::errc() || block.tooth > kMostTeeth) block.tooth = 0;
+  if (parsed.ec != std::errc() || block.tooth > kMostMkaTeeth) block.tooth = 0;
   block.flank = low.find("rechts") != std::string::npos || low.find("right") != std::string::npos
                     ? Flank::kRight
                     : Flank::kLeft;
@@ -135,7 +135,7 @@ bool add_pitch_row(const std::vector<std::string_view>& fields, Flank flank, int
                    InspectionData& data) {
   if (fields.size() < 3) return false;
   const double tooth = number_in(fields[0]), total = number_in(fields[2]);
-  if (!(tooth >= 1.0) || tooth != std::floor(tooth) || tooth > kMostTeeth || std::isnan(total)) return false;
+  if (!(tooth >= 1.0) || tooth != std::floor(tooth) || tooth > kMostMkaTeeth || std::isnan(total)) return false;
   if (total < kUndefined) return true;
   InspectionRow row;
   row.record = RecordKind::kIndex;
@@ -186,9 +186,9 @@ Result<InspectionData> read_mka(const std::string& file, std::string_view text,
                                      [](auto field) { return !std::isnan(number_in(field)); });
     if (in_block && numbers) {
       value_count += fields.size();
-      if (value_count > kMostValues)
+      if (value_count > kMostMkaValues)
         return fail({.code = ErrorCode::kUnsupported,
-                     .message = "the MKA file holds more than " + std::to_string(kMostValues) + " values",
+                     .message = "the MKA file holds more than " + std::to_string(kMostMkaValues) + " values",
                      .file = file,
                      .line = line_number});
       for (const auto field : fields) blocks.back().values.push_back(number_in(field));

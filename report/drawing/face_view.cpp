@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
 namespace {
 
-constexpr double kSame_mm = 1e-6;
 constexpr int kLooks = 720;  // places on a circle where it is asked whether something is in front
 
 struct Disc {
@@ -25,8 +25,8 @@ struct Cover {
   std::vector<Disc> holes;
 
   [[nodiscard]] bool hides(const Point2& p) const {
-    if ((p - outer.centre).norm() > outer.radius - kSame_mm) return false;
-    return std::none_of(holes.begin(), holes.end(), [&](const Disc& hole) { return (p - hole.centre).norm() < hole.radius + kSame_mm; });
+    if ((p - outer.centre).norm() > outer.radius - tolerance::kSameSize_mm) return false;
+    return std::none_of(holes.begin(), holes.end(), [&](const Disc& hole) { return (p - hole.centre).norm() < hole.radius + tolerance::kSameSize_mm; });
   }
 };
 
@@ -85,7 +85,7 @@ class View {
     Cover cover{z, {placed(centre_of(slab.outer)), seen_radius(slab.outer)}, {}};
     const auto add_curves = [&](const Outline& outline, bool hole) {
       const Point2 own = centre_of(outline), centre = placed(own);
-      const auto put = [&](double radius, Pen pen) { curves_.push_back({{centre, radius}, {}, pen, z, hole && own.norm() > kSame_mm}); };
+      const auto put = [&](double radius, Pen pen) { curves_.push_back({{centre, radius}, {}, pen, z, hole && own.norm() > tolerance::kSameSize_mm}); };
       put(seen_radius(outline), Pen::kThick);
       if (const auto* teeth = std::get_if<ToothedOutline>(&outline)) {
         put(reference_radius_mm(teeth->profile->gear()), Pen::kChain);
@@ -107,13 +107,13 @@ class View {
     const Curve& curve = curves_[i];
     return std::any_of(curves_.begin(), curves_.begin() + static_cast<std::ptrdiff_t>(i), [&](const Curve& other) {
       return other.pen == curve.pen && other.corners.empty() == curve.corners.empty() &&
-             (other.disc.centre - curve.disc.centre).norm() < kSame_mm && std::abs(other.disc.radius - curve.disc.radius) < kSame_mm;
+             (other.disc.centre - curve.disc.centre).norm() < tolerance::kSameSize_mm && std::abs(other.disc.radius - curve.disc.radius) < tolerance::kSameSize_mm;
     });
   }
 
   [[nodiscard]] bool hidden(const Curve& curve, const Point2& p) const {
     for (const Cover& cover : covers_) {
-      if (cover.z > curve.z - kSame_mm) return false;
+      if (cover.z > curve.z - tolerance::kSameSize_mm) return false;
       if (cover.hides(p)) return true;
     }
     return false;

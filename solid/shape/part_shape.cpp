@@ -153,9 +153,9 @@ class ShapeBuilder {
       if (!(neck >= bore + kLeastNeckWall_mm)) {
         infeasible(gear.name + ".bore_mm",
                    gear.name + ": the bore leaves no wall in the neck to the carrier's plate, "
-                               "which ends at radius " + text(neck) + " mm, inside the pins",
+                               "which ends at radius " + fixed_mm(neck) + " mm, inside the pins",
                    "a bore whose farthest point stays within radius " +
-                       text(std::max(0.0, neck - kLeastNeckWall_mm)) + " mm");
+                       fixed_mm(std::max(0.0, neck - kLeastNeckWall_mm)) + " mm");
         break;
       }
       check_opening(gear, neck);
@@ -181,9 +181,9 @@ class ShapeBuilder {
       const auto carrier = stage->find(gear.name) ? carrier_layout(*stage) : std::nullopt;
       if (!carrier || 0.5 * carrier->opening_diameter_mm >= neck_mm + kLeastNeckWall_mm) continue;
       infeasible("carrier.opening_diameter_mm",
-                 "the neck of " + gear.name + ", of diameter " + text(2.0 * neck_mm) +
-                     " mm, goes through the carrier's opening of " + text(carrier->opening_diameter_mm) + " mm",
-                 "at least " + text(2.0 * (neck_mm + kLeastNeckWall_mm)) + " mm, or no such key");
+                 "the neck of " + gear.name + ", of diameter " + fixed_mm(2.0 * neck_mm) +
+                     " mm, goes through the carrier's opening of " + fixed_mm(carrier->opening_diameter_mm) + " mm",
+                 "at least " + fixed_mm(2.0 * (neck_mm + kLeastNeckWall_mm)) + " mm, or no such key");
     }
   }
 

@@ -50,7 +50,8 @@ TEST(PlanetSpacingFigures, AreThoseOfTheNearestNeighbours) {
        {std::pair<std::vector<double>, double>{{0.0, 3.0, 1.0}, 1.0},
         {{0.0, 2.0, 3.5}, 1.5},
         {{0.1, 2.5, 6.2}, kTwoPi - 6.1}}) {
-    train.phases.planet_position_rad = positions;
+    train.phases.position_rad[static_cast<std::size_t>(train.topology().first_planet())] =
+        positions;
     EXPECT_NEAR(check_planet_spacing(train)[0].value, 42.0 * std::sin(0.5 * nearest) - 32.0, 1e-9);
   }
 }
