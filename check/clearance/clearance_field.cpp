@@ -21,10 +21,10 @@ bool jams(double clearance_mm) { return clearance_mm < -tolerance::kTouch_mm; }
 /// The same with modified flanks: the modifications go with the flanks, and the sections decide.
 ChangedPair changed_modified(const GearTrain& train, const TrainMesh& mesh, const GearPair& pair) {
   GearTrain other = train;
-  other.centre_distance_mm = pair.centre_distance_mm;
   other.gears[static_cast<std::size_t>(mesh.gear1)].profile = *pair.profile1;
   other.gears[static_cast<std::size_t>(mesh.gear2)].profile = *pair.profile2;
   TrainMesh changed = mesh;
+  changed.centre_distance_mm = pair.centre_distance_mm;
   changed.backlash_mm = circumferential_backlash_mm(pair);
   return {modified_mesh(other, changed).backlash_mm, modified_clearance_mm(other, changed)};
 }

@@ -75,7 +75,7 @@ PairSection mesh_section(const GearTrain& train, const TrainMesh& mesh, double z
   const TrainGear &gear1 = gear_of(train, mesh.gear1), &gear2 = gear_of(train, mesh.gear2);
   return {section_profile(gear1.toothing(), z_mm - gear1.z_lower_mm).profile,
           section_profile(gear2.toothing(), z_mm - gear2.z_lower_mm).profile,
-          train.centre_distance_mm, z_mm};
+          mesh.centre_distance_mm, z_mm};
 }
 
 std::vector<PairSection> decisive_sections(const GearTrain& train, const TrainMesh& mesh) {

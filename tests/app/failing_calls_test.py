@@ -15,6 +15,7 @@ import sys
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "failing_calls"
 LIBRARY, PLACES = sys.argv[1], int(sys.argv[2])
+LONG = {"fix", "shifts", "bench", "resume", "merge", "search"}  # up to a second each: at a quarter of the places
 GEAR = """format = 1
 name = "g"
 [gearbox]
@@ -72,18 +73,19 @@ def files_of(folder):
     return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
-def places(calls):
+def places(calls, most):
     """All of few; of many the first ones and then ever farther apart."""
-    if calls <= PLACES:
+    if calls <= most:
         return list(range(1, calls + 1))
-    chosen = list(range(1, PLACES // 3 + 1))
-    while chosen[-1] < calls and len(chosen) < PLACES:
-        share = (len(chosen) - PLACES // 3 + 1) / (PLACES - PLACES // 3)
-        chosen.append(max(chosen[-1] + 1, round((PLACES // 3) * (calls / (PLACES // 3)) ** share)))
+    near = max(1, most // 3)
+    chosen = list(range(1, near + 1))
+    while chosen[-1] < calls and len(chosen) < most:
+        share = (len(chosen) - near + 1) / (most - near)
+        chosen.append(max(chosen[-1] + 1, round(near * (calls / near) ** share)))
     return [n for n in chosen if n <= calls]
 
 
-def try_command(name, arguments, kind):
+def try_command(name, arguments, kind, most):
     """`arguments` is a function of the folder that the command writes to."""
     whole = OUTPUT / f"{name}_whole"
     whole.mkdir(parents=True)
@@ -93,7 +95,7 @@ def try_command(name, arguments, kind):
     expected = files_of(whole)
     calls = int(count.read_text())
     tried = 0
-    for place in places(calls):
+    for place in places(calls, most):
         for failing in (f"{kind}:{place}", f"{kind}:{place}+"):
             folder = OUTPUT / f"{name}_failing"
             shutil.rmtree(folder, ignore_errors=True)
@@ -153,12 +155,12 @@ def main():
         "search": lambda d: ["search", OUTPUT / "needs.toml", "-o", d, "--threads", 2],
     }
     kinds = ("thread", "rename", "open", "close", "write", "malloc")
-    if PLACES > 100:  # two seconds each, and memory is the search's
+    if PLACES > 50:  # two seconds each, and memory is the search's
         commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 2.5]
     for name in sys.argv[3:] or commands:
         arguments = commands[name]
         for kind in kinds if name != "wished" else kinds[:-1]:
-            calls, tried = try_command(name, arguments, kind)
+            calls, tried = try_command(name, arguments, kind, max(2, PLACES // 4) if name in LONG else PLACES)
             print(f"{name}: {kind} fails at {tried} places of {calls} calls", flush=True)
 
 

@@ -69,7 +69,9 @@ class Examples(unittest.TestCase):
                 face = min(inner["face_width_mm"], outer["face_width_mm"])
                 if inner["hand"] == "herringbone":  # of one half
                     face = 0.5 * (face - inner["relief_groove_mm"])
-                wanted = closed_forms.mesh_sizes(inner, outer, report["train"]["centre_distance_mm"], face,
+                # of several stages each has its own, and its gears end in its number
+                train = report["train"]["stages"][int(mesh_name[-1]) - 1] if report["train"].get("stages") else report["train"]
+                wanted = closed_forms.mesh_sizes(inner, outer, train["centre_distance_mm"], face,
                                                  report["efficiency"]["friction"])
                 for key, value in wanted.items():
                     self.near(mesh[key], value, f"{name}: {mesh_name}.{key}")
