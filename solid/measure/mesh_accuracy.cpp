@@ -298,10 +298,10 @@ class Measurement {
 
   /// Neither wall nor plane face: no part has such facets, so a coarse measure will do.
   void measure_slanting_facet(const std::array<Point3, 3>& corner, std::size_t slab) {
-    constexpr int kSteps = 4;
-    for (int i = 0; i <= kSteps; ++i)
-      for (int j = 0; i + j <= kSteps; ++j) {
-        const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+    constexpr int kParts = 4;
+    for (int i = 0; i <= kParts; ++i)
+      for (int j = 0; i + j <= kParts; ++j) {
+        const double u = static_cast<double>(i) / kParts, v = static_cast<double>(j) / kParts;
         const Point3 p = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
         const double excess = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest).excess_mm;
         facet_is_off(std::min(plane_distance_mm(p),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/fillet_turn.h"
@@ -19,6 +20,11 @@ constexpr double kOnSurface_mm = 1e-9;
 constexpr double kStep_mm = 1e-5;
 /// A distance within a plane rises by 1; where two walls meet, its slope is between theirs.
 constexpr double kLeastSlope = 0.7;
+/// A distance above this part of the fillet's height is also looked for in the section.
+constexpr double kSmallFillet = 0.2;
+/// Chords of a section's line: of each fillet, and of this part of the flank before it.
+constexpr int kRootChords = 48;
+constexpr double kFlanksFoot = 0.1;
 /// Step along a curve for its tangent, of its length.
 constexpr double kParameterStep = 1e-5;
 
@@ -35,8 +41,8 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
       section_(design_section(outline)) {
   unchamfered_.edge_chamfer_mm = 0.0;
   base_radius_mm_ = base_radius_mm(outline.profile->gear());
-  const double slope =
-      toothing_.twist.turn_rad_per_mm * std::max(base_radius_mm_, outline.profile->root_radius_mm());
+  const double slope = toothing_.twist.turn_rad_per_mm *
+                       std::max(base_radius_mm_, outline.profile->root_radius_mm());
   steepest_ = std::sqrt(1.0 + slope * slope);
   deviates_ = toothing_.has_deviation() || toothing_.edge_chamfer_mm > 0.0;
   const auto& pieces = outline.profile->pieces();
@@ -44,23 +50,27 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
   if (pieces.front().kind == PieceKind::kTip)
     tip_half_angle_rad_ = polar_angle_rad(pieces.front().curve.end_point());
   if (flank_ + 1 < pieces.size() && pieces[flank_ + 1].kind == PieceKind::kRoot)
-    root_half_angle_rad_ =
-        kPi / outline.profile->gear().teeth - polar_angle_rad(pieces[flank_ + 1].curve.start_point());
+    root_half_angle_rad_ = kPi / outline.profile->gear().teeth -
+                           polar_angle_rad(pieces[flank_ + 1].curve.start_point());
   low_roll_ = std::min(pieces[flank_].curve.begin, pieces[flank_].curve.end);
   high_roll_ = std::max(pieces[flank_].curve.begin, pieces[flank_].curve.end);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (pieces[k].kind != PieceKind::kFillet) continue;
     const Curve& curve = pieces[k].curve;
     for (int i = 0; i < kFilletNodes; ++i) {
-      const double at = std::lerp(curve.begin, curve.end, static_cast<double>(i) / (kFilletNodes - 1));
+      const double at =
+          std::lerp(curve.begin, curve.end, static_cast<double>(i) / (kFilletNodes - 1));
       fillet_radii_mm_.push_back(point_at(curve, at).norm());
       fillet_fades_.push_back(fillet_turn_share(*outline.profile, k, at));
     }
   }
+  if (deviates_ && !fillet_radii_mm_.empty())
+    small_fillet_mm_ = kSmallFillet * std::abs(fillet_radii_mm_.back() - fillet_radii_mm_.front());
   if (toothing_.displacement == nullptr) return;
   const double radius = outline.profile->tip_radius_mm();
   for (int k = 0; k < 16; ++k)
-    for (const double z : {0.0, 0.5 * toothing_.twist.face_width_mm, toothing_.twist.face_width_mm}) {
+    for (const double z :
+         {0.0, 0.5 * toothing_.twist.face_width_mm, toothing_.twist.face_width_mm}) {
       const Point2 p = radius * unit_vector(kTwoPi * k / 16);
       const auto d = (*toothing_.displacement)({p.x(), p.y(), z});
       largest_displacement_mm_ = std::max(largest_displacement_mm_, std::hypot(d[0], d[1], d[2]));
@@ -100,19 +110,20 @@ double ToothingDistance::chamfer_depth_mm(double z_mm) const {
   return std::max(0.0, toothing_.edge_chamfer_mm - std::max(0.0, from_end));
 }
 
-ToothingDistance::CircleTurn ToothingDistance::turn_of_circle(int tooth, int side,
-                                                              double radius_mm,
+ToothingDistance::CircleTurn ToothingDistance::turn_of_circle(int tooth, int side, double radius_mm,
                                                               double z_mm) const {
   const double r_b = base_radius_mm_;
   const double roll = std::clamp(roll_length_mm(radius_mm, r_b) / r_b, low_roll_, high_roll_);
   double fade = 1.0, fade_rise = 0.0;
-  const double to_root = fillet_radii_mm_.empty() ? 0.0 : fillet_radii_mm_.back() - fillet_radii_mm_.front();
-  const double into = fillet_radii_mm_.empty() ? -1.0 : (radius_mm - fillet_radii_mm_.front()) * to_root;
+  const double to_root =
+      fillet_radii_mm_.empty() ? 0.0 : fillet_radii_mm_.back() - fillet_radii_mm_.front();
+  const double into =
+      fillet_radii_mm_.empty() ? -1.0 : (radius_mm - fillet_radii_mm_.front()) * to_root;
   if (into > 0.0) {
     const bool falls = to_root < 0.0;
-    const auto node = std::partition_point(
-        fillet_radii_mm_.begin(), fillet_radii_mm_.end(),
-        [&](double r) { return falls ? r > radius_mm : r < radius_mm; });
+    const auto node =
+        std::partition_point(fillet_radii_mm_.begin(), fillet_radii_mm_.end(),
+                             [&](double r) { return falls ? r > radius_mm : r < radius_mm; });
     if (node == fillet_radii_mm_.end()) return {};
     const auto i = static_cast<std::size_t>(node - fillet_radii_mm_.begin());
     const double before = fillet_radii_mm_[i - 1], step = fillet_radii_mm_[i] - before;
@@ -136,13 +147,14 @@ ToothingDistance::CircleTurn ToothingDistance::turn_back(const Point2& place, do
   const int side = centred_rad(angle - away * pitch) < 0.0 ? -1 : 1;
   const double radius = place.norm();
   auto [turn, rise] = turn_of_circle(tooth, side, radius, z_mm);
-  // the tip's land is scaled in its angle, so that its end meets the flank; an undercut foot may be as
-  // narrow and is no land
+  // the tip's land is scaled in its angle, so that its end meets the flank; an undercut foot may be
+  // as narrow and is no land
   const double from_middle = std::abs(centred_rad(angle - away * pitch));
   const ToothProfile& profile = *outline_.profile;
-  const bool at_tip_end = std::abs(radius - profile.tip_radius_mm()) <
-                          std::abs(radius - profile.root_form_radius_mm());
-  if (at_tip_end && from_middle < tip_half_angle_rad_ + turn) turn *= from_middle / (tip_half_angle_rad_ + turn);
+  const bool at_tip_end =
+      std::abs(radius - profile.tip_radius_mm()) < std::abs(radius - profile.root_form_radius_mm());
+  if (at_tip_end && from_middle < tip_half_angle_rad_ + turn)
+    turn *= from_middle / (tip_half_angle_rad_ + turn);
   const double from_gap = 0.5 * pitch - from_middle;  // the land of a sharp root alike
   if (root_half_angle_rad_ > 0.0 && !at_tip_end && from_gap < root_half_angle_rad_ - turn)
     turn *= from_gap / (root_half_angle_rad_ - turn);
@@ -168,7 +180,8 @@ ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turne
   SectionFoot foot;
   if (toothing_.bed_depth_mm(z_mm) == 0.0) {
     foot = turned_by(turn_back(turned_back, z_mm));
-  } else {  // deep in the material: the deviation is that of the place on the design straight over it
+  } else {  // deep in the material: the deviation is that of the place on the design straight over
+            // it
     Point2 over = turned_back;
     for (int i = 0; i < 2; ++i)
       over = section_.foot(rotated(turned_back, turn_back(over, z_mm).turn_rad)).point;
@@ -184,6 +197,44 @@ ToothingDistance::SectionFoot ToothingDistance::section_foot(const Point2& turne
 }
 
 double ToothingDistance::distance_mm(const Point3& point) const {
+  const double distance = distance_by_turning_mm(point);
+  if (!(std::abs(distance) > small_fillet_mm_)) return distance;
+  const double radius = point.head<2>().norm(), reach = 2.0 * std::abs(distance);
+  const auto [low, high] = std::minmax(fillet_radii_mm_.front(), fillet_radii_mm_.back());
+  if (radius < low - reach || radius > high + reach) return distance;
+  return std::copysign(std::min(std::abs(distance), distance_from_root_mm(point)), distance);
+}
+
+double ToothingDistance::distance_from_root_mm(const Point3& point) const {
+  const Point3 p = undisplaced(in_gear(point));
+  const int teeth = outline_.profile->gear().teeth;
+  const double angle = polar_angle_rad(p.head<2>()) - section_turn_rad(toothing_.twist, p.z());
+  const int tooth = static_cast<int>(std::round(wrapped_rad(angle) * teeth / kTwoPi));
+  const auto& pieces = outline_.profile->pieces();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int side = 0; side < 6; ++side) {
+    const int copy = 2 * ((tooth + side / 2 - 1 + teeth) % teeth) + side % 2;
+    for (std::size_t k = flank_; k < pieces.size(); ++k) {
+      const Curve& curve = pieces[k].curve;
+      const double from =
+          k == flank_ ? std::lerp(curve.end, curve.begin, kFlanksFoot) : curve.begin;
+      Point2 before = point_at_height(k, from, copy, point.z());
+      for (int i = 1; i <= kRootChords; ++i) {
+        const Point2 after = point_at_height(
+            k, std::lerp(from, curve.end, static_cast<double>(i) / kRootChords), copy, point.z());
+        const Point2 chord = after - before;
+        const double along =
+            chord.dot(point.head<2>() - before) / std::max(chord.squaredNorm(), 1e-300);
+        nearest = std::min(nearest,
+                           (point.head<2>() - before - std::clamp(along, 0.0, 1.0) * chord).norm());
+        before = after;
+      }
+    }
+  }
+  return nearest;
+}
+
+double ToothingDistance::distance_by_turning_mm(const Point3& point) const {
   const Point3 p = undisplaced(in_gear(point));
   const double turn_rate = toothing_.twist.turn_rad_per_mm;
   const auto section_at = [&](const Point3& place) {
@@ -231,8 +282,7 @@ double ToothingDistance::slope_share(std::size_t piece, double parameter, int co
   const Point2 here = at(parameter, z_mm);
   const Point2 along = (at(at_end ? parameter - step : parameter + step, z_mm) - here).normalized();
   const double height = z_mm - outline_.z_lower_mm;
-  const double up = height + kStep_mm > toothing_.twist.face_width_mm ? -kStep_mm
-                                                                            : kStep_mm;
+  const double up = height + kStep_mm > toothing_.twist.face_width_mm ? -kStep_mm : kStep_mm;
   const double slope = cross(along, at(parameter, z_mm + up) - here) / up;
   return 1.0 / std::sqrt(1.0 + slope * slope);
 }

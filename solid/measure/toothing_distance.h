@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/solid/measure/outline_distance.h"
 
 namespace trueflank {
@@ -15,9 +16,10 @@ using Point3 = Eigen::Vector3d;
 /// How: a point is moved back by the displacement, turned back by the twist, and turned back by the
 /// deviation that its circle has at its height; then it is as far from the design's section as it
 /// was from the true one at its height; a bed chamfer is so much less material all round. The
-/// distance square to the surface follows from the slope. Accuracy: 1 % of the distance for slopes
-/// of the deviation up to 1 % on the flank, any on the fillet; distances within a tenth of the
-/// module.
+/// distance square to the surface follows from the slope. Where that is not small beside the height
+/// of the fillet, which may be micrometres, and less than the flank deviates: the section at the
+/// point's height, as a line of chords. Accuracy: 1 % of the distance for slopes of the deviation
+/// up to 1 % on the flank, any on the fillet; distances within a tenth of the module.
 class ToothingDistance {
  public:
   explicit ToothingDistance(const ToothedOutline& outline);
@@ -38,6 +40,10 @@ class ToothingDistance {
                                    double z_mm) const;
 
  private:
+  [[nodiscard]] double distance_by_turning_mm(const Point3& point) const;
+  /// From the surface's line at the point's height, its root and the flank's foot; of the teeth
+  /// nearby.
+  [[nodiscard]] double distance_from_root_mm(const Point3& point) const;
   [[nodiscard]] Point3 in_gear(const Point3& point) const;
   [[nodiscard]] Point3 undisplaced(const Point3& in_gear) const;
   struct SectionFoot {
@@ -68,6 +74,7 @@ class ToothingDistance {
   double base_radius_mm_ = 0.0;
   double steepest_ = 1.0;  ///< way along the wall a way across it, at most
   double largest_displacement_mm_ = 0.0;
+  double small_fillet_mm_ = kNaN;  ///< part of the fillet's height; NaN: no fillet to look at
   std::vector<double> fillet_radii_mm_, fillet_fades_;  ///< from the root form circle on
 };
 

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every header compiles as the only include of a file.
 
-The build has proved it of a header that is the first thing its own source includes, which is nearly
-every one; the others are compiled here, with the flags of a source of their folder.
+A build that compiles each source alone (`dev`, the sanitizers) proves it of a header that is the first
+thing its own source includes, which is nearly every one; the others are compiled here, with the flags
+of a source of their folder.
 """
 import concurrent.futures
 import json
@@ -38,7 +39,12 @@ def flags_by_folder():
         kept = [w for i, w in enumerate(words)
                 if w not in ("-c", "-o", "-MD", "-MF", "-MT") and words[i - 1] not in ("-o", "-MF", "-MT")
                 and pathlib.Path(entry["directory"], w).resolve() != file]
-        flags.setdefault(file.parent, (entry["directory"], kept))
+        # sources that are compiled together are included by one in the build folder
+        folders = {file.parent}
+        if file.is_relative_to(BUILD) and file.exists():
+            folders = {pathlib.Path(path).parent for path in re.findall(r'#include "(.*?)"', file.read_text())}
+        for folder in folders:
+            flags.setdefault(folder, (entry["directory"], kept))
     return flags
 
 
