@@ -2,6 +2,7 @@
 #include "trueflank/geometry/profile_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
@@ -206,22 +207,26 @@ Status ProfileBuilder::trim_ring_tip(const CutterTrochoid& fillet, double eta_jo
   const auto beyond_tip = [&](double eta) {
     return point_at(envelope, eta).norm() - p_.tip_radius_mm_;
   };
-  constexpr int kSteps = 400;
-  const double step = (envelope.end - envelope.begin) / kSteps;
+  constexpr std::size_t kSteps = 400;
+  const auto place = [&](std::size_t i) {
+    return envelope.begin + (envelope.end - envelope.begin) / kSteps * static_cast<double>(i);
+  };
+  std::array<double, kSteps + 1> beyond{};
+  for (std::size_t i = 0; i <= kSteps; ++i) beyond[i] = beyond_tip(place(i));
   double cut_tip = kNaN, cut_flank = kNaN;
-  for (int i = 0; i < kSteps; ++i) {
-    const double u = envelope.begin + step * i, v = u + step;
-    if (beyond_tip(u) * beyond_tip(v) < 0.0) {
-      const double at = find_root(beyond_tip, u, v);
-      if (depth(at) < 0.0) cut_tip = at;
-    }
-    if (depth(u) * depth(v) < 0.0) {
-      const double at = find_root(depth, u, v);
-      if (beyond_tip(at) > 0.0 && point_at(envelope, at).norm() < p_.root_form_radius_mm_)
-        cut_flank = at;
-    }
+  for (std::size_t i = 0; i < kSteps; ++i)
+    if (beyond[i] * beyond[i + 1] < 0.0)
+      if (const double at = find_root(beyond_tip, place(i), place(i + 1)); depth(at) < 0.0)
+        cut_tip = at;
+  if (std::isnan(cut_tip)) return {};
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    if (std::max(beyond[i], beyond[i + 1]) <= 0.0) continue;  // no flank inside the tip circle
+    if (!(depth(place(i)) * depth(place(i + 1)) < 0.0)) continue;
+    const double at = find_root(depth, place(i), place(i + 1));
+    if (beyond_tip(at) > 0.0 && point_at(envelope, at).norm() < p_.root_form_radius_mm_)
+      cut_flank = at;
   }
-  if (std::isnan(cut_tip) || std::isnan(cut_flank)) return {};
+  if (std::isnan(cut_flank)) return {};
   if (polar_angle_rad(point_at(envelope, cut_tip)) <= 0.0)
     return fail(no_tooth("cutter.teeth", g().cutter->teeth,
                          "the cutter trims the ring's teeth off at their tips",
