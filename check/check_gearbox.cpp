@@ -25,6 +25,39 @@
 namespace trueflank {
 namespace {
 
+/// One of the checks; of meshes, some need their states, which are found once for all of them.
+struct Check {
+  Findings (*of_train)(const GearTrain&) = nullptr;
+  Findings (*of_meshes)(const GearTrain&, const std::vector<MeshState>&) = nullptr;
+  bool across_stages = false;  ///< judges all stages as one; the others judge each by itself
+
+  [[nodiscard]] Findings operator()(const GearTrain& train, const std::vector<MeshState>& states) const {
+    return of_train != nullptr ? of_train(train) : of_meshes(train, states);
+  }
+};
+
+/// In the order of the report.
+constexpr Check kChecks[] = {
+    {.of_train = check_profile},
+    {.of_train = check_undercut},
+    {.of_train = check_tip_thickness},
+    {.of_train = check_centre_distance},
+    {.of_train = check_backlash},
+    {.of_train = check_tip_clearance},
+    {.of_train = check_contact_ratio},
+    {.of_meshes = check_overlap},
+    {.of_meshes = check_corner_contact},
+    {.of_meshes = check_fillet_interference},
+    {.of_meshes = check_involute_interference},
+    {.of_meshes = check_trochoid_interference},
+    {.of_meshes = check_trimming_interference},
+    {.of_meshes = check_assembly},
+    {.of_train = check_planet_spacing},
+    {.of_train = check_axial, .across_stages = true},
+    {.of_train = check_manufacturability},
+    {.of_train = check_design_tolerance},
+};
+
 void append(Findings& all, Findings some) {
   all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
 }
@@ -36,23 +69,14 @@ Findings of_stage(Findings findings, std::size_t stage) {
   return findings;
 }
 
-/// The stages one after another, check by check; across them only heights matter.
-Findings check_stages(const GearTrain& train, const std::vector<MeshState>& states) {
-  std::vector<Findings> each;
-  auto first = states.begin();
-  for (const GearTrain& stage : train.stages) {
-    const auto last = first + static_cast<std::ptrdiff_t>(stage.meshes.size());
-    each.push_back(of_stage(check_gearbox(stage, {first, last}), each.size()));
-    first = last;
-  }
+/// One check of every stage, first stage first.
+Findings of_every_stage(const Check& check, const GearTrain& train, const std::vector<MeshState>& states) {
   Findings all;
-  std::vector<std::size_t> done(each.size(), 0);
-  while (done[0] < each[0].size()) {
-    const std::string id = each[0][done[0]].id;
-    for (std::size_t s = 0; s < each.size(); ++s)
-      for (; done[s] < each[s].size() && each[s][done[s]].id == id; ++done[s])
-        if (id != "axial") all.push_back(each[s][done[s]]);
-    if (id == "axial") append(all, check_axial(train));
+  auto first = states.begin();
+  for (std::size_t s = 0; s < train.stages.size(); ++s) {
+    const auto last = first + static_cast<std::ptrdiff_t>(train.stages[s].meshes.size());
+    append(all, of_stage(check(train.stages[s], {first, last}), s));
+    first = last;
   }
   return all;
 }
@@ -62,18 +86,10 @@ Findings check_stages(const GearTrain& train, const std::vector<MeshState>& stat
 Findings check_gearbox(const GearTrain& train) { return check_gearbox(train, mesh_states(train)); }
 
 Findings check_gearbox(const GearTrain& train, const std::vector<MeshState>& states) {
-  if (!train.stages.empty()) return check_stages(train, states);
   Findings all;
-  for (const auto check :
-       {check_profile, check_undercut, check_tip_thickness, check_centre_distance, check_backlash,
-        check_tip_clearance, check_contact_ratio})
-    append(all, check(train));
-  for (const auto check : {check_overlap, check_corner_contact, check_fillet_interference, check_involute_interference,
-                           check_trochoid_interference, check_trimming_interference,
-                           check_assembly})
-    append(all, check(train, states));
-  for (const auto check : {check_planet_spacing, check_axial, check_manufacturability, check_design_tolerance})
-    append(all, check(train));
+  for (const Check& check : kChecks)
+    append(all, train.stages.empty() || check.across_stages ? check(train, states)
+                                                            : of_every_stage(check, train, states));
   return all;
 }
 
