@@ -35,9 +35,8 @@ std::vector<Point2> half_tooth(const ToothProfile& profile, const PointOf& point
 class ToothPolygon {
  public:
   explicit ToothPolygon(const ToothProfile& profile) : ToothPolygon(profile.gear()) {
-    const auto half = half_tooth(profile, [&](std::size_t k, double t) {
-      return point_at(profile.pieces()[k].curve, t);
-    });
+    const auto half = half_tooth(
+        profile, [&](std::size_t k, double t) { return point_at(profile.pieces()[k].curve, t); });
     set_points(half, half);
   }
   explicit ToothPolygon(const MadeSection& made) : ToothPolygon(made.toothing.profile->gear()) {
@@ -62,18 +61,27 @@ class ToothPolygon {
   [[nodiscard]] int teeth() const { return teeth_; }
   [[nodiscard]] double tip_reach() const { return external_ ? high_ : low_; }
 
-  /// Signed distance of a point in the gear's frame, cut off at +- the window. What is farther out than
-  /// `least` may be told as anything that is not less.
+  /// Signed distance of a point in the gear's frame, cut off at +- the window. What is farther out
+  /// than `least` may be told as anything that is not less.
   [[nodiscard]] double signed_distance(const Point2& p, double least) const {
     const double r = p.norm();
     if (external_ ? r > high_ + least : r < low_ - least) return window();
     if (external_ ? r < low_ - window() : r > high_ + window()) return -window();
-    const auto tooth = static_cast<int>(std::round(std::atan2(p.y(), p.x()) * teeth_ / (2.0 * M_PI)));
+    const auto tooth =
+        static_cast<int>(std::round(std::atan2(p.y(), p.x()) * teeth_ / (2.0 * M_PI)));
     const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth_) % teeth_)];
-    const double x = axis.dot(p), y = axis.x() * p.y() - axis.y() * p.x();
-    const auto cell_index = static_cast<std::size_t>(
-        std::clamp(static_cast<int>(std::floor((r - low_) / cell())), 0,
-                   static_cast<int>(cells_.size()) - 1));
+    const Point2 own(axis.dot(p), axis.x() * p.y() - axis.y() * p.x());
+    if (const double bound = bound_near(own); bound > least) return bound;
+    return of_own_tooth(own, r);
+  }
+
+ private:
+  /// Signed distance of a point in the frame of this tooth, `r` from the axis, cut off at +- the
+  /// window.
+  [[nodiscard]] double of_own_tooth(const Point2& own, double r) const {
+    const double x = own.x(), y = own.y();
+    const auto cell_index = static_cast<std::size_t>(std::clamp(
+        static_cast<int>(std::floor((r - low_) / cell())), 0, static_cast<int>(cells_.size()) - 1));
     double nearest = window() * window(), reach = square_of(window() + longest_);
     int crossings = 0;
     for (const Edge& edge : cells_[cell_index]) {
@@ -86,7 +94,9 @@ class ToothPolygon {
         if (y > 0.0 ? at_y > 0.0 && ahead > 0.0 : at_y <= 0.0 && ahead < 0.0) ++crossings;
       }
       if (dx * dx + dy * dy > reach) continue;
-      const double u = edge.square > 0.0 ? std::clamp((dx * edge.ex + dy * edge.ey) / edge.square, 0.0, 1.0) : 0.0;
+      const double u = edge.square > 0.0
+                           ? std::clamp((dx * edge.ex + dy * edge.ey) / edge.square, 0.0, 1.0)
+                           : 0.0;
       const double ox = dx - u * edge.ex, oy = dy - u * edge.ey;
       if (const double square = ox * ox + oy * oy; square < nearest) {
         nearest = square;
@@ -99,7 +109,26 @@ class ToothPolygon {
     return inside ? -std::sqrt(nearest) : std::sqrt(nearest);
   }
 
- private:
+  /// What no signed distance near a point is below: that of the middle of its square, less half a
+  /// diagonal. Squares are filled when they are first asked for.
+  [[nodiscard]] double bound_near(const Point2& own) const {
+    const Point2 place = (own - corner_) / square();
+    if (!(place.x() >= 0.0 && place.y() >= 0.0)) return -window();
+    const auto column = static_cast<std::size_t>(place.x()),
+               row = static_cast<std::size_t>(place.y());
+    if (column >= columns_ || row >= rows_) return -window();
+    double& bound = bounds_[row * columns_ + column];
+    if (std::isnan(bound)) {
+      const Point2 middle = corner_ + square() * Point2(static_cast<double>(column) + 0.5,
+                                                        static_cast<double>(row) + 0.5);
+      const double r = middle.norm();
+      const double distance =
+          r > high_ + window() || r < low_ - window() ? -window() : of_own_tooth(middle, r);
+      bound = std::max(-window(), distance - std::sqrt(0.5) * square() - slack());
+    }
+    return bound;
+  }
+
   explicit ToothPolygon(const Gear& gear)
       : teeth_(gear.teeth),
         external_(gear.kind == GearKind::kExternal),
@@ -137,7 +166,8 @@ class ToothPolygon {
     cells_.resize(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
       const Point2 along = points_[i + 1] - points_[i];
-      const Edge edge{points_[i].x(), points_[i].y(), along.x(), along.y(), along.squaredNorm(), radii[i], radii[i + 1]};
+      const Edge edge{points_[i].x(),      points_[i].y(), along.x(),   along.y(),
+                      along.squaredNorm(), radii[i],       radii[i + 1]};
       longest_ = std::max(longest_, along.norm());
       const double reach_low = std::min(radii[i], radii[i + 1]) - window() - low_;
       const double reach_high = std::max(radii[i], radii[i + 1]) + window() - low_;
@@ -145,8 +175,18 @@ class ToothPolygon {
       const int to = std::min(count - 1, static_cast<int>(std::floor(reach_high / cell())));
       for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(edge);
     }
+    set_squares();
   }
 
+  void set_squares() {
+    const double half_width = std::sin(std::min(M_PI / teeth_, M_PI / 2)) * high_ + window();
+    corner_ = {std::cos(std::min(M_PI / teeth_, M_PI / 2)) * low_ - window(), -half_width};
+    columns_ = static_cast<std::size_t>((high_ + window() - corner_.x()) / square()) + 1;
+    rows_ = static_cast<std::size_t>(2.0 * half_width / square()) + 1;
+    bounds_.assign(columns_ * rows_, NAN);
+  }
+
+  [[nodiscard]] double square() const { return 0.015 * module_; }
   [[nodiscard]] double cell() const { return 0.04 * module_; }
   [[nodiscard]] double middle_radius() const { return external_ ? high_ : low_; }
 
@@ -158,6 +198,9 @@ class ToothPolygon {
   std::vector<Point2> axes_;  // directions of the teeth
   double low_ = 0.0, high_ = 0.0, longest_ = 0.0;
   std::vector<std::vector<Edge>> cells_;
+  Point2 corner_ = Point2::Zero();  // of the squares
+  std::size_t columns_ = 0, rows_ = 0;
+  mutable std::vector<double> bounds_;
 };
 
 Point2 turned_by(const Point2& p, double angle) {
@@ -165,11 +208,10 @@ Point2 turned_by(const Point2& p, double angle) {
   return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
 }
 
-/// Vertices of `mover`, placed, against `mate`, placed.
+/// Vertices of `mover`, placed, against `mate`, placed; `best` where none is nearer than that.
 double smallest(const ToothPolygon& mover, double mover_turn, const Point2& mover_axis,
                 const ToothPolygon& mate, double mate_turn, const Point2& mate_axis,
-                bool mate_is_ring) {
-  double best = mate.window();
+                bool mate_is_ring, double best) {
   const double pitch = 2.0 * M_PI / mover.teeth();
   const double c2 = std::cos(-mate_turn), s2 = std::sin(-mate_turn);
   for (int k = 0; k < mover.teeth(); ++k) {
@@ -197,31 +239,30 @@ double smallest(const ToothPolygon& mover, double mover_turn, const Point2& move
 }
 
 double both_ways(const ToothPolygon& gear1, double turn1, const ToothPolygon& gear2, double turn2,
-                 const Point2& axis2, bool internal) {
+                 const Point2& axis2, bool internal, double best) {
   const Point2 origin = Point2::Zero();
-  return std::min(smallest(gear1, turn1, origin, gear2, turn2, axis2, internal),
-                  smallest(gear2, turn2, axis2, gear1, turn1, origin, false));
+  best = smallest(gear1, turn1, origin, gear2, turn2, axis2, internal, best);
+  return smallest(gear2, turn2, axis2, gear1, turn1, origin, false, best);
 }
 
 SimulatedClearance turned_through(const ToothPolygon& gear1, const ToothPolygon& gear2, double a,
                                   bool internal, double m, double gear2_turn) {
   const int z1 = gear1.teeth(), z2 = gear2.teeth();
   // relative travel of the far end of the engagement per turn of gear 1
-  const double relative = internal ? 1.0 - static_cast<double>(z1) / z2
-                                   : 1.0 + static_cast<double>(z1) / z2;
+  const double relative =
+      internal ? 1.0 - static_cast<double>(z1) / z2 : 1.0 + static_cast<double>(z1) / z2;
   const double lever = internal ? gear1.tip_reach() : 3.0 * m + 0.3 * gear1.tip_reach();
   const double pitch = 2.0 * M_PI / z1;
-  const int positions = std::clamp(
-      static_cast<int>(std::ceil(pitch * relative * lever / (0.01 * m))), 60, 1500);
+  const int positions =
+      std::clamp(static_cast<int>(std::ceil(pitch * relative * lever / (0.01 * m))), 60, 1500);
   SimulatedClearance result{gear1.window(), gear1.window()};
   for (int i = 0; i < positions; ++i) {
     const double turn1 = pitch * i / positions;
     // tooth 1 of gear 1 on the line of centres faces a gap of gear 2
     const double turn2 =
         (internal ? M_PI / z2 + turn1 * z1 / z2 : M_PI + M_PI / z2 - turn1 * z1 / z2) + gear2_turn;
-    result.clearance_mm =
-        std::min(result.clearance_mm,
-                 both_ways(gear1, turn1, gear2, turn2, {internal ? -a : a, 0.0}, internal));
+    result.clearance_mm = both_ways(gear1, turn1, gear2, turn2, {internal ? -a : a, 0.0}, internal,
+                                    result.clearance_mm);
   }
   return result;
 }
@@ -231,21 +272,22 @@ SimulatedClearance turned_through(const ToothPolygon& gear1, const ToothPolygon&
 double simulate_position_mm(const GearPair& pair, double rotation1_rad, double rotation2_rad,
                             const Point2& axis2_mm) {
   const ToothPolygon gear1(*pair.profile1), gear2(*pair.profile2);
-  return both_ways(gear1, rotation1_rad, gear2, rotation2_rad, axis2_mm, pair.internal());
+  return both_ways(gear1, rotation1_rad, gear2, rotation2_rad, axis2_mm, pair.internal(),
+                   gear1.window());
 }
 
 double simulate_position_mm(const MadeSection& gear1, double rotation1_rad,
                             const MadeSection& gear2, double rotation2_rad,
                             const Point2& axis2_mm) {
   const bool internal = gear2.toothing.profile->gear().kind == GearKind::kInternal;
-  return both_ways(ToothPolygon(gear1), rotation1_rad, ToothPolygon(gear2), rotation2_rad, axis2_mm,
-                   internal);
+  const ToothPolygon first(gear1), second(gear2);
+  return both_ways(first, rotation1_rad, second, rotation2_rad, axis2_mm, internal, first.window());
 }
 
 SimulatedClearance simulate_mesh(const GearPair& pair, double gear2_turn_rad) {
   return turned_through(ToothPolygon(*pair.profile1), ToothPolygon(*pair.profile2),
-                        pair.centre_distance_mm, pair.internal(),
-                        pair.gear1().normal_module_mm, gear2_turn_rad);
+                        pair.centre_distance_mm, pair.internal(), pair.gear1().normal_module_mm,
+                        gear2_turn_rad);
 }
 
 SimulatedClearance simulate_sections(const MadeSection& gear1, const MadeSection& gear2,
