@@ -8,6 +8,8 @@ import subprocess
 import sys
 import unittest
 
+import numpy
+
 from browser import Browser, pixels
 from inch_pair import INCHES
 
@@ -81,18 +83,16 @@ def has_3d(folder):
 
 def contrast_count(png):
     """How many pixels of a picture differ clearly from the pixel of its left edge in their row."""
-    count = 0
-    for row in pixels(png):
-        first = row[0]
-        count += sum(max(abs(a - b) for a, b in zip(p, first)) > 40 for p in row)
-    return count
+    rows = pixels(png)
+    return int((abs(rows - rows[:, :1]).max(axis=2) > 40).sum())
 
 
 def hue_count(png, hue):
     """How many pixels of a picture have a part's colour, in light or shadow."""
-    share = [h / sum(hue) for h in hue]
-    return sum(max(p) - min(p) > 40 and all(abs(c / sum(p) - s) < 0.09 for c, s in zip(p, share))
-               for row in pixels(png) for p in row)
+    rows = pixels(png)
+    coloured = numpy.ptp(rows, axis=2) > 40
+    shares = rows / numpy.maximum(rows.sum(axis=2, keepdims=True), 1)
+    return int((coloured & (abs(shares - numpy.array(hue) / sum(hue)).max(axis=2) < 0.09)).sum())
 
 
 def on(name, last=False, **view):
@@ -364,9 +364,10 @@ class ReportInBrowser(unittest.TestCase):
         self.assertLess(abs(float(re.search(r"[0-9]+", said).group()) - exact), 0.05 * exact + 2)
         # the place is in the middle of the picture, and red
         picture = pixels(self.shot("fouling", selector="#mesh-pinion-wheel figure > svg"))
-        middle = [p for row in picture[2 * len(picture) // 5:3 * len(picture) // 5]
-                  for p in row[2 * len(row) // 5:3 * len(row) // 5]]
-        self.assertGreater(sum(p[0] > 150 and p[1] < 80 and p[2] < 80 for p in middle), 200)
+        height, width, _ = picture.shape
+        middle = picture[2 * height // 5:3 * height // 5, 2 * width // 5:3 * width // 5]
+        red = (middle[..., 0] > 150) & (middle[..., 1:] < 80).all(axis=2)
+        self.assertGreater(red.sum(), 200)
         self.assertEqual(self.browser.problems, [])
 
     @on("drive")
