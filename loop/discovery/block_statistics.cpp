@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/base/widest_registers.h"
 
 namespace trueflank::loop {
 namespace {
@@ -91,6 +93,58 @@ void BlockStatistics::sum_candidates() {
   });
 }
 
+namespace {
+
+/// Sums of weighted products of columns that stand less than `apart` from each other, over the rows
+/// of each fold.
+class ColumnProducts {
+ public:
+  ColumnProducts(int folds, int columns, int apart)
+      : columns_(static_cast<std::size_t>(columns)),
+        apart_(static_cast<std::size_t>(apart)),
+        sums_(static_cast<std::size_t>(folds + 1),
+              std::vector<double>((2 * apart_ - 1) * columns_, 0.0)),
+        row_(columns_),
+        weighted_(columns_) {}
+
+  /// Adds a row's products to its fold, and `factor` times the row to two sums of rows.
+  void add(const float* row, int fold, double weight, double factor, double* sum,
+           double* other_sum) {
+    double* const x = row_.data();
+    double* const wx = weighted_.data();
+    double* const products = sums_[static_cast<std::size_t>(fold)].data();
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      for (std::size_t j = 0; j < columns_; ++j) {
+        x[j] = row[j];
+        wx[j] = weight * x[j];
+      }
+      for (std::size_t j = 0; j < columns_; ++j) sum[j] += factor * x[j];
+      for (std::size_t j = 0; j < columns_; ++j) other_sum[j] += factor * x[j];
+      for (std::size_t j = 0; j < columns_; ++j) products[j] += wx[j] * x[j];
+      for (std::size_t d = 1; d < apart_; ++d) {
+        double* const after = products + (2 * d - 1) * columns_;
+        double* const before = after + columns_;
+        for (std::size_t j = 0; j < columns_ - d; ++j) after[j] += wx[j] * x[j + d];
+        for (std::size_t j = 0; j < columns_ - d; ++j) before[j] += wx[j + d] * x[j];
+      }
+    });
+  }
+  /// Of column a, weighted, with column b.
+  [[nodiscard]] double sum(int fold, int a, int b) const {
+    const auto d = static_cast<std::size_t>(std::abs(b - a));
+    const std::size_t row = b == a ? 0 : b > a ? 2 * d - 1 : 2 * d;
+    return sums_[static_cast<std::size_t>(fold)]
+                [row * columns_ + static_cast<std::size_t>(std::min(a, b))];
+  }
+
+ private:
+  std::size_t columns_, apart_;
+  std::vector<std::vector<double>> sums_;
+  std::vector<double> row_, weighted_;
+};
+
+}  // namespace
+
 /// Sums of the columns of some groups, which stand beside each other.
 void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
                                  const std::map<int, double>& trace_weight) {
@@ -98,34 +152,32 @@ void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
   const std::vector<CandidateGroup>& groups = problem_.groups;
   const int first = groups[from].first_column;
   const int columns = groups[to - 1].first_column + groups[to - 1].columns - first;
-  for (auto& fold : group_grams_)
-    for (std::size_t g = from; g < to; ++g)
-      fold[g] = Eigen::MatrixXd::Zero(groups[g].columns, groups[g].columns);
+  int widest = 1;
+  for (std::size_t g = from; g < to; ++g) widest = std::max(widest, groups[g].columns);
   std::map<std::pair<int, int>, Eigen::VectorXd> trace_parts;
-  Eigen::VectorXd x(columns);
+  ColumnProducts products(folds_, columns, widest);
   for (const int i : order_) {
     const double w = problem_.weight[i], wy = w * value_[i];
     const int unit = problem_.unit[i], fold = problem_.fold[i];
-    x = candidates.row(i).segment(first, columns).transpose().cast<double>();
-    unit_sums_[unit].candidate_value.segment(first, columns) += wy * x;
-    fold_sums_[fold].candidate_value.segment(first, columns) += wy * x;
-    for (std::size_t g = from; g < to; ++g) {
-      const CandidateGroup& group = groups[g];
-      const double* part = x.data() + (group.first_column - first);
-      Eigen::MatrixXd& gram = group_grams_[fold][g];
-      for (int a = 0; a < group.columns; ++a)
-        for (int b = 0; b < group.columns; ++b) gram(a, b) += w * part[a] * part[b];
-    }
+    const float* row = candidates.row(i).data() + first;
+    products.add(row, fold, w, wy, unit_sums_[unit].candidate_value.data() + first,
+                 fold_sums_[fold].candidate_value.data() + first);
     if (problem_.zero[i] < 0) continue;
     Eigen::VectorXd& sum = trace_parts[{problem_.zero[i], unit}];
     if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);
-    sum += w * x;
+    sum += w * candidates.row(i).segment(first, columns).transpose().cast<double>();
   }
   for (std::size_t g = from; g < to; ++g) {
     const CandidateGroup& group = groups[g];
+    const int at = group.first_column - first;
+    for (int fold = 0; fold <= folds_; ++fold)
+      group_grams_[fold][g] = Eigen::MatrixXd::NullaryExpr(
+          group.columns, group.columns, [&](Eigen::Index a, Eigen::Index b) {
+            return products.sum(fold, at + static_cast<int>(a), at + static_cast<int>(b));
+          });
     zero_loss_[g] = Eigen::MatrixXd::Zero(group.columns, group.columns);
     for (const auto& [key, part] : trace_parts) {
-      const auto segment = part.segment(group.first_column - first, group.columns);
+      const auto segment = part.segment(at, group.columns);
       zero_loss_[g] += segment * segment.transpose() / trace_weight.at(key.first);
     }
     for (int fold = 1; fold <= folds_; ++fold) group_grams_[0][g] += group_grams_[fold][g];

@@ -7,80 +7,52 @@
 #include <utility>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/widest_registers.h"
 
 namespace trueflank::loop {
 namespace {
 
-[[gnu::always_inline]] inline void add_here(PanelRow& row, const double* factors,
-                                            const PanelRow* others, std::size_t count) {
-  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
-    double sum[kPanelStep];
-    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] += factors[k] * others[k][from + j];
-    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
-  }
+/// row += or, with `sign` -1, -= sum of factors[k] * others[k].
+template <int sign>
+void add_or_subtract(PanelRow& row, const double* factors, const PanelRow* others,
+                     std::size_t count) {
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
+      double sum[kPanelStep];
+      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
+      for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t j = 0; j < kPanelStep; ++j) {
+          if constexpr (sign > 0)
+            sum[j] += factors[k] * others[k][from + j];
+          else
+            sum[j] -= factors[k] * others[k][from + j];
+        }
+      for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
+    }
+  });
 }
-[[gnu::always_inline]] inline void subtract_here(PanelRow& row, const double* factors,
-                                                 const PanelRow* others, std::size_t count) {
-  for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
-    double sum[kPanelStep];
-    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] -= factors[k] * others[k][from + j];
-    for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
-  }
-}
-
-// Twice as wide where the processor can, without its fused multiply-add: that would round
-// otherwise.
-#if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void add_wide(PanelRow& row, const double* factors, const PanelRow* others,
-                                      std::size_t count) {
-  add_here(row, factors, others, count);
-}
-[[gnu::target("avx2")]] void subtract_wide(PanelRow& row, const double* factors,
-                                           const PanelRow* others, std::size_t count) {
-  subtract_here(row, factors, others, count);
-}
-bool is_wide() {
-  static const bool wide = __builtin_cpu_supports("avx2") != 0;
-  return wide;
-}
-#else
-void add_wide(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count) {
-  add_here(row, factors, others, count);
-}
-void subtract_wide(PanelRow& row, const double* factors, const PanelRow* others,
-                   std::size_t count) {
-  subtract_here(row, factors, others, count);
-}
-bool is_wide() { return false; }
-#endif
 
 }  // namespace
 
 void add_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count) {
-  if (is_wide())
-    add_wide(row, factors, others, count);
-  else
-    add_here(row, factors, others, count);
+  add_or_subtract<1>(row, factors, others, count);
 }
 
 void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others,
                    std::size_t count) {
-  if (is_wide())
-    subtract_wide(row, factors, others, count);
-  else
-    subtract_here(row, factors, others, count);
+  add_or_subtract<-1>(row, factors, others, count);
 }
 
 void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& row) {
-  PanelRow weighted;
-  for (std::size_t j = 0; j < kPanelColumns; ++j) weighted[j] = factor * row[j];
-  for (std::size_t apart = 0; apart < sums.size(); ++apart)
-    for (std::size_t j = 0; j + apart < kPanelColumns; ++j)
-      sums[apart][j] += row[j + apart] * weighted[j];
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    PanelRow weighted;
+    for (std::size_t j = 0; j < kPanelColumns; ++j) weighted[j] = factor * row[j];
+    for (std::size_t apart = 0; apart < sums.size(); ++apart) {
+      double* const sum = sums[apart].data();
+      const double* const other = row.data() + apart;
+      for (std::size_t j = 0; j < kPanelColumns - apart; ++j) sum[j] += other[j] * weighted[j];
+    }
+  });
 }
 
 std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups) {

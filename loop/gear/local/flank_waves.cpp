@@ -6,8 +6,10 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <span>
 
 #include "trueflank/base/units.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
@@ -30,6 +32,50 @@ Complex product(const Complex& a, const Complex& b) {
 struct Value {
   int tooth = 0, side = 0;
   double u = 0.0, v = 0.0, um = 0.0;  ///< u, v: 0 ... 1
+};
+
+/// Values that are added at once.
+constexpr std::size_t kAtOnce = 4;
+
+/// Sums over values of the four products of cosines and sines over the profile and over the face.
+class WaveProducts {
+ public:
+  /// At most kAtOnce of them.
+  void add(std::span<const Value* const> values) {
+    std::array<std::array<double, kAlong>, kAtOnce> along{};
+    std::array<std::array<double, kRow>, kAtOnce> across{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Complex step_u = std::polar(1.0, kPi * values[i]->u),
+                    step_v = std::polar(1.0, kPi * values[i]->v);
+      Complex of_v = 1.0;
+      for (std::size_t b = 0; b < kHalf; ++b, of_v = product(of_v, step_v)) {
+        across[i][b] = of_v.real();
+        across[i][kHalf + b] = of_v.imag();
+      }
+      Complex of_u = values[i]->um;
+      for (std::size_t a = 0; a < kAlong; a += 2, of_u = product(of_u, step_u)) {
+        along[i][a] = of_u.real();
+        along[i][a + 1] = of_u.imag();
+      }
+    }
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      for (std::size_t a = 0; a < kAlong; ++a)
+        for (std::size_t b = 0; b < kRow; ++b)
+          sums_[a][b] += along[0][a] * across[0][b] + along[1][a] * across[1][b] +
+                         along[2][a] * across[2][b] + along[3][a] * across[3][b];
+    });
+  }
+  /// Sum of um exp(-i pi (a u + b v)), or with `sign` -1 of the wave that falls.
+  [[nodiscard]] Complex sum(int a, int b, double sign) const {
+    const auto i = 2 * static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    return {sums_[i][j] - sign * sums_[i + 1][kHalf + j],
+            -sums_[i + 1][j] - sign * sums_[i][kHalf + j]};
+  }
+
+ private:
+  static constexpr std::size_t kAlong = 2 * (kProfile + 1), kHalf = kFace + 1, kRow = 2 * kHalf + 2;
+  static_assert(kAtOnce == 4 && kRow % 4 == 0);
+  std::array<std::array<double, kRow>, kAlong> sums_{};
 };
 
 class Spectrum {
@@ -55,9 +101,7 @@ class Spectrum {
     double mean = 0.0;
     std::vector<Complex> sums;  ///< over kProfile + 1 by kColumns waves
   };
-  static std::size_t at(int a, int b) {
-    return static_cast<std::size_t>(a * kColumns + b + kFace);
-  }
+  static std::size_t at(int a, int b) { return static_cast<std::size_t>(a * kColumns + b + kFace); }
   Flank& flank_of(const Value& value) {
     return flanks_[static_cast<std::size_t>(2 * (value.tooth - 1) + value.side)];
   }
@@ -69,7 +113,8 @@ class Spectrum {
       count += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
     if (count == 0) return;
     // Of many values some, in no rhythm with the lines of the scan.
-    const double share = std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
+    const double share =
+        std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
     const auto most = static_cast<std::uint64_t>(share * 4294967296.0);
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
@@ -96,27 +141,34 @@ class Spectrum {
     for (Value& value : values_) value.um = std::clamp(value.um, -most, most);
   }
 
+  /// Values in the order of their flanks.
+  [[nodiscard]] std::vector<const Value*> by_flank() {
+    std::vector<std::size_t> next(flanks_.size() + 1, 0);
+    for (std::size_t f = 0; f < flanks_.size(); ++f)
+      next[f + 1] = next[f] + static_cast<std::size_t>(flanks_[f].count);
+    std::vector<const Value*> sorted(values_.size());
+    for (const Value& value : values_)
+      sorted[next[static_cast<std::size_t>(&flank_of(value) - flanks_.data())]++] = &value;
+    return sorted;
+  }
+
+  /// Sums of all waves of every flank. Cosines and sines over the profile times those over the
+  /// face: waves that rise and waves that fall are made of the same four products.
   void transform() {
-    for (Flank& flank : flanks_) flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
-    // Real and imaginary parts in rows of their own, which the compiler adds up several at a time.
-    std::array<double, kColumns> real, imaginary;
-    for (const Value& value : values_) {
-      const Complex step_u = std::polar(1.0, -kPi * value.u), step_v = std::polar(1.0, -kPi * value.v);
-      Complex of_v = 1.0;
-      for (std::size_t b = 0; b <= kFace; ++b, of_v = product(of_v, step_v)) {
-        real[kFace + b] = real[kFace - b] = of_v.real();
-        imaginary[kFace + b] = of_v.imag();
-        imaginary[kFace - b] = -of_v.imag();
-      }
-      double* sums = reinterpret_cast<double*>(flank_of(value).sums.data());
-      Complex of_u = value.um;
-      for (int a = 0; a <= kProfile; ++a, of_u = product(of_u, step_u), sums += 2 * kColumns) {
-        const double x = of_u.real(), y = of_u.imag();
-        for (std::size_t b = 0; b < kColumns; ++b) {
-          sums[2 * b] += x * real[b] - y * imaginary[b];
-          sums[2 * b + 1] += x * imaginary[b] + y * real[b];
+    const std::vector<const Value*> sorted = by_flank();
+    std::size_t next = 0;
+    for (Flank& flank : flanks_) {
+      WaveProducts products;
+      const std::size_t end = next + static_cast<std::size_t>(flank.count);
+      for (; next < end; next += kAtOnce)
+        products.add({sorted.data() + next, std::min(kAtOnce, end - next)});
+      next = end;
+      flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
+      for (int a = 0; a <= kProfile; ++a)
+        for (int b = 0; b <= kFace; ++b) {
+          flank.sums[at(a, b)] = products.sum(a, b, 1.0);
+          flank.sums[at(a, -b)] = products.sum(a, b, -1.0);
         }
-      }
     }
   }
 
@@ -171,7 +223,8 @@ class Spectrum {
     double best = 0.0;
     FlankWaves found;
     for (std::size_t i = 0; i < of_side[0].size(); ++i) {
-      const double level = 0.5 * (of_side[0][i].median / usual[0] + of_side[1][i].median / usual[1]) / std::log(2.0);
+      const double level =
+          0.5 * (of_side[0][i].median / usual[0] + of_side[1][i].median / usual[1]) / std::log(2.0);
       for (std::size_t side = 0; side < 2 && level > 0.0; ++side) {
         const Orders& one = of_side[side][i];
         const double ratio = one.largest / usual[side] / level;
@@ -188,36 +241,59 @@ class Spectrum {
     return found;
   }
 
+  static constexpr int kAround = 2, kSteps = 2 * kAround + 1;
+  using Amplitudes = std::array<std::array<double, kSteps>, kSteps>;
+
   /// Wavelengths between those asked about, and the amplitude.
   void sharpen(FlankWaves& wave) const {
     double best = 0.0;
     for (const double step : {0.25, 0.1, 0.04, 0.016}) {
       const double a = wave.waves_profile, b = wave.waves_face;
-      for (int i = -2; i <= 2; ++i)
-        for (int j = -2; j <= 2; ++j) {
-          const double amplitude = amplitude_of(wave.side, a + i * step, b + j * step, wave.order);
+      const Amplitudes amplitudes = amplitudes_around(wave, step);
+      for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+          const double amplitude =
+              amplitudes[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
           if (amplitude <= best) continue;
           best = amplitude;
-          wave.waves_profile = a + i * step;
-          wave.waves_face = b + j * step;
+          wave.waves_profile = a + (i - kAround) * step;
+          wave.waves_face = b + (j - kAround) * step;
         }
     }
     wave.amplitude_um = best;
   }
 
-  double amplitude_of(int side, double a, double b, int order) const {
-    Complex sum = 0.0;
+  /// Amplitudes of a wave and of those some steps of wavelength off.
+  [[nodiscard]] Amplitudes amplitudes_around(const FlankWaves& wave, double step) const {
+    std::array<std::array<Complex, kSteps>, kSteps> sums{};
     double count = 0.0;
     for (const Value& value : values_) {
-      if ((value.side == 1) != (side > 0)) continue;
-      const double phase = a * value.u + b * value.v + static_cast<double>(order) * (value.tooth - 1) / teeth_;
-      sum += value.um * std::polar(1.0, -kTwoPi * phase);
+      if ((value.side == 1) != (wave.side > 0)) continue;
+      const double phase = (wave.waves_profile - kAround * step) * value.u +
+                           (wave.waves_face - kAround * step) * value.v +
+                           static_cast<double>(wave.order) * (value.tooth - 1) / teeth_;
+      const Complex step_u = std::polar(1.0, -kTwoPi * step * value.u),
+                    step_v = std::polar(1.0, -kTwoPi * step * value.v);
+      Complex of_row = value.um * std::polar(1.0, -kTwoPi * phase);
+      for (auto& row : sums) {
+        Complex turned = of_row;
+        for (Complex& sum : row) {
+          sum += turned;
+          turned = product(turned, step_v);
+        }
+        of_row = product(of_row, step_u);
+      }
       count += 1.0;
     }
-    return 2.0 * std::abs(sum) / std::max(1.0, count);
+    Amplitudes amplitudes{};
+    for (std::size_t i = 0; i < kSteps; ++i)
+      for (std::size_t j = 0; j < kSteps; ++j)
+        amplitudes[i][j] = 2.0 * std::abs(sums[i][j]) / std::max(1.0, count);
+    return amplitudes;
   }
 
-  /// Squares of one Fourier sum of the flanks, in shares of their values, about the mean of their side.
+  /// Squares of one Fourier sum of the flanks, in shares of their values, about the mean of their
+  /// side.
   std::vector<double> squares_at(int a, int b) const {
     std::array<Complex, 2> mean{};
     std::array<double, 2> count{};
@@ -232,7 +308,8 @@ class Spectrum {
     for (std::size_t f = 0; f < flanks_.size(); ++f) {
       const Flank& flank = flanks_[f];
       if (flank.count < kFewestValues) continue;
-      squares.push_back(std::norm(sum_of(flank) - mean[f % 2] * (flank.count / count[f % 2])) / flank.count);
+      squares.push_back(std::norm(sum_of(flank) - mean[f % 2] * (flank.count / count[f % 2])) /
+                        flank.count);
     }
     return squares;
   }
@@ -252,7 +329,8 @@ class Spectrum {
       level = std::max(level, sum / static_cast<double>(waves.size()));
     }
     constexpr double kMedianOfSquare = 0.4549, kClearly = 1.6;
-    // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the values.
+    // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the
+    // values.
     constexpr double kToldByMedian = 0.37;
     const double height = median(squares_at(0, 0)) / kMedianOfSquare;
     if (!(level > 0.0) || height < kClearly * level) return {};
