@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "trueflank/base/always_inline.h"
+
 // Loops that are compiled twice: for the registers every processor has, and for those of four
 // doubles (AVX2). The same digits on every processor: the wider ones add the same numbers in the
 // same order, without fused multiply-add, which would round otherwise
@@ -22,13 +24,11 @@ void in_widest_registers(const Work& work) {
   else
     work();
 }
-#define TRUEFLANK_ALWAYS_INLINE __attribute__((always_inline))
 #else
 template <class Work>
 void in_widest_registers(const Work& work) {
   work();
 }
-#define TRUEFLANK_ALWAYS_INLINE
 #endif
 
 }  // namespace trueflank

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueflank/base/always_inline.h"
 #include "trueflank/base/result.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/reading.h"
@@ -34,7 +35,7 @@ inline constexpr std::array<double, 16> kPowersOfTen = {1e0, 1e1, 1e2,  1e3,  1e
 /// Decimal numbers as programs write them: both the digits and the power of ten are exact doubles, so
 /// that their quotient is rounded as the standard library rounds it, several times as fast. Moves `from`
 /// behind the number. Leaves everything else alone (false): exponents, more than 15 digits.
-[[nodiscard]] inline bool take_short_decimal(const char*& from, const char* end, double& value) {
+[[nodiscard]] TRUEFLANK_ALWAYS_INLINE inline bool take_short_decimal(const char*& from, const char* end, double& value) {
   const auto digit = [](char c) { return static_cast<unsigned>(c - '0'); };
   const char* at = from;
   const bool minus = at != end && *at == '-';

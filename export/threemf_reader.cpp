@@ -92,20 +92,32 @@ Result<Reference> reference_of(const XmlScanner::Tag& tag) {
   return reference;
 }
 
-bool take_plain(const char*& at, const char* end, double& value) {
+// Always inline: six calls for every facet, and compilers judge otherwise with every source they see beside this one.
+TRUEFLANK_ALWAYS_INLINE inline bool take_plain(const char*& at, const char* end, double& value) {
   if (take_short_decimal(at, end, value)) return true;
   std::string_view text(at, static_cast<std::size_t>(end - at));
   if (!take_number(text, value)) return false;
   at = text.data();
   return true;
 }
-bool take_plain(const char*& at, const char* end, std::uint32_t& value) {
+TRUEFLANK_ALWAYS_INLINE inline bool take_plain(const char*& at, const char* end, std::uint32_t& value) {
+  constexpr std::ptrdiff_t kShort = 9;  // as many digits fit into the value whatever they are
+  const char* digits = at;
+  std::uint32_t sum = 0;
+  for (; digits != end && *digits >= '0' && *digits <= '9' && digits - at < kShort; ++digits)
+    sum = 10 * sum + static_cast<std::uint32_t>(*digits - '0');
+  if (digits - at < kShort) {
+    if (digits == at) return false;
+    at = digits;
+    value = sum;
+    return true;
+  }
   const auto result = std::from_chars(at, end, value);
   at = result.ptr;
   return result.ec == std::errc();
 }
 template <std::size_t kSize>
-bool take_plain(const char*& at, const char* end, const char (&word)[kSize]) {
+TRUEFLANK_ALWAYS_INLINE inline bool take_plain(const char*& at, const char* end, const char (&word)[kSize]) {
   constexpr std::ptrdiff_t kLength = kSize - 1;
   if (end - at < kLength || std::memcmp(at, word, kLength) != 0) return false;
   at += kLength;

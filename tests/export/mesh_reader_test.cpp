@@ -197,6 +197,27 @@ TEST(MeshReader, ReadsUnitsTransformsAndModelPartsOf3mf) {
   EXPECT_NEAR(body.mesh.vertices[1][2], 2 * 25.4, 1e-12);
 }
 
+/// Written as most programs do, with one corner of a facet as given.
+Result<std::vector<MeshBody>> plain_3mf_with_corner(const std::string& corner) {
+  return parse_bodies(
+      package("<model><resources><object id='1'><mesh><vertices>\n<vertex x=\"0\" y=\"0\" z=\"0\"/>\n"
+              "<vertex x=\"1\" y=\"0\" z=\"0\"/>\n<vertex x=\"0\" y=\"2\" z=\"0\"/>\n</vertices><triangles>\n"
+              "<triangle v1=\"0\" v2=\"1\" v3=\"" +
+              corner + "\"/>\n</triangles></mesh></object></resources><build><item objectid='1'/></build></model>"),
+      ".3mf");
+}
+
+TEST(MeshReader, TakesCornersOf3mfWithZerosInFrontAndNoneBeyondAnyList) {
+  for (const char* corner : {"2", "000000002", "0000000002", "00000000000000000002"}) {
+    const auto bodies = plain_3mf_with_corner(corner);
+    ASSERT_TRUE(bodies) << corner << ": " << bodies.error().message;
+    EXPECT_EQ(bodies->front().mesh.triangles.front()[2], 2U) << corner;
+  }
+  // the second and third are 2 in 32 bits
+  for (const char* corner : {"3", "4294967298", "18446744073709551618", "999999999", "", "-2", "x"})
+    EXPECT_FALSE(plain_3mf_with_corner(corner)) << corner;
+}
+
 TEST(MeshReader, RefusesA3mfThatMultipliesItself) {
   std::string model = "<model><resources><object id='1'>" + kTetrahedron + "</object>";
   for (int id = 2; id < 25; ++id) {
