@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/machine/check_fits.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -24,6 +25,23 @@ constexpr std::array<RingLimit, 8> kOuter{{{18, 8}, {30, 9}, {50, 11}, {80, 13},
                                            {150, 18}, {180, 25}, {250, 30}}};
 constexpr std::array<RingLimit, 7> kBore{
     {{18, 8}, {30, 10}, {50, 12}, {80, 15}, {120, 20}, {180, 25}, {250, 30}}};
+
+/// Radial internal clearance of deep groove ball bearings of the usual group, by the bore, um.
+/// Source: ISO 5753-1, group N, as bearing makers' catalogues print it.
+struct ClearanceLimit {
+  double upto_mm, least_um, most_um;
+};
+constexpr std::array<ClearanceLimit, 9> kClearance{{{10, 2, 13},
+                                                    {18, 3, 18},
+                                                    {24, 5, 20},
+                                                    {30, 5, 20},
+                                                    {40, 6, 20},
+                                                    {50, 6, 23},
+                                                    {65, 8, 28},
+                                                    {80, 10, 30},
+                                                    {100, 12, 36}}};
+/// So much of an interference the raceway moves (bearing makers give 0.7 to 0.9).
+constexpr double kRaceway = 0.8;
 
 template <std::size_t N>
 double below_mm(const std::array<RingLimit, N>& table, double size_mm) {
@@ -81,6 +99,27 @@ Finding fit_of(const std::string& where, const std::string& name, const std::vec
   return finding;
 }
 
+/// What tight fits leave of a ball bearing's radial clearance, both in the middle of their limits:
+/// below nothing its balls are squeezed. `tight_um`: how much smaller than the journal the bore is,
+/// and than the outer ring the seat.
+void judge_clearance(const Bearing& bearing, double tight_um, Finding& finding) {
+  const auto row =
+      std::find_if(kClearance.begin(), kClearance.end(),
+                   [&](const ClearanceLimit& limit) { return bearing.bore_mm <= limit.upto_mm; });
+  if (!(tight_um > 0.0) || row == kClearance.end() || bearing.kind != BearingKind::kBalls) return;
+  const double left = 0.5 * (row->least_um + row->most_um) - kRaceway * tight_um;
+  finding.message += "; of the bearing's clearance of " + number_text(row->least_um, 0) + " to " +
+                     number_text(row->most_um, 0) + " um (ISO 5753-1, group N) they leave " +
+                     number_text(left, 1) + " um in the middle";
+  if (left >= 0.0) return;
+  finding.status = std::max(finding.status, CheckStatus::kWarn);
+  finding.value = left / 1000.0;
+  finding.limit = 0.0;
+  finding.margin = finding.value;
+  finding.message += ": its balls are squeezed";
+  finding.cure = "a looser class, or a bearing of a group of more clearance (C3)";
+}
+
 /// The seats of a design, as far as they have classes.
 class FittedSeats {
  public:
@@ -112,7 +151,19 @@ class FittedSeats {
     if (has_journal)
       sides.push_back({"journal", fit.shaft, bearing.bore_mm,
                        FitLimits{-below_mm(kBore, bearing.bore_mm), 0.0}});
+    double tight_um = 0.0;
+    for (const Side& side : sides)
+      if (const auto made = fit_limits(side.fit, side.size_mm); made && !side.fit.empty()) {
+        const bool hole = std::isupper(static_cast<unsigned char>(side.fit[0])) != 0;
+        const double mate = side.mate->lower_mm + side.mate->upper_mm;
+        const double over = 0.5 * (made->lower_mm + made->upper_mm - mate) * (hole ? -1.0 : 1.0);
+        tight_um += 1000.0 * std::max(0.0, over);
+      }
+    const std::size_t before = findings.size();
     add(where, bearing.name, std::move(sides));
+    // a ring is not moved by a journal of plastic
+    if (held_ && findings.size() > before && !std::isnan(findings.back().value))
+      judge_clearance(bearing, tight_um, findings.back());
   }
   void hole(const char* where, const char* name, const SeatFit& fit, double size_mm) {
     if (size_mm > 0.0) add(where, name, {{"hole", fit.hole, size_mm}});

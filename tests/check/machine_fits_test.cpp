@@ -109,6 +109,26 @@ TEST(Fits, OfASeatLeaveTheOthersTheirClearance) {
   EXPECT_THROW((void)made.finding("fits", "planet"), std::runtime_error);
 }
 
+TEST(Fits, ThatAreTightTakeTheClearanceOfABearing) {
+  // 6806: bore of 30 at -10 to 0 um; group N of 30 mm: 5 to 20 um, 12.5 in the middle (ISO 5753-1)
+  const auto told = [](const std::string& fit) {
+    return Made(in_bearings(in_housing(kOfMetal, "fit_mm = 0"), "output_fit = \"" + fit + "\""))
+        .finding("fits", "output");
+  };
+  // k6 is +2 to +15: 13.5 um larger than the bore, of which the raceway takes 0.8
+  const Finding usual = told("H7/k6");
+  EXPECT_EQ(usual.status, CheckStatus::kPass);
+  EXPECT_NE(usual.message.find("they leave 1.7 um"), std::string::npos) << usual.message;
+  // p6 is +22 to +35: 33.5 um
+  const Finding tight = told("H7/p6");
+  EXPECT_EQ(tight.status, CheckStatus::kWarn);
+  EXPECT_NEAR(tight.value, (12.5 - 0.8 * 33.5) / 1000.0, 1e-9);
+  EXPECT_NE(tight.cure.find("C3"), std::string::npos);
+  // a tight seat adds to it: 42 P7 is -42 to -17, the ring -11 to 0
+  EXPECT_NEAR(told("P7/k6").value, (12.5 - 0.8 * (13.5 + 29.5 - 5.5)) / 1000.0, 1e-9);
+  EXPECT_EQ(told("H7/g6").message.find("ISO 5753"), std::string::npos);
+}
+
 TEST(Fits, OfPinsAreThoseOfTheirHoles) {
   const Made made(in_housing(kOfMetal, "fit_mm = 0\npin_fit = \"N7\""));
   // 5 N7: -16 to -4
