@@ -258,11 +258,23 @@ class Writer {
     step.lines = {machine_.motor.flat_mm > 0.0
                       ? "The flat of its bore lies on the flat of the shaft."
                       : "The shaft is round: fix it with retaining compound."};
+    add_filed_flat(step);
     add_set_screw(step);
     if (p.member != train_.topology().input) {
       step.title = "Put the " + words(p.name) + " between the planets";
       step.lines = {"It idles: it keeps the planets apart."};
     }
+  }
+
+  /// The motor of this name comes with a round shaft, the design's has a flat.
+  void add_filed_flat(GuideStep& step) const {
+    const Motor& motor = machine_.motor;
+    const Motor* bought = find_element(standard_elements().motors, motor.name);
+    if (!bought || bought->flat_mm > 0.0 || !(motor.flat_mm > 0.0)) return;
+    step.lines.push_back("The motor comes with a round shaft: first file a flat on it, " +
+                         number_text(motor.flat_length_mm, 1) + " mm long from its end, " +
+                         number_text(motor.flat_mm, 1) +
+                         " mm from the flat to the far side. Keep the chips out of the motor.");
   }
 
   /// Of the gear on the motor's shaft.
@@ -273,14 +285,16 @@ class Writer {
     if (!screw.on_flat) step.lines.clear();
     step.lines.push_back(set_screw_operation(*layout));
     if (screw.nut)
-      step.lines.push_back(
-          "Slide the nut into its pocket from the motor's side. The hub stands " +
-          number_text(layout->hub.lower_mm - layout->floor.lower_mm, 1) +
-          " mm above the motor's face.");
+      step.lines.push_back("Slide the nut into its pocket from the motor's side. The hub stands " +
+                           number_text(layout->hub.lower_mm - layout->floor.lower_mm, 1) +
+                           " mm above the motor's face.");
     step.lines.push_back("Tighten the set screw now: the housing goes over the gear next.");
-    for (const std::string& item : bought_for_set_screw(screw)) step.needs.push_back({item, 1, false});
+    for (const std::string& item : bought_for_set_screw(screw))
+      step.needs.push_back({item, 1, false});
     step.tool = "drill of " +
-                number_text(screw.nut ? screw.drill_mm : screw.screw.diameter_mm - screw.screw.diameter_mm / 6.0, 1) +
+                number_text(screw.nut ? screw.drill_mm
+                                      : screw.screw.diameter_mm - screw.screw.diameter_mm / 6.0,
+                            1) +
                 (screw.nut ? " mm, " : " mm, tap, ") + "hex key of " +
                 number_text(set_screw_key_mm(screw), 1) + " mm";
   }
@@ -289,19 +303,21 @@ class Writer {
     const std::string name = words(name_of(first));
     step.title = "Put " + the(name) + " on";
     if (name == "housing") step.title += " the motor";
+    if (name == input_name()) add_filed_flat(step);
     const bool teeth = std::any_of(first.bodies.begin(), first.bodies.end(), [&](std::size_t body) {
       const PartRole role = part(body).role;
       return role == PartRole::kSun || role == PartRole::kPlanet || role == PartRole::kRing ||
              role == PartRole::kUpperRing;
     });
     if (teeth) {
-      step.lines = {
-          "Grease the teeth. Lower it without force and turn it, or the " + input_name() +
-          ", a little to and fro until all teeth stand in their gaps."};
+      step.lines = {"Grease the teeth. Lower it without force and turn it, or the " + input_name() +
+                    ", a little to and fro until all teeth stand in their gaps."};
       if (first.from == 0.0)
-        step.lines = {"Herringbone teeth do not slide into each other along the axis: bring it to the " +
-                      input_name() + " from the side, and grease the teeth. Keep them together from "
-                      "here on."};
+        step.lines = {
+            "Herringbone teeth do not slide into each other along the axis: bring it to the " +
+            input_name() +
+            " from the side, and grease the teeth. Keep them together from "
+            "here on."};
       if (is_helical()) step.lines.push_back("The teeth are helical: it turns as it goes in.");
       if (has_planet(first)) add_index(step);
     } else if (name == "housing" || name == "lid" || name == "output" || name.ends_with("top")) {
@@ -309,7 +325,8 @@ class Writer {
     }
   }
   [[nodiscard]] std::string input_name() const {
-    return train_.topology().has_planets() ? "sun" : train_.topology().name_of(train_.topology().input);
+    return train_.topology().has_planets() ? "sun"
+                                           : train_.topology().name_of(train_.topology().input);
   }
   [[nodiscard]] bool has_planet(const AssemblyStep& step) const {
     return std::any_of(step.bodies.begin(), step.bodies.end(),
@@ -328,8 +345,9 @@ class Writer {
     if (count == 1) step.title = "Put the planet on its pin";
     if (step.from == 0.0) {
       step.title = "Put the planets round the sun";
-      step.lines = {"Herringbone teeth do not slide into each other along the axis: bring each planet "
-                    "to the sun from the side, and grease the teeth. Keep them together from here on."};
+      step.lines = {
+          "Herringbone teeth do not slide into each other along the axis: bring each planet "
+          "to the sun from the side, and grease the teeth. Keep them together from here on."};
       return;
     }
     step.lines = {"They turn freely on their pins."};

@@ -5,6 +5,7 @@
 #include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/overhang.h"
+#include "trueflank/train/machine/machine_layout.h"
 
 namespace trueflank {
 namespace {
@@ -47,6 +48,12 @@ bool is_stacked(const GearTrain& train, const PartShape& part) {
          train.topology().gears_of(part.member).size() > 1;
 }
 
+/// Teeth and the foot of a set screw stand out over the hub between them.
+bool has_set_screw(const GearTrain& train, const PartShape& part) {
+  const auto layout = machine_layout(train);
+  return layout && layout->set_screw.is_there() && part.member == train.topology().input;
+}
+
 Finding judge_part(const GearTrain& train, const PartShape& part, const Process& process) {
   const Overhang hangs = overhang(part, part.upside_down, process);
   Judged worst = ledge(hangs, process);
@@ -57,6 +64,11 @@ Finding judge_part(const GearTrain& train, const PartShape& part, const Process&
         "teeth of planet1 and planet2 so far apart in number that one lies inside the other's "
         "roots, "
         "and straight; or " +
+        worst.cure;
+  if (worst.share() > 1.0 && has_set_screw(train, part))
+    worst.cure =
+        "set_screw = \"never\" in [fasteners], with a flat filed on the shaft (flat_mm and "
+        "flat_length_mm in [motor]); or " +
         worst.cure;
   Finding finding =
       judged({.id = "overhang",

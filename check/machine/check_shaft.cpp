@@ -22,8 +22,25 @@ Finding held_by_screw(const GearTrain& train, const MachineLayout& m, Finding fi
   if (!(motor.torque_nm > holds)) return finding;
   finding.status = CheckStatus::kWarn;
   finding.message += ", the motor has " + number_text(motor.torque_nm, 2) + " N m";
-  finding.cure = "a flat filed on the shaft under the screw, retaining compound besides, or flat_mm and "
-                 "flat_length_mm in [motor]";
+  finding.cure =
+      "a flat filed on the shaft under the screw, retaining compound besides, or flat_mm and "
+      "flat_length_mm in [motor]";
+  return finding;
+}
+
+/// A flat digs into a bore where the motor is stronger than that bears.
+Finding held_by_flat(const GearTrain& train, const MachineLayout& m, Finding finding) {
+  const Motor& motor = train.design.machine->motor;
+  const double holds = held_by_flat_nm(train, flat_in_bore_mm(m));
+  finding.message += "; its flat holds about " + number_text(holds, 2) + " N m";
+  if (!(motor.torque_nm > holds)) return finding;
+  finding.status = CheckStatus::kWarn;
+  finding.message += ", the motor has " + number_text(motor.torque_nm, 2) + " N m";
+  finding.cure =
+      std::string(m.driven_gear < 0 ? "a thicker plate_thickness_mm in [carrier]"
+                                    : "a wider face_width_mm, as far as the flat goes") +
+      ", a longer flat (flat_length_mm in [motor]), less torque of the motor (torque_nm), "
+      "or a process that makes the part of metal";
   return finding;
 }
 
@@ -57,7 +74,8 @@ Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
   const GearDesign* gear =
       m.driven_gear < 0 ? nullptr : &train.design.gears[static_cast<std::size_t>(m.driven_gear)];
   const double fitted_mm = m.fits.shaft.hole_mm(motor.shaft_diameter_mm);
-  const bool pressed_on = gear && fitted_mm <= motor.shaft_diameter_mm && gear->bore.diameter_mm >= fitted_mm;
+  const bool pressed_on =
+      gear && fitted_mm <= motor.shaft_diameter_mm && gear->bore.diameter_mm >= fitted_mm;
   if (gear && !pressed_on && !(gear->bore.diameter_mm > motor.shaft_diameter_mm)) {
     finding.status = CheckStatus::kFail;
     finding.message = "the motor's shaft of " + mm_text(motor.shaft_diameter_mm) +
@@ -65,7 +83,10 @@ Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
     finding.cure = "bore_mm in [" + gear->name + "] of more, or none: it follows from the shaft";
   }
   if (finding.status != CheckStatus::kFail && m.set_screw.is_there())
-    return motor.flat_mm > 0.0 ? on_the_flat(train, m, finding) : held_by_screw(train, m, finding);
+    return motor.flat_mm > 0.0 ? held_by_flat(train, m, on_the_flat(train, m, std::move(finding)))
+                               : held_by_screw(train, m, std::move(finding));
+  if (finding.status != CheckStatus::kFail && motor.flat_mm > 0.0)
+    finding = held_by_flat(train, m, std::move(finding));
   if (finding.status != CheckStatus::kFail && !m.set_screw.missing.empty() && motor.flat_mm > 0.0) {
     finding.status = CheckStatus::kWarn;
     finding.message += "; no set screw on its flat: " + m.set_screw.missing;
@@ -76,8 +97,9 @@ Finding shaft_grip(const GearTrain& train, const MachineLayout& m) {
     finding.status = CheckStatus::kWarn;
     finding.message += "; bore and shaft are round: glue alone carries the torque";
     if (!m.set_screw.missing.empty()) finding.message += "; " + m.set_screw.missing;
-    finding.cure = "a flat filed on the shaft, and flat_mm and flat_length_mm in [motor]; or retaining "
-                   "compound";
+    finding.cure =
+        "a flat filed on the shaft, and flat_mm and flat_length_mm in [motor]; or retaining "
+        "compound";
   }
   return finding;
 }

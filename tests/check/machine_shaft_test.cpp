@@ -164,5 +164,30 @@ TEST(SetScrew, OnAFlatThatTheHubDoesNotReachIsToldAndOneThatIsNotWantedIsNotTher
   EXPECT_EQ(none.finding("shaft_grip", "sun").status, CheckStatus::kWarn);
 }
 
+TEST(ShaftGrip, AFlatHoldsWhatItsWidthAndLengthInTheBoreBear) {
+  const Made made(k3k + kMachine);
+  const auto m = machine_layout(made.train);
+  // a NEMA 17's shaft of 5 mm has a flat of 3 mm: half of it bears 60 MPa at a mean arm of 0.75 mm
+  EXPECT_NEAR(held_by_flat_nm(made.train, 10.0), 60.0 * 10.0 * 1.5 * 0.75 / 1000.0, 1e-12);
+  EXPECT_EQ(made.finding("shaft_grip", "sun").status, CheckStatus::kPass);
+  // it begins 9 mm over the motor's face
+  EXPECT_NEAR(flat_in_bore_mm(*m), m->gripped.upper_mm - (m->floor.lower_mm + 9.0), 1e-9);
+  const Made strong(
+      replaced(k3k + kMachine, "name = \"nema17\"", "name = \"nema17\"\ntorque_nm = 2"));
+  const Finding told = strong.finding("shaft_grip", "sun");
+  EXPECT_EQ(told.status, CheckStatus::kWarn);
+  EXPECT_NE(told.message.find("the motor has 2 N m"), std::string::npos) << told.message;
+}
+
+TEST(ShaftGrip, AHubOnTheFlatsBeginningAloneIsTold) {
+  const std::string carried =
+      replaced(k3k, "output = \"ring2\"", "output = \"ring2\"\ninput = \"carrier\"");
+  const Made thin(carried + kMachine);
+  EXPECT_EQ(thin.finding("shaft_grip", "carrier").status, CheckStatus::kWarn);
+  const Made thick(carried + "[carrier]\nplate_thickness_mm = 12\n" + kMachine);
+  EXPECT_EQ(thick.finding("shaft_grip", "carrier").status, CheckStatus::kPass)
+      << thick.finding("shaft_grip", "carrier").message;
+}
+
 }  // namespace
 }  // namespace trueflank

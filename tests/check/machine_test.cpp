@@ -44,8 +44,10 @@ std::string type_two(const std::string& text) {
 std::string idle_sun(const std::string& text) {
   return replaced(text, "planets = 3", "planets = 3\ninput = \"carrier\"");
 }
+/// The hub is as long as the flat of the motor's shaft wants it.
 std::string split_ring(const std::string& text) {
-  return replaced(idle_sun(text), "[sun]\nteeth = 12\nface_width_mm = 10\n", "");
+  return replaced(idle_sun(text), "[sun]\nteeth = 12\nface_width_mm = 10\n", "") +
+         "[carrier]\nplate_thickness_mm = 10\npin_hole_clearance_mm = 0.1\n";
 }
 /// Simple and stepped sets whose ring drives out.
 std::string held_carrier(const std::string& text) {

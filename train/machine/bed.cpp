@@ -8,8 +8,10 @@ namespace {
 
 constexpr double kSmallest_mm = 20.0, kLargest_mm = 5000.0;
 
-/// A length that fills its text; nothing else, and nothing out of reason.
-std::optional<double> length_of(const std::string& text) {
+/// A length that fills its text, spaces aside; nothing else, and nothing out of reason.
+std::optional<double> length_of(std::string text) {
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
   double value = 0.0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return std::nullopt;

@@ -138,6 +138,7 @@ class Layout {
       const TrainGear& gear = train_.gear(m_.driven_gear);
       driven = heights(gear);
       widen_hub(gear, machine_, m_);
+      narrow_hub_beside_planets();
       place_stop(gear, driven);
     } else if (m_.idle_gear >= 0) {
       place_stop(train_.gear(m_.idle_gear), heights(train_.gear(m_.idle_gear)));
@@ -156,6 +157,18 @@ class Layout {
       m_.toothed_hub = m_.hub_room_mm == kNoPlanet_mm &&
                        0.5 * m_.carrier.opening_diameter_mm >=
                            train_.gear(m_.driven_gear).profile.tip_radius_mm() + 0.5 * m_.clearance_mm;
+  }
+
+  /// A planet in mesh turns right over the end of the hub: the hub stays half the clearance off its
+  /// tips.
+  void narrow_hub_beside_planets() {
+    for (const TrainMesh& mesh : train_.meshes) {
+      if (mesh.gear1 != m_.driven_gear && mesh.gear2 != m_.driven_gear) continue;
+      const TrainGear& planet = train_.gear(mesh.gear1 == m_.driven_gear ? mesh.gear2 : mesh.gear1);
+      m_.hub_radius_mm =
+          std::min(m_.hub_radius_mm, train_.centre_distance_mm - planet.profile.tip_radius_mm() -
+                                         0.5 * m_.clearance_mm);
+    }
   }
 
   /// Over a sun that ends far below the far plate stands a stop: it keeps the sun on the shaft.

@@ -3,8 +3,8 @@
 // A gear on a round shaft is held by a set screw across its hub; on a shaft with a flat the screw
 // bears on the flat, if the design wants one. In plastic the screw turns in a
 // square nut, which lies in a pocket of the bore, open to the motor; the wall outside it is drilled
-// through from a flat. In metal the hub itself is drilled and tapped. The housing goes over the gear
-// afterwards: a key gets to the screw before that.
+// through from a flat. In metal the hub itself is drilled and tapped. The housing goes over the
+// gear afterwards: a key gets to the screw before that.
 #include "trueflank/train/machine/set_screw.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 namespace trueflank {
 namespace {
 
-/// Square nuts, thin (DIN 562), and set screws with a cup point (ISO 4029) of their thread: the key and
-/// the usual tightening torque.
+/// Square nuts, thin (DIN 562), and set screws with a cup point (ISO 4029) of their thread: the key
+/// and the usual tightening torque.
 struct SquareNut {
   const char* thread;
   double width_mm, height_mm, key_mm, torque_nm;
@@ -29,6 +29,8 @@ constexpr std::array<SquareNut, 3> kNuts{
 constexpr double kTorqueOfForce = 0.2;
 /// Friction of screw and bore on a dry shaft, and pressure that printed plastic bears: cautious.
 constexpr double kFriction = 0.15, kPressure_mpa = 30.0;
+/// The same on the flat of a bore, for a while: printed, and of metal.
+constexpr double kFlatPressure_mpa = 60.0, kMetalPressure_mpa = 150.0;
 /// Threads by the shaft: up to 7 mm, up to 12 mm, beyond.
 constexpr std::array<double, 2> kShafts_mm{7.0, 12.0};
 /// Lengths of set screws that are stocked. Source: ISO 4029, preferred lengths.
@@ -89,7 +91,8 @@ void widen_foot(const GearTrain& train, double hole_room_mm, const MachineLayout
   const double flat = gear.profile.tip_radius_mm() + kInsideFoot_mm;
   const double radius = std::hypot(flat, 0.5 * s.drill_mm + kBesideDrill_mm);
   const double collar = train.design.machine->motor.pilot_diameter_mm;
-  const double room = collar > 0.0 ? std::min(hole_room_mm, 0.5 * m.fits.pilot.hole_mm(collar)) : hole_room_mm;
+  const double room =
+      collar > 0.0 ? std::min(hole_room_mm, 0.5 * m.fits.pilot.hole_mm(collar)) : hole_room_mm;
   if (flat <= s.flat_mm || radius + m.clearance_mm > room) return;
   s.flat_mm = flat;
   s.through_mm = flat - s.pocket_end_mm;
@@ -120,11 +123,13 @@ std::vector<std::string> bought_for_set_screw(const MachineLayout::SetScrew& scr
 std::string set_screw_operation(const MachineLayout& layout) {
   const auto& s = layout.set_screw;
   if (!s.is_there()) return {};
-  const std::string height =
-      printed("%.2f mm from the end of the hub on the motor's side", s.axis_mm - layout.hub.lower_mm);
+  const std::string height = printed("%.2f mm from the end of the hub on the motor's side",
+                                     s.axis_mm - layout.hub.lower_mm);
   if (s.nut)
-    return printed("Drill %.1f mm across the axis, in the middle of the hub's flat (%.2f mm from the axis), ",
-                   s.drill_mm, s.flat_mm) +
+    return printed(
+               "Drill %.1f mm across the axis, in the middle of the hub's flat (%.2f mm from the "
+               "axis), ",
+               s.drill_mm, s.flat_mm) +
            height + printed(": through %.1f mm into the pocket of the nut.", s.through_mm);
   return "Drill and tap " + s.screw.name + " across the axis into " +
          (s.on_flat ? "the middle of the bore's flat, " : "the bore, ") + height + ".";
@@ -142,6 +147,18 @@ double held_torque_nm(const MachineLayout::SetScrew& screw, double shaft_diamete
   return 2.0 * kFriction * force_n * 0.5 * shaft_diameter_mm / 1000.0;
 }
 
+double flat_in_bore_mm(const MachineLayout& m) {
+  return std::max(0.0, m.gripped.upper_mm - std::max(m.gripped.lower_mm, m.flat_from_mm));
+}
+
+double held_by_flat_nm(const GearTrain& train, double flat_in_bore_mm) {
+  const Motor& motor = train.design.machine->motor;
+  const double radius = 0.5 * motor.shaft_diameter_mm, off = motor.flat_mm - radius;
+  const double half_width = std::sqrt(std::max(0.0, radius * radius - off * off));
+  const double pressure = is_printed(train) ? kFlatPressure_mpa : kMetalPressure_mpa;
+  return 0.5 * pressure * flat_in_bore_mm * half_width * half_width / 1000.0;
+}
+
 double room_of_hole_mm(const MachineDesign& machine, const MachineLayout& m) {
   return 0.5 * (machine.motor.bolt_circle_diameter_mm - machine.fasteners.motor.head_diameter_mm) -
          kHeadRoom_mm - m.wall_mm;
@@ -157,7 +174,8 @@ void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& 
     return;
   }
   const BoreDesign& bore = train.design.gears[static_cast<std::size_t>(m.driven_gear)].bore;
-  if (bore.kind != (flat ? BoreKind::kDFlat : BoreKind::kRound) || !(bore.diameter_mm > 0.0)) return;
+  if (bore.kind != (flat ? BoreKind::kDFlat : BoreKind::kRound) || !(bore.diameter_mm > 0.0))
+    return;
   const SquareNut& nut = nut_for(motor.shaft_diameter_mm);
   MachineLayout::SetScrew s;
   s.screw = *find_element(standard_elements().screws, nut.thread);
@@ -175,13 +193,15 @@ void plan_set_screw(const GearTrain& train, double hole_room_mm, MachineLayout& 
   widen_foot(train, hole_room_mm, m, s);
   const auto none = [&](const std::string& why) { m.set_screw.missing = why; };
   if (train.design.herringbone)
-    return none("no key reaches a set screw: herringbone gears stand round this one before it goes on "
-                "the shaft");
+    return none(
+        "no key reaches a set screw: herringbone gears stand round this one before it goes on "
+        "the shaft");
   const double tip = train.gear(m.driven_gear).profile.tip_radius_mm();
   const double hole = std::max(s.foot_radius_mm, tip) + m.clearance_mm;
   const auto mm = [](double value) { return printed("%.2f mm", value); };
   const bool centred = motor.pilot_diameter_mm > 0.0;  // by a hole that fits its collar
-  if (const double collar = 0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm); centred && hole > collar)
+  if (const double collar = 0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm);
+      centred && hole > collar)
     return none("a set screw wants a hole of radius " + mm(hole) + " in the floor, for the " +
                 (tip > s.foot_radius_mm ? "gear" : "hub") +
                 " to go through; that of the motor's collar has " + mm(collar));
@@ -220,13 +240,12 @@ void place_set_screw(const GearTrain& train, MachineLayout& m) {
         std::min(m.hub_radius_mm, (s.nut ? s.flat_mm : s.foot_radius_mm) - kInsideFoot_mm);
   }
   const double hub = std::max(m.hub_radius_mm, 0.5 * motor.shaft_diameter_mm) + m.clearance_mm;
-  m.floor_hole_radius_mm =
-      std::max(0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm), hub);
+  m.floor_hole_radius_mm = std::max(0.5 * m.fits.pilot.hole_mm(motor.pilot_diameter_mm), hub);
   if (s.is_there())
     m.floor_hole_radius_mm =
         std::max(m.floor_hole_radius_mm,
-                 std::max(s.foot_radius_mm,
-                          train.gear(m.driven_gear).profile.tip_radius_mm()) + m.clearance_mm);
+                 std::max(s.foot_radius_mm, train.gear(m.driven_gear).profile.tip_radius_mm()) +
+                     m.clearance_mm);
 }
 
 }  // namespace trueflank

@@ -22,4 +22,11 @@ namespace trueflank {
 /// its tightening torque gives, or what the plastic behind its nut bears.
 [[nodiscard]] double held_torque_nm(const MachineLayout::SetScrew& screw, double shaft_diameter_mm);
 
+/// Length of the shaft's flat that is in the bore.
+[[nodiscard]] double flat_in_bore_mm(const MachineLayout& layout);
+
+/// Torque that a bore with a flat holds on so much of the shaft's flat: half its width bears, as
+/// hard as the material of the bore stands for a while (60 MPa printed, else 150; a rule of thumb).
+[[nodiscard]] double held_by_flat_nm(const GearTrain& train, double flat_in_bore_mm);
+
 }  // namespace trueflank
