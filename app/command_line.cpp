@@ -164,6 +164,7 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   wish("--motor", options.motor, "motor of the table: with a housing around the gears");
   wish("--process", options.process, "how it is made");
   wish("--material", options.material, "of the gears");
+  wish("--tools", options.tools, "TOML file with own motors and processes");
   wish("--outer-diameter", options.outer_diameter_mm, "of the whole, mm, at most");
   command->callback([&, ratio] {
     options.wished = ratio->count() > 0;

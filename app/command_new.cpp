@@ -22,6 +22,15 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
+/// From the folder of the design, which is how a design file names its tools.
+std::string tools_from(const std::string& tools, const std::filesystem::path& design) {
+  if (tools.empty() || std::filesystem::path(tools).is_absolute()) return tools;
+  const auto folder = design.parent_path();
+  return std::filesystem::path(tools)
+      .lexically_proximate(folder.empty() ? "." : folder)
+      .generic_string();
+}
+
 /// Searches for the design that was asked for, and writes it.
 ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::string& told) {
   const auto design = wished_design(std::filesystem::path(options.name).stem().string(),
@@ -32,7 +41,9 @@ ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::st
                                      .motor = options.motor,
                                      .process = options.process,
                                      .material = options.material,
-                                     .outer_diameter_mm = options.outer_diameter_mm});
+                                     .outer_diameter_mm = options.outer_diameter_mm,
+                                     .tools = options.tools,
+                                     .tools_named = tools_from(options.tools, options.name)});
   if (!design) return fail_all(design.error());
   for (const std::string& sentence : design->told) told += sentence + "\n";
   const auto path = write_design(options.name, design->text);

@@ -76,6 +76,7 @@ struct NewOptions {
   double ratio = 0.0, outer_diameter_mm = 90.0;
   std::string input, output;  ///< members; empty: the usual ones
   std::string motor, process = "fdm-0.4", material = "pla";
+  std::string tools;  ///< file of own motors and processes; empty: none
 };
 int run_new(const NewOptions& options);
 

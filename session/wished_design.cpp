@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/check/check_gearbox.h"
@@ -25,7 +26,11 @@ namespace {
 /// How far the ratio may be off.
 constexpr double kRatioTolerance = 0.02;
 /// Tooth sets are searched in lots, those nearest to the ratio first: one lot takes some seconds.
-constexpr std::size_t kLot = 48, kMostSets = 240, kTriedSets = 48;
+/// More lots are for a design without a warning, where there is one that warns.
+constexpr std::size_t kLot = 48, kMostSets = 240, kLeastSets = 72, kTriedSets = 16, kAllTrials = 48;
+/// A part of the first lot that tells whether the wishes can be met at all; and a lot of what is
+/// tried besides.
+constexpr std::size_t kProbe = 12, kTrialLot = 8;
 /// Where nothing is found: so much larger is tried.
 constexpr std::array<double, 3> kLarger{1.25, 1.6, 2.2};
 constexpr double kLargest_mm = 500.0;
@@ -36,6 +41,8 @@ constexpr double kLeastContactRatio = 1.2, kPrintedFriction = 0.15;
 /// The module is what so many teeth more than the largest gear's leave of the diameter; tips wider
 /// than this part of it leave no choice of shifts.
 constexpr double kTipTeeth = 5.0, kWidestTip = 0.6;
+/// Some housings want more room than the estimate has: the module becomes so much smaller.
+constexpr double kTipReserve = 1.05;
 
 /// Of the rack: teeth a little short, whose tips a printer still makes; the narrow gaps of rings
 /// take no rounder tool, and the sun's involute stays whole.
@@ -54,6 +61,20 @@ std::string names_of_all(const std::vector<Element>& elements) {
   std::string names;
   for (const Element& element : elements) names += (names.empty() ? "" : ", ") + element.name;
   return names;
+}
+
+constexpr const char* kShaftGrip = "shaft_grip";
+/// What is on the motor's shaft has an overhang: the foot of a set screw stands out over its hub.
+constexpr const char* kFootHangs = "overhang of the foot";
+/// A flat that is filed on a round shaft: what it leaves of the diameter, how long it is at most,
+/// and the shaft left round over the motor's face, where no file gets to.
+constexpr double kFiled = 0.9, kLongestFlat_mm = 15.0, kNotFiled_mm = 3.0;
+
+Motor with_filed_flat(Motor motor) {
+  motor.flat_mm = 0.1 * std::round(10.0 * kFiled * motor.shaft_diameter_mm);
+  motor.flat_length_mm =
+      std::min(kLongestFlat_mm, std::floor(motor.shaft_length_mm - kNotFiled_mm));
+  return motor;
 }
 
 /// Warnings that a design may have.
@@ -81,10 +102,14 @@ class Wish {
   /// What gives a design instead, of each sort the first that does: each was tried.
   [[nodiscard]] std::string what_would() const {
     std::string found;
+    std::size_t left = kAllTrials;
     for (const std::vector<Trial>& sort : trials())
       for (const Trial& trial : sort) {
-        Wish wish(trial.wishes, kTriedSets);
-        if (!wish.check().empty() || !wish.find("trial")) continue;
+        if (left == 0) break;
+        Wish wish(trial.wishes, std::min(left, kTriedSets));
+        const bool gives = wish.check().empty() && wish.find("trial").has_value();
+        left -= std::min(left, wish.tried_sets_);
+        if (!gives) continue;
         found += (found.empty() ? "" : ", or ") + trial.option;
         break;
       }
@@ -109,7 +134,12 @@ class Wish {
                         .key = "--outer-diameter",
                         .value = fixed_text(wishes_.outer_diameter_mm, 3),
                         .remedy = "40 to 500"});
-    const ToolTables& tools = standard_tools();
+    if (!wishes_.tools.empty()) {
+      auto read = read_tools(wishes_.tools);
+      if (!read) return read.error();
+      tools_ = *std::move(read);
+    }
+    const ToolTables& tools = tools_;
     process_ = tools.processes.find(wishes_.process);
     if (!process_)
       errors.push_back(unknown("--process", wishes_.process, names_of_all(tools.processes.all())));
@@ -131,7 +161,8 @@ class Wish {
       return fail_all(
           {{.code = ErrorCode::kInfeasible,
             .message = "no set of this ratio and size passes every check: of " +
-                       std::to_string(report.sets) + " sets " + std::to_string(report.feasible) +
+                       std::to_string(all_sets_) + " sets " + std::to_string(report.sets) +
+                       " were tried, " + std::to_string(report.feasible) +
                        " have shifts that keep the limits" + most_fell(report),
             .key = "--ratio",
             .value = fixed_text(wishes_.ratio, 3),
@@ -139,6 +170,7 @@ class Wish {
     const FoundDesign& found = report.designs.front();
     GearboxDesign design = whole(found.design);
     design.name = design_name_from(name);
+    design.tools_file = wishes_.tools_named;
     WishedDesign result{.text = {}, .told = sentences(found, report, design)};
     std::string comment;
     for (const std::string& sentence : result.told) comment += sentence + "\n";
@@ -219,6 +251,7 @@ class Wish {
   SearchReport searched(const SearchRequirements& asked) {
     const SetEnumeration found = enumerate_sets(asked);
     std::vector<ToothSet> all(found.sets.begin(), found.sets.end());
+    all_sets_ = all.size();
     const auto off = [this](const ToothSet& set) {
       return std::abs(std::abs(signed_ratio(set)) - wishes_.ratio);
     };
@@ -227,27 +260,47 @@ class Wish {
     const auto judge = [this](const GearTrain& train) { return judged(train); };
     std::vector<ToothSet> tried;
     SearchRecords records;
-    for (std::size_t from = 0; from < all.size() && tried.size() < most_sets_; from += kLot) {
-      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(from),
-                 end = all.begin() + static_cast<std::ptrdiff_t>(std::min(from + kLot, all.size()));
+    SearchReport report;
+    const std::size_t most = std::min(all.size(), most_sets_);
+    for (std::size_t from = 0, to = 0; from < most && (from < kLeastSets || warned_alone_);
+         from = to) {
+      // what is searched by way of trial needs no best
+      to = std::min(most, from + (most_sets_ < kMostSets ? kTrialLot : kLot));
+      if (from > 0 && !warned_alone_) to = std::min(to, kLeastSets);
+      const auto at = [&](std::size_t index) {
+        return all.begin() + static_cast<std::ptrdiff_t>(index);
+      };
       SetEnumeration lot;
-      lot.sets = std::vector<ToothSet>(begin, end);
-      const SearchRecords own = run_search(asked, lot);
-      do {
+      SearchRunOptions run;
+      const auto look = [&] {
+        const SearchRecords own = run_search(asked, lot, run);
         begin_judging();
-        SearchReport report = conclude_search(asked, lot, own, judge);
-        if (!report.designs.empty()) return report;
-      } while (tolerate_what_all_warn());
-      for (SearchRecord record : own.optimised) {
-        record.index += tried.size();
+        report = conclude_search(asked, lot, own, judge);
+        return own;
+      };
+      tried_sets_ = to;
+      if (from == 0 && to > kProbe) {
+        lot.sets = std::vector<ToothSet>(at(0), at(kProbe));
+        run.done = look().optimised;
+        if (report.designs.empty() && fall_alike()) return report;
+      }
+      lot.sets = std::vector<ToothSet>(at(from), at(to));
+      SearchRecords own = look();
+      while (report.designs.empty() && tolerate_what_all_warn()) {
+        begin_judging();
+        report = conclude_search(asked, lot, own, judge);
+      }
+      if (!report.designs.empty() || fall_alike()) return report;
+      if (judged_ >= kMostJudged && !warned_alone_) return report;
+      for (SearchRecord& record : own.optimised) {
+        record.index += from;
         records.optimised.push_back(std::move(record));
       }
-      tried.insert(tried.end(), begin, end);
+      tried.insert(tried.end(), at(from), at(to));
     }
     SetEnumeration all_tried;
     all_tried.sets = std::move(tried);
     // those whose sun is undercut, then those that only warn
-    SearchReport report;
     for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
       allowed_ = allowed;
       begin_judging();
@@ -297,8 +350,8 @@ class Wish {
     r.contact_ratio_min = kLeastContactRatio;
     const int most_teeth =
         std::max({r.sun.max, r.planet1.max, fewer(sets_->planet2).max, fewer(sets_->ring).max});
-    r.tip_thickness =
-        std::max(0.2, process_->least_tip_mm * (most_teeth + kTipTeeth) / *r.outer_diameter_mm);
+    r.tip_thickness = std::max(0.2, kTipReserve * process_->least_tip_mm *
+                                        (most_teeth + kTipTeeth) / *r.outer_diameter_mm);
     r.strength.material = material_;
     r.results = 1;
     r.listed = 0;  // the first that passes may rank anywhere
@@ -317,24 +370,47 @@ class Wish {
   DesignVerdict judged(const GearTrain& gears) {
     // what fell so often falls for a reason that other teeth do not mend
     if (++judged_ > kMostJudged) return {.failed = {last_failed_}, .warned = {}};
-    std::vector<std::string> warns;
-    DesignVerdict verdict = judged(gears, warns);
+    std::vector<std::string> warns, fails;
+    DesignVerdict verdict = judged(gears, warns, fails);
     if (!verdict.failed.empty()) last_failed_ = verdict.failed.front();
-    if (judged_ == 1) common_ = warns;
-    std::erase_if(common_, [&](const std::string& id) {
-      return std::find(warns.begin(), warns.end(), id) == warns.end();
-    });
+    grip_alone_ |= fails.empty() && !warns.empty() &&
+                   std::all_of(warns.begin(), warns.end(),
+                               [](const auto& id) { return id == kShaftGrip || id == kFootHangs; });
+    warned_alone_ |= !verdict.failed.empty() && fails.empty();
+    keep_common(warns, common_);
+    keep_common(fails, common_failures_);
     return verdict;
   }
 
   void begin_judging() {
     judged_ = 0;
     common_.clear();
+    common_failures_.clear();
   }
 
-  /// What every design of many warns of comes of the wishes, not of the teeth.
+  /// Of what all said that were judged before, what this one says too.
+  void keep_common(const std::vector<std::string>& said, std::vector<std::string>& common) const {
+    if (judged_ == 1) common = said;
+    std::erase_if(common, [&](const std::string& one) {
+      return std::find(said.begin(), said.end(), one) == said.end();
+    });
+  }
+
+  /// Many fail in the same place, which comes of the wishes: other teeth will fail too.
+  [[nodiscard]] bool fall_alike() const { return judged_ >= kMany && !common_failures_.empty(); }
+
+  /// What every design of many warns of comes of the wishes, not of the teeth. Where a round shaft
+  /// is all that one lacks, a flat is filed on it.
   bool tolerate_what_all_warn() {
+    if (grip_alone_ && !filed_ && !(motor_->flat_mm > 0.0)) {
+      filed_ = with_filed_flat(*motor_);
+      motor_ = &*filed_;
+      return true;
+    }
     if (judged_ < kMany || common_.empty()) return false;
+    // it did not help
+    if (filed_ && std::count(common_.begin(), common_.end(), kShaftGrip) > 0)
+      motor_ = find_element(tools_.elements.motors, wishes_.motor);
     tolerated_.insert(tolerated_.end(), common_.begin(), common_.end());
     return true;
   }
@@ -342,12 +418,16 @@ class Wish {
   [[nodiscard]] bool is_allowed(const Finding& finding) const {
     return allowed_ == Allowed::kEveryWarning ||
            (allowed_ == Allowed::kUndercut && finding.id == "undercut") ||
-           std::find(tolerated_.begin(), tolerated_.end(), finding.id) != tolerated_.end();
+           std::find(tolerated_.begin(), tolerated_.end(), finding.id) != tolerated_.end() ||
+           (finding.id == "overhang" &&
+            std::find(tolerated_.begin(), tolerated_.end(), kFootHangs) != tolerated_.end());
   }
 
-  /// `warns` gets the ids of the warnings that are not allowed.
-  [[nodiscard]] DesignVerdict judged(const GearTrain& gears, std::vector<std::string>& warns) {
+  /// `warns` gets the ids of the warnings that are not allowed, `fails` what fails and where.
+  [[nodiscard]] DesignVerdict judged(const GearTrain& gears, std::vector<std::string>& warns,
+                                     std::vector<std::string>& fails) {
     DesignVerdict verdict;
+    const std::string on_shaft = gears.topology().name_of(gears.design.topology.input);
     const auto take = [&](const Findings& findings) {
       for (const Finding& finding : findings) {
         const bool warning = finding.status == CheckStatus::kWarn;
@@ -356,22 +436,30 @@ class Wish {
         } else if (warning || finding.status == CheckStatus::kFail) {
           verdict.failed.push_back(finding.id);
           examples_.insert({finding.id, finding.message});
-          if (warning) warns.push_back(finding.id);
+          if (warning)
+            warns.push_back(finding.id == "overhang" && finding.where == on_shaft ? kFootHangs
+                                                                                  : finding.id);
+          else
+            fails.push_back(finding.id + " " + finding.where);
         }
       }
     };
     const auto train = lay_out(whole(gears.design));
-    if (!train) return {.failed = {"assembly"}, .warned = {}};
+    if (!train) {
+      fails.push_back("assembly");
+      return {.failed = fails, .warned = {}};
+    }
     if (train->design.machine) {
       const auto shapes = part_shapes(*train);
       if (!shapes) {
         examples_.insert({"wall", shapes.error().front().message});
+        fails.push_back(shapes.error().front().key);
         return {.failed = {"wall"}, .warned = {}};
       }
       take(check_machine(*train, *shapes));
       if (const auto layout = machine_layout(*train);
           2.0 * layout->least_outer_radius_mm > wishes_.outer_diameter_mm)
-        verdict.failed.push_back("housing_size");
+        verdict.failed.push_back("housing_size"), fails.push_back("housing_size");
     }
     if (verdict.failed.empty()) take(check_gearbox(*train));
     return verdict;
@@ -428,6 +516,12 @@ class Wish {
     const std::string driven = design.topology.name_of(input);
     told.push_back("motor " + motor_->name + ": the bore of the " + driven +
                    " is that of its shaft");
+    if (filed_ && motor_ == &*filed_)
+      told.push_back(
+          "its shaft is round, and no set screw has room or holds enough: file a flat on it, " +
+          fixed_text(motor_->flat_length_mm, 1) + " mm long from its end, " +
+          fixed_text(motor_->flat_mm, 1) +
+          " mm from the flat to the far side (flat_mm and flat_length_mm in [motor])");
     const BearingsDesign& bearings = design.machine->bearings;
     if (!design.topology.has_planets()) {
       told.push_back(bearings.wheel
@@ -451,15 +545,22 @@ class Wish {
   const DesignWishes& wishes_;
   std::size_t most_sets_;
   Allowed allowed_ = Allowed::kNone;
-  std::vector<std::string> tolerated_;  ///< ids of warnings
-  std::size_t judged_ = 0;              ///< since judging began
-  std::vector<std::string> common_;     ///< what all of those warn of
+  std::vector<std::string> tolerated_;        ///< ids of warnings
+  std::size_t judged_ = 0;                    ///< since judging began
+  std::vector<std::string> common_;           ///< what all of those warn of
+  std::vector<std::string> common_failures_;  ///< and fail in, with the place
   std::string last_failed_;
   std::map<std::string, std::string> examples_;  ///< what the first said that fell, by check
+  ToolTables tools_ = standard_tools();
   const WishedSets* sets_ = nullptr;
   const Process* process_ = nullptr;
   std::string material_;
   const Motor* motor_ = nullptr;
+  std::optional<Motor> filed_;  ///< with a flat on its shaft, that it does not come with
+  bool warned_alone_ = false;   ///< one of those judged passes with warnings
+  bool grip_alone_ = false;     ///< one of those judged passes but for the round shaft
+  std::size_t all_sets_ = 0;    ///< of the ratio
+  std::size_t tried_sets_ = 0;  ///< of them
 };
 
 }  // namespace

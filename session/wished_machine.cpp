@@ -6,13 +6,16 @@
 
 #include "trueflank/train/gear_train.h"
 #include "trueflank/train/machine/machine_layout.h"
+#include "trueflank/train/machine/set_screw.h"
 
 namespace trueflank {
 namespace {
 
 /// The gears are scaled at most so often, to this much below the outer diameter asked for.
-constexpr int kScalings = 6;
+constexpr int kScalings = 7;
 constexpr double kSpare_mm = 0.05;
+/// A bore holds so much more than the motor's torque on the flat of its shaft.
+constexpr double kFlatReserve = 1.05;
 /// Of planets without bearings; and what two bearings in a planet leave between them.
 constexpr double kPlainPin_mm = 4.0, kBetweenBearings_mm = 1.0;
 
@@ -129,6 +132,23 @@ void choose_wheel_bearing(GearboxDesign& design, double wall_mm) {
   machine.bearings.outputs = 2;
 }
 
+/// A carrier on the motor's shaft has so thick a plate that its bore holds the motor's torque on
+/// the shaft's flat. Whether it was too thin, and the shaft long enough.
+bool thicken_plates(GearboxDesign& design, const GearTrain& train, const MachineLayout& m) {
+  const double torque = design.machine->motor.torque_nm, per_mm = held_by_flat_nm(train, 1.0);
+  if (m.driven_gear >= 0 || !(design.machine->motor.flat_mm > 0.0)) return false;
+  const double lacking = kFlatReserve * torque / per_mm - flat_in_bore_mm(m);
+  const bool reaches = m.shaft_end_mm > m.near.upper_mm + lacking;
+  if (!(lacking > kSpare_mm) || !reaches) return false;
+  if (!design.carrier)
+    design.carrier =
+        CarrierDesign{.pin_hole_clearance_mm = std::max(design.machine->housing.fit_mm,
+                                                        CarrierDesign{}.pin_hole_clearance_mm)};
+  design.carrier->plate_thickness_mm = m.near.upper_mm - m.near.lower_mm +
+                                       std::max(0.0, m.flat_from_mm - m.gripped.upper_mm) + lacking;
+  return true;
+}
+
 /// Gears alike, so that the housing has the diameter asked for; the shifts stay.
 void scale(GearboxDesign& design, double factor) {
   design.module_mm *= factor;
@@ -166,6 +186,7 @@ GearboxDesign with_machine(GearboxDesign design, const Motor& motor, double oute
     const auto train = lay_out(design);
     const auto layout = train ? machine_layout(*train) : std::nullopt;
     if (!layout) return design;
+    if (thicken_plates(design, *train, *layout)) continue;
     const double over = 2.0 * layout->least_outer_radius_mm - (outer_diameter_mm - kSpare_mm);
     if (std::abs(over) < kSpare_mm) return design;
     scale(design, 1.0 - over / growing_diameter_mm(*train, *layout));

@@ -67,6 +67,39 @@ class NewWishes(unittest.TestCase):
         made = run("new", "wider", *wishes, "--outer-diameter", larger[1])
         self.assertEqual(made.returncode, 0, made.stderr)
 
+    def test_a_round_shaft_that_glue_alone_would_hold_gets_a_flat(self):
+        (OUTPUT / "filed.toml").unlink(missing_ok=True)
+        made = run("new", "filed", "--input", "carrier", "--output", "ring1", "--ratio", "30", "--motor",
+                   "outrunner-2212", "--outer-diameter", "120")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("file a flat on it", made.stdout)
+        self.assertIn("flat_mm = 4.5", (OUTPUT / "filed.toml").read_text(encoding="utf-8"))
+        self.assertEqual(json.loads(run("check", "filed.toml", "--json", "-").stdout)["verdict"], "pass")
+
+    def test_a_carrier_on_the_shaft_has_as_thick_a_plate_as_the_flat_wants(self):
+        (OUTPUT / "thick.toml").unlink(missing_ok=True)
+        made = run("new", "thick", "--input", "carrier", "--output", "ring1", "--ratio", "12.8", "--motor", "nema17")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("plate_thickness_mm", (OUTPUT / "thick.toml").read_text(encoding="utf-8"))
+        self.assertEqual(json.loads(run("check", "thick.toml", "--json", "-").stdout)["verdict"], "pass")
+
+    def test_a_motor_of_ones_own_comes_from_a_file(self):
+        (OUTPUT / "workshop").mkdir(exist_ok=True)
+        (OUTPUT / "workshop/tools.toml").write_text(
+            "[motor.geared]\npilot_diameter_mm = 12\npilot_height_mm = 5\nbolt_circle_diameter_mm = 31\n"
+            "bolt_count = 6\nthread_depth_mm = 5\nshaft_diameter_mm = 6\nshaft_length_mm = 21\nflat_mm = 5.5\n"
+            "flat_length_mm = 12\ntorque_nm = 0.8\n", encoding="utf-8")
+        (OUTPUT / "designs").mkdir(exist_ok=True)
+        (OUTPUT / "designs/own.toml").unlink(missing_ok=True)
+        wishes = ("--kind", "pair", "--ratio", "3", "--motor", "geared")
+        made = run("new", "designs/own", *wishes, "--tools", "workshop/tools.toml")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        report = json.loads(run("check", "designs/own.toml", "--json", "-").stdout)
+        self.assertEqual(report["verdict"], "pass")
+        told = run("new", "designs/none", *wishes, "--tools", "workshop/no.toml")
+        self.assertEqual(told.returncode, 3)
+        self.assertIn("workshop/no.toml", told.stderr)
+
     def test_what_is_not_known_is_told(self):
         for option, value in (("--motor", "nema18"), ("--process", "fdm-0.5"), ("--material", "cheese"),
                               ("--kind", "gear"), ("--kind", "stepped"), ("--input", "planet"),
