@@ -254,6 +254,7 @@ class DesignReader {
     if (!made.bed.empty() && !find_bed(made.bed)) {
       std::vector<std::string> names;
       for (const Bed& bed : standard_beds()) names.push_back(bed.name);
+      names.emplace_back("or its size in mm from 20 to 5000, as \"250x210\"");
       report_unknown_name("made.bed", made.bed, "bed", names);
     }
     if (!made.process) return;
