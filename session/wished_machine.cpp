@@ -28,6 +28,14 @@ void shaft_gear(GearboxDesign& design, const MachineDesign& machine) {
     if (topology.gears[i].member == topology.input) design.gears[i].bore = shaft_bore(machine);
 }
 
+/// Whether the process prints the roof of a bearing's seat over the narrower bore.
+bool is_bridged(const GearboxDesign& design, const MachineDesign& machine, const Bearing& bearing) {
+  const double most = design.made.process ? design.made.process->bridge_mm : 0.0;
+  const double seat = seat_fits(machine).planet.hole_mm(bearing.outer_mm),
+               bore = bore_between(bearing);
+  return !(most > 0.0) || std::sqrt(seat * seat - bore * bore) <= most;
+}
+
 /// The largest that the planets' roots and faces have room for; none: they turn on their pins.
 void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
   MachineDesign& machine = *design.machine;
@@ -47,6 +55,7 @@ void choose_planet_bearing(GearboxDesign& design, double wall_mm) {
     const Bearing& bearing = *find_element(standard_elements().bearings, name);
     if (0.5 * seat_fits(machine).planet.hole_mm(bearing.outer_mm) + wall_mm > root) continue;
     if (2.0 * bearing.width_mm + kBetweenBearings_mm > upper - lower) continue;
+    if (!is_bridged(design, machine, bearing)) continue;
     machine.bearings.planet = bearing;
     bore.diameter_mm = bore_between(bearing);
     return;

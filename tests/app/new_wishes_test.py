@@ -83,6 +83,13 @@ class NewWishes(unittest.TestCase):
         self.assertIn("plate_thickness_mm", (OUTPUT / "thick.toml").read_text(encoding="utf-8"))
         self.assertEqual(json.loads(run("check", "thick.toml", "--json", "-").stdout)["verdict"], "pass")
 
+    def test_a_bearing_is_no_larger_than_the_process_bridges_its_seat(self):
+        (OUTPUT / "bridged.toml").unlink(missing_ok=True)
+        made = run("new", "bridged", "--input", "carrier", "--output", "ring1", "--ratio", "24.3", "--motor", "nema17",
+                   "--process", "fdm-0.25", "--outer-diameter", "110")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(json.loads(run("check", "bridged.toml", "--json", "-").stdout)["verdict"], "pass")
+
     def test_a_motor_of_ones_own_comes_from_a_file(self):
         (OUTPUT / "workshop").mkdir(exist_ok=True)
         (OUTPUT / "workshop/tools.toml").write_text(
