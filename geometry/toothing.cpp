@@ -13,16 +13,6 @@
 namespace trueflank {
 namespace {
 
-/// Towards the tip the pieces before the involute, towards the root those after it.
-std::size_t involute_piece(const ToothProfile& profile) {
-  const auto& pieces = profile.pieces();
-  const auto found = std::find_if(pieces.begin(), pieces.end(), [](const ProfilePiece& p) {
-    return p.kind == PieceKind::kInvolute;
-  });
-  TRUEFLANK_EXPECTS(found != pieces.end());
-  return static_cast<std::size_t>(found - pieces.begin());
-}
-
 Flank flank_of(int side, GearKind kind) {
   return flank_side(Flank::kLeft, kind) == side ? Flank::kLeft : Flank::kRight;
 }
@@ -140,6 +130,15 @@ HalfPoint inset_half_point(const Toothing& t, const ToothPlace& place, double de
 
 }  // namespace
 
+std::size_t involute_piece(const ToothProfile& profile) {
+  const auto& pieces = profile.pieces();
+  const auto found = std::find_if(pieces.begin(), pieces.end(), [](const ProfilePiece& p) {
+    return p.kind == PieceKind::kInvolute;
+  });
+  TRUEFLANK_EXPECTS(found != pieces.end());
+  return static_cast<std::size_t>(found - pieces.begin());
+}
+
 FaceTwist face_twist(const Gear& gear, double face_width_mm, bool herringbone,
                      double relief_groove_mm) {
   const double turn = gear.helix_angle_rad == 0.0
@@ -159,6 +158,28 @@ double section_turn_rad(const FaceTwist& twist, double z_mm) {
 double deviation_turn_rad(const Toothing& toothing, const ToothPlace& place, double z_mm) {
   if (!toothing.has_deviation() && toothing.edge_chamfer_mm == 0.0) return 0.0;
   return half_point(toothing, place, z_mm).turn_rad;
+}
+
+double break_parameter(const Toothing& toothing, int tooth, int side, double roll_mm, double z_mm) {
+  TRUEFLANK_EXPECTS(toothing.has_deviation());
+  const ToothProfile& profile = *toothing.profile;
+  const Gear& gear = profile.gear();
+  const double r_b = base_radius_mm(gear);
+  const double deviation_mm =
+      toothing.deviation->deviation_mm(tooth, flank_of(side, gear.kind), roll_mm, z_mm) /
+      std::cos(base_helix_angle_rad(gear));
+  const double sense = gear.kind == GearKind::kExternal ? 1.0 : -1.0;
+  const double roll = (roll_mm + sense * deviation_mm) / r_b;
+  const std::size_t flank = involute_piece(profile);
+  const Curve& curve = profile.pieces()[flank].curve;
+  double begin = lowered_tip_roll(profile, flank, chamfer_depth_mm(toothing, z_mm)),
+         end = curve.end;
+  if (const double depth = toothing.bed_depth_mm(z_mm); depth > 0.0) {
+    begin = toothing.bed->foot(flank, curve.begin, depth);
+    end = toothing.bed->foot(flank, curve.end, depth);
+  }
+  if (begin == curve.begin && end == curve.end) return roll;
+  return curve.end + (roll - end) * (curve.begin - curve.end) / (begin - end);
 }
 
 Point2 section_point(const Toothing& toothing, const ToothPlace& place, double z_mm) {

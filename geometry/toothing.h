@@ -66,6 +66,9 @@ struct ToothPlace {
   double parameter = 0.0;
 };
 
+/// Of the pieces of a profile, the one that is its involute flank.
+[[nodiscard]] std::size_t involute_piece(const ToothProfile& profile);
+
 /// How far a place of the section is turned about the axis towards its own side, so that its flank
 /// has the deviation [rad]. On the involute exact: a point moved along the normal by d lies on an
 /// involute turned by d / r_b. Fades over the fillet to nothing at its end; the tip goes with the
@@ -73,6 +76,13 @@ struct ToothPlace {
 /// Source: involutes of one base circle are parallel curves, docs/theory/tooth-surface.md.
 [[nodiscard]] double deviation_turn_rad(const Toothing& toothing, const ToothPlace& place,
                                         double z_mm);
+
+/// Parameter of the flank at which the surface shows a break that the deviation has at a roll
+/// length: the deviation itself moves the break along the flank, so that it wanders with the height
+/// where the flank is crowned; chamfers draw the parameters together. Beyond the flank's ends where
+/// the break is. Requires: a deviation.
+[[nodiscard]] double break_parameter(const Toothing& toothing, int tooth, int side, double roll_mm,
+                                     double z_mm);
 
 /// The point of the section at a height, in the section's own frame (not turned by the twist, not
 /// displaced; turned to its tooth).

@@ -19,10 +19,6 @@ bool is_land(const ProfilePiece& piece) {
   return piece.kind == PieceKind::kTip || piece.kind == PieceKind::kRoot;
 }
 
-Flank flank_on(int side, GearKind kind) {
-  return flank_side(Flank::kLeft, kind) == side ? Flank::kLeft : Flank::kRight;
-}
-
 double distance_mm(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
@@ -85,7 +81,7 @@ std::vector<int> ToothColumns::breaks_within(int side) const {
   };
   const double whole = way(curve.end);
   for (std::size_t i = 0; i < toothing_.deviation->roll_breaks_mm.size(); ++i) {
-    const double roll = break_parameter(0, side, static_cast<int>(i), z_middle);
+    const double roll = break_at(0, side, static_cast<int>(i), z_middle);
     if ((roll - curve.begin) * (roll - curve.end) >= 0.0) continue;
     const double here = way(roll);
     if (here > narrowest && here < whole - narrowest) found.emplace_back(here, static_cast<int>(i));
@@ -101,32 +97,16 @@ std::vector<int> ToothColumns::breaks_within(int side) const {
   return breaks;
 }
 
-/// The flank's deviation moves a break along it: the bend shows where the point that had the break's
-/// roll length comes to lie. A chamfer stretches the flank's parameter from its root on.
-double ToothColumns::break_parameter(int tooth, int side, int index, double z_mm) const {
-  const ToothProfile& profile = *toothing_.profile;
-  const Gear& gear = profile.gear();
-  const double r_b = base_radius_mm(gear);
-  const double roll_mm = toothing_.deviation->roll_breaks_mm[static_cast<std::size_t>(index)];
-  const double deviation_mm =
-      toothing_.deviation->deviation_mm(tooth, flank_on(side, gear.kind), roll_mm, z_mm) /
-      std::cos(base_helix_angle_rad(gear));
-  const double sense = gear.kind == GearKind::kExternal ? 1.0 : -1.0;
-  const double roll = (roll_mm + sense * deviation_mm) / r_b;
-  if (toothing_.edge_chamfer_mm == 0.0) return roll;
-  const Curve& curve = profile.pieces()[flank_].curve;
-  const double tip = section_point(toothing_, {.tooth = tooth, .side = side, .piece = flank_,
-                                               .parameter = curve.begin}, z_mm).norm();
-  const double lowered = roll_length_mm(std::max(tip, r_b), r_b) / r_b;
-  return curve.end + (roll - curve.end) * (curve.begin - curve.end) / (lowered - curve.end);
+double ToothColumns::break_at(int tooth, int side, int index, double z_mm) const {
+  return break_parameter(toothing_, tooth, side,
+                         toothing_.deviation->roll_breaks_mm[static_cast<std::size_t>(index)],
+                         z_mm);
 }
 
 ToothPlace ToothColumns::place(int tooth, const ToothColumn& column, double u, double z_mm) const {
   Curve run = toothing_.profile->pieces()[column.piece].curve;
-  if (column.upper_break >= 0)
-    run.begin = break_parameter(tooth, column.side, column.upper_break, z_mm);
-  if (column.lower_break >= 0)
-    run.end = break_parameter(tooth, column.side, column.lower_break, z_mm);
+  if (column.upper_break >= 0) run.begin = break_at(tooth, column.side, column.upper_break, z_mm);
+  if (column.lower_break >= 0) run.end = break_at(tooth, column.side, column.lower_break, z_mm);
   return {.tooth = tooth, .side = column.side, .piece = column.piece,
           .parameter = fit_parameter_at(run, column.side > 0 ? u : 1.0 - u)};
 }

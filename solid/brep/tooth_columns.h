@@ -52,7 +52,7 @@ class ToothColumns {
  private:
   void add_columns();
   [[nodiscard]] std::vector<int> breaks_within(int side) const;
-  [[nodiscard]] double break_parameter(int tooth, int side, int index, double z_mm) const;
+  [[nodiscard]] double break_at(int tooth, int side, int index, double z_mm) const;
   [[nodiscard]] ToothPlace place(int tooth, const ToothColumn& column, double u, double z_mm) const;
   [[nodiscard]] std::array<double, 2> land_corners_rad(int tooth, const ToothColumn& column,
                                                        double z_mm) const;

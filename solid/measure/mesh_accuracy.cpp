@@ -416,6 +416,18 @@ class Measurement {
           worst = {distance, parameter, span / samples, index, copy};
       }
     }
+    if (wall.surface) sample_breaks(curves, index, span / samples, worst);
+  }
+
+  /// Where a deviation breaks, facets are farthest off if no edge lies there: nearer to it than
+  /// samples are to each other, if what begins there is low.
+  static void sample_breaks(const TrueCurves& curves, std::size_t index, double step,
+                            Worst& worst) {
+    for (int copy = 0; copy < curves.wall.curves.copies(); ++copy)
+      for (const double at : breaks_at_height(*curves.wall.surface, index, copy, curves.z_mm)) {
+        const double distance = curves.distance_mm(index, at, copy, worst.distance_mm);
+        if (distance > worst.distance_mm) worst = {distance, at, step, index, copy};
+      }
   }
 
   /// Climbs to the largest distance next to the worst sample.

@@ -46,7 +46,7 @@ ToothingDistance::ToothingDistance(const ToothedOutline& outline)
   steepest_ = std::sqrt(1.0 + slope * slope);
   deviates_ = toothing_.has_deviation() || toothing_.edge_chamfer_mm > 0.0;
   const auto& pieces = outline.profile->pieces();
-  while (pieces[flank_].kind != PieceKind::kInvolute) ++flank_;
+  flank_ = involute_piece(*outline.profile);
   if (pieces.front().kind == PieceKind::kTip)
     tip_half_angle_rad_ = polar_angle_rad(pieces.front().curve.end_point());
   if (flank_ + 1 < pieces.size() && pieces[flank_ + 1].kind == PieceKind::kRoot)
@@ -271,6 +271,19 @@ Point2 ToothingDistance::point_at_height(std::size_t piece, double parameter, in
   if (toothing_.displacement != nullptr)
     for (int i = 0; i < 2; ++i) p = surface_point(toothing_, place, goal - (p[2] - goal));
   return rotated({p[0], p[1]}, outline_.rotation_rad);
+}
+
+std::vector<double> ToothingDistance::breaks_at_height(std::size_t piece, int copy,
+                                                       double z_mm) const {
+  std::vector<double> breaks;
+  if (piece != flank_ || !toothing_.has_deviation()) return breaks;
+  const Curve& curve = outline_.profile->pieces()[piece].curve;
+  for (const double roll_mm : toothing_.deviation->roll_breaks_mm) {
+    const double at = break_parameter(toothing_, copy / 2, copy % 2 == 0 ? 1 : -1, roll_mm,
+                                      z_mm - outline_.z_lower_mm);
+    if ((at - curve.begin) * (at - curve.end) < 0.0) breaks.push_back(at);
+  }
+  return breaks;
 }
 
 double ToothingDistance::slope_share(std::size_t piece, double parameter, int copy,

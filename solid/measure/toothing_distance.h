@@ -35,6 +35,10 @@ class ToothingDistance {
   /// OutlineDistance counts them. Frame: the part's.
   [[nodiscard]] Point2 point_at_height(std::size_t piece, double parameter, int copy,
                                        double z_mm) const;
+  /// Parameters of a piece at which the deviation breaks, on a copy of it at a height. Frame: the
+  /// part's.
+  [[nodiscard]] std::vector<double> breaks_at_height(std::size_t piece, int copy,
+                                                     double z_mm) const;
   /// Ratio of the distance square to the surface to that within the section, at a place.
   [[nodiscard]] double slope_share(std::size_t piece, double parameter, int copy,
                                    double z_mm) const;

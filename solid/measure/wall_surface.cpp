@@ -69,6 +69,10 @@ Point2 point_at_height(const WallSurface& wall, std::size_t piece, double parame
                        double z_mm) {
   return std::visit([&](const auto& w) { return w.point_at_height(piece, parameter, copy, z_mm); }, wall);
 }
+std::vector<double> breaks_at_height(const WallSurface& wall, std::size_t piece, int copy,
+                                     double z_mm) {
+  return std::visit([&](const auto& w) { return w.breaks_at_height(piece, copy, z_mm); }, wall);
+}
 double slope_share(const WallSurface& wall, std::size_t piece, double parameter, int copy,
                    double z_mm) {
   return std::visit([&](const auto& w) { return w.slope_share(piece, parameter, copy, z_mm); }, wall);

@@ -21,6 +21,7 @@ class BedDistance {
   [[nodiscard]] double undisplaced_z_mm(const Point3& point) const { return point.z(); }
   [[nodiscard]] Point2 point_at_height(std::size_t piece, double parameter, int copy,
                                        double z_mm) const;
+  [[nodiscard]] std::vector<double> breaks_at_height(std::size_t, int, double) const { return {}; }
   [[nodiscard]] double slope_share(std::size_t piece, double parameter, int copy,
                                    double z_mm) const;
 
@@ -42,6 +43,8 @@ using WallSurface = std::variant<ToothingDistance, BedDistance>;
 [[nodiscard]] double undisplaced_z_mm(const WallSurface& wall, const Point3& point);
 [[nodiscard]] Point2 point_at_height(const WallSurface& wall, std::size_t piece, double parameter,
                                      int copy, double z_mm);
+[[nodiscard]] std::vector<double> breaks_at_height(const WallSurface& wall, std::size_t piece,
+                                                   int copy, double z_mm);
 [[nodiscard]] double slope_share(const WallSurface& wall, std::size_t piece, double parameter,
                                  int copy, double z_mm);
 /// @}

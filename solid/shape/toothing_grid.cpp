@@ -100,8 +100,12 @@ std::vector<bool> ToothingGrid::cut_in_rounds(double aim_mm) {
   return crowded;
 }
 
+ToothPlace ToothingGrid::place_at(const Place& place, int tooth, double z_mm) const {
+  return breaks_.drawn(toothing_, {tooth, place.side, place.piece, place.parameter}, z_mm);
+}
+
 ToothingGrid::Point ToothingGrid::at(const Place& place, int tooth, double z_mm) const {
-  return surface_point(toothing_, {tooth, place.side, place.piece, place.parameter}, z_mm);
+  return surface_point(toothing_, place_at(place, tooth, z_mm), z_mm);
 }
 
 std::vector<int> ToothingGrid::some_teeth() const {
@@ -135,26 +139,28 @@ void ToothingGrid::find_ends() {
 }
 
 void ToothingGrid::add_roll_breaks(double tolerance_mm) {
-  if (!toothing_.has_deviation()) return;
-  const Gear& gear = toothing_.profile->gear();
-  const double r_b = base_radius_mm(gear);
-  const double sense = gear.kind == GearKind::kExternal ? 1.0 : -1.0;
-  for (const double roll_mm : toothing_.deviation->roll_breaks_mm) {
-    const double moved = toothing_.deviation->deviation_mm(0, Flank::kLeft, roll_mm,
-                                                           0.5 * toothing_.twist.face_width_mm) /
-                         std::cos(base_helix_angle_rad(gear));
-    const double angle = (roll_mm + sense * moved) / r_b;
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      HalfEdge& e = edges_[i];
-      if (toothing_.profile->pieces()[e.piece].kind != PieceKind::kInvolute) continue;
-      const double nearest = std::min(std::abs(angle - e.from), std::abs(angle - e.to));
-      if ((angle - e.from) * (angle - e.to) >= 0.0 || nearest * roll_mm < kSameVertex * tolerance_mm)
-        continue;
-      const HalfEdge rest{e.piece, angle, e.to};
-      e.to = angle;
-      edges_.insert(edges_.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
-      break;
+  const double low = levels_mm_.front(), high = levels_mm_.back(),
+               same_mm = kSameVertex * tolerance_mm;
+  breaks_ = FlankBreaks(
+      toothing_, some_teeth(),
+      {low, std::lerp(low, high, 0.25), 0.5 * (low + high), std::lerp(low, high, 0.75), high},
+      same_mm);
+  const std::size_t flank = involute_piece(*toothing_.profile);
+  const double r_b = base_radius_mm(toothing_.profile->gear());
+  for (std::size_t k = 0; k < breaks_.parameters().size(); ++k) {
+    const double angle = breaks_.parameters()[k];
+    const auto e = std::find_if(edges_.begin(), edges_.end(), [&](const HalfEdge& edge) {
+      return edge.piece == flank && (angle - edge.from) * (angle - edge.to) <= 0.0;
+    });
+    if (e == edges_.end()) continue;
+    const double nearest = std::abs(angle - e->from) < std::abs(angle - e->to) ? e->from : e->to;
+    if (std::abs(angle - nearest) * r_b * angle < same_mm) {
+      breaks_.move_column(k, nearest);
+      continue;
     }
+    const HalfEdge rest{e->piece, angle, e->to};
+    e->to = angle;
+    edges_.insert(e + 1, rest);
   }
 }
 
@@ -402,7 +408,7 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   if (teeth_alike_) {
     std::vector<Point2> tooth;
     for (const Place& p : points_)
-      tooth.push_back(section_point(toothing_, {0, p.side, p.piece, p.parameter}, z_mm));
+      tooth.push_back(section_point(toothing_, place_at(p, 0, z_mm), z_mm));
     const double turn = outline_.rotation_rad + section_turn_rad(toothing_.twist, z_mm);
     for (int k = 0; k < teeth_; ++k) {
       const Point2 direction = unit_vector(turn + kTwoPi * k / teeth_);

@@ -4,21 +4,22 @@
 #include <array>
 #include <vector>
 
+#include "trueflank/solid/shape/flank_breaks.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/solid/shape/part_shape.h"
 #include "trueflank/solid/shape/screw_net.h"
 
 namespace trueflank {
 
-/// The vertices of a toothing's mesh: columns (the same places of the profile in every row) and rows
-/// at heights, chosen so that every facet between them keeps a tolerance. Every vertex is a
+/// The vertices of a toothing's mesh: columns (the same places of the profile in every row) and
+/// rows at heights, chosen so that every facet between them keeps a tolerance. Every vertex is a
 /// surface_point().
 /// How: the section's own chords give the columns, the curvature of the screw the rows; where a
 /// deviation or displacement bends the surface more, columns and rows are added until the triangles
-/// keep the tolerance. Each quadrilateral is cut along the diagonal that lies nearer to the surface: on
-/// an involute flank along the straight generator of the helicoid. Joints of profile pieces, the
-/// deviation's breaks, a herringbone's middle and chamfers are columns and rows.
-/// Source: docs/theory/helical-facets.md.
+/// keep the tolerance. Each quadrilateral is cut along the diagonal that lies nearer to the
+/// surface: on an involute flank along the straight generator of the helicoid. Joints of profile
+/// pieces, the deviation's breaks (which wander along the flank), a herringbone's middle and
+/// chamfers are columns and rows. Source: docs/theory/helical-facets.md.
 class ToothingGrid {
  public:
   /// `levels_mm`: heights in the gear's frame, ascending; each becomes a row. One level alone makes
@@ -70,6 +71,8 @@ class ToothingGrid {
     std::vector<Point> points, middles, chord_middles;
   };
 
+  /// The place at a height: columns go with the breaks of the deviation.
+  [[nodiscard]] ToothPlace place_at(const Place& place, int tooth, double z_mm) const;
   [[nodiscard]] Point at(const Place& place, int tooth, double z_mm) const;
   [[nodiscard]] std::vector<int> some_teeth() const;
   [[nodiscard]] bool is_even(std::size_t middle) const {
@@ -123,6 +126,7 @@ class ToothingGrid {
   std::vector<double> levels_mm_, breaks_mm_, heights_mm_;
   std::vector<NetPatch> patches_;
   std::vector<HalfEdge> edges_;
+  FlankBreaks breaks_;
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
   std::vector<Place> points_, middles_;   ///< of a whole tooth; middle i follows point i
