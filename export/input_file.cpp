@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <list>
 
 #include "trueflank/export/atomic_file.h"
 
@@ -46,6 +47,9 @@ std::size_t InputFile::fill(char* into, std::size_t room) {
 
 namespace {
 
+/// What is read at once of a pipe.
+constexpr std::size_t kPiece = 1U << 20;
+
 Error too_large(const std::filesystem::path& path, std::size_t most_bytes, bool is_regular) {
   return {.code = ErrorCode::kUnsupported,
           .message = std::string(is_regular ? "the file is" : "what comes out of it is") +
@@ -54,23 +58,41 @@ Error too_large(const std::filesystem::path& path, std::size_t most_bytes, bool 
           .file = path.string()};
 }
 
+/// To the end of what has no size: its pieces are put together once, each given back as it is.
+Result<std::string> read_without_size(InputFile& file, const std::filesystem::path& path,
+                                      std::size_t most_bytes) {
+  const std::size_t most =
+      std::min(most_bytes, file.is_device() ? kMostBytesOfDevice : kMostBytesOfPipe);
+  std::list<std::string> pieces;
+  std::size_t whole = 0;
+  for (std::size_t got = kPiece; got == kPiece; whole += got) {
+    pieces.emplace_back(kPiece, '\0');
+    got = file.fill(pieces.back().data(), kPiece);
+    pieces.back().resize(got);
+    if (whole + got > most) return fail(too_large(path, most, false));
+  }
+  if (file.error_number() != 0) return fail(file_error("read", path, file.error_number()));
+  std::string content;
+  content.reserve(whole);
+  for (; !pieces.empty(); pieces.pop_front()) content += pieces.front();
+  return content;
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t most_bytes) {
   InputFile file(path);
+  if (file.error_number() != 0) return fail(file_error("read", path, file.error_number()));
   const auto size = file.regular_size();
-  const std::size_t most = size ? most_bytes : std::min(most_bytes, kMostBytesOfPipe);
-  if (size.value_or(0) > most) return fail(too_large(path, most, true));
-  std::string content;
+  if (!size) return read_without_size(file, path, most_bytes);
+  if (*size > most_bytes) return fail(too_large(path, most_bytes, true));
   // One byte more than the size: the read that finds the end needs no second round.
-  std::size_t filled = 0, room = size.value_or(65535) + 1;
-  while (file.error_number() == 0) {
-    content.resize(std::max(room, content.size()));
-    const std::size_t got = file.read(content.data() + filled, content.size() - filled);
-    if (got == 0) break;
+  std::string content(*size + 1, '\0');
+  std::size_t filled = 0;
+  while (const std::size_t got = file.read(content.data() + filled, content.size() - filled)) {
     filled += got;
-    if (filled > most) return fail(too_large(path, most, size.has_value()));
-    if (filled == content.size()) room = 2 * content.size();
+    if (filled > most_bytes) return fail(too_large(path, most_bytes, true));
+    if (filled == content.size()) content.resize(2 * content.size());  // it grows
   }
   if (file.error_number() != 0) return fail(file_error("read", path, file.error_number()));
   content.resize(filled);

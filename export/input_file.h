@@ -24,6 +24,8 @@ class InputFile {
   [[nodiscard]] int error_number() const { return error_number_; }
   /// Bytes; nothing for pipes and devices.
   [[nodiscard]] std::optional<std::size_t> regular_size() const;
+  /// Whether it is a device that gives characters, like a terminal.
+  [[nodiscard]] bool is_device() const { return error_number_ == 0 && S_ISCHR(status_.st_mode); }
   /// What comes next, at least one byte; returns its size, 0 at the end and after an error.
   std::size_t read(char* into, std::size_t room);
   /// As read(), but all that fits.
@@ -34,11 +36,14 @@ class InputFile {
   struct stat status_ {};
 };
 
-/// Sizes are known before a file is read, and must be below this; what has no size may never end.
-constexpr std::size_t kMostBytesOfFile = 0xfffffffe, kMostBytesOfPipe = 256U << 20;
+/// Sizes are known before a file is read, and must be below this; what has no size may never end. A
+/// device is a terminal at best, and not a mesh.
+constexpr std::size_t kMostBytesOfFile = 0xfffffffe, kMostBytesOfPipe = 256U << 20,
+                      kMostBytesOfDevice = 1U << 20;
 
 /// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder); kUnsupported beyond
-/// most_bytes, and for pipes and devices beyond kMostBytesOfPipe.
+/// most_bytes, and for pipes and devices beyond kMostBytesOfPipe and kMostBytesOfDevice. Memory: at
+/// most what is read and a megabyte.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path,
                                             std::size_t most_bytes = kMostBytesOfFile);
 

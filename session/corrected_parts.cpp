@@ -113,7 +113,7 @@ std::optional<Error> wall_reached(const PartShapes& shapes, const ToothProfile& 
 ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShapes& shapes,
                                           const CompensatedShapes* compensated,
                                           const std::string& loop_json_file) {
-  const auto text = loop::read_whole_file(loop_json_file);
+  const auto text = loop::read_whole_file(loop_json_file, loop::kMostBytesOfText);
   if (!text) return fail_all({text.error()});
   const auto name = loop::Correction::gear_of(*text);
   if (!name) return fail_all(located(name.error(), loop_json_file));

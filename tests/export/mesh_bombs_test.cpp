@@ -4,9 +4,13 @@
 // still be read.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstring>
 #include <ctime>
 #include <functional>
+#include <string>
+#include <thread>
 
 #include "tests/export/sample_scene.h"
 #include "trueflank/export/input_file.h"
@@ -231,9 +235,31 @@ TEST(MeshBombs, WhatNeverEndsIsReadToABound) {
       ASSERT_FALSE(content);
       EXPECT_EQ(content.error().code, ErrorCode::kUnsupported);
       EXPECT_EQ(content.error().file, "/dev/zero");
+      // a device is a terminal at best: its bound is that of the smaller
+      EXPECT_NE(content.error().message.find("larger than the 1 MB"), std::string::npos);
     }
   });
   EXPECT_LT(taken_s, kAtOnce_s);
+}
+
+TEST(MeshBombs, WhatComesOutOfAPipeInManyPiecesIsReadWhole) {
+  std::string sent;
+  for (int i = 0; sent.size() < (std::size_t{7} << 19); ++i) sent += std::to_string(i) + "\n";
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1} << 20, std::size_t{1} << 21, sent.size()}) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    std::thread writer([&, end = ends[1]] {
+      for (std::size_t at = 0; at < size;)
+        at += static_cast<std::size_t>(::write(end, sent.data() + at, size - at));
+      ::close(end);
+    });
+    const auto content = read_file("/dev/fd/" + std::to_string(ends[0]));
+    writer.join();
+    ::close(ends[0]);
+    ASSERT_TRUE(content);
+    EXPECT_TRUE(*content == sent.substr(0, size));
+  }
 }
 
 TEST(Scans, ATextStlCutShortIsUsedForWhatItHolds) {
