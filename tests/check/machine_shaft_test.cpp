@@ -179,6 +179,19 @@ TEST(ShaftGrip, AFlatHoldsWhatItsWidthAndLengthInTheBoreBear) {
   EXPECT_NE(told.message.find("the motor has 2 N m"), std::string::npos) << told.message;
 }
 
+TEST(ShaftGrip, TheShaftsFlatLiesOnThatOfTheBore) {
+  for (const std::string& text : {kSimple + kMachine, kPair + kBox}) {
+    const Made made(text);
+    const auto turn_of = [&](const std::string& name) {
+      for (const Placement& placement : made.shapes.assembly)
+        if (placement.name.rfind(name, 0) == 0) return placement.rotation_rad;
+      return kNaN;
+    };
+    EXPECT_NEAR(turn_of("motor_nema17"),
+                turn_of(made.train.topology().name_of(made.train.topology().input)), 1e-12);
+  }
+}
+
 TEST(ShaftGrip, AHubOnTheFlatsBeginningAloneIsTold) {
   const std::string carried =
       replaced(k3k, "output = \"ring2\"", "output = \"ring2\"\ninput = \"carrier\"");

@@ -64,7 +64,7 @@ void BoughtParts::place(const std::string& name, const std::string& designation,
   }
 }
 
-void BoughtParts::add_motor(const Motor& motor, double rotation_rad) {
+void BoughtParts::add_motor(const Motor& motor, double rotation_rad, double shaft_turn_rad) {
   const double face = m_.floor.lower_mm, shaft = 0.5 * motor.shaft_diameter_mm;
   // its can is drawn round; the holes of its screws are as deep as they reach
   const double body = std::max(
@@ -72,7 +72,8 @@ void BoughtParts::add_motor(const Motor& motor, double rotation_rad) {
   const double deep = std::min(face, m_.motor_screws.fits() ? m_.motor_screws.tip_mm() : face);
   std::vector<Outline> threads;
   for (const Point2& at : m_.motor_screws.at)
-    threads.push_back(CircleOutline{at, 0.5 * m_.motor_screws.screw.diameter_mm});
+    threads.push_back(CircleOutline{rotated(at, rotation_rad - shaft_turn_rad),
+                                    0.5 * m_.motor_screws.screw.diameter_mm});
   std::vector<Layer> layers{{face - motor.body_length_mm, deep, circle(body)}};
   if (deep < face) layers.push_back({deep, face, circle(body), threads});
   const double collar = motor.pilot_diameter_mm > 0.0 ? motor.pilot_height_mm : 0.0;
@@ -87,7 +88,7 @@ void BoughtParts::add_motor(const Motor& motor, double rotation_rad) {
                                    .d_flat_mm = motor.flat_mm}}});
   const std::string name = motor.name.empty() ? "own" : motor.name;
   place("motor_" + file_text(name), "motor " + name, std::move(layers), {Point2::Zero()}, kNoMember,
-        rotation_rad);
+        shaft_turn_rad);
 }
 
 void BoughtParts::add_screws(const ScrewGroup& group, int member, double rotation_rad) {

@@ -15,7 +15,8 @@ class BoughtParts {
  public:
   BoughtParts(PartShapes& shapes, const MachineLayout& layout) : shapes_(shapes), m_(layout) {}
 
-  void add_motor(const Motor& motor, double rotation_rad);
+  /// Its screws stand as what is held is turned, the flat of its shaft as the bore on it.
+  void add_motor(const Motor& motor, double rotation_rad, double shaft_turn_rad);
   /// Screws with their inserts, where they have some.
   void add_screws(const ScrewGroup& group, int member, double rotation_rad);
   void add_inserts(const Screw& screw, const std::string& what, const std::vector<Point2>& at,

@@ -228,7 +228,9 @@ class MachineBuilder {
 
   void add_bought() {
     BoughtParts bought(shapes_, m_);
-    pieces_.add_bought(bought, output_, held_turn_, output_turn_);
+    const double shaft_turn =
+        m_.driven_gear < 0 ? 0.0 : train_.phases.rotation_rad(train_.topology().input, 0);
+    pieces_.add_bought(bought, output_, held_turn_, output_turn_, shaft_turn);
     bought.add_screws(m_.carrier_screws, carrier_, 0.0);
     std::vector<Point2> planets;
     for (const double angle : train_.phases.positions_rad(train_.topology().first_planet()))

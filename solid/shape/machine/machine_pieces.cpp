@@ -159,8 +159,8 @@ void MachinePieces::add_output(int member, double rotation_rad) {
 }
 
 void MachinePieces::add_bought(BoughtParts& bought, int output_member, double held_turn_rad,
-                               double output_turn_rad) const {
-  bought.add_motor(machine_.motor, held_turn_rad);
+                               double output_turn_rad, double shaft_turn_rad) const {
+  bought.add_motor(machine_.motor, held_turn_rad, shaft_turn_rad);
   bought.add_screws(m_.motor_screws, kNoMember, held_turn_rad);
   bought.add_screws(m_.housing_screws, kNoMember, held_turn_rad);
   bought.add_screws(m_.retainer_screws, kNoMember, held_turn_rad);

@@ -55,7 +55,7 @@ class MachinePieces {
   void add_output(int member, double rotation_rad);
   /// Motor, screws of housing, motor, retainer and output, inserts for the load, the output's bearings.
   void add_bought(BoughtParts& bought, int output_member, double held_turn_rad,
-                  double output_turn_rad) const;
+                  double output_turn_rad, double shaft_turn_rad) const;
 
  private:
   const MachineDesign& machine_;

@@ -31,7 +31,8 @@ class PairBuilder {
     pieces_.add_retainer(0.0);
     pieces_.add_output(output, turn);
     BoughtParts bought(shapes_, m_);
-    pieces_.add_bought(bought, output, 0.0, turn);
+    pieces_.add_bought(bought, output, 0.0, turn,
+                       train_.phases.rotation_rad(train_.topology().input, 0));
     if (machine_.bearings.wheel)
       bought.add_bearing(*machine_.bearings.wheel, {m_.output_axis}, m_.stub.bearing.lower_mm,
                          kNoMember);
