@@ -158,15 +158,11 @@ class Wish {
     if (Errors errors = validate(asked); !errors.empty()) return fail_all(std::move(errors));
     const SearchReport report = searched(asked);
     if (report.designs.empty())
-      return fail_all(
-          {{.code = ErrorCode::kInfeasible,
-            .message = "no set of this ratio and size passes every check: of " +
-                       std::to_string(all_sets_) + " sets " + std::to_string(report.sets) +
-                       " were tried, " + std::to_string(report.feasible) +
-                       " have shifts that keep the limits" + most_fell(report),
-            .key = "--ratio",
-            .value = fixed_text(wishes_.ratio, 3),
-            .remedy = {}}});
+      return fail_all({{.code = ErrorCode::kInfeasible,
+                        .message = refusal(report),
+                        .key = "--ratio",
+                        .value = fixed_text(wishes_.ratio, 3),
+                        .remedy = {}}});
     const FoundDesign& found = report.designs.front();
     GearboxDesign design = whole(found.design);
     design.name = design_name_from(name);
@@ -463,6 +459,18 @@ class Wish {
     }
     if (verdict.failed.empty()) take(check_gearbox(*train));
     return verdict;
+  }
+
+  [[nodiscard]] std::string refusal(const SearchReport& report) const {
+    if (all_sets_ == 0)
+      return "none of the sets that are searched has this ratio" +
+             (process_->least_tip_mm > 0.0
+                  ? "; the tips that " + process_->name + " makes leave few teeth in this diameter"
+                  : std::string());
+    return "no set of this ratio and size passes every check: of " + std::to_string(all_sets_) +
+           " sets " + std::to_string(report.sets) + " were tried, " +
+           std::to_string(report.feasible) + " have shifts that keep the limits" +
+           most_fell(report);
   }
 
   /// What most of those fell in that were judged.
