@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -49,7 +50,8 @@ void cut_into_set_points(BenchTable& table) {
 }
 
 /// Correlation of neighbouring units' mean residuals, in their noise's units, of the errors alone.
-double correlation(const BenchTable& table, const SmoothFit& fit, const std::vector<int>& set_point) {
+double correlation(const BenchTable& table, const SmoothFit& fit,
+                   const std::vector<int>& set_point) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.units), count = sum;
   // Units of the same set points in the same order come again.
   std::vector<int> of_unit(static_cast<std::size_t>(table.units), 0);
@@ -58,19 +60,24 @@ double correlation(const BenchTable& table, const SmoothFit& fit, const std::vec
     sum[p.unit] += fit.residual_nm[i] / p.sigma_nm;
     count[p.unit] += 1.0;
     int& here = of_unit[static_cast<std::size_t>(p.unit)];
-    if (i == 0 || p.unit != table.points[i - 1].unit) here = set_point[i];
+    if (i == 0 || p.unit != table.points[i - 1].unit)
+      here = set_point[i];
     else if (set_point[i] != set_point[i - 1])
-      here = static_cast<int>(static_cast<unsigned>(here) * 1009U + static_cast<unsigned>(set_point[i]));
+      here = static_cast<int>(static_cast<unsigned>(here) * 1009U +
+                              static_cast<unsigned>(set_point[i]));
   }
   return correlation_of_visits(sum.cwiseQuotient(count.cwiseMax(1.0).cwiseSqrt()), of_unit);
 }
 
-/// Correlation of the means of neighbouring dwells from that of the rows inside them; NaN where set points
-/// come again, which tell more, or dwells are short.
-double correlation_from_dwells(const BenchTable& table, const SmoothFit& fit, const std::vector<int>& set_point) {
+/// Correlation of the means of neighbouring dwells from that of the rows inside them; NaN where set
+/// points come again, which tell more, or dwells are short.
+double correlation_from_dwells(const BenchTable& table, const SmoothFit& fit,
+                               const std::vector<int>& set_point) {
   constexpr double kLong = 5.0;
   const double n = static_cast<double>(table.points.size()), dwells = table.units;
-  if (n < kLong * dwells || *std::max_element(set_point.begin(), set_point.end()) + 1 < 0.75 * dwells) return kNaN;
+  if (n < kLong * dwells ||
+      *std::max_element(set_point.begin(), set_point.end()) + 1 < 0.75 * dwells)
+    return kNaN;
   std::vector<double> mean(table.units, 0.0), rows(table.units, 0.0);
   for (std::size_t i = 0; i < table.points.size(); ++i) {
     mean[table.points[i].unit] += fit.residual_nm[i];
@@ -90,7 +97,8 @@ double correlation_from_dwells(const BenchTable& table, const SmoothFit& fit, co
   if (!(square > 0.0) || between < 1.0) return kNaN;
   // The mean that was taken off makes neighbours look opposite: by about (1 + r) / (rows - 1).
   const double m = n / dwells, seen = product / between / (square / (n - dwells));
-  const double r = std::clamp((seen + 1.0 / m) / (1.0 - 1.0 / m), 0.0, 0.95), rest = 1.0 - std::pow(r, m);
+  const double r = std::clamp((seen + 1.0 / m) / (1.0 - 1.0 / m), 0.0, 0.95),
+               rest = 1.0 - std::pow(r, m);
   const double own = m * (1.0 + r) / (1.0 - r) - 2.0 * r * rest / ((1.0 - r) * (1.0 - r));
   return r * rest * rest / ((1.0 - r) * (1.0 - r)) / own;
 }
@@ -112,6 +120,56 @@ bool merge_neighbours(BenchTable& table) {
   for (BenchPoint& p : table.points) p.unit = merged[p.unit];
   table.units = next + 1;
   return true;
+}
+
+/// Where the driving torque is set to the same few values and its sensor reads in steps, all rows
+/// of one reading share its rounding: they are one unit. A sensor's step shows where it reads the
+/// driven side, which scatters.
+void join_equal_readings(BenchTable& table) {
+  constexpr double kCoarse =
+      0.1;  // rounding, over the variance of the mean of the rows of a reading
+  std::array<std::vector<double>, 2> driven, sensitivity, sigma;
+  for (const BenchPoint& p : table.points) {
+    const std::size_t way = p.forward ? 1 : 0;
+    driven[way].push_back(p.driven_nm);
+    sensitivity[way].push_back(p.driven_nm / std::max(p.driving_nm, 1e-300));
+    sigma[way].push_back(p.sigma_nm);
+  }
+  if (driven[0].empty() || driven[1].empty()) return;
+  const auto middle = [](std::vector<double> values) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  int units = 0;
+  for (const bool forward : {true, false}) {
+    const std::size_t way = forward ? 1 : 0;
+    // What drives here is driven in the other direction.
+    const double step = step_of(driven[1 - way]);
+    const double rounding_nm = step / std::sqrt(12.0) * middle(sensitivity[way]);
+    std::map<long long, std::vector<BenchPoint*>> readings;
+    for (BenchPoint& p : table.points)
+      if (p.forward == forward)
+        readings[step > 0.0 ? std::llround(p.driving_nm / step) : 0].push_back(&p);
+    const double rows =
+        static_cast<double>(driven[way].size()) / static_cast<double>(readings.size());
+    const double of_mean_nm = middle(sigma[way]) / std::sqrt(rows);
+    if (!(step > 0.0) || rows < 2.0 ||
+        !(rounding_nm * rounding_nm > kCoarse * of_mean_nm * of_mean_nm))
+      continue;
+    for (const auto& [number, of_reading] : readings) {
+      for (BenchPoint* p : of_reading) p->reading = units;
+      ++units;
+    }
+  }
+  if (units == 0) return;
+  std::map<std::pair<int, int>, int> number;  // a reading, or a unit where readings are fine
+  for (BenchPoint& p : table.points)
+    p.unit = number
+                 .emplace(p.reading >= 0 ? std::pair(0, p.reading) : std::pair(1, p.unit),
+                          static_cast<int>(number.size()))
+                 .first->second;
+  table.units = static_cast<int>(number.size());
 }
 
 /// Folds of n members in shuffled order: two tenths are locked.
@@ -186,6 +244,7 @@ void assign_blocks(BenchTable& table, const SmoothFit& fit) {
   }
   table.drifts = log;
   lock_hold_out(table, log);
+  if (!log) join_equal_readings(table);
 }
 
 }  // namespace trueflank::loop

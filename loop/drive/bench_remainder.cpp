@@ -171,9 +171,12 @@ class Asking {
     for (int f = 0; f < flips; ++f) {
       const auto shift = static_cast<Eigen::Index>(random() % static_cast<std::uint64_t>(block));
       double sign = 1.0;
+      std::map<int, double> of_reading;  // what shares the rounding of one reading turns together
       for (Eigen::Index v = 0; v < size_.size(); ++v) {
         if (v == 0 || (v + shift) % block == 0) sign = (random() & 1) != 0 ? 1.0 : -1.0;
-        flipped[v] = sign * size_[v];
+        const int reading = table_.points[first_[static_cast<std::size_t>(v)]].reading;
+        flipped[v] =
+            size_[v] * (reading < 0 ? sign : of_reading.emplace(reading, sign).first->second);
       }
       for (Eigen::Index k = 0; k < asked; ++k)
         of_flips(f, k) =
@@ -209,6 +212,10 @@ class Asking {
   [[nodiscard]] double slow_p_value(bool opposite, bool with_load) const {
     if (size_.size() < 24) return 1.0;
     Eigen::VectorXd size = size_;
+    // The rounding of a coarse reading is no course over time.
+    std::vector<int> reading;
+    for (const std::size_t i : first_) reading.push_back(table_.points[i].reading);
+    if (*std::max_element(reading.begin(), reading.end()) >= 0) take_means(size, reading);
     for (std::size_t v = 0; v < first_.size(); ++v) {
       const BenchPoint& p = table_.points[first_[v]];
       if (opposite && !p.forward) size[static_cast<Eigen::Index>(v)] *= -1.0;
@@ -239,23 +246,12 @@ class Asking {
     if (2 * off.size() < rows.size()) return kNaN;
     // By the middle and by the upper end: coarse readings are often equal.
     const auto at = [&](double share, double of_normal) {
-      const auto place = off.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(off.size()));
+      const auto place =
+          off.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(off.size()));
       std::nth_element(off.begin(), place, off.end());
       return *place / of_normal;
     };
     return std::max(at(0.5, 0.6745), at(0.7, 1.0364));
-  }
-
-  /// The step in which a direction's torques are read: of fine readings next to nothing.
-  [[nodiscard]] double step_of(const std::vector<Eigen::Index>& rows) const {
-    std::vector<double> torque;
-    for (const Eigen::Index i : rows) torque.push_back(table_.points[static_cast<std::size_t>(i)].driven_nm);
-    std::sort(torque.begin(), torque.end());
-    const double rounding = 1e-6 * std::max(std::abs(torque.front()), std::abs(torque.back()));
-    double step = 1e300;
-    for (std::size_t k = 1; k < torque.size(); ++k)
-      if (torque[k] - torque[k - 1] > rounding) step = std::min(step, torque[k] - torque[k - 1]);
-    return step < 1e300 ? step : 0.0;
   }
 
   /// More is left than the rows' own scatter: a few set points that lie far off agree with too few
@@ -269,7 +265,10 @@ class Asking {
       if (rows.size() < 8) continue;
       double scatter = scatter_of(rows, set_point_);
       if (const double of_all = scatter_of(rows, all); !(scatter < of_all)) scatter = of_all;
-      scatter = std::max(scatter, step_of(rows) / std::sqrt(12.0));
+      std::vector<double> driven;
+      for (const Eigen::Index i : rows)
+        driven.push_back(table_.points[static_cast<std::size_t>(i)].driven_nm);
+      scatter = std::max(scatter, step_of(std::move(driven)) / std::sqrt(12.0));
       const double rms = left_(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
       times = std::max(times, rms / std::max(scatter, 1e-9 * left_.cwiseAbs().maxCoeff() + 1e-300));
       noise += scatter * scatter * static_cast<double>(rows.size());
@@ -362,7 +361,8 @@ class Asking {
     const std::vector<Eigen::Index> rows = rows_of(forward);
     if (rows.empty()) return;
     Eigen::VectorXd part = values(rows);
-    if (slow_with_load_) take_slow_with_load(part, rows);
+    if (slow_with_load_)
+      take_slow_with_load(part, rows);
     else
       take_slow(part, 2 * kSlowWaves);
     values(rows) = part;
@@ -373,9 +373,11 @@ class Asking {
     const Eigen::Index n = values.size(), columns = std::min<Eigen::Index>(2 * kSlowWaves + 1, n);
     Eigen::MatrixXd x(n, columns);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double load = table_.points[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])].load_nm;
+      const double load =
+          table_.points[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])].load_nm;
       for (Eigen::Index k = 0; k < columns; ++k)
-        x(i, k) = load * std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+        x(i, k) = load * std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
+                                  static_cast<double>(n));
     }
     values -= x * x.colPivHouseholderQr().solve(values);
   }
@@ -408,7 +410,8 @@ class Asking {
     if (q.what == "file") return way + " in file " + std::to_string(p.file + 1);
     if (q.what.starts_with("angle")) {
       const double turns = p.angle_rad / (q.what.ends_with("output") ? ratio_ : 1.0) / kTwoPi;
-      return printed("at %.0f degrees", 30.0 * std::floor(12.0 * (turns - std::floor(turns))) + 15.0);
+      return printed("at %.0f degrees",
+                     30.0 * std::floor(12.0 * (turns - std::floor(turns))) + 15.0);
     }
     if (q.what == "temperature") return "at " + printed("%.3g", p.temperature_c) + " C";
     if (q.what == "load") return "at " + load;
@@ -432,7 +435,8 @@ class Asking {
     };
     if (slow_with_load_)
       return "moves slowly over the run in proportion to the load: " + at(low) + ", " + at(high) +
-             " (at the input): friction that changes (wear, running in, another lubricant), or a gain that drifts";
+             " (at the input): friction that changes (wear, running in, another lubricant), or a "
+             "gain that drifts";
     return "moves slowly over the run: " + at(low) + ", " + at(high) +
            " (at the input): a zero that wanders or jumps, or warmth";
   }
@@ -444,7 +448,7 @@ class Asking {
   std::vector<std::size_t> first_;  ///< row of every visit
   Eigen::VectorXd size_;            ///< of every visit, in its noise's units
   std::vector<Question> questions_;
-  bool slow_with_load_ = false;     ///< what moves slowly is in proportion to the load
+  bool slow_with_load_ = false;  ///< what moves slowly is in proportion to the load
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ struct BenchPoint {
   double taken = 0.0;       ///< when among the rows of its file: 0 first ... 1 last
   double sigma_nm = kNaN;   ///< of driven_nm: as given, else estimated for its direction
   int unit = 0;             ///< rows of one set point, or of a stretch of a log
+  /// Rows that share the rounding of one coarse reading of the driving torque; -1: it is read finely.
+  int reading = -1;
   int fold = 0;             ///< 0 locked hold-out, 1 ... 8 cross-validation
   int file = 0, line = 0;
   [[nodiscard]] DrivePoint at() const { return {forward, speed_rpm, load_nm, temperature_c}; }

@@ -43,6 +43,16 @@ std::vector<int> levels_of(const std::vector<double>& values, double scatter, do
   return level;
 }
 
+double step_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const double rounding = 1e-6 * std::max(std::abs(values.front()), std::abs(values.back()));
+  double step = 1e300;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (values[k] - values[k - 1] > rounding) step = std::min(step, values[k] - values[k - 1]);
+  return step < 1e300 ? step : 0.0;
+}
+
 std::vector<double> values_of(const std::vector<BenchPoint>& points, double BenchPoint::*member) {
   std::vector<double> values;
   values.reserve(points.size());

@@ -9,6 +9,8 @@
 // Which rows of a bench were taken at the same set point, and when: visits.
 namespace trueflank::loop {
 
+/// The step in which values are read: of fine readings next to nothing.
+[[nodiscard]] double step_of(std::vector<double> values);
 /// Levels of a quantity: sorted values apart by more than the setting's scatter (a share of the
 /// value, and of the range). Where they run into each other: tenths of the range.
 [[nodiscard]] std::vector<int> levels_of(const std::vector<double>& values, double scatter,

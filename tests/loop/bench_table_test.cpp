@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <sstream>
+
 #include "tests/loop/sample_bench.h"
 #include "trueflank/design/kinds/train_kind.h"
 
@@ -216,6 +219,32 @@ TEST(BenchFile, ASingleGearHasNoBench) {
   const auto model = loop::drive_model(*gear);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().key, "gearbox.kind");
+}
+
+TEST(CoarseReadings, OfSetTorquesAreNoLoss) {
+  // Every reading in steps of twice the noise: all rows of a set point share the rounding of what drives.
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    BenchPlan plan;
+    plan.noise_driving = 0.0;
+    plan.repeats = 8;
+    plan.seed = seed;
+    std::string text, line;
+    std::istringstream lines(bench_file(paper_train(), {}, plan));
+    std::getline(lines, line);
+    text = line + "\n";
+    while (std::getline(lines, line)) {
+      char direction[20], row[120];
+      double rpm = 0, in = 0, out = 0;
+      std::sscanf(line.c_str(), "%19[^,],%lf,%lf,%lf", direction, &rpm, &in, &out);
+      std::snprintf(row, sizeof row, "%s,%.9g,%.9g,%.9g\n", direction, rpm,
+                    0.001 * std::round(in / 0.001), 0.1 * std::round(out / 0.1));
+      text += row;
+    }
+    const auto closed = close_bench_text(text);
+    ASSERT_TRUE(closed);
+    EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect)
+        << seed << ": " << closed->result.structure_left;
+  }
 }
 
 }  // namespace
