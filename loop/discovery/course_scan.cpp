@@ -209,7 +209,9 @@ class CourseScan {
     double tests = 0.0;
     for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
       if (sets_[s].cols() < 1) continue;
-      const VectorXd power = tapered_power(sets_[s]);
+      // One course that is louder than the others would count for all of them.
+      const VectorXd loud = loudness_of(sets_[s]);
+      const VectorXd power = tapered_power(sets_[s] * loud.cwiseInverse().asDiagonal());
       const auto n = static_cast<double>(sets_[s].cols());
       for (Index k = 5; k + 4 < power.size(); ++k) {
         tests += 1.0;
@@ -223,7 +225,7 @@ class CourseScan {
         best.p_value = p;
         best.set = s;
         best.width = 1.0 / static_cast<double>(k);
-        best.amount = std::sqrt(4.0 * power[k] / n);
+        best.amount = std::sqrt(4.0 * power[k] / n * loud.cwiseAbs2().mean());
       }
     }
     keep(best, tests);

@@ -162,12 +162,21 @@ void PartLoop::ban_what_cannot_be_seen() {
     return !scanned && !effect.family->tells_order_along_profile && in_traces_only && traced > 0 &&
            2.0 * effect.order() >= traced;
   };
+  // Waves that stand alike on every tooth looked at are a form of the flank, and no machine's order.
+  const auto is_alike_on_all = [&](const Effect& effect) {
+    if (!effect.family->tells_order_along_profile) return false;
+    const double z = geometry_.teeth();
+    if (scanned || traced == 0) return std::fmod(effect.order(), z) == 0.0;
+    return std::all_of(traced_teeth.begin(), traced_teeth.end(), [&](int tooth) {
+      return std::fmod(effect.order() * (tooth - *traced_teeth.begin()), z) == 0.0;
+    });
+  };
   const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const NeedsToBeSeen needs = candidates_[g].needs();
     if ((needs.along_profile && !along_profile) || (needs.along_face && !along_face) ||
         (needs.several_heights && !(highest > lowest + kSeveral)) || (needs.crossed && !crossed) ||
-        aliases(candidates_[g]))
+        aliases(candidates_[g]) || is_alike_on_all(candidates_[g]))
       banned_[g] = true;
   }
 }
@@ -383,6 +392,7 @@ void PartLoop::look_at_single_teeth() {
     record.group = -1;
     discovery_.chosen.push_back(record);
   }
+  drop_teeth_within_the_tails();
 }
 
 /// Sizes are few and know their own error: what they say of thickness, which traces with zeros of

@@ -92,7 +92,14 @@ class PartLoop {
   void drop_doubtful_names();
   void join_flanks();
   void tell_parts_of_a_form();
+  void tell_parts_beside_forms();
+  void tell_imitations();
   void tell_level_of_forms();
+  void tell_waves_of_a_form();
+  void tell_teeth_side_by_side();
+  [[nodiscard]] const EffectFamily* form_instead(std::size_t effect) const;
+  [[nodiscard]] std::optional<Effect> form_of_teeth(const std::vector<Effect>& rest,
+                                                    FlankChoice flank, int first, int count) const;
   void doubt_names_below_what_is_left();
   void prefer_names();
   void prefer_one_name_to_two();
@@ -100,6 +107,7 @@ class PartLoop {
   void take_over(PartLoop& other);
   [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;
   void look_at_single_teeth();
+  void drop_teeth_within_the_tails();
   void look_at_sizes();
   void look_at_neighbours();
   [[nodiscard]] bool neighbours_share() const;

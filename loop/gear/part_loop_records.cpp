@@ -149,6 +149,64 @@ void PartLoop::hold_to_single_values() {
   if (!adopt(more, p_values)) (void)adopt(without_slopes, p_values);
 }
 
+namespace {
+
+double usual_size(std::vector<double> values) {
+  constexpr double kOfNormal = 1.4826;
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return kOfNormal * *middle;
+}
+
+/// The size of one tooth's single values, if nothing but they shows its height; NaN otherwise.
+double height_of_single_values(const Observations& table, const Effect& tooth,
+                               const FlankGeometry& geometry, const std::vector<float>& row_um) {
+  double most = 0.0, column = 0.0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    if (row.kind == ObservationKind::kSize) continue;
+    tooth.evaluate(geometry, table.place(row), &column);
+    if (column == 0.0) continue;
+    if (is_one_a_tooth(row))
+      most = std::max(most, std::abs(static_cast<double>(row_um[i])));
+    else if (row.trace < 0)
+      return kNaN;
+  }
+  return most;
+}
+
+}  // namespace
+
+/// What a single value says of its tooth is no more than the errors of such values: where values
+/// along the traces are as far out now and then, it is one of those.
+void PartLoop::drop_teeth_within_the_tails() {
+  constexpr double kByChance = 0.01;
+  for (std::size_t e = effects_.size(); e-- > options_.given.size();) {
+    if (!effects_[e].family->local || effects_[e].columns() != 1) continue;
+    std::vector<Effect> without = effects_;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
+    std::vector<float> before_um, after_um;
+    PointFit(geometry_, table_, patches_, without).residuals(before_um, after_um);
+    const double height = height_of_single_values(table_, effects_[e], geometry_, after_um);
+    if (!(height > 0.0)) continue;
+    std::vector<double> along, single;
+    for (std::size_t i = 0; i < table_.rows.size(); ++i)
+      if (patches_.patch_of_row[i] >= 0)
+        (is_one_a_tooth(table_.rows[i]) ? single : along)
+            .push_back(std::abs(static_cast<double>(after_um[i])));
+    const double usual_along = usual_size(along), usual_single = usual_size(single);
+    if (!(usual_along > 0.0) || !(usual_single > 0.0)) continue;
+    const double out = height / usual_single * usual_along;
+    const auto further = static_cast<double>(
+        std::count_if(along.begin(), along.end(), [&](double um) { return um >= out; }));
+    // None is as far out: no trace says that such errors occur.
+    if (further * static_cast<double>(single.size()) >
+        kByChance * static_cast<double>(along.size()))
+      remove_effect(e);
+  }
+}
+
 /// The named effects as people read them.
 std::vector<FoundEffect> PartLoop::told() const {
   const auto fit = fit_of(effects_);

@@ -206,7 +206,14 @@ bool PartLoop::ban_what_forms_explain() {
   std::copy_if(effects_.begin(), effects_.end(), std::back_inserter(without),
                [&](const Effect& e) { return !is_form(e); });
   if (without.size() == effects_.size()) return false;
-  const auto fit = fit_of(effects_), fit_without = fit_of(without);
+  // What all flanks stand out by may change with a form: it is free in both.
+  const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
+  std::vector<Effect> with = effects_;
+  if (is_told_apart(level, effects_)) {
+    with.push_back(level);
+    without.push_back(level);
+  }
+  const auto fit = fit_of(with), fit_without = fit_of(without);
   const PointFit &full = *fit, &bare = *fit_without;
   bool any = false;
   int at = 0;

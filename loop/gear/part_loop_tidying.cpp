@@ -145,148 +145,6 @@ void PartLoop::join_flanks() {
     }
 }
 
-namespace {
-
-constexpr int kPlaces = 33, kDegrees = 4;
-
-/// What some effects do along the flanks of one tooth, over the profile or the face: the places of
-/// the left flank, then of the right one, each about its mean.
-Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
-                          bool face) {
-  const Effect& one = fit.effects()[effect];
-  const int first = fit.first_column(static_cast<int>(effect));
-  Eigen::VectorXd course = Eigen::VectorXd::Zero(2 * kPlaces);
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  double columns[8];
-  for (int i = 0; i < 2 * kPlaces; ++i) {
-    const double share = static_cast<double>(i % kPlaces) / (kPlaces - 1);
-    const double roll = low + (face ? 0.5 : share) * (high - low);
-    one.evaluate(geometry,
-                 geometry.on_flank(1, i < kPlaces ? 1 : -1, roll,
-                                   (face ? share : 0.5) * geometry.face_width_mm()),
-                 columns);
-    for (int k = 0; k < one.columns(); ++k) course[i] += fit.coefficients()[first + k] * columns[k];
-  }
-  course.head(kPlaces).array() -= course.head(kPlaces).mean();
-  course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
-  return course;
-}
-
-/// The part of a course that polynomials follow.
-Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
-  Eigen::MatrixXd powers(kPlaces, kDegrees + 1);
-  for (int i = 0; i < kPlaces; ++i)
-    for (int d = 0; d <= kDegrees; ++d) powers(i, d) = std::pow(2.0 * i / (kPlaces - 1) - 1.0, d);
-  const Eigen::MatrixXd fit = (powers.transpose() * powers).ldlt().solve(powers.transpose());
-  Eigen::VectorXd slow(course.size());
-  slow << powers * (fit * course.head(kPlaces)), powers * (fit * course.tail(kPlaces));
-  return slow;
-}
-
-bool is_common_form(const Effect& e) {
-  return e.is_term() && e.family->form_word.empty() && e.order() == 0.0;
-}
-
-}  // namespace
-
-/// A slope or a bow beside slow forms without a name on the same flanks is a part of one odd form
-/// and no cause of its own: it is told as a form. So is a single tooth whose size hangs on a form
-/// around the gear.
-void PartLoop::tell_parts_of_a_form() {
-  constexpr double kSlow = 0.6, kShare = 0.3, kHangs = 0.25;
-  const auto nameless = [&](std::size_t e) {
-    const EffectFamily& family = *effects_[e].family;
-    return family.named ? find_form(family.form_word) : nullptr;
-  };
-  const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
-  const auto kept = fit_of(effects_);
-  const PointFit& fit = *kept;
-  std::vector<Effect> bare;
-  for (const Effect& effect : effects_)
-    if (!is_form(effect)) bare.push_back(effect);
-  if (bare.size() == effects_.size() || bare.empty()) return;
-  const auto kept_without = fit_of(bare);
-  const PointFit& without = *kept_without;
-  std::array<Eigen::VectorXd, 2> forms{Eigen::VectorXd::Zero(2 * kPlaces),
-                                       Eigen::VectorXd::Zero(2 * kPlaces)};
-  for (std::size_t e = 0; e < effects_.size(); ++e)
-    for (const bool face : {false, true}) {
-      if (!is_common_form(effects_[e])) continue;
-      const Eigen::VectorXd course = course_of(geometry_, fit, e, face), slow = slow_part(course);
-      if (slow.squaredNorm() > kSlow * course.squaredNorm()) forms[face ? 1 : 0] += slow;
-    }
-  int own = 0;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    if (is_form(effects_[e])) continue;
-    const int at = own++;
-    const EffectFamily* form = nameless(e);
-    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
-    bool part = false;
-    if (effects_[e].family->local) {
-      const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-      const double b0 = without.coefficients()[without.first_column(at)];
-      part = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0));
-    } else {
-      for (const bool face : {false, true}) {
-        const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
-        double there = 0.0;  // forms on the flanks that the name is of
-        for (const int flank : {0, 1})
-          if (course.segment(flank * kPlaces, kPlaces).norm() > 1e-6 * course.norm())
-            there += forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces).squaredNorm();
-        part = part || (course.norm() > 0.0 && std::sqrt(there) > kShare * course.norm());
-      }
-    }
-    if (part) effects_[e].family = form;
-  }
-  tell_level_of_forms();
-}
-
-/// The form without a name of an effect, or of one that the data cannot tell from it.
-const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
-  if (const EffectFamily* own = find_form(effects_[e].family->form_word)) return own;
-  for (const int group : discovery_.chosen[e].confounded)
-    if (const EffectFamily* other = find_form(candidates_[group].family->form_word)) return other;
-  return nullptr;
-}
-
-/// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
-/// mean of its own.
-void PartLoop::tell_level_of_forms() {
-  constexpr double kHangs = 0.25;
-  const auto kept = fit_of(effects_);
-  const PointFit& fit = *kept;
-  std::vector<Effect> named;
-  for (const Effect& effect : effects_)
-    if (!effect.is_term() || effect.order() != 0.0) named.push_back(effect);
-  if (named.size() == effects_.size() || named.empty()) return;
-  const auto kept_without = fit_of(named);
-  const PointFit& without = *kept_without;
-  // A drift around the gear, with the waves that bend it, from its first tooth to its last.
-  bool drifts = false;
-  double drift_um = 0.0;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    drifts = drifts || effects_[e].family->is_drift;
-    if (effects_[e].is_term())
-      drift_um = std::hypot(drift_um, 2.0 * std::sqrt(3.0) * fit.effect_size_um(static_cast<int>(e)));
-  }
-  int own = 0;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    Effect& effect = effects_[e];
-    if (effect.is_term() && effect.order() == 0.0) continue;
-    const int at = own++;
-    const EffectFamily* form =
-        effect.family->named && !effect.family->local ? form_of_level(e) : nullptr;
-    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-    const double b0 = without.coefficients()[without.first_column(at)];
-    const bool level = course_of(geometry_, fit, e, true).norm() <= 1e-9 * std::abs(b) &&
-                       course_of(geometry_, fit, e, false).norm() <= 1e-9 * std::abs(b);
-    if (level && (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
-                  (drifts && std::abs(b) < drift_um)))
-      effect.family = form;
-  }
-}
-
 /// Forms that were found first may stand where fewer names say the same: all is chosen once more from names
 /// alone.
 void PartLoop::prefer_names() {
@@ -325,6 +183,10 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   PartLoop names(geometry_, measured_, std::move(options));
   names.run();
   if (names.effects_.empty()) return false;
+  names.tell_parts_of_a_form();
+  if (std::any_of(names.effects_.begin(), names.effects_.end(),
+                  [](const Effect& e) { return e.is_term(); }))
+    return false;
   const auto columns_of = [](const std::vector<Effect>& effects) {
     int columns = 0;
     for (const Effect& effect : effects) columns += effect.columns();

@@ -111,5 +111,71 @@ TEST(OddForms, AGhostOrderFinerThanThePatchesIsOneOrderHoweverTheTeethAreCounted
   }
 }
 
+TEST(OddForms, AWaveInOneDirectionOfSpaceIsNoListOfPitchWaves) {
+  // A printer's belt: orders 2, 4, 6 ... of the gear, none of them a cause.
+  const MadeGear gear = spur(41);
+  const auto belt = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double angle = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+    return s.side * 5.0 * std::sin(2.0 * M_PI * std::cos(angle) / 0.9) * std::sin(angle);
+  };
+  const auto result = close(gear, inspection_of(gear, {grown(belt)}, sheet_of_all(11)));
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+}
+
+TEST(OddForms, AProfileThatIsSShapedInAScanIsNoSumOfNames) {
+  const MadeGear gear = spur(16);
+  const auto form = [](auto&, const FlankSpot& s, auto&) {
+    return 30.0 * std::sin(M_PI * s.u) - 23.0 * s.side * s.v;
+  };
+  ScanOptions options;
+  options.points = 5000;
+  options.noise_um = 4.0;
+  const auto result = close(gear, scan_of(gear, {grown(form)}, options), true);
+  EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
+  for (const auto& effect : result.effects)
+    EXPECT_TRUE(!effect.named || effect.id == "helix_error") << list(result);
+}
+
+TEST(OddForms, SeveralTeethThatStandOutSideBySideAreOneSwelling) {
+  const MadeGear gear = spur(44);
+  const auto hump = [](auto&, const FlankSpot& s, auto&) {
+    const double off = (s.tooth - 5.4) / 1.9;
+    return 4.5 * std::exp(-off * off);
+  };
+  InspectionOptions options = sheet_of_all(12);
+  options.noise_um = 0.5;
+  const auto result = close(gear, inspection_of(gear, {grown(hump)}, options));
+  EXPECT_LE(result.effects.size(), 2U) << list(result);
+  EXPECT_NE(list(result).find("a hollow or swelling over a few teeth"), std::string::npos)
+      << list(result);
+}
+
+TEST(OddForms, ADriftThatFadesIsNoThickness) {
+  const MadeGear gear = spur(19);
+  const auto fading = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return 6.2 * std::exp(-(s.tooth - 1.0) / g.teeth / 0.55);
+  };
+  for (unsigned seed = 13; seed <= 15; ++seed) {
+    InspectionOptions options = sheet_of_all(seed);
+    options.common_zero = true;
+    const auto result = close(gear, inspection_of(gear, {grown(fading)}, options));
+    EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+    EXPECT_EQ(named(result), nullptr) << list(result);
+  }
+}
+
+TEST(OddForms, ACrowningKeepsItsNameBesideASector) {
+  const MadeGear gear = spur(23);
+  const auto both = [](auto&, const FlankSpot& s, auto&) {
+    return -30.0 * s.v * s.v + (s.tooth >= 9 && s.tooth <= 11 ? 35.0 : 0.0);
+  };
+  ScanOptions options;
+  options.points = 6000;
+  options.noise_um = 4.0;
+  const auto result = close(gear, scan_of(gear, {grown(both)}, options), true);
+  EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
+}
+
 }  // namespace
 }  // namespace trueflank::test

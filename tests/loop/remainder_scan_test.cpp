@@ -97,6 +97,16 @@ TEST(CourseScan, WavesInAPhaseOfTheirOwnAreFoundThoughTheMeanHasNone) {
   EXPECT_NEAR(own->amount, 2.0, 0.4);
 }
 
+TEST(CourseScan, OneCourseOfLouderErrorsHasNoWavesOfItsOwn) {
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    MatrixXd courses = errors(120, 11, 0.0, seed);
+    courses.col(3) *= 5.0;
+    alarms += find(scan_courses({centred(courses)}), Kind::kOwnWaves) != nullptr;
+  }
+  EXPECT_LE(alarms, 1);
+}
+
 TEST(CourseScan, ASpotOnOneCourseIsFoundThereAndAWildPointIsNone) {
   const auto spot = scan_courses({with(errors(80, 8, 0.0, 1), [](double x, auto c) {
     return c == 5 && std::abs(x - 0.7) < 0.06 ? 8.0 : 0.0;

@@ -10,6 +10,7 @@ EffectFamily lobing() {
   EffectFamily f;
   f.id = "lobing";
   f.description = "the gear is out of round";
+  f.form_word = "wave_of_radius";
   f.causes = {{kMachining, "jaws of the chuck"},
               {kInMould, "gates of the mould"},
               {kPrinting, "corners of infill or supports, backlash of the axes"},

@@ -10,6 +10,7 @@ EffectFamily pitch_wave() {
   EffectFamily f;
   f.id = "pitch_wave";
   f.description = "the teeth stand ahead and behind in a wave around the gear";
+  f.form_word = "wave_of_pitch";
   f.causes = {{kGearMachines, "rotary table, worm of the machine"},
               {kPrinting | kContourCutting, "steps or belt of a drive"},
               {kInMould, "indexing of the cavity"}};

@@ -9,6 +9,7 @@ EffectFamily scale() {
   EffectFamily f;
   f.id = "scale";
   f.description = "the whole part is too big or too small";
+  f.form_word = "size_of_part";
   f.causes = {{kPrinting | kInMould, "shrinkage, or steps per millimetre of a printer"},
               {kContourCutting, "scale of the axes"},
               {kAnyMaking, "the part or the measuring device was not at 20 degrees"}};

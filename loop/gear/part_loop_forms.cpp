@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names that are parts of one form: they are told as a form, without a cause.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "trueflank/loop/gear/part_loop.h"
+
+namespace trueflank::loop {
+
+namespace {
+
+constexpr int kPlaces = 33, kDegrees = 4;
+
+/// What an effect does along the flanks of one tooth, over the profile or the face: the places of
+/// the left flank, then of the right one.
+Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
+                             bool face) {
+  const Effect& one = fit.effects()[effect];
+  const int first = fit.first_column(static_cast<int>(effect));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(2 * kPlaces);
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  double columns[8];
+  for (int i = 0; i < 2 * kPlaces; ++i) {
+    const double share = static_cast<double>(i % kPlaces) / (kPlaces - 1);
+    const double roll = low + (face ? 0.5 : share) * (high - low);
+    one.evaluate(geometry,
+                 geometry.on_flank(1, i < kPlaces ? 1 : -1, roll,
+                                   (face ? share : 0.5) * geometry.face_width_mm()),
+                 columns);
+    for (int k = 0; k < one.columns(); ++k) values[i] += fit.coefficients()[first + k] * columns[k];
+  }
+  return values;
+}
+
+/// The same, each flank about its mean.
+Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
+                          bool face) {
+  Eigen::VectorXd course = values_along(geometry, fit, effect, face);
+  course.head(kPlaces).array() -= course.head(kPlaces).mean();
+  course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
+  return course;
+}
+
+/// True where an effect lifts all flanks by nearly one amount (a scale, too).
+bool is_level(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect) {
+  constexpr double kFlat = 0.35;
+  const Effect& one = fit.effects()[effect];
+  if (one.columns() != 1 || one.order() != 0.0 || one.family->local) return false;
+  for (const bool face : {false, true})
+    if (course_of(geometry, fit, effect, face).norm() >
+        kFlat * values_along(geometry, fit, effect, face).norm())
+      return false;
+  return true;
+}
+
+/// The part of a course that polynomials follow.
+Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
+  Eigen::MatrixXd powers(kPlaces, kDegrees + 1);
+  for (int i = 0; i < kPlaces; ++i)
+    for (int d = 0; d <= kDegrees; ++d) powers(i, d) = std::pow(2.0 * i / (kPlaces - 1) - 1.0, d);
+  const Eigen::MatrixXd fit = (powers.transpose() * powers).ldlt().solve(powers.transpose());
+  Eigen::VectorXd slow(course.size());
+  slow << powers * (fit * course.head(kPlaces)), powers * (fit * course.tail(kPlaces));
+  return slow;
+}
+
+bool is_common_form(const Effect& e) {
+  return e.is_term() && e.family->form_word.empty() && e.order() == 0.0;
+}
+
+bool is_wave_around(const Effect& e) {
+  return e.order() > 0.0 && !e.family->tells_order_along_profile;
+}
+
+/// What the forms without a name do slowly along the flanks, over the profile and over the face.
+std::array<Eigen::VectorXd, 2> slow_forms(const FlankGeometry& geometry, const PointFit& fit) {
+  constexpr double kSlow = 0.6;
+  std::array<Eigen::VectorXd, 2> forms{Eigen::VectorXd::Zero(2 * kPlaces),
+                                       Eigen::VectorXd::Zero(2 * kPlaces)};
+  for (std::size_t e = 0; e < fit.effects().size(); ++e)
+    for (const bool face : {false, true}) {
+      if (!is_common_form(fit.effects()[e])) continue;
+      const Eigen::VectorXd course = course_of(geometry, fit, e, face), slow = slow_part(course);
+      if (slow.squaredNorm() > kSlow * course.squaredNorm()) forms[face ? 1 : 0] += slow;
+    }
+  return forms;
+}
+
+/// A course on one flank and the names it is made of; two slopes are one.
+struct NamedPart {
+  Eigen::VectorXd course;
+  std::vector<std::size_t> effects;
+};
+
+void add_part(std::vector<NamedPart>& parts, std::size_t effect, const Eigen::VectorXd& course) {
+  constexpr double kSame = 0.98;
+  for (NamedPart& part : parts) {
+    const double norms = part.course.norm() * course.norm();
+    if (std::abs(part.course.dot(course)) <= kSame * norms) continue;
+    part.course += course;
+    part.effects.push_back(effect);
+    return;
+  }
+  parts.push_back({course, {effect}});
+}
+
+/// Names that together only imitate one odd form: two or more beside a slow form without a name, or
+/// three or more that largely undo each other.
+std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::VectorXd& form) {
+  constexpr double kCounts = 0.15, kBeside = 0.1, kUndo = 1.5;
+  Eigen::VectorXd total = form;
+  for (const NamedPart& part : parts) total += part.course;
+  std::erase_if(
+      parts, [&](const NamedPart& part) { return part.course.norm() <= kCounts * total.norm(); });
+  double squares = 0.0;
+  std::set<std::size_t> effects;
+  for (const NamedPart& part : parts) {
+    squares += part.course.squaredNorm();
+    effects.insert(part.effects.begin(), part.effects.end());
+  }
+  const bool beside = parts.size() >= 2 && form.norm() > kBeside * total.norm();
+  const bool undo = parts.size() >= 3 && squares > kUndo * total.squaredNorm();
+  return beside || undo ? effects : std::set<std::size_t>();
+}
+
+}  // namespace
+
+/// A name that is a part of one odd form, and no cause of its own, is told as a form.
+void PartLoop::tell_parts_of_a_form() {
+  tell_parts_beside_forms();
+  tell_imitations();
+  tell_waves_of_a_form();
+  tell_level_of_forms();
+  tell_teeth_side_by_side();
+}
+
+/// What was told before (of other data) stays as it is.
+const EffectFamily* PartLoop::form_instead(std::size_t e) const {
+  const EffectFamily& family = *effects_[e].family;
+  const bool free = e >= options_.given.size() - given_p_values_.size();
+  return free && family.named ? find_form(family.form_word) : nullptr;
+}
+
+/// A slope or a bow beside slow forms without a name on the same flanks; a single tooth whose size
+/// hangs on a form around the gear.
+void PartLoop::tell_parts_beside_forms() {
+  constexpr double kShare = 0.3, kHangs = 0.25;
+  const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
+  std::vector<Effect> bare;
+  for (const Effect& effect : effects_)
+    if (!is_form(effect)) bare.push_back(effect);
+  if (bare.size() == effects_.size() || bare.empty()) return;
+  const auto kept = fit_of(effects_), kept_without = fit_of(bare);
+  const PointFit &fit = *kept, &without = *kept_without;
+  const std::array<Eigen::VectorXd, 2> forms = slow_forms(geometry_, fit);
+  int own = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (is_form(effects_[e])) continue;
+    const int at = own++;
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr || is_wave_around(effects_[e])) continue;
+    bool part = false;
+    if (effects_[e].family->local) {
+      const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+      const double b0 = without.coefficients()[without.first_column(at)];
+      part = std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0));
+    } else {
+      for (const bool face : {false, true}) {
+        const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
+        double there = 0.0;  // forms on the flanks that the name is of
+        for (const int flank : {0, 1})
+          if (course.segment(flank * kPlaces, kPlaces).norm() > 1e-6 * course.norm())
+            there += forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces).squaredNorm();
+        part = part || (course.norm() > 0.0 && std::sqrt(there) > kShare * course.norm());
+      }
+    }
+    if (part) effects_[e].family = form;
+  }
+}
+
+void PartLoop::tell_imitations() {
+  if (effects_.empty()) return;
+  const auto fit = fit_of(effects_);
+  std::array<Eigen::VectorXd, 2> forms = slow_forms(geometry_, *fit);
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].is_term() && !effects_[e].family->form_word.empty() &&
+        effects_[e].order() == 0.0 && effects_[e].columns() == 1)  // told as a form already
+      for (const bool face : {false, true})
+        forms[face ? 1 : 0] += course_of(geometry_, *fit, e, face);
+  std::set<std::size_t> told;
+  for (const bool face : {false, true})
+    for (const int flank : {0, 1}) {
+      std::vector<NamedPart> parts;
+      for (std::size_t e = 0; e < effects_.size(); ++e) {
+        const Effect& effect = effects_[e];
+        if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1) continue;
+        add_part(parts, e, course_of(geometry_, *fit, e, face).segment(flank * kPlaces, kPlaces));
+      }
+      told.merge(
+          imitations(std::move(parts), forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces)));
+    }
+  for (const std::size_t e : told) effects_[e].family = form_instead(e);
+}
+
+/// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
+/// or of two beside a drift: what one odd form is made of.
+void PartLoop::tell_waves_of_a_form() {
+  constexpr double kCounts = 0.1, kLike = 0.25;
+  constexpr std::size_t kFewest = 3;
+  if (effects_.empty()) return;
+  const auto fit = fit_of(effects_);
+  struct Wave {
+    std::size_t effect = 0;
+    double order = 0.0, size_um = 0.0;
+  };
+  std::vector<Wave> waves;
+  bool drifts = false;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    drifts = drifts || effect.family->is_drift;
+    const NeedsToBeSeen needs = effect.needs();
+    if (is_wave_around(effect) && !needs.along_profile && !needs.along_face)
+      waves.push_back({e, effect.order(), fit->effect_size_um(static_cast<int>(e))});
+  }
+  for (const Wave& wave : waves) {
+    const EffectFamily* form = form_instead(wave.effect);
+    if (form == nullptr) continue;
+    std::set<double> orders;
+    double others_um = 0.0;
+    bool one_kind = true;
+    for (const Wave& other : waves) {
+      if (other.size_um < kCounts * wave.size_um) continue;
+      one_kind = one_kind && effects_[other.effect].family == effects_[wave.effect].family;
+      orders.insert(other.order);
+      if (other.order != wave.order) others_um = std::hypot(others_um, other.size_um);
+    }
+    if (others_um < kLike * wave.size_um) continue;
+    // Jaws and gates press in sharper than a sine: multiples of their number are theirs.
+    constexpr double kFewestJaws = 3.0;
+    const double lowest = *orders.begin();
+    const bool harmonics = lowest >= kFewestJaws && one_kind &&
+                           std::all_of(orders.begin(), orders.end(),
+                                       [&](double n) { return std::remainder(n, lowest) == 0.0; });
+    if (!harmonics && orders.size() >= (drifts ? kFewest - 1 : kFewest))
+      effects_[wave.effect].family = form;
+  }
+}
+
+namespace {
+
+/// A run of effects on neighbouring teeth: which, the first tooth, how many teeth it spans.
+struct RunOfTeeth {
+  std::vector<std::size_t> effects;
+  int first = 0, count = 0;
+};
+
+/// The longest run with at most one tooth left out in a row. Effects by their tooth, in order.
+RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, int z) {
+  RunOfTeeth best;
+  for (std::size_t from = 0; from < teeth.size(); ++from) {
+    RunOfTeeth run{{teeth[from].second}, teeth[from].first, 1};
+    for (std::size_t i = 1; i < teeth.size(); ++i) {
+      const auto& [tooth, effect] = teeth[(from + i) % teeth.size()];
+      const int count = (tooth - run.first + z) % z + 1;
+      if (count - run.count > 2) break;
+      run.count = count;
+      run.effects.push_back(effect);
+    }
+    if (run.effects.size() > best.effects.size()) best = std::move(run);
+  }
+  return best;
+}
+
+}  // namespace
+
+/// The swelling or sector that says best what some single teeth say, if it leaves little of it.
+std::optional<Effect> PartLoop::form_of_teeth(const std::vector<Effect>& rest, FlankChoice flank,
+                                              int first, int count) const {
+  constexpr double kNearly = 0.1;
+  std::vector<Effect> tried{
+      {find_family("unnamed_sector"), flank, {double(first), double(count), 0.0, 0.0, 0.0}}};
+  for (double middle = -1.0; middle <= 1.0; middle += 0.5)
+    for (double half = 0.3; half < 1.0; half *= 1.3)
+      tried.push_back({find_family("unnamed_dent"),
+                       flank,
+                       {first + 0.5 * (count - 1) + middle, half * count, 0.0, 0.0}});
+  std::vector<Effect> with = rest;
+  with.emplace_back();
+  std::size_t best = 0;
+  double least = 1e300;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    with.back() = tried[i];
+    const double left = PointFit(geometry_, table_, patches_, with).residual_square();
+    if (left >= least) continue;
+    least = left;
+    best = i;
+  }
+  const double all = fit_of(effects_)->residual_square();
+  if (least > all + kNearly * (fit_of(rest)->residual_square() - all)) return {};
+  return tried[best];
+}
+
+/// Teeth side by side that stand out to one side are one swelling, hollow or sector, and none of
+/// them a single tooth.
+void PartLoop::tell_teeth_side_by_side() {
+  constexpr std::size_t kFewest = 3;
+  for (std::size_t one = options_.given.size(); one < effects_.size(); ++one) {
+    if (!effects_[one].family->local) continue;
+    const auto fit = fit_of(effects_);
+    const auto height = [&](std::size_t e) {
+      return fit->coefficients()[fit->first_column(static_cast<int>(e))];
+    };
+    std::vector<std::pair<int, std::size_t>> teeth;
+    for (std::size_t e = one; e < effects_.size(); ++e)
+      if (effects_[e].family == effects_[one].family && effects_[e].flank == effects_[one].flank &&
+          height(e) * height(one) > 0.0)
+        teeth.emplace_back(static_cast<int>(effects_[e].shape[0]), e);
+    std::sort(teeth.begin(), teeth.end());
+    RunOfTeeth run = longest_run(teeth, geometry_.teeth());
+    if (run.effects.size() < kFewest) continue;
+    std::sort(run.effects.rbegin(), run.effects.rend());
+    std::vector<Effect> rest = effects_;
+    for (const std::size_t e : run.effects)
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
+    const std::optional<Effect> form =
+        form_of_teeth(rest, effects_[one].flank, run.first, run.count);
+    if (!form) {
+      for (const std::size_t e : run.effects)
+        if (const EffectFamily* height_of_tooth = form_instead(e))
+          effects_[e].family = height_of_tooth;
+      continue;
+    }
+    ChosenGroup record;
+    record.group = -1;
+    record.p_value = discovery_.chosen[one].p_value;
+    for (const std::size_t e : run.effects) {
+      record.p_value = std::min(record.p_value, discovery_.chosen[e].p_value);
+      remove_effect(e);
+    }
+    effects_.push_back(*form);
+    discovery_.chosen.push_back(record);
+    one = options_.given.size();
+  }
+}
+
+/// The form without a name of an effect that lifts all flanks: its own, or that of the commonest.
+const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
+  const EffectFamily* own = find_form(effects_[e].family->form_word);
+  return own != nullptr || !effects_[e].shape.empty() ? own : find_form("thickness");
+}
+
+/// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
+/// mean of its own.
+void PartLoop::tell_level_of_forms() {
+  constexpr double kHangs = 0.25;
+  if (effects_.empty()) return;
+  const auto kept = fit_of(effects_);
+  const PointFit& fit = *kept;
+  // A drift or another odd form around the gear, from its lowest tooth to its highest.
+  bool drifts = false;
+  double drift_um = 0.0;
+  std::vector<Effect> named;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (!effect.is_term() || effect.order() != 0.0) named.push_back(effect);
+    if (!effect.is_term()) continue;
+    drifts = drifts || effect.family->is_drift ||
+             (is_wave_around(effect) && !effect.family->form_word.empty());
+    drift_um = std::hypot(drift_um, 2.0 * std::sqrt(3.0) * fit.effect_size_um(static_cast<int>(e)));
+  }
+  if (named.empty() || (!drifts && named.size() == effects_.size())) return;
+  const auto kept_without = fit_of(named);
+  const PointFit& without = *kept_without;
+  int own = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    Effect& effect = effects_[e];
+    if (effect.is_term() && effect.order() == 0.0) continue;
+    const int at = own++;
+    const EffectFamily* form =
+        effect.family->named && !effect.family->local ? form_of_level(e) : nullptr;
+    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
+    if (!is_level(geometry_, fit, e)) continue;
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    const double b0 = without.coefficients()[without.first_column(at)];
+    if (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
+        (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um))
+      effect.family = form;
+  }
+}
+
+}  // namespace trueflank::loop
