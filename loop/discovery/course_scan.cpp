@@ -280,8 +280,14 @@ class CourseScan {
       constexpr double kEnough = 40.0;
       const double apart_each = static_cast<double>(m_) / static_cast<double>(width);
       for (std::size_t s = 0; s < sets_.size(); ++s) {
-        const MatrixXd apart =
-            clipped_[s].colwise() - (clipped_[s].cols() > 2 ? mean_[s] : VectorXd::Zero(m_));
+        // A deep spot on one of few courses would stand in the plain mean, and so on all the
+        // others.
+        MatrixXd apart = clipped_[s];
+        if (apart.cols() > 2) {
+          VectorXd common = apart.rowwise().mean();
+          common.array() -= common.mean();
+          apart.colwise() -= common;
+        }
         MatrixXd sums(m_ - width + 1, apart.cols());
         for (Index i = 0; i + width <= m_; ++i)
           sums.row(i) = apart.middleRows(i, width).colwise().mean();

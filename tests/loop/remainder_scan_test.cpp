@@ -97,6 +97,17 @@ TEST(CourseScan, WavesInAPhaseOfTheirOwnAreFoundThoughTheMeanHasNone) {
   EXPECT_NEAR(own->amount, 2.0, 0.4);
 }
 
+TEST(CourseScan, ADeepHollowOverHalfOfOneCourseIsFound) {
+  const auto deep = [](double x, auto c) {
+    const double off = (x - 0.55) / 0.28;
+    return c == 17 ? -29.0 * std::max(0.0, 1.0 - off * off) : 0.0;
+  };
+  const auto found =
+      scan_courses({with(errors(120, 19, 0.0, 1), deep), centred(errors(120, 19, 0.0, 2))});
+  ASSERT_NE(find(found, Kind::kSpot), nullptr);
+  EXPECT_EQ(find(found, Kind::kSpot)->course, 17);
+}
+
 TEST(CourseScan, OneCourseOfLouderErrorsHasNoWavesOfItsOwn) {
   int alarms = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
