@@ -177,5 +177,20 @@ TEST(OddForms, ACrowningKeepsItsNameBesideASector) {
   EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
 }
 
+TEST(OddForms, AToothScannedWorseThanTheOthersHasNoSpots) {
+  const MadeGear gear = spur(31);
+  const auto loud = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 7 ? 15.0 * std::sin(1e5 * s.u + 7e4 * s.v) : 0.0;
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    ScanOptions options;
+    options.points = 12000;
+    options.noise_um = 4.0;
+    options.seed = seed;
+    const auto result = close(gear, scan_of(gear, {grown(loud)}, options), true);
+    EXPECT_EQ(list(result).find("a spot"), std::string::npos) << seed << ": " << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -26,6 +26,7 @@ std::size_t side_index(int side) { return side > 0 ? 1 : 0; }
 /// Sums over the cells before a corner, so that every window is four look-ups.
 struct Field {
   std::vector<double> sum, count, plain;
+  double loud = 1.0;  ///< scatter over that of the usual flank; 1: no more than by chance
 };
 
 /// Cells of a window: over profile and face; 0: over all of it.
@@ -64,7 +65,12 @@ class SpotSearch {
       field.sum[at] += std::clamp(um, -limit, limit);
       field.plain[at] += um;
       field.count[at] += 1.0;
+      Steps& steps = steps_[{place.tooth, place.side}];
+      if (steps.any) steps.um.push_back(row_um[i] - steps.last_um);
+      steps.last_um = row_um[i];
+      steps.any = true;
     }
+    tell_loud_flanks();
     for (auto& [key, field] : fields_)
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
   }
@@ -95,6 +101,27 @@ class SpotSearch {
   }
 
  private:
+  /// From one point of a flank to the next.
+  struct Steps {
+    std::vector<float> um;
+    float last_um = 0.0F;
+    bool any = false;
+  };
+
+  /// A flank that scatters more than the usual one from point to point is measured against itself.
+  void tell_loud_flanks() {
+    constexpr double kByChance = 1.5;
+    std::vector<float> scatters;
+    for (auto& [key, steps] : steps_) {
+      fields_[key].loud = spread_of(std::move(steps.um));
+      scatters.push_back(static_cast<float>(fields_[key].loud));
+    }
+    const double usual = spread_of(std::move(scatters)) / 1.4826;
+    for (auto& [key, field] : fields_)
+      field.loud = usual > 0.0 && field.loud > kByChance * usual ? field.loud / usual : 1.0;
+    steps_.clear();
+  }
+
   /// The field of a flank; looked up once.
   Field* at_flank(int tooth, int side) {
     if (flanks_.empty())
@@ -137,7 +164,8 @@ class SpotSearch {
           for (int v = 0; v + dv <= cells_; ++v) {
             const double count = within(field.count, u, v, du, dv);
             if (count >= kFewestInWindow)
-              visit(key, field, u, v, count, within(field.sum, u, v, du, dv) / std::sqrt(count));
+              visit(key, field, u, v, count,
+                    within(field.sum, u, v, du, dv) / std::sqrt(count) / field.loud);
           }
     };
     each([&](const auto& key, auto&, int, int, double, double score) {
@@ -169,6 +197,7 @@ class SpotSearch {
   const FlankGeometry& geometry_;
   int cells_ = 0;
   std::map<std::pair<int, int>, Field> fields_;
+  std::map<std::pair<int, int>, Steps> steps_;
   std::vector<Field*> flanks_;
 };
 
