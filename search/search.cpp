@@ -2,6 +2,7 @@
 #include "trueflank/search/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "trueflank/search/search_certify.h"
@@ -16,12 +17,18 @@ constexpr int kTightenings = 4;
 constexpr std::size_t kMoreListed = 4;
 /// Designs of which is computed what their limits cost: each takes as long as a few tooth sets.
 constexpr std::ptrdiff_t kRelaxed = 5;
-/// First extra distance from a limit a check found broken, in modules; four times that each time.
-constexpr double kFirstTightening = 5e-5;
+/// First extra distance from a limit a check found broken, in modules; so many times that each
+/// time.
+constexpr double kFirstTightening = 5e-5, kGrowth = 4.0;
+/// Then the border of the check is sought, until a design that passes is at most this worse than
+/// one that fails (of an efficiency; other objectives relatively).
+constexpr double kShort = 1e-5;
+constexpr int kRefinements = 10;
 
 /// Limits whose reserve may mend a failed check.
 std::vector<Limit> limits_behind(const std::string& check) {
-  if (check == "overlap" || check == "tolerance" || check == "fillet_interference" || check == "involute_interference")
+  if (check == "overlap" || check == "tolerance" || check == "fillet_interference" ||
+      check == "involute_interference")
     return {Limit::kFillet, Limit::kTrochoid};
   if (check == "trochoid_interference") return {Limit::kTrochoid};
   if (check == "contact_ratio") return {Limit::kContactRatio};
@@ -65,67 +72,126 @@ void mark_front(std::vector<RankedCandidate>& ranking,
   }
 }
 
-/// Judges one candidate, with more distance from its limits where a check asks for it.
+/// Judges candidates, with more distance from their limits where a check asks for it.
 class Judging {
  public:
   Judging(const SearchRequirements& requirements, const SetEnumeration& enumeration,
           const DesignJudge& judge, SearchReport& report)
       : r_(requirements), enumeration_(enumeration), judge_(judge), report_(report) {}
 
-  /// The design where it passes as it is; otherwise a later place for its set in the ranking, or
-  /// nothing where no distance mends it.
+  /// The design where it passes as it is; otherwise a later place for its set in the ranking, where
+  /// it passes with the least distance that mends it, or nothing where none does.
   std::optional<FoundDesign> judge(const RankedCandidate& ranked,
                                    std::optional<RankedCandidate>& again) {
-    const ToothSet set = enumeration_.sets[ranked.set_index];
-    const SearchModel model(r_, set);
-    FoundDesign found{
-        .set_index = ranked.set_index,
-        .set = set, .candidate = ranked.candidate,
-        .design = model.design(ranked.candidate.free, ranked.candidate.dimensions)};
-    ++report_.judged;
-    const auto train = lay_out(found.design);
-    if (!train) {
-      count("layout");
-      return std::nullopt;
+    if (const auto known = mended_.find(ranked.set_index); known != mended_.end())
+      return found(ranked, known->second);
+    Trial trial{.candidate = ranked.candidate};
+    if (judged(ranked.set_index, trial)) return found(ranked, trial);
+    if (auto passing = mended(ranked.set_index, trial)) {
+      again = RankedCandidate{ranked.set_index, passing->candidate, false};
+      mended_.insert({ranked.set_index, std::move(*passing)});
+    } else {
+      count(trial.verdict.failed.front());
     }
-    if (judge_) found.verdict = judge_(*train);
-    State& state = states_[ranked.set_index];
-    if (found.verdict.failed.empty()) {
-      const EfficiencyResult exact =
-          trueflank::efficiency(*train, {.model = LossModel::kPathIntegral});
-      found.exact_forward = exact.forward;
-      found.exact_backward = exact.backward;
-      found.by_formula = exact.by_formula;
-      found.reserve = state.reserve;
-      return found;
-    }
-    again = tightened(ranked, set, found.verdict.failed, state);
-    if (!again) count(found.verdict.failed.front());
     return std::nullopt;
   }
 
  private:
-  struct State {
+  /// A set's best with a reserve, and what the checks say of it.
+  struct Trial {
     LimitReserve reserve{};
-    int tightenings = 0;
+    SearchCandidate candidate{};
+    DesignVerdict verdict{};
   };
 
-  std::optional<RankedCandidate> tightened(const RankedCandidate& ranked, const ToothSet& set,
-                                           const std::vector<std::string>& failed, State& state) {
-    if (r_.objectives.size() > 1 || state.tightenings == kTightenings) return std::nullopt;
-    ++state.tightenings;
-    bool mendable = false;
-    for (const std::string& check : failed)
-      for (const Limit limit : limits_behind(check)) {
-        double& reserve = state.reserve[static_cast<std::size_t>(limit)];
-        reserve = reserve == 0.0 ? kFirstTightening : 4.0 * reserve;
-        mendable = true;
-      }
-    if (!mendable) return std::nullopt;
-    const SetResult result = optimise_set(r_, set, state.reserve);
+  [[nodiscard]] FoundDesign found(const RankedCandidate& ranked, const Trial& trial) const {
+    const ToothSet set = enumeration_.sets[ranked.set_index];
+    FoundDesign found{.set_index = ranked.set_index,
+                      .set = set,
+                      .candidate = ranked.candidate,
+                      .design = design_of(set, trial.candidate),
+                      .verdict = trial.verdict,
+                      .reserve = trial.reserve};
+    const EfficiencyResult exact =
+        trueflank::efficiency(*lay_out(found.design), {.model = LossModel::kPathIntegral});
+    found.exact_forward = exact.forward;
+    found.exact_backward = exact.backward;
+    found.by_formula = exact.by_formula;
+    return found;
+  }
+
+  [[nodiscard]] GearboxDesign design_of(const ToothSet& set,
+                                        const SearchCandidate& candidate) const {
+    return SearchModel(r_, set).design(candidate.free, candidate.dimensions);
+  }
+
+  /// Whether it passes.
+  bool judged(std::size_t set_index, Trial& trial) {
+    ++report_.judged;
+    const auto train = lay_out(design_of(enumeration_.sets[set_index], trial.candidate));
+    if (!train)
+      trial.verdict.failed = {"layout"};
+    else if (judge_)
+      trial.verdict = judge_(*train);
+    return trial.verdict.failed.empty();
+  }
+
+  /// The set optimised with a reserve and judged; nothing where no shifts keep it.
+  std::optional<Trial> tried(std::size_t set_index, const LimitReserve& reserve) {
+    SetResult result = optimise_set(r_, enumeration_.sets[set_index], reserve);
     report_.evaluations += result.evaluations;
     if (result.candidates.empty()) return std::nullopt;
-    return RankedCandidate{ranked.set_index, result.candidates.front(), false};
+    Trial trial{.reserve = reserve, .candidate = std::move(result.candidates.front())};
+    judged(set_index, trial);
+    return trial;
+  }
+
+  /// From a failed trial to one that passes and is as good, but for kShort, as one that fails.
+  std::optional<Trial> mended(std::size_t set_index, Trial failed) {
+    if (r_.objectives.size() > 1) return std::nullopt;
+    std::optional<Trial> passing;
+    for (int i = 0; i < kTightenings && !passing; ++i) {
+      const auto reserve = farther(failed);
+      if (!reserve) return std::nullopt;
+      auto next = tried(set_index, *reserve);
+      if (!next) return std::nullopt;
+      if (next->verdict.failed.empty())
+        passing = std::move(next);
+      else
+        failed = std::move(*next);
+    }
+    for (int i = 0; passing && i < kRefinements && is_short(*passing, failed); ++i) {
+      auto next = tried(set_index, between(failed.reserve, passing->reserve));
+      if (!next) break;
+      (next->verdict.failed.empty() ? *passing : failed) = std::move(*next);
+    }
+    return passing;
+  }
+
+  [[nodiscard]] bool is_short(const Trial& passing, const Trial& failed) const {
+    const SearchObjective objective = r_.objectives.front();
+    const double merit = passing.candidate.merit(objective);
+    return failed.candidate.merit(objective) - merit > kShort * std::max(1.0, std::abs(merit));
+  }
+
+  /// More distance from the limits behind the checks that failed; nothing where there are none.
+  static std::optional<LimitReserve> farther(const Trial& failed) {
+    LimitReserve reserve = failed.reserve;
+    for (const std::string& check : failed.verdict.failed)
+      for (const Limit limit : limits_behind(check)) {
+        const auto index = static_cast<std::size_t>(limit);
+        reserve[index] =
+            failed.reserve[index] == 0.0 ? kFirstTightening : kGrowth * failed.reserve[index];
+      }
+    if (reserve == failed.reserve) return std::nullopt;
+    return reserve;
+  }
+
+  static LimitReserve between(const LimitReserve& low, const LimitReserve& high) {
+    LimitReserve reserve{};
+    for (std::size_t i = 0; i < reserve.size(); ++i)
+      reserve[i] = low[i] == 0.0 ? high[i] / kGrowth : std::sqrt(low[i] * high[i]);
+    return reserve;
   }
 
   void count(const std::string& check) {
@@ -141,7 +207,7 @@ class Judging {
   const SetEnumeration& enumeration_;
   const DesignJudge& judge_;
   SearchReport& report_;
-  std::map<std::size_t, State> states_;
+  std::map<std::size_t, Trial> mended_;  ///< by set
 };
 
 void count_records(const SearchRequirements& requirements, const SetEnumeration& enumeration,
@@ -211,8 +277,8 @@ SearchReport judged(const SearchRequirements& requirements, const SetEnumeration
   return report;
 }
 
-/// Whether sets that were passed over might be better than a design that is reported: they can be as
-/// good as the last one listed.
+/// Whether sets that were passed over might be better than a design that is reported: they can be
+/// as good as the last one listed.
 bool might_lack_one(const SearchRequirements& requirements, const SearchReport& report) {
   if (report.passed_over == 0) return false;
   if (report.designs.size() < static_cast<std::size_t>(requirements.results)) return true;
@@ -230,8 +296,9 @@ void certify(const SearchRequirements& r, FoundDesign& found) {
   const DriveDirection direction = forward ? DriveDirection::kForward : DriveDirection::kBackward;
   const SearchModel model(r, found.set);
   const FreeShifts& free = found.candidate.free;
-  const double known = model.efficiency(model.layer1(free.centre_distance, free.layer1_shift),
-                                        model.layer2(free.centre_distance, free.layer2_shift), direction);
+  const double known =
+      model.efficiency(model.layer1(free.centre_distance, free.layer1_shift),
+                       model.layer2(free.centre_distance, free.layer2_shift), direction);
   const double bound = certified_bound(r, found.set, direction, {.known = known}).efficiency;
   const ToldEfficiencies told = told_efficiencies(r, found.set, bound, bound);
   found.certified_bound = forward ? told.forward : told.backward;
@@ -257,7 +324,8 @@ SearchReport conclude_search(const SearchRequirements& requirements,
     found.binding = binding_limits(requirements, found.set, found.candidate, found.reserve,
                                    &found - report.designs.data() < kRelaxed);
   if (!report.designs.empty())
-    report.binding_ranges = binding_ranges(requirements, report.designs.front().set, report.designs.front().candidate);
+    report.binding_ranges =
+        binding_ranges(requirements, report.designs.front().set, report.designs.front().candidate);
   return report;
 }
 

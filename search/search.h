@@ -125,7 +125,8 @@ struct SearchReport {
 };
 
 /// Ranks records and judges from the best until enough designs passed. A design that fails a check is
-/// optimised again with more distance from the limits concerned, at most three times.
+/// optimised again with more distance from the limits concerned, at most four times; then the border
+/// of the check is sought, until a design that passes is at most 1e-5 worse than one that fails.
 /// Where a set that was passed over could be among the designs (so many of the listed failed a check),
 /// more are optimised. Guarantees: a function of records alone, not of how they came about.
 [[nodiscard]] SearchReport conclude_search(const SearchRequirements& requirements,

@@ -13,10 +13,6 @@ namespace {
 
 /// A margin beyond this is as good or bad as can be: far values would spoil an optimiser's models.
 constexpr double kFarMargin = 2.0;
-/// Corners in roots are approached to this where no clearance is asked for: more than sampling
-/// hides. Near its fillet a tip keeps a nearly constant distance over a wide range of shifts, and
-/// 1e-3 costs half a percent.
-constexpr double kCornerReserve = 1e-6;
 
 }  // namespace
 
@@ -28,8 +24,7 @@ SetValues::SetValues(const SearchRequirements& requirements, const ToothSet& set
     const Limit limit = model_.train().limits[i].limit;
     const int layer = model_.train().limits[i].layer;
     const bool corner = limit == Limit::kFillet || limit == Limit::kTrochoid;
-    const double kept =
-        std::max(kCornerReserve, layer == 2 ? clearance / set.layer2_module_ratio : clearance);
+    const double kept = layer == 2 ? clearance / set.layer2_module_ratio : clearance;
     offset_[i] = reserve_[static_cast<std::size_t>(limit)] + (corner ? kept : 0.0) + kLimitReserve;
   }
   if (requirements.objectives.front() == SearchObjective::kBackward)

@@ -200,6 +200,20 @@ TEST(SearchSweep, FindsTheCornersOfBoundsAndNarrowIntervals) {
   EXPECT_LT(result.gap, 1e-5);
 }
 
+TEST(SearchSweep, WithoutClearanceTipsStandAtTheirFilletsToTheLast) {
+  // Of tests/search/brute_force.py, which shares nothing with the sweep. A millionth of a module kept
+  // from the fillet cost 1.5e-4: the distance grows with the square of the tip's way.
+  SearchRequirements r = paper_requirements(-2.0, 2.0);
+  r.loss_model = LossModel::kPathIntegral;
+  r.friction = 0.13;
+  r.objectives = {SearchObjective::kBackward};
+  const ToothSet set = set_of(r, 16, 38, 95, 34, 93);
+  SetValues values(r, set, {});
+  const SweepResult result = sweep(values, DriveDirection::kBackward);
+  ASSERT_FALSE(result.peaks.empty());
+  EXPECT_GE(result.peaks[0].merit, 0.7969102 - 1e-5);
+}
+
 TEST(SearchSweep, WithoutAFeasiblePointTheNearestIsTold) {
   SearchRequirements r = paper_requirements(-0.7, 0.7);
   r.contact_ratio_min = 1.9;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "trueflank/search/search_corner.h"
+
 namespace trueflank {
 namespace {
 
@@ -205,6 +207,35 @@ TEST(Search, ADesignThatFailsACheckIsTightenedUntilItPasses) {
   bool any = false;
   for (const FoundDesign& found : report.designs) any = any || found.tightened() > 0.0;
   EXPECT_TRUE(any);
+}
+
+TEST(Search, ADesignThatFailsACheckIsMovedToTheBorderOfTheCheckAndNoFarther) {
+  // a check that asks for 2.3 um where the search keeps 2
+  const DesignJudge wider = [](const GearTrain& train) {
+    GearboxDesign design = train.design;
+    design.backlash_mm = 0.0;
+    const auto tight = lay_out(design);
+    DesignVerdict verdict;
+    for (const TrainMesh& mesh : tight->meshes) {
+      const GearPair pair = tight->pair(mesh);
+      if (std::min(corner_clearance_in_gear1_mm(pair), corner_clearance_in_gear2_mm(pair)) < 0.0023)
+        verdict.failed.push_back("fillet_interference");
+    }
+    return verdict;
+  };
+  const SearchReport report = conclude_search(requirements(), sets(), records(), wider);
+  ASSERT_FALSE(report.designs.empty());
+  SearchRequirements asked = requirements();
+  asked.clearance_um = 2.3;
+  int moved = 0;
+  for (const FoundDesign& found : report.designs) {
+    if (found.tightened() == 0.0) continue;
+    const SetResult best = optimise_set(asked, found.set);
+    ASSERT_FALSE(best.candidates.empty());
+    EXPECT_GE(found.candidate.forward, best.candidates[0].forward - 1e-5);
+    ++moved;
+  }
+  EXPECT_GE(moved, 1);
 }
 
 TEST(Search, ADesignNoDistanceMendsIsCounted) {
