@@ -155,7 +155,7 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   command->add_option("NAME", options.name, "name of the design; NAME.toml is written")->required();
   command->add_option("--kind", options.kind, new_design_kinds())->capture_default_str();
   CLI::Option* ratio = command->add_option(
-      "--ratio", options.ratio, "search teeth for this ratio (3k, stepped, simple, pair)");
+      "--ratio", options.ratio, "search teeth for this ratio (3k, stepped, simple, two-stage, pair)");
   const auto wish = [&](const char* flag, auto& value, const char* what) {
     command->add_option(flag, value, what)->needs(ratio)->capture_default_str();
   };

@@ -31,7 +31,7 @@ int run_shifts(const ShiftsOptions& options) {
                            .remedy = sets.empty() ? "wider requirements: no set fits them"
                                                   : "one that fits them, such as " + teeth_text(sets.front())}});
   if (auto ok = create_output_folder(options.folder); !ok) return report_errors({ok.error()});
-  const ShiftSurface surface = shift_surface(task->requirements, *set, options.points);
+  const ShiftSurface surface = shift_surface(stage_requirements(task->requirements, *set), *set, options.points);
   const std::filesystem::path folder = options.folder;
   const std::string title = task->requirements.name + ": " + options.teeth;
   if (auto ok = io::write_file(folder / "shifts.csv", shift_map_csv(*set, surface)); !ok)

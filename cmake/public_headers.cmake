@@ -43,6 +43,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   search/search_optimise.h
   search/search_relax.h
   search/search_requirements.h
+  search/search_stages.h
   search/search_train.h
   check/check_gearbox.h
   check/finding.h

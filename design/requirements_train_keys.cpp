@@ -54,7 +54,7 @@ RequirementsSection gearbox() {
          .type = KeyType::kText,
          .required = true,
          .meaning =
-             "what is searched: 3k, stepped, simple, pair; several by commas are ranked together"},
+             "what is searched: 3k, stepped, simple, two-stage, pair; several by commas are ranked together"},
         [](R& r, const V& v) { return r.kinds = words(text(v)), std::string(); }},
        {{.name = "output",
          .type = KeyType::kText,

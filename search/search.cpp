@@ -17,6 +17,8 @@ constexpr int kTightenings = 4;
 constexpr std::size_t kMoreListed = 4;
 /// Designs of which is computed what their limits cost: each takes as long as a few tooth sets.
 constexpr std::ptrdiff_t kRelaxed = 5;
+/// Trains of two stages are listed up to this where all sets are.
+constexpr std::size_t kMostPairs = 1000;
 /// First extra distance from a limit a check found broken, in modules; so many times that each
 /// time.
 constexpr double kFirstTightening = 5e-5, kGrowth = 4.0;
@@ -85,7 +87,7 @@ class Judging {
                                    std::optional<RankedCandidate>& again) {
     if (const auto known = mended_.find(ranked.set_index); known != mended_.end())
       return found(ranked, known->second);
-    Trial trial{.candidate = ranked.candidate};
+    Trial trial{.candidate = ranked.candidate, .stages = stages_of(ranked.set_index)};
     if (judged(ranked.set_index, trial)) return found(ranked, trial);
     if (auto passing = mended(ranked.set_index, trial)) {
       again = RankedCandidate{ranked.set_index, passing->candidate, false};
@@ -97,21 +99,30 @@ class Judging {
   }
 
  private:
-  /// A set's best with a reserve, and what the checks say of it.
+  /// The best of a set, or of a pair of stages, with a reserve, and what the checks say of it.
   struct Trial {
     LimitReserve reserve{};
     SearchCandidate candidate{};
+    std::optional<StagePair> stages{};
     DesignVerdict verdict{};
   };
 
+  /// The stages of a train in series, as ranked.
+  [[nodiscard]] std::optional<StagePair> stages_of(std::size_t set_index) const {
+    const std::size_t sets = enumeration_.sets.size();
+    if (set_index < sets) return std::nullopt;
+    return report_.pairs[set_index - sets];
+  }
+
   [[nodiscard]] FoundDesign found(const RankedCandidate& ranked, const Trial& trial) const {
-    const ToothSet set = enumeration_.sets[ranked.set_index];
-    FoundDesign found{.set_index = ranked.set_index,
-                      .set = set,
-                      .candidate = ranked.candidate,
-                      .design = design_of(set, trial.candidate),
-                      .verdict = trial.verdict,
-                      .reserve = trial.reserve};
+    FoundDesign found{
+        .set_index = ranked.set_index,
+        .set = trial.stages ? trial.stages->sets[0] : ToothSet(enumeration_.sets[ranked.set_index]),
+        .stages = trial.stages,
+        .candidate = ranked.candidate,
+        .design = design_of(ranked.set_index, trial),
+        .verdict = trial.verdict,
+        .reserve = trial.reserve};
     const EfficiencyResult exact =
         trueflank::efficiency(*lay_out(found.design), {.model = LossModel::kPathIntegral});
     found.exact_forward = exact.forward;
@@ -120,15 +131,16 @@ class Judging {
     return found;
   }
 
-  [[nodiscard]] GearboxDesign design_of(const ToothSet& set,
-                                        const SearchCandidate& candidate) const {
-    return SearchModel(r_, set).design(candidate.free, candidate.dimensions);
+  [[nodiscard]] GearboxDesign design_of(std::size_t set_index, const Trial& trial) const {
+    if (trial.stages) return design_of_stages(r_, *trial.stages);
+    return SearchModel(r_, enumeration_.sets[set_index])
+        .design(trial.candidate.free, trial.candidate.dimensions);
   }
 
   /// Whether it passes.
   bool judged(std::size_t set_index, Trial& trial) {
     ++report_.judged;
-    const auto train = lay_out(design_of(enumeration_.sets[set_index], trial.candidate));
+    const auto train = lay_out(design_of(set_index, trial));
     if (!train)
       trial.verdict.failed = {"layout"};
     else if (judge_)
@@ -136,12 +148,29 @@ class Judging {
     return trial.verdict.failed.empty();
   }
 
-  /// The set optimised with a reserve and judged; nothing where no shifts keep it.
-  std::optional<Trial> tried(std::size_t set_index, const LimitReserve& reserve) {
-    SetResult result = optimise_set(r_, enumeration_.sets[set_index], reserve);
+  /// The best of a set; nothing where no shifts keep the reserve.
+  std::optional<SearchCandidate> optimised(const ToothSet& set, const LimitReserve& reserve) {
+    SetResult result = optimise_set_or_stage(r_, set, reserve);
     report_.evaluations += result.evaluations;
     if (result.candidates.empty()) return std::nullopt;
-    Trial trial{.reserve = reserve, .candidate = std::move(result.candidates.front())};
+    return std::move(result.candidates.front());
+  }
+
+  /// The set, or both stages, optimised with a reserve and judged.
+  std::optional<Trial> tried(std::size_t set_index, const LimitReserve& reserve) {
+    Trial trial{.reserve = reserve, .stages = stages_of(set_index)};
+    if (trial.stages) {
+      for (std::size_t stage = 0; stage < 2; ++stage) {
+        const auto best = optimised(trial.stages->sets[stage], reserve);
+        if (!best) return std::nullopt;
+        trial.stages->candidates[stage] = *best;
+      }
+      trial.candidate = evaluate_stages(r_, *trial.stages);
+    } else {
+      const auto best = optimised(enumeration_.sets[set_index], reserve);
+      if (!best) return std::nullopt;
+      trial.candidate = *best;
+    }
     judged(set_index, trial);
     return trial;
   }
@@ -210,8 +239,17 @@ class Judging {
   std::map<std::size_t, Trial> mended_;  ///< by set
 };
 
+/// The best trains of two stages, as many as sets are listed.
+StagePairs pairs_of(const SearchRequirements& r, const SetEnumeration& enumeration) {
+  if (enumeration.stages.empty()) return {};
+  return best_stage_pairs(
+      r, enumeration.stages,
+      r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results)) : kMostPairs);
+}
+
 void count_records(const SearchRequirements& requirements, const SetEnumeration& enumeration,
-                   const SearchRecords& records, SearchReport& report) {
+                   const SearchRecords& records, const std::vector<RankedPair>& pairs,
+                   SearchReport& report) {
   report.considered = enumeration.considered;
   report.classes = enumeration.rejected;
   report.sets = enumeration.sets.size();
@@ -246,6 +284,13 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
   if (records.passed_over > 0)
     report.classes.push_back({"not_listed", "no better than the last one listed, or none at all",
                               static_cast<long long>(records.passed_over)});
+  if (!enumeration.stages.empty())
+    report.classes.push_back({"stages", "stages of trains in series, put together in pairs",
+                              static_cast<long long>(enumeration.stages.size())});
+  for (const RankedPair& ranked : pairs) {
+    report.ranking.push_back({enumeration.sets.size() + report.pairs.size(), ranked.whole, false});
+    report.pairs.push_back(ranked.pair);
+  }
   std::sort(report.ranking.begin(), report.ranking.end(),
             BetterCandidate{&requirements.objectives});
   mark_front(report.ranking, requirements.objectives);
@@ -256,9 +301,11 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
 namespace {
 
 SearchReport judged(const SearchRequirements& requirements, const SetEnumeration& enumeration,
-                    const SearchRecords& records, const DesignJudge& judge) {
+                    const SearchRecords& records, const StagePairs& pairs,
+                    const DesignJudge& judge) {
   SearchReport report;
-  count_records(requirements, enumeration, records, report);
+  count_records(requirements, enumeration, records, pairs.best, report);
+  report.evaluations += pairs.evaluations;
   const BetterCandidate better{&requirements.objectives};
   std::vector<RankedCandidate> queue;
   for (const RankedCandidate& candidate : report.ranking)
@@ -279,13 +326,27 @@ SearchReport judged(const SearchRequirements& requirements, const SetEnumeration
 
 /// Whether sets that were passed over might be better than a design that is reported: they can be
 /// as good as the last one listed.
-bool might_lack_one(const SearchRequirements& requirements, const SearchReport& report) {
+bool might_lack_one(const SearchRequirements& requirements, const SetEnumeration& enumeration,
+                    const SearchReport& report) {
   if (report.passed_over == 0) return false;
   if (report.designs.size() < static_cast<std::size_t>(requirements.results)) return true;
   const SearchObjective objective = requirements.objectives.front();
+  const auto last = std::find_if(
+      report.ranking.rbegin(), report.ranking.rend(),
+      [&](const RankedCandidate& c) { return c.set_index < enumeration.sets.size(); });
   return std::any_of(report.designs.begin(), report.designs.end(), [&](const FoundDesign& found) {
-    return found.candidate.merit(objective) < report.ranking.back().candidate.merit(objective);
+    return found.candidate.merit(objective) < last->candidate.merit(objective);
   });
+}
+
+/// No shifts of a set give its meshes a higher efficiency.
+double bound_of_meshes(const SearchRequirements& r, const ToothSet& set, const FreeShifts& free,
+                       DriveDirection direction) {
+  const SearchModel model(r, set);
+  const double known =
+      model.efficiency(model.layer1(free.centre_distance, free.layer1_shift),
+                       model.layer2(free.centre_distance, free.layer2_shift), direction);
+  return certified_bound(r, set, direction, {.known = known}).efficiency;
 }
 
 /// How much better the shifts of a design could be at most.
@@ -294,15 +355,38 @@ void certify(const SearchRequirements& r, FoundDesign& found) {
   const bool forward = objective == SearchObjective::kForward;
   if (r.objectives.size() > 1 || (!forward && objective != SearchObjective::kBackward)) return;
   const DriveDirection direction = forward ? DriveDirection::kForward : DriveDirection::kBackward;
-  const SearchModel model(r, found.set);
-  const FreeShifts& free = found.candidate.free;
-  const double known =
-      model.efficiency(model.layer1(free.centre_distance, free.layer1_shift),
-                       model.layer2(free.centre_distance, free.layer2_shift), direction);
-  const double bound = certified_bound(r, found.set, direction, {.known = known}).efficiency;
-  const ToldEfficiencies told = told_efficiencies(r, found.set, bound, bound);
+  double bound = 1.0, ratio = signed_ratio(found.set);
+  if (found.stages) {
+    ratio = signed_ratio(*found.stages);
+    for (std::size_t stage = 0; stage < 2; ++stage) {
+      const ToothSet& set = found.stages->sets[stage];
+      bound *= bound_of_meshes(stage_requirements(r, set), set,
+                               found.stages->candidates[stage].free, direction);
+    }
+  } else {
+    bound = bound_of_meshes(r, found.set, found.candidate.free, direction);
+  }
+  const ToldEfficiencies told = told_efficiencies(r, ratio, bound, bound);
   found.certified_bound = forward ? told.forward : told.backward;
   found.certified_gap = std::max(0.0, found.certified_bound - found.candidate.merit(objective));
+}
+
+/// Of a train in series each stage's, with what the whole's first objective would be.
+std::vector<BindingLimit> binding_of(const SearchRequirements& r, const FoundDesign& found,
+                                     bool costs) {
+  if (!found.stages) return binding_limits(r, found.set, found.candidate, found.reserve, costs);
+  const SearchObjective objective = r.objectives.front();
+  std::vector<BindingLimit> all;
+  for (std::size_t stage = 0; stage < 2; ++stage) {
+    const ToothSet& set = found.stages->sets[stage];
+    const double other = found.stages->candidates[1 - stage].value(objective);
+    for (BindingLimit& b : binding_limits(stage_requirements(r, set), set,
+                                          found.stages->candidates[stage], found.reserve, costs)) {
+      b.objective = r.losses ? kNaN : b.objective * other;
+      all.push_back(std::move(b));
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -310,20 +394,21 @@ void certify(const SearchRequirements& r, FoundDesign& found) {
 SearchReport conclude_search(const SearchRequirements& requirements,
                              const SetEnumeration& enumeration, const SearchRecords& records,
                              const DesignJudge& judge) {
-  SearchReport report = judged(requirements, enumeration, records, judge);
+  const StagePairs pairs = pairs_of(requirements, enumeration);
+  SearchReport report = judged(requirements, enumeration, records, pairs, judge);
   SearchRequirements wider = requirements;
   SearchRecords more;
-  while (might_lack_one(requirements, report)) {
+  while (might_lack_one(requirements, enumeration, report)) {
     wider.listed = static_cast<int>(kMoreListed * listed_sets(wider));
     more = run_search(wider, enumeration,
                       {.done = more.optimised.empty() ? records.optimised : more.optimised});
-    report = judged(requirements, enumeration, more, judge);
+    report = judged(requirements, enumeration, more, pairs, judge);
   }
   for (FoundDesign& found : report.designs) certify(requirements, found);
   for (FoundDesign& found : report.designs)
-    found.binding = binding_limits(requirements, found.set, found.candidate, found.reserve,
-                                   &found - report.designs.data() < kRelaxed);
-  if (!report.designs.empty())
+    found.binding =
+        binding_of(requirements, found, &found - report.designs.data() < kRelaxed);
+  if (!report.designs.empty() && !report.designs.front().stages)
     report.binding_ranges =
         binding_ranges(requirements, report.designs.front().set, report.designs.front().candidate);
   return report;

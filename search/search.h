@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "trueflank/search/search_optimise.h"
 #include "trueflank/search/search_relax.h"
 #include "trueflank/search/search_requirements.h"
+#include "trueflank/search/search_stages.h"
 #include "trueflank/train/gear_train.h"
 
 // A search: enumerate, optimise every set that is left (in parallel, in parts, resumable), then rank
@@ -86,6 +88,7 @@ using DesignJudge = std::function<DesignVerdict(const GearTrain&)>;
 
 /// A candidate in the ranking.
 struct RankedCandidate {
+  /// Of the enumeration; beyond its size: of SearchReport::pairs, behind it.
   std::size_t set_index = 0;
   SearchCandidate candidate;
   bool on_front = false;  ///< not dominated (one objective: the best)
@@ -94,7 +97,8 @@ struct RankedCandidate {
 /// A design that passed the checks.
 struct FoundDesign {
   std::size_t set_index = 0;
-  ToothSet set;
+  ToothSet set;  ///< of a train in series its first stage
+  std::optional<StagePair> stages;
   SearchCandidate candidate;
   GearboxDesign design;
   DesignVerdict verdict;
@@ -117,6 +121,7 @@ struct SearchReport {
   std::size_t passed_over = 0;    ///< of them, since they could not be among those listed
   std::size_t feasible = 0;       ///< with shifts that keep all limits
   long long evaluations = 0;      ///< of a layer
+  std::vector<StagePair> pairs;          ///< trains of two stages that are ranked
   std::vector<RankedCandidate> ranking;  ///< of all candidates, best first
   std::vector<FoundDesign> designs;      ///< judged, best first
   std::vector<BindingLimit> binding_ranges;  ///< of tooth numbers and ratio, of the best design

@@ -109,7 +109,11 @@ bool neighbours_collide(const SearchRequirements& r, const ToothSet& set, double
                         double tip_radius) {
   if (set.planets < 2) return false;
   // an outer diameter leaves the module open; the clearance then only has to be positive
-  const double clearance = r.outer_diameter_mm ? 0.0 : r.planet_clearance_mm / r.module_mm;
+  const auto& ratios = r.layer2_module_ratios;
+  const double module =
+      r.module_mm *
+      (set.train->stage == 2 ? *std::max_element(ratios.begin(), ratios.end()) : 1.0);
+  const double clearance = r.outer_diameter_mm ? 0.0 : r.planet_clearance_mm / module;
   return 2.0 * greatest_distance * std::sin(kPi / set.planets) < 2.0 * tip_radius + clearance;
 }
 
@@ -153,7 +157,9 @@ class Enumerator {
              int planets)
       : r_(requirements), trains_(std::move(trains)), planets_(planets), distances_(requirements) {
     two_layers_ = trains_.front()->layers.size() > 1;
-    const std::size_t ratios = two_layers_ ? r_.layer2_module_ratios.size() : 1;
+    if (two_layers_ || (trains_.front()->stage == 2 && !r_.outer_diameter_mm))
+      modules_ = r_.layer2_module_ratios;
+    const std::size_t ratios = modules_.size();
     for (const TrainPlace place : trains_.front()->places())
       ranges_[static_cast<std::size_t>(place)] = tooth_range(r_, *trains_.front(), place);
     behind_layer1_ = range(TrainPlace::kPlanet2).count() * range(TrainPlace::kRing2).count() *
@@ -204,14 +210,11 @@ class Enumerator {
     if (a.empty()) return reject(kDistance1, behind_layer1_);
     if (neighbours_collide(r_, set, a.high, least_planet1_tip(r_, z_s, z_p, a)))
       return reject(kPlanets1, behind_layer1_);
-    if (!two_layers_) {
-      set.centre_distance_min = a.low;
-      set.centre_distance_max = a.high;
-      return every_output(set);
-    }
-    for (const double module : r_.layer2_module_ratios) {
+    set.centre_distance_min = a.low;
+    set.centre_distance_max = a.high;
+    for (const double module : modules_) {
       set.layer2_module_ratio = module;
-      layer2(set, a);
+      two_layers_ ? layer2(set, a) : every_output(set);
     }
   }
 
@@ -282,12 +285,14 @@ class Enumerator {
   Piece piece_;
   std::array<ToothRange, kTrainPlaces> ranges_{};
   bool two_layers_ = false;
+  std::vector<double> modules_{1.0};  ///< of layer 2, of a second stage, over that of the first
   long long behind_layer1_ = 0;  ///< sets behind each choice of layer 1
 };
 
 /// Alike but for the output.
 bool same_but_output(const SearchTrain& p, const SearchTrain& q) {
-  return p.kind() == q.kind() && p.input == q.input && p.internal_wheel == q.internal_wheel;
+  return p.kind() == q.kind() && p.input == q.input && p.internal_wheel == q.internal_wheel &&
+         p.stage == q.stage;
 }
 
 /// What is asked for of the choices a kind has: its usual one where none of them is named.
@@ -349,6 +354,9 @@ ToothRange tooth_range(const SearchRequirements& r, const SearchTrain& train, Tr
     return r.ring2;
   };
   const std::string& name = train.name_at(place);
+  // of a second stage in series, at the places of a first layer
+  if (name == "planet2") return r.planet2;
+  if (name == "ring2") return r.ring2;
   if (name == "planet") return r.planet.over(at_place(place));
   if (name == "ring") return r.ring.over(at_place(place));
   if (name == "pinion") return r.pinion.over(r.sun);
@@ -377,11 +385,31 @@ bool engages_in_sequence(const ToothSet& set) {
   });
 }
 
+namespace {
+
+/// No ratio of the other stage is outside these; 1 for a whole train.
+DistanceRange ratios_of_others(const ToothSet& set, const SearchRequirements& r) {
+  if (set.train->stage == 0) return {1.0, 1.0};
+  DistanceRange ratios{1.0, 1.0};
+  for (const SearchTrain& other : search_trains()) {
+    if (other.kind() != set.train->kind() || other.stage == set.train->stage) continue;
+    const ToothRange sun = tooth_range(r, other, TrainPlace::kSun),
+                     ring = tooth_range(r, other, TrainPlace::kRing1);
+    ratios.low *= 1.0 + static_cast<double>(ring.min) / sun.max;
+    ratios.high *= 1.0 + static_cast<double>(ring.max) / sun.min;
+  }
+  return ratios;
+}
+
+}  // namespace
+
 bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements) {
   const double ratio = signed_ratio(set);
   if (requirements.direction == OutputDirection::kSame && ratio < 0.0) return false;
   if (requirements.direction == OutputDirection::kOpposite && ratio > 0.0) return false;
-  return std::abs(ratio) >= requirements.ratio_min && std::abs(ratio) <= requirements.ratio_max;
+  const DistanceRange others = ratios_of_others(set, requirements);
+  return std::abs(ratio) * others.high >= requirements.ratio_min &&
+         std::abs(ratio) * others.low <= requirements.ratio_max;
 }
 
 /// Its pieces are those of the enumeration that have sets.
@@ -443,6 +471,10 @@ SetEnumeration enumerate_sets(const SearchRequirements& requirements, std::size_
     for (std::size_t reason = 0; reason < kReasons; ++reason)
       result.rejected[reason].count += piece.rejected[reason];
     if (piece.sets.empty()) return;
+    if (piece.sets.front().train->stage > 0) {
+      result.stages.insert(result.stages.end(), piece.sets.begin(), piece.sets.end());
+      return;
+    }
     source->add_piece(z_s, z_p, piece.sets.size());
     if (source->size() <= most_kept)
       kept.insert(kept.end(), piece.sets.begin(), piece.sets.end());

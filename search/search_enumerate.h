@@ -104,8 +104,9 @@ inline constexpr std::size_t kMostSetsKept = 250000;
 struct SetEnumeration {
   long long considered = 0;        ///< every combination within the tooth limits
   std::vector<SetClass> rejected;  ///< in the order of the tests; their counts and the size of
-                                   ///< `sets` add up to `considered`
+                                   ///< `sets` and `stages` add up to `considered`
   ToothSets sets;                  ///< in a fixed order
+  std::vector<ToothSet> stages;    ///< of trains in series, each alone (search_stages.h)
 };
 
 /// Every tooth set within the limits that passes what can be decided from whole numbers and shift
@@ -116,6 +117,7 @@ struct SetEnumeration {
 [[nodiscard]] SetEnumeration enumerate_sets(const SearchRequirements& requirements,
                                             std::size_t most_kept = kMostSetsKept);
 
+/// Of a stage of a train in series: whether some other stage can make up the ratio.
 [[nodiscard]] bool ratio_fits(const ToothSet& set, const SearchRequirements& requirements);
 
 }  // namespace trueflank

@@ -385,7 +385,7 @@ SearchCandidate evaluate_candidate(const SearchRequirements& requirements, const
   SearchCandidate candidate{.free = free};
   const double forward = model.efficiency(layer1, layer2, DriveDirection::kForward),
                backward = model.efficiency(layer1, layer2, DriveDirection::kBackward);
-  const ToldEfficiencies told = told_efficiencies(requirements, model.set(), forward, backward);
+  const ToldEfficiencies told = told_efficiencies(requirements, model.ratio(), forward, backward);
   candidate.forward = told.forward;
   candidate.backward = told.backward;
   const DesignValues values = design_values(requirements, model, free, forward, backward);

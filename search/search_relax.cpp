@@ -100,12 +100,18 @@ SearchRequirements of_set_alone(SearchRequirements r, const ToothSet& set) {
   r.sun = only(set.sun), r.planet1 = only(set.planet1), r.ring1 = only(set.ring1);
   r.planet2 = only(set.planet2), r.ring2 = only(set.ring2);
   r.planet = r.ring = r.pinion = r.wheel = {};
+  if (set.train->stage > 0) {  // whatever its partner
+    r.planet2 = r.planet1, r.ring2 = r.ring1;
+    r.ratio_min = 0.0, r.ratio_max = 1e9;
+  }
   return r;
 }
 
 /// The set with the centre distances that other requirements leave it.
 std::optional<ToothSet> within(const SearchRequirements& r, const ToothSet& set) {
   const SetEnumeration found = enumerate_sets(of_set_alone(r, set));
+  for (const ToothSet& stage : found.stages)
+    if (stage.train == set.train) return stage;
   if (found.sets.size() != 1) return std::nullopt;
   return found.sets.front();
 }

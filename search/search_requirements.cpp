@@ -146,6 +146,23 @@ void check_figures(const SearchRequirements& r, Errors& errors) {
             "one of both; limits.outer_diameter_max_mm holds a growing module");
 }
 
+/// Stages in series are optimised each by itself, which efficiencies allow.
+void check_stages(const SearchRequirements& r, Errors& errors) {
+  const auto& trains = searched_trains(r);
+  const auto stage = std::find_if(trains.begin(), trains.end(),
+                                  [](const SearchTrain* train) { return train->stage > 0; });
+  if (stage == trains.end()) return;
+  if (r.objectives.size() > 1 || (r.objectives.front() != SearchObjective::kForward &&
+                                  r.objectives.front() != SearchObjective::kBackward))
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "trains of kind " + (*stage)->kind() +
+                                 " are ranked by one efficiency alone, their stages being "
+                                 "optimised each by itself",
+                      .key = "search.objectives",
+                      .remedy = "\"forward\" or \"backward\", with [limits] on other figures; or "
+                                "other kinds"});
+}
+
 }  // namespace
 
 Errors validate(const SearchRequirements& r) {
@@ -156,6 +173,7 @@ Errors validate(const SearchRequirements& r) {
   require(r.ratio_max >= r.ratio_min, "ratio.max", r.ratio_max, "the ratio range is empty",
           "not below ratio.min", errors);
   check_trains(r, errors);
+  check_stages(r, errors);
   for (auto it = r.planets.begin(); it != r.planets.end(); ++it) {
     if (*it >= 1 && *it <= 20 && std::find(r.planets.begin(), it, *it) == it) continue;
     const bool twice = std::find(r.planets.begin(), it, *it) != it;

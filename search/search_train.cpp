@@ -7,6 +7,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/design/kinds/train_kind.h"
+#include "trueflank/train/stages.h"
 
 namespace trueflank {
 namespace {
@@ -96,7 +97,15 @@ std::vector<SearchTrain> all_trains() {
     for (const std::string& input : kind.inputs)
       for (const std::string& output : kind.outputs) {
         Topology topology = kind.topology(output, input);
-        if (topology.meshes.empty() || topology.stage_count() > 1) continue;
+        if (topology.meshes.empty()) continue;
+        if (topology.stage_count() > 1) {
+          for (StageTopology& stage : stage_topologies(topology)) {
+            const int number = trains.empty() ? 1 : trains.back().stage + 1;
+            trains.push_back(search_train(std::move(stage.topology), output, input, false));
+            trains.back().stage = number;
+          }
+          continue;
+        }
         const bool either =
             std::any_of(topology.gears.begin(), topology.gears.end(),
                         [](const TopologyGear& g) { return g.form == GearForm::kEither; });

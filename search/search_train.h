@@ -57,6 +57,7 @@ struct SearchTrain {
   std::string output;  ///< as the design file names it
   std::string input;
   bool internal_wheel = false;      ///< of a pair
+  int stage = 0;  ///< of a train in series this stage alone, from 1 (search_stages.h); 0: the whole
   std::vector<SearchLayer> layers;  ///< one or two
   std::vector<LimitEntry> limits;   ///< what each margin is of: layer 1, then layer 2
   std::size_t layer1_limits = 0;    ///< of them
@@ -83,7 +84,7 @@ struct SearchTrain {
 [[nodiscard]] const std::vector<SearchTrain>& search_trains();
 /// The first of a kind; the 3k of type I where no kind is named. Requires: there is one.
 [[nodiscard]] const SearchTrain& usual_search_train(const std::string& kind = "3k");
-/// "3k, stepped, simple, pair".
+/// "3k, stepped, simple, two-stage, pair".
 [[nodiscard]] std::string searched_kind_names();
 
 }  // namespace trueflank

@@ -133,7 +133,7 @@ double SetValues::told_merit(const State& s, const FreeShifts& free,
       objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
   ToldEfficiencies told;
   if (efficiency || objective == SearchObjective::kWeighted)
-    told = told_efficiencies(r_, model_.set(),
+    told = told_efficiencies(r_, model_.ratio(),
                              model_.efficiency(s.layer1, s.layer2, DriveDirection::kForward),
                              model_.efficiency(s.layer1, s.layer2, DriveDirection::kBackward));
   if (objective == SearchObjective::kForward) return told.forward;
@@ -156,15 +156,10 @@ double merit_of_figure(SearchObjective objective, double value) {
   return objective_entry(objective).larger_is_better ? value : -value;
 }
 
-namespace {
-
-/// Allowable torque; 0 where the design cannot be laid out.
-double torque_of(const SearchRequirements& r, const GearTrain& train) {
+double allowable_torque_nm(const SearchRequirements& r, const GearTrain& train) {
   const auto result = strength(train, r.strength);
   return result && std::isfinite(result->output_torque_nm) ? result->output_torque_nm : 0.0;
 }
-
-}  // namespace
 
 DesignValues design_values(const SearchRequirements& r, const SearchModel& model,
                            const FreeShifts& free, double mesh_forward, double mesh_backward) {
@@ -173,7 +168,7 @@ DesignValues design_values(const SearchRequirements& r, const SearchModel& model
   values.size_mm = model.outer_diameter(free) * module;
   auto train = lay_out(model.design(free));
   if (!train) return values;
-  values.torque_nm = torque_of(r, *train);
+  values.torque_nm = allowable_torque_nm(r, *train);
   const bool grows = r.face_width_max_mm || r.module_max_mm;
   if (grows && r.output_torque_nm && values.torque_nm > 0.0) {
     // the allowable torque is in proportion to the width and to the square of the module
@@ -189,15 +184,15 @@ DesignValues design_values(const SearchRequirements& r, const SearchModel& model
       values.size_mm *= larger;
       train = lay_out(model.design(free, values.dimensions));
       if (!train) return {};
-      values.torque_nm = torque_of(r, *train);
+      values.torque_nm = allowable_torque_nm(r, *train);
     }
   }
   values.figures = design_figures(r, *train, mesh_forward, mesh_backward, values.torque_nm);
   return values;
 }
 
-ToldEfficiencies told_efficiencies(const SearchRequirements& r, const ToothSet& set,
-                                   double mesh_forward, double mesh_backward) {
+ToldEfficiencies told_efficiencies(const SearchRequirements& r, double ratio, double mesh_forward,
+                                   double mesh_backward) {
   if (!r.losses) return {mesh_forward, mesh_backward};
   // A mesh's loss is in proportion to its friction.
   const double forward = 1.0 - mesh_forward, backward = 1.0 - mesh_backward;
@@ -207,7 +202,7 @@ ToldEfficiencies told_efficiencies(const SearchRequirements& r, const ToothSet& 
                      mesh_backward > 0.0 ? 1.0 - backward * mu_backward / friction : 0.0);
   };
   const LossyEfficiency lossy =
-      lossy_efficiency(*r.losses, r.friction, std::abs(signed_ratio(set)), meshes);
+      lossy_efficiency(*r.losses, r.friction, std::abs(ratio), meshes);
   return {lossy.forward, lossy.backward};
 }
 

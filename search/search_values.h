@@ -36,8 +36,12 @@ struct ToldEfficiencies {
   double forward = kNaN, backward = kNaN;
 };
 [[nodiscard]] ToldEfficiencies told_efficiencies(const SearchRequirements& requirements,
-                                                 const ToothSet& set, double mesh_forward,
+                                                 double ratio, double mesh_forward,
                                                  double mesh_backward);
+
+/// At the output; 0 where the strength does not say.
+[[nodiscard]] double allowable_torque_nm(const SearchRequirements& requirements,
+                                         const GearTrain& train);
 
 /// Larger is better.
 [[nodiscard]] double merit_of_figure(SearchObjective objective, double value);

@@ -29,7 +29,9 @@ std::string json_figure(double value) {
 }
 
 /// Empty where there is none.
-std::string csv_number(double value) { return std::isfinite(value) ? decimal(value) : std::string(); }
+std::string csv_number(double value) {
+  return std::isfinite(value) ? decimal(value) : std::string();
+}
 
 /// JSON takes the escapes TOML's basic strings use.
 std::string json_string(const std::string& text) { return toml_string(text); }
@@ -43,17 +45,12 @@ std::string classes_json(const std::vector<SetClass>& classes) {
   return "[" + text + "]";
 }
 
-/// "sequential", "together"; "" without planets.
-std::string phasing_of(const ToothSet& set) {
-  if (!set.train->has_planets() || set.planets < 2) return "";
-  return engages_in_sequence(set) ? "sequential" : "together";
-}
-
 /// Figures that the named columns of search.csv do not have.
 std::vector<SearchObjective> other_figures() {
   std::vector<SearchObjective> figures;
   for (const ObjectiveEntry& entry : objective_entries())
-    if (entry.objective != SearchObjective::kForward && entry.objective != SearchObjective::kBackward &&
+    if (entry.objective != SearchObjective::kForward &&
+        entry.objective != SearchObjective::kBackward &&
         entry.objective != SearchObjective::kTorque && entry.objective != SearchObjective::kSize)
       figures.push_back(entry.objective);
   return figures;
@@ -80,7 +77,28 @@ std::string binding_csv(const std::vector<BindingLimit>& binding) {
   return joined(names, " ");
 }
 
+/// Of a train of several stages: what each has of its own.
+std::string stages_json(const FoundDesign& found) {
+  if (!found.stages) return "";
+  std::string text;
+  for (std::size_t i = 0; i < found.stages->sets.size(); ++i) {
+    const bool first = i == 0;
+    const GearboxDesign& d = found.design;
+    const StageDesign own =
+        first ? StageDesign{d.planets, d.module_mm, d.centre_distance_mm} : d.later_stages[i - 1];
+    const SearchCandidate& candidate = found.stages->candidates[i];
+    text += (first ? "" : ", ") + std::string("{\"planets\": ") + std::to_string(own.planets) +
+            ", \"module_mm\": " + json_number(own.module_mm.value_or(d.module_mm)) +
+            ", \"centre_distance_mm\": " + json_number(own.centre_distance_mm.value_or(kNaN)) +
+            ", \"ratio\": " + json_number(signed_ratio(found.stages->sets[i])) +
+            ", \"forward\": " + json_number(candidate.forward) +
+            ", \"backward\": " + json_number(candidate.backward) + "}";
+  }
+  return ", \"stages\": [" + text + "]";
+}
+
 std::string design_json(const FoundDesign& found, std::size_t rank) {
+  const TrainTeeth teeth = teeth_of(found);
   const ToothSet& set = found.set;
   std::string text = "{\"file\": " + json_string(design_stem(rank) + ".toml");
   text += ", \"kind\": " + json_string(set.train->kind()) + ", \"teeth\": {";
@@ -90,8 +108,8 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
   text += "}, \"planets\": " + std::to_string(set.planets);
   text += ", \"input\": " + json_string(set.train->input) +
           ", \"output\": " + json_string(set.train->output);
-  text += ", \"ratio\": " + json_number(std::abs(signed_ratio(set)));
-  text += std::string(", \"direction\": ") + (signed_ratio(set) > 0 ? "\"same\"" : "\"opposite\"");
+  text += ", \"ratio\": " + json_number(std::abs(teeth.ratio));
+  text += std::string(", \"direction\": ") + (teeth.ratio > 0 ? "\"same\"" : "\"opposite\"");
   text +=
       ", \"centre_distance_mm\": " + json_number(found.design.centre_distance_mm.value_or(kNaN)) +
       ", \"shifts\": {";
@@ -118,16 +136,47 @@ std::string design_json(const FoundDesign& found, std::size_t rank) {
     text += ", \"score\": " + json_number(found.candidate.score);
   text += ", \"module_mm\": " + json_number(found.design.module_mm) +
           ", \"face_width_mm\": " + json_number(found.design.gears.front().face_width_mm) +
-          ", \"hunting\": " + (has_hunting_teeth(set) ? "true" : "false") +
-          ", \"phasing\": " + (phasing_of(set).empty() ? "null" : json_string(phasing_of(set))) +
+          ", \"hunting\": " + (teeth.hunting ? "true" : "false") +
+          ", \"phasing\": " + (teeth.phasing.empty() ? "null" : json_string(teeth.phasing)) +
           ", \"assembling_share\": " + json_number(found.verdict.assembling_share) +
-          ", \"binding\": " + binding_json(found.binding) + ", \"warnings\": [";
+          stages_json(found) + ", \"binding\": " + binding_json(found.binding) +
+          ", \"warnings\": [";
   for (std::size_t i = 0; i < found.verdict.warned.size(); ++i)
     text += (i ? ", " : "") + json_string(found.verdict.warned[i]);
   return text + "]}";
 }
 
 }  // namespace
+
+TrainTeeth teeth_of(const ToothSet& set) {
+  TrainTeeth teeth{.columns = set.teeth(),
+                   .text = teeth_text(set),
+                   .planets = set.planets,
+                   .ratio = signed_ratio(set),
+                   .module_ratio = set.layer2_module_ratio,
+                   .hunting = has_hunting_teeth(set)};
+  if (set.train->has_planets() && set.planets > 1)
+    teeth.phasing = engages_in_sequence(set) ? "sequential" : "together";
+  return teeth;
+}
+
+TrainTeeth teeth_of(const StagePair& pair) {
+  TrainTeeth teeth = teeth_of(pair.sets[0]);
+  const TrainTeeth second = teeth_of(pair.sets[1]);
+  teeth.columns[3] = second.columns[1];
+  teeth.columns[4] = second.columns[2];
+  teeth.text += "/" + second.text;
+  teeth.ratio *= second.ratio;
+  teeth.module_ratio = second.module_ratio;
+  teeth.hunting = teeth.hunting && second.hunting;
+  if (second.phasing != teeth.phasing)
+    teeth.phasing = teeth.phasing.empty() ? second.phasing : "together";
+  return teeth;
+}
+
+TrainTeeth teeth_of(const FoundDesign& found) {
+  return found.stages ? teeth_of(*found.stages) : teeth_of(found.set);
+}
 
 std::string teeth_text(const ToothSet& set) {
   std::string text;
@@ -154,24 +203,36 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
   }
   for (std::size_t i = 0; i < report.ranking.size(); ++i) {
     const RankedCandidate& ranked = report.ranking[i];
-    const ToothSet set = task.enumeration.sets[ranked.set_index];
+    const std::size_t sets = task.enumeration.sets.size();
+    const StagePair* pair =
+        ranked.set_index < sets ? nullptr : &report.pairs[ranked.set_index - sets];
+    const ToothSet set = pair ? pair->sets[0] : task.enumeration.sets[ranked.set_index];
+    const TrainTeeth teeth = pair ? teeth_of(*pair) : teeth_of(set);
     const SearchCandidate& c = ranked.candidate;
     text += std::to_string(i + 1);
-    for (const int teeth : set.teeth())
-      text += "," + (teeth ? std::to_string(teeth) : std::string());
+    for (const int number : teeth.columns)
+      text += "," + (number ? std::to_string(number) : std::string());
     text += "," + set.train->output;
     for (const double value :
-         {set.layer2_module_ratio, signed_ratio(set), c.forward, c.backward, c.torque_nm, c.size_mm,
+         {teeth.module_ratio, teeth.ratio, c.forward, c.backward, c.torque_nm, c.size_mm,
           c.free.centre_distance, set.ring1 ? c.free.layer1_shift : kNaN,
-          set.ring2 ? c.free.layer2_shift : kNaN})
+          pair        ? pair->candidates[1].free.layer1_shift
+          : set.ring2 ? c.free.layer2_shift
+                      : kNaN})
       text += "," + (value == value ? decimal(value) : std::string());
-    text += "," + set.train->kind() + "," + set.train->input + "," + std::to_string(set.planets) +
-            "," + teeth_text(set) + "," + (c.gap == c.gap ? decimal(c.gap) : std::string());
+    text += "," + set.train->kind() + "," + set.train->input + "," + std::to_string(teeth.planets) +
+            "," + teeth.text + "," + (c.gap == c.gap ? decimal(c.gap) : std::string());
     const DesignDimensions& d = c.dimensions;
-    text += "," + csv_number(d.face_width_mm == d.face_width_mm ? d.face_width_mm : task.requirements.face_width_mm) +
-            "," + csv_number(d.module_mm == d.module_mm ? d.module_mm : SearchModel(task.requirements, set).module_mm(c.free));
-    for (const SearchObjective figure : other_figures()) text += "," + figure_number(c.value(figure));
-    text += "," + csv_number(c.score) + (has_hunting_teeth(set) ? ",1," : ",0,") + phasing_of(set);
+    text += "," +
+            csv_number(d.face_width_mm == d.face_width_mm ? d.face_width_mm
+                                                          : task.requirements.face_width_mm) +
+            "," +
+            csv_number(d.module_mm == d.module_mm
+                           ? d.module_mm
+                           : SearchModel(task.requirements, set).module_mm(c.free));
+    for (const SearchObjective figure : other_figures())
+      text += "," + figure_number(c.value(figure));
+    text += "," + csv_number(c.score) + (teeth.hunting ? ",1," : ",0,") + teeth.phasing;
     const auto design = designs.find({ranked.set_index, c.free.centre_distance});
     const bool written = design != designs.end();
     text += "," + (written ? binding_csv(report.designs[design->second].binding) : std::string()) +
@@ -210,7 +271,8 @@ namespace {
 
 std::string told(SearchObjective objective, double value) {
   if (value != value) return "-";
-  const bool share = objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
+  const bool share =
+      objective == SearchObjective::kForward || objective == SearchObjective::kBackward;
   return share ? printed("%.2f %%", 100.0 * value) : printed("%.5g", value);
 }
 
@@ -224,12 +286,14 @@ std::string binding_text(SearchObjective objective, const SearchReport& report) 
     if (b.key.empty())
       text += ": by the teeth's own shape\n";
     else
-      text += printed(": %s %.6g, at %.6g %s would be ", b.key.c_str(), b.value, b.relaxed, to_text(objective)) +
+      text += printed(": %s %.6g, at %.6g %s would be ", b.key.c_str(), b.value, b.relaxed,
+                      to_text(objective)) +
               told(objective, b.objective) + "\n";
   }
   if (text.empty()) return "no limit binds the best design\n";
   return printed("the best design (%s %s) stands on\n", to_text(objective),
-                 told(objective, report.designs.front().candidate.value(objective)).c_str()) + text;
+                 told(objective, report.designs.front().candidate.value(objective)).c_str()) +
+         text;
 }
 
 }  // namespace
@@ -244,29 +308,31 @@ std::string search_summary(const SearchTask& task, const SearchReport& report) {
                     report.sets, report.judged);
   else
     text += printed(
-      "%zu of %zu sets optimised, %zu with shifts that keep every limit; %zu judged by "
-      "the checks\n",
-      report.optimised, report.sets, report.feasible, report.judged);
+        "%zu of %zu sets optimised, %zu with shifts that keep every limit; %zu judged by "
+        "the checks\n",
+        report.optimised, report.sets, report.feasible, report.judged);
   for (const SetClass& c : report.fell_in_checks)
     text += printed("  %14lld  fell: %s\n", c.count, c.id.c_str());
   if (report.designs.empty()) return text + "no design found\n";
-  const bool one_kind = std::all_of(
-      report.designs.begin(), report.designs.end(),
-      [](const FoundDesign& f) { return f.set.train->places().size() == kTrainPlaces; });
+  const bool one_kind =
+      std::all_of(report.designs.begin(), report.designs.end(), [](const FoundDesign& f) {
+        return f.set.train->places().size() == kTrainPlaces && !f.stages;
+      });
   text += one_kind
               ? "\nfile             s  p1  r1  p2  r2     ratio  forward backward  torque   size\n"
               : "\nfile            kind    N  teeth              ratio  forward backward  torque   "
                 "size\n";
   for (std::size_t i = 0; i < report.designs.size(); ++i) {
     const FoundDesign& f = report.designs[i];
+    const TrainTeeth own = teeth_of(f);
     const std::string teeth = one_kind ? printed("%3d %3d %3d %3d %3d", f.set.sun, f.set.planet1,
                                                  f.set.ring1, f.set.planet2, f.set.ring2)
                                        : printed("%-7s %d  %-15s", f.set.train->kind().c_str(),
-                                                 f.set.planets, teeth_text(f.set).c_str());
+                                                 f.set.planets, own.text.c_str());
     text += printed(
         "%s.toml %s %9.3f %7.2f%% %7.2f%% %7.4g %6.4g%s\n", design_stem(i).c_str(), teeth.c_str(),
-        signed_ratio(f.set), 100 * f.candidate.forward, 100 * f.candidate.backward,
-        f.candidate.torque_nm, f.candidate.size_mm,
+        own.ratio, 100 * f.candidate.forward, 100 * f.candidate.backward, f.candidate.torque_nm,
+        f.candidate.size_mm,
         f.verdict.warned.empty() ? "" : ("  warns: " + joined(f.verdict.warned, " ")).c_str());
   }
   if (!one_kind) text += "teeth: in the order of the design file's gears\n";

@@ -14,6 +14,20 @@ namespace trueflank {
 /// "12/39/90/32/81", in the order of the design file's gears.
 [[nodiscard]] std::string teeth_text(const ToothSet& set);
 
+/// What files say of a train's tooth numbers; of one of several stages, of all of them together.
+struct TrainTeeth {
+  ToothNumbers columns{};  ///< of search.csv; a second stage's planet and ring are planet2 and ring2
+  std::string text;        ///< teeth_text()
+  int planets = 0;         ///< of the first stage
+  double ratio = 0.0;      ///< signed
+  double module_ratio = 1.0;
+  bool hunting = false;
+  std::string phasing = {};  ///< "sequential", "together"; "" without planets
+};
+[[nodiscard]] TrainTeeth teeth_of(const ToothSet& set);
+[[nodiscard]] TrainTeeth teeth_of(const StagePair& pair);
+[[nodiscard]] TrainTeeth teeth_of(const FoundDesign& found);
+
 /// One line a candidate, best first; the designs that were written have their file's name.
 [[nodiscard]] std::string search_csv(const SearchTask& task, const SearchReport& report);
 /// Counts of every class, and the designs: format "trueflank-search", version 1.

@@ -56,18 +56,21 @@ struct Dot {
 
 std::vector<Dot> dots_of(const SearchTask& task, const SearchReport& report) {
   const auto& objectives = task.requirements.objectives;
-  const auto place = [&](const ToothSet& set, const SearchCandidate& c) {
-    return objectives.size() > 1 ? shown(objectives[1], c) : std::abs(signed_ratio(set));
+  const auto place = [&](double ratio, const SearchCandidate& c) {
+    return objectives.size() > 1 ? shown(objectives[1], c) : std::abs(ratio);
   };
+  const std::size_t sets = task.enumeration.sets.size();
   std::vector<Dot> dots;
   for (const RankedCandidate& r : report.ranking) {
-    const ToothSet set = task.enumeration.sets[r.set_index];
-    dots.push_back({place(set, r.candidate), shown(objectives[0], r.candidate), false, ""});
+    const double ratio = r.set_index < sets ? signed_ratio(task.enumeration.sets[r.set_index])
+                                            : signed_ratio(report.pairs[r.set_index - sets]);
+    dots.push_back({place(ratio, r.candidate), shown(objectives[0], r.candidate), false, ""});
   }
-  for (const FoundDesign& f : report.designs)
-    dots.push_back(
-        {place(f.set, f.candidate), shown(objectives[0], f.candidate), true,
-         (f.set.train->kind() == "3k" ? "" : f.set.train->kind() + " ") + teeth_text(f.set)});
+  for (const FoundDesign& f : report.designs) {
+    const TrainTeeth teeth = teeth_of(f);
+    dots.push_back({place(teeth.ratio, f.candidate), shown(objectives[0], f.candidate), true,
+                    (f.set.train->kind() == "3k" ? "" : f.set.train->kind() + " ") + teeth.text});
+  }
   std::erase_if(dots, [](const Dot& d) { return !std::isfinite(d.x) || !std::isfinite(d.y); });
   return dots;
 }

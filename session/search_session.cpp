@@ -34,7 +34,7 @@ Status write_designs(const SearchReport& report, const std::filesystem::path& fo
     const FoundDesign& found = report.designs[i];
     GearboxDesign design = found.design;
     design.name = name + "-" + design_stem(i).substr(7);
-    const std::string comment = "Found by trueflank search: ratio " + fixed_text(signed_ratio(found.set), 4) +
+    const std::string comment = "Found by trueflank search: ratio " + fixed_text(teeth_of(found).ratio, 4) +
                                 ", " + fixed_text(100 * found.candidate.forward, 2) + " % forward, " +
                                 fixed_text(100 * found.candidate.backward, 2) + " % backward";
     const auto path = folder / (design_stem(i) + ".toml");

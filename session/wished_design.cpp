@@ -150,6 +150,12 @@ class Wish {
     motor_ = find_element(tools.elements.motors, wishes_.motor);
     if (!motor_ && !wishes_.motor.empty())
       errors.push_back(unknown("--motor", wishes_.motor, names_of_all(tools.elements.motors)));
+    if (sets_ && sets_->kind == "two-stage" && !wishes_.motor.empty())
+      errors.push_back({.code = ErrorCode::kUsage,
+                        .message = "no housing is made around two stages",
+                        .key = "--motor",
+                        .value = wishes_.motor,
+                        .remedy = "no --motor: the gears alone; or another kind"});
     return errors;
   }
 
@@ -243,9 +249,28 @@ class Wish {
     return names.empty() ? "" : ", or --kind " + names;
   }
 
+  /// The best pairs of stages, without a warning where there are such.
+  SearchReport searched_stages(SearchRequirements asked, const SetEnumeration& found) {
+    asked.listed = static_cast<int>(kLot);
+    const auto judge = [this](const GearTrain& train) { return judged(train); };
+    SearchReport report;
+    do {
+      begin_judging();
+      report = conclude_search(asked, found, {}, judge);
+    } while (report.designs.empty() && tolerate_what_all_warn());
+    for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
+      if (!report.designs.empty()) break;
+      allowed_ = allowed;
+      begin_judging();
+      report = conclude_search(asked, found, {}, judge);
+    }
+    return report;
+  }
+
   /// Lot by lot, until one holds a design without a warning; where none does, one that warns least.
   SearchReport searched(const SearchRequirements& asked) {
     const SetEnumeration found = enumerate_sets(asked);
+    if (!found.stages.empty()) return searched_stages(asked, found);
     std::vector<ToothSet> all(found.sets.begin(), found.sets.end());
     all_sets_ = all.size();
     const auto off = [this](const ToothSet& set) {
@@ -485,12 +510,17 @@ class Wish {
            (example == examples_.end() ? "" : " (one: " + example->second + ")");
   }
 
-  [[nodiscard]] static std::string teeth_text(const ToothSet& set) {
+  [[nodiscard]] static std::string teeth_text(const FoundDesign& found) {
+    const ToothSet& set = found.set;
     std::string text;
-    for (const TrainPlace place : set.train->places())
-      text += (text.empty() ? "" : ", ") + set.train->name_at(place) + " " +
-              std::to_string(set.teeth_at(place));
+    for (const GearDesign& gear : found.design.gears)
+      text += (text.empty() ? "" : ", ") + gear.name + " " + std::to_string(gear.teeth);
     return text + " teeth, driven at the " + set.train->input + ", output " + set.train->output;
+  }
+
+  [[nodiscard]] static std::string second_module(const GearboxDesign& design) {
+    if (design.later_stages.empty()) return "";
+    return " and " + fixed_text(design.later_stages[0].module_mm.value_or(design.module_mm), 4);
   }
 
   [[nodiscard]] std::string best_text(const FoundDesign& found) const {
@@ -503,15 +533,16 @@ class Wish {
   [[nodiscard]] std::vector<std::string> sentences(const FoundDesign& found,
                                                    const SearchReport& report,
                                                    const GearboxDesign& design) const {
-    const ToothSet& set = found.set;
+    const double ratio = found.stages ? signed_ratio(*found.stages) : signed_ratio(found.set);
     std::vector<std::string> told{
-        "ratio " + fixed_text(std::abs(signed_ratio(set)), 3) + " for " +
-            fixed_text(wishes_.ratio, 3) + " asked: " + teeth_text(set),
-        best_text(found) + " of " + std::to_string(report.feasible) +
+        "ratio " + fixed_text(std::abs(ratio), 3) + " for " + fixed_text(wishes_.ratio, 3) +
+            " asked: " + teeth_text(found),
+        best_text(found) + " of " +
+            std::to_string(found.stages ? report.pairs.size() : report.feasible) +
             " sets with shifts that keep every limit, of which no check fails" +
             (found.verdict.warned.empty() ? " or warns" : "") + "; " +
             std::to_string(report.judged) + " were judged",
-        "module " + fixed_text(design.module_mm, 4) +
+        "module " + fixed_text(design.module_mm, 4) + second_module(design) +
             " mm: the largest that the outer diameter of " +
             fixed_text(wishes_.outer_diameter_mm, 1) + " mm leaves"};
     if (!found.verdict.warned.empty()) {

@@ -47,6 +47,19 @@ WishedSets of_stepped(const char* output, double ratio_min, double ratio_max) {
           .objective = SearchObjective::kTorque};
 }
 
+/// Both stages with the same choice of teeth: suns that stay whole, rings that can still be printed.
+WishedSets of_two_stage() {
+  return {.kind = "two-stage",
+          .input = "sun1",
+          .output = "carrier2",
+          .ratio_min = 12.0,
+          .ratio_max = 60.0,
+          .sun = {12, 21},
+          .planet1 = {15, 36},
+          .planet2 = {15, 36},
+          .ring = {48, 87}};
+}
+
 }  // namespace
 
 const std::vector<WishedSets>& all_wished_sets() {
@@ -58,6 +71,7 @@ const std::vector<WishedSets>& all_wished_sets() {
                                             of_stepped("ring", 4.0, 21.0),
                                             of_simple("carrier", 2.6, 8.6),
                                             of_simple("ring", 1.6, 7.6),
+                                            of_two_stage(),
                                             {.kind = "pair",
                                              .input = "pinion",
                                              .output = "wheel",

@@ -134,7 +134,7 @@ ToothSet some_set(const SearchTrain& train, int variant) {
 }
 
 TEST(SearchEnumerate, RatioIsThatOfTheKinematicsForEveryTrain) {
-  EXPECT_EQ(search_trains().size(), 10u);
+  EXPECT_EQ(search_trains().size(), 12u);
   for (const SearchTrain& train : search_trains())
     for (int variant = 0; variant < 4; ++variant) {
       const ToothSet set = some_set(train, variant);
