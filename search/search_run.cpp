@@ -16,6 +16,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/search/search.h"
 #include "trueflank/search/search_bound.h"
+#include "trueflank/search/search_values.h"
 
 namespace trueflank {
 namespace {
@@ -193,7 +194,13 @@ class Run {
                              : waiting.known == Known::kOutlines
                                  ? std::pair(BoundBy::kProfiles, Known::kProfiles)
                                  : std::pair(BoundBy::kHalving, Known::kAll);
-    const double bound = efficiency_bound(r_, waiting.set, direction, by, enough);
+    // what is told is no more than the meshes': a bound of these below `enough` does
+    double bound = efficiency_bound(r_, waiting.set, direction, by, enough);
+    if (bound >= 0.0) {
+      const ToldEfficiencies told =
+          told_efficiencies(r_, signed_ratio(waiting.set), bound, bound);
+      bound = direction == DriveDirection::kForward ? told.forward : told.backward;
+    }
     waiting.bound = std::min(waiting.bound, bound);
     waiting.known = known;
     return waiting;
@@ -236,7 +243,9 @@ SearchRecords run_search(const SearchRequirements& requirements, const SetEnumer
 }
 
 std::size_t listed_sets(const SearchRequirements& r) {
-  const bool bounded = r.objectives.size() == 1 && !r.losses &&
+  // more of the meshes is more of the drive, as long as friction does not fall with the load
+  const bool monotone = !r.losses || r.losses->load_friction >= 0.0;
+  const bool bounded = r.objectives.size() == 1 && monotone &&
                        (r.objectives.front() == SearchObjective::kForward ||
                         r.objectives.front() == SearchObjective::kBackward);
   return bounded && r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results)) : 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "trueflank/search/search_corner.h"
 
 namespace trueflank {
@@ -117,6 +119,28 @@ TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
   long long sum = static_cast<long long>(short_list.feasible);
   for (const SetClass& c : short_list.classes) sum += c.count;
   EXPECT_EQ(sum, short_list.considered);
+}
+
+TEST(Search, WithTheLossesOfADriveTheSameAreListedAsWithoutABound) {
+  std::mt19937 random(20261123);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (const SearchObjective objective : {SearchObjective::kForward, SearchObjective::kBackward}) {
+    SearchRequirements r = requirements();
+    r.objectives = {objective};
+    r.losses = LossesDesign{};
+    r.losses->load_nm = 0.5 + 10.0 * share(random);
+    r.losses->drag_torque_nm = 0.02 * share(random);
+    r.losses->load_friction = 0.05 * share(random);
+    r.losses->bearing_load_share = 0.03 * share(random);
+    r.listed = r.results = 2;
+    const SearchRecords few = run_search(r, sets(), {.threads = 1});
+    SearchRequirements all = r;
+    all.listed = 0;
+    const SearchRecords every = run_search(all, sets(), {.threads = 1});
+    ASSERT_EQ(every.optimised.size(), sets().sets.size());
+    EXPECT_EQ(few.optimised.size(), 2u);
+    EXPECT_EQ(text_of(few), text_of(listed_records(r, every.optimised, sets().sets.size())));
+  }
 }
 
 TEST(Search, SetsThatAreNotKeptGiveTheSameRecords) {
