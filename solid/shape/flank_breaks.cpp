@@ -13,6 +13,16 @@ constexpr double kApart = 4.0;
 /// flank.
 constexpr double kLeastOfFlank = 0.1;
 
+/// Chamfers take a break away within their height: there columns go with the chamfered flank as it
+/// is.
+double unchamfered_break(const Toothing& toothing, int tooth, int side, double roll_mm,
+                         double z_mm) {
+  Toothing whole = toothing;
+  whole.edge_chamfer_mm = 0.0;
+  whole.bed = nullptr;
+  return break_parameter(whole, tooth, side, roll_mm, z_mm);
+}
+
 }  // namespace
 
 FlankBreaks::FlankBreaks(const Toothing& toothing, const std::vector<int>& teeth,
@@ -25,12 +35,12 @@ FlankBreaks::FlankBreaks(const Toothing& toothing, const std::vector<int>& teeth
   std::vector<Break> found;
   for (const double roll_mm : toothing.deviation->roll_breaks_mm) {
     const double usual =
-        break_parameter(toothing, 0, left, roll_mm, 0.5 * toothing.twist.face_width_mm);
+        unchamfered_break(toothing, 0, left, roll_mm, 0.5 * toothing.twist.face_width_mm);
     std::vector<double> stands{usual};
     for (const int tooth : teeth)
       for (const int side : {-1, 1})
         for (const double z : heights_mm)
-          stands.push_back(break_parameter(toothing, tooth, side, roll_mm, z));
+          stands.push_back(unchamfered_break(toothing, tooth, side, roll_mm, z));
     wander_ =
         wander_ || std::any_of(stands.begin(), stands.end(), [&](double s) { return s != usual; });
     const double room = least_share(roll_mm);
@@ -69,9 +79,9 @@ ToothPlace FlankBreaks::drawn(const Toothing& toothing, const ToothPlace& place,
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     const double room = std::min(least_share(rolls_mm_[k]), kLeastOfFlank / left);
     const double low = drawn_from + room, high = 1.0 - room * (left - static_cast<double>(k));
-    const double there =
-        std::clamp(share_of(break_parameter(toothing, place.tooth, place.side, rolls_mm_[k], z_mm)),
-                   std::min(low, high), high);
+    const double there = std::clamp(
+        share_of(unchamfered_break(toothing, place.tooth, place.side, rolls_mm_[k], z_mm)),
+        std::min(low, high), high);
     if (share <= share_of(parameters_[k])) {
       to = share_of(parameters_[k]), drawn_to = there;
       break;

@@ -87,6 +87,7 @@ TEST(FlankBreaks, AColumnOfTheMeshFollowsABreakThatCrowningMoves) {
         outline.rotation_rad = 0.0;
         const ToothingGrid grid(outline, {0.0, 2.0}, kTolerance_mm);
         for (const double z_mm : grid.heights_mm()) {
+          if (std::min(z_mm, 2.0 - z_mm) < chamfer_mm - 1e-9) continue;  // the chamfer takes the break away
           const auto row = grid.row(z_mm);
           for (const int side : {-1, 1}) {
             if (!gear.has_break(5, side, z_mm)) continue;

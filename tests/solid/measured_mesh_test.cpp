@@ -121,7 +121,10 @@ TEST(MeasuredMesh, KeepsTheToleranceBesideTheMiddlesOfChordsToo) {
   const PartShape& pinion = shapes.parts.front();
   constexpr double kTolerance_mm = 0.005188;
   const PartMesh once = part_mesh(pinion, {.tolerance_mm = kTolerance_mm});
-  EXPECT_NEAR(measure_accuracy(once.mesh, pinion).largest_mm(), 0.005636, 0.0001);
+  const double measured_mm = measure_accuracy(once.mesh, pinion).largest_mm();
+  const auto seen_once = test::sampled_deviation(once.mesh, pinion, 400, 7, 0.5 * kTolerance_mm);
+  ASSERT_TRUE(seen_once);
+  EXPECT_LE(seen_once->largest_mm(), 1.02 * measured_mm);
   const MeasuredMesh made = measured_part_mesh(pinion, {.tolerance_mm = kTolerance_mm});
   const auto seen = test::sampled_deviation(made.part.mesh, pinion, 400, 7, kTolerance_mm);
   ASSERT_TRUE(seen);
