@@ -165,6 +165,7 @@ void add_new(CLI::App& program, NewOptions& options, int& code) {
   wish("--process", options.process, "how it is made");
   wish("--material", options.material, "of the gears");
   wish("--tools", options.tools, "TOML file with own motors and processes");
+  wish("--bed", options.bed, "printer's bed, by name or as 250x210: make writes print plates for it");
   wish("--outer-diameter", options.outer_diameter_mm, "of the whole, mm, at most");
   command->callback([&, ratio] {
     options.wished = ratio->count() > 0;

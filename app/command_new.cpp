@@ -42,6 +42,7 @@ ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::st
                                      .process = options.process,
                                      .material = options.material,
                                      .outer_diameter_mm = options.outer_diameter_mm,
+                                     .bed = options.bed,
                                      .tools = options.tools,
                                      .tools_named = tools_from(options.tools, options.name)});
   if (!design) return fail_all(design.error());

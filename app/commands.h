@@ -77,6 +77,7 @@ struct NewOptions {
   std::string input, output;  ///< members; empty: the usual ones
   std::string motor, process = "fdm-0.4", material = "pla";
   std::string tools;  ///< file of own motors and processes; empty: none
+  std::string bed;    ///< of the printer; empty: no print plates
 };
 int run_new(const NewOptions& options);
 

@@ -251,12 +251,8 @@ class DesignReader {
   void read_made(const TomlTable& table) {
     MadeDesign& made = file_.design.made;
     read_keys("made", table, made_keys(), made);
-    if (!made.bed.empty() && !find_bed(made.bed)) {
-      std::vector<std::string> names;
-      for (const Bed& bed : standard_beds()) names.push_back(bed.name);
-      names.emplace_back("or its size in mm from 20 to 5000, as \"250x210\"");
-      report_unknown_name("made.bed", made.bed, "bed", names);
-    }
+    if (!made.bed.empty() && !find_bed(made.bed))
+      report_unknown_name("made.bed", made.bed, "bed", known_beds());
     if (!made.process) return;
     if (const Process* process = file_.tools.processes.find(made.process->name))
       made.process = *process;

@@ -17,7 +17,7 @@ constexpr int kColours = 24;
 constexpr const char* kBorders[] = {"#d62728", "#1f77b4", "#2ca02c", "#ff7f0e",
                                     "#9467bd", "#8c564b", "#e377c2", "#17becf"};
 
-std::string decimal(double value) {
+std::string decimal_or_nothing(double value) {
   std::string text;
   if (value == value) io::append_decimal(text, value);
   return text;
@@ -195,15 +195,15 @@ std::string shift_map_csv(const ToothSet& set, const ShiftSurface& surface) {
     for (std::size_t k = 0; k < map.efficiency.size(); ++k) {
       const double u = map.x[k % map.x.size()], v = map.y[k / map.x.size()];
       const auto value = [&](MapAxis axis, double best) {
-        return decimal(axis == map.across ? u : axis == map.up ? v : best);
+        return decimal_or_nothing(axis == map.across ? u : axis == map.up ? v : best);
       };
       const std::size_t limit = map.nearest_limit(k);
       text += std::to_string(m + 1) + "," +
               value(MapAxis::kCentreDistance, surface.best.centre_distance) + "," +
               value(MapAxis::kLayer1Shift, surface.best.layer1_shift) + "," +
               value(MapAxis::kLayer2Shift, surface.best.layer2_shift) + "," +
-              decimal(map.efficiency[k]) + (map.feasible(k) ? ",1," : ",0,") +
-              limit_text(set, limit) + "," + decimal(map.margins[limit][k]) + "\n";
+              decimal_or_nothing(map.efficiency[k]) + (map.feasible(k) ? ",1," : ",0,") +
+              limit_text(set, limit) + "," + decimal_or_nothing(map.margins[limit][k]) + "\n";
     }
   }
   return text;

@@ -13,10 +13,11 @@
 #include "trueflank/design/design_file_writer.h"
 #include "trueflank/design/design_name.h"
 #include "trueflank/design/kinds/train_kind.h"
-#include "trueflank/design/tools_file.h"
 #include "trueflank/search/search.h"
 #include "trueflank/session/fixed_text.h"
+#include "trueflank/session/known_wishes.h"
 #include "trueflank/session/wished_machine.h"
+#include "trueflank/session/wished_sentences.h"
 #include "trueflank/session/wished_sets.h"
 #include "trueflank/train/machine/machine_layout.h"
 
@@ -33,7 +34,6 @@ constexpr std::size_t kLot = 48, kMostSets = 240, kLeastSets = 72, kTriedSets = 
 constexpr std::size_t kProbe = 12, kTrialLot = 8;
 /// Where nothing is found: so much larger is tried.
 constexpr std::array<double, 3> kLarger{1.25, 1.6, 2.2};
-constexpr double kLargest_mm = 500.0;
 /// So many are judged of a lot at most; what as many warn of alike is put up with.
 constexpr std::size_t kMostJudged = 32, kMany = 8;
 constexpr double kLeastContactRatio = 1.2, kPrintedFriction = 0.15;
@@ -47,21 +47,6 @@ constexpr double kTipReserve = 1.05;
 /// Of the rack: teeth a little short, whose tips a printer still makes; the narrow gaps of rings
 /// take no rounder tool, and the sun's involute stays whole.
 constexpr double kRootRadius = 0.2, kAddendum = 0.9, kDedendum = 1.15;
-
-Error unknown(const char* key, const std::string& value, std::string known) {
-  return {.code = ErrorCode::kUsage,
-          .message = "not known",
-          .key = key,
-          .value = value,
-          .remedy = std::move(known)};
-}
-
-template <class Element>
-std::string names_of_all(const std::vector<Element>& elements) {
-  std::string names;
-  for (const Element& element : elements) names += (names.empty() ? "" : ", ") + element.name;
-  return names;
-}
 
 constexpr const char* kShaftGrip = "shaft_grip";
 /// What is on the motor's shaft has an overhang: the foot of a set screw stands out over its hub.
@@ -80,24 +65,16 @@ Motor with_filed_flat(Motor motor) {
 /// Warnings that a design may have.
 enum class Allowed { kNone, kUndercut, kEveryWarning };
 
-/// The material of a name, or the only one whose name goes on after it: "pla" for "pla-printed".
-/// Empty: none, or several.
-std::string material_named(const std::string& text) {
-  const MaterialTable table;
-  if (table.find(text)) return text;
-  std::string found;
-  for (const Material& material : table.all()) {
-    if (!material.name.starts_with(text + "-")) continue;
-    if (!found.empty()) return "";
-    found = material.name;
-  }
-  return found;
-}
-
 class Wish {
  public:
   explicit Wish(const DesignWishes& wishes, std::size_t most_sets = kMostSets)
       : wishes_(wishes), most_sets_(most_sets) {}
+
+  Errors check() {
+    Errors errors = known_.read(wishes_);
+    motor_ = known_.motor;
+    return errors;
+  }
 
   /// What gives a design instead, of each sort the first that does: each was tried.
   [[nodiscard]] std::string what_would() const {
@@ -117,48 +94,6 @@ class Wish {
     return "another ratio: no larger diameter, other motor or kind that was tried gives a design";
   }
 
-  Errors check() {
-    Errors errors;
-    check_kind(errors);
-    if (sets_ && !(wishes_.ratio >= sets_->ratio_min && wishes_.ratio <= sets_->ratio_max))
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no ratio of a " + sets_->kind + " set driven at the " +
-                                   sets_->input + " with the " + sets_->output + " as output",
-                        .key = "--ratio",
-                        .value = fixed_text(wishes_.ratio, 3),
-                        .remedy = printed_number(sets_->ratio_min, "%g") + " to " +
-                                  printed_number(sets_->ratio_max, "%g") + other_kinds()});
-    if (!(wishes_.outer_diameter_mm >= 40.0 && wishes_.outer_diameter_mm <= kLargest_mm))
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no diameter of a gearbox",
-                        .key = "--outer-diameter",
-                        .value = fixed_text(wishes_.outer_diameter_mm, 3),
-                        .remedy = "40 to 500"});
-    if (!wishes_.tools.empty()) {
-      auto read = read_tools(wishes_.tools);
-      if (!read) return read.error();
-      tools_ = *std::move(read);
-    }
-    const ToolTables& tools = tools_;
-    process_ = tools.processes.find(wishes_.process);
-    if (!process_)
-      errors.push_back(unknown("--process", wishes_.process, names_of_all(tools.processes.all())));
-    material_ = material_named(wishes_.material);
-    if (material_.empty())
-      errors.push_back(
-          unknown("--material", wishes_.material, names_of_all(MaterialTable().all())));
-    motor_ = find_element(tools.elements.motors, wishes_.motor);
-    if (!motor_ && !wishes_.motor.empty())
-      errors.push_back(unknown("--motor", wishes_.motor, names_of_all(tools.elements.motors)));
-    if (sets_ && sets_->kind == "two-stage" && !wishes_.motor.empty())
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no housing is made around two stages",
-                        .key = "--motor",
-                        .value = wishes_.motor,
-                        .remedy = "no --motor: the gears alone; or another kind"});
-    return errors;
-  }
-
   ResultAll<WishedDesign> find(const std::string& name) {
     const SearchRequirements asked = requirements();
     if (Errors errors = validate(asked); !errors.empty()) return fail_all(std::move(errors));
@@ -173,7 +108,13 @@ class Wish {
     GearboxDesign design = whole(found.design);
     design.name = design_name_from(name);
     design.tools_file = wishes_.tools_named;
-    WishedDesign result{.text = {}, .told = sentences(found, report, design)};
+    WishedDesign result{.text = {}, .told = wished_sentences({.wishes = wishes_,
+                                                  .known = known_,
+                                                  .found = found,
+                                                  .report = report,
+                                                  .design = design,
+                                                  .motor = motor_,
+                                                  .filed = filed_ && motor_ == &*filed_})};
     std::string comment;
     for (const std::string& sentence : result.told) comment += sentence + "\n";
     result.text = design_file_text(design, comment);
@@ -181,30 +122,6 @@ class Wish {
   }
 
  private:
-  void check_kind(Errors& errors) {
-    const auto named = [&](const char* option, const std::string& value, std::string known) {
-      errors.push_back({.code = ErrorCode::kUsage,
-                        .message = "no such set is searched for a ratio",
-                        .key = option,
-                        .value = value,
-                        .remedy = std::move(known) + ", or no --ratio"});
-    };
-    std::string kinds, members;
-    for (const WishedSets& sets : all_wished_sets()) {
-      if (kinds.find(sets.kind) == std::string::npos)
-        kinds += (kinds.empty() ? "" : ", ") + sets.kind;
-      if (sets.kind == wishes_.kind)
-        members +=
-            (members.empty() ? "--input " : "; --input ") + sets.input + " --output " + sets.output;
-    }
-    sets_ = find_wished_sets(wishes_.kind, wishes_.input, wishes_.output);
-    if (sets_) return;
-    if (members.empty()) return named("--kind", wishes_.kind, kinds);
-    if (!find_wished_sets(wishes_.kind, wishes_.input, ""))
-      return named("--input", wishes_.input, members);
-    named("--output", wishes_.output, members);
-  }
-
   /// One change of the wishes each: what a person would try next.
   struct Trial {
     std::string option;
@@ -215,7 +132,7 @@ class Wish {
     for (const double factor : kLarger) {
       Trial trial{"", wishes_};
       trial.wishes.outer_diameter_mm = 5.0 * std::ceil(0.2 * factor * wishes_.outer_diameter_mm);
-      if (trial.wishes.outer_diameter_mm > kLargest_mm) break;
+      if (trial.wishes.outer_diameter_mm > kLargestWish_mm) break;
       trial.option = "--outer-diameter " + printed_number(trial.wishes.outer_diameter_mm, "%g");
       larger.push_back(std::move(trial));
     }
@@ -237,16 +154,6 @@ class Wish {
       kinds.back().wishes.output.clear();
     }
     return {std::move(larger), std::move(motors), std::move(kinds)};
-  }
-
-  /// The kinds that have the ratio, as the end of a remedy.
-  [[nodiscard]] std::string other_kinds() const {
-    std::string names;
-    for (const WishedSets& sets : all_wished_sets())
-      if (sets.kind != wishes_.kind && wishes_.ratio >= sets.ratio_min &&
-          wishes_.ratio <= sets.ratio_max && names.find(sets.kind) == std::string::npos)
-        names += (names.empty() ? "" : " or ") + sets.kind;
-    return names.empty() ? "" : ", or --kind " + names;
   }
 
   /// The best pairs of stages, without a warning where there are such.
@@ -331,7 +238,7 @@ class Wish {
     return report;
   }
 
-  [[nodiscard]] double wall_mm() const { return std::max(1.2, 1.5 * process_->least_wall_mm); }
+  [[nodiscard]] double wall_mm() const { return std::max(1.2, 1.5 * known_.process->least_wall_mm); }
 
   [[nodiscard]] SearchRequirements requirements() const {
     // around the larger ring's roots: seat, screws and three walls of the housing
@@ -340,13 +247,13 @@ class Wish {
                                        0.5 * (screw.insert_hole_mm + screw.hole_mm) + 0.15
                                  : 0.0;
     SearchRequirements r;
-    r.kinds = {sets_->kind};
-    r.inputs = {sets_->input};
-    r.outputs = {sets_->output};
-    r.objectives = {sets_->objective};
+    r.kinds = {known_.sets->kind};
+    r.inputs = {known_.sets->input};
+    r.outputs = {known_.sets->output};
+    r.objectives = {known_.sets->objective};
     r.friction = kPrintedFriction;
-    r.face_width_mm = sets_->face_width_mm;
-    r.backlash_mm = process_->backlash_mm;
+    r.face_width_mm = known_.sets->face_width_mm;
+    r.backlash_mm = known_.process->backlash_mm;
     r.rack.root_radius = kRootRadius;
     r.rack.addendum = kAddendum;
     r.rack.dedendum = kDedendum;
@@ -355,25 +262,25 @@ class Wish {
     r.ratio_min = wishes_.ratio * (1.0 - kRatioTolerance);
     r.ratio_max = wishes_.ratio * (1.0 + kRatioTolerance);
     // no more teeth than leave the tips that the process makes
-    const double most = process_->least_tip_mm > 0.0
-                            ? kWidestTip * *r.outer_diameter_mm / process_->least_tip_mm - kTipTeeth
+    const double most = known_.process->least_tip_mm > 0.0
+                            ? kWidestTip * *r.outer_diameter_mm / known_.process->least_tip_mm - kTipTeeth
                             : 1e9;
     const auto fewer = [&](ToothRange range) {
       range.max = std::min(range.max, std::max(range.min, static_cast<int>(std::min(most, 1e6))));
       return range;
     };
-    r.sun = sets_->sun;
-    r.planet1 = fewer(sets_->planet1);
-    if (sets_->planet2.max > 0) r.planet2 = fewer(sets_->planet2);
-    if (sets_->ring.max > 0) r.ring1 = r.ring2 = fewer(sets_->ring);
+    r.sun = known_.sets->sun;
+    r.planet1 = fewer(known_.sets->planet1);
+    if (known_.sets->planet2.max > 0) r.planet2 = fewer(known_.sets->planet2);
+    if (known_.sets->ring.max > 0) r.ring1 = r.ring2 = fewer(known_.sets->ring);
     r.shift_min = -0.5;
     r.shift_max = 1.5;
     r.contact_ratio_min = kLeastContactRatio;
     const int most_teeth =
-        std::max({r.sun.max, r.planet1.max, fewer(sets_->planet2).max, fewer(sets_->ring).max});
-    r.tip_thickness = std::max(0.2, kTipReserve * process_->least_tip_mm *
+        std::max({r.sun.max, r.planet1.max, fewer(known_.sets->planet2).max, fewer(known_.sets->ring).max});
+    r.tip_thickness = std::max(0.2, kTipReserve * known_.process->least_tip_mm *
                                         (most_teeth + kTipTeeth) / *r.outer_diameter_mm);
-    r.strength.material = material_;
+    r.strength.material = known_.material;
     r.results = 1;
     r.listed = 0;  // the first that passes may rank anywhere
     return r;
@@ -381,8 +288,9 @@ class Wish {
 
   /// The gears with what is asked for around them.
   [[nodiscard]] GearboxDesign whole(GearboxDesign design) const {
-    design.material = material_;
-    design.made.process = *process_;
+    design.material = known_.material;
+    design.made.process = *known_.process;
+    design.made.bed = wishes_.bed;
     if (!motor_) return design;
     return with_machine(std::move(design), *motor_, wishes_.outer_diameter_mm, wall_mm());
   }
@@ -431,7 +339,7 @@ class Wish {
     if (judged_ < kMany || common_.empty()) return false;
     // it did not help
     if (filed_ && std::count(common_.begin(), common_.end(), kShaftGrip) > 0)
-      motor_ = find_element(tools_.elements.motors, wishes_.motor);
+      motor_ = find_element(known_.tools.elements.motors, wishes_.motor);
     tolerated_.insert(tolerated_.end(), common_.begin(), common_.end());
     return true;
   }
@@ -489,8 +397,8 @@ class Wish {
   [[nodiscard]] std::string refusal(const SearchReport& report) const {
     if (all_sets_ == 0)
       return "none of the sets that are searched has this ratio" +
-             (process_->least_tip_mm > 0.0
-                  ? "; the tips that " + process_->name + " makes leave few teeth in this diameter"
+             (known_.process->least_tip_mm > 0.0
+                  ? "; the tips that " + known_.process->name + " makes leave few teeth in this diameter"
                   : std::string());
     return "no set of this ratio and size passes every check: of " + std::to_string(all_sets_) +
            " sets " + std::to_string(report.sets) + " were tried, " +
@@ -510,77 +418,6 @@ class Wish {
            (example == examples_.end() ? "" : " (one: " + example->second + ")");
   }
 
-  [[nodiscard]] static std::string teeth_text(const FoundDesign& found) {
-    const ToothSet& set = found.set;
-    std::string text;
-    for (const GearDesign& gear : found.design.gears)
-      text += (text.empty() ? "" : ", ") + gear.name + " " + std::to_string(gear.teeth);
-    return text + " teeth, driven at the " + set.train->input + ", output " + set.train->output;
-  }
-
-  [[nodiscard]] static std::string second_module(const GearboxDesign& design) {
-    if (design.later_stages.empty()) return "";
-    return " and " + fixed_text(design.later_stages[0].module_mm.value_or(design.module_mm), 4);
-  }
-
-  [[nodiscard]] std::string best_text(const FoundDesign& found) const {
-    const std::string forward = fixed_text(100.0 * found.exact_forward, 1) + " %";
-    if (sets_->objective == SearchObjective::kForward)
-      return "the best forward efficiency (" + forward + ")";
-    return "the largest allowable torque at the output (forward efficiency " + forward + ")";
-  }
-
-  [[nodiscard]] std::vector<std::string> sentences(const FoundDesign& found,
-                                                   const SearchReport& report,
-                                                   const GearboxDesign& design) const {
-    const double ratio = found.stages ? signed_ratio(*found.stages) : signed_ratio(found.set);
-    std::vector<std::string> told{
-        "ratio " + fixed_text(std::abs(ratio), 3) + " for " + fixed_text(wishes_.ratio, 3) +
-            " asked: " + teeth_text(found),
-        best_text(found) + " of " +
-            std::to_string(found.stages ? report.pairs.size() : report.feasible) +
-            " sets with shifts that keep every limit, of which no check fails" +
-            (found.verdict.warned.empty() ? " or warns" : "") + "; " +
-            std::to_string(report.judged) + " were judged",
-        "module " + fixed_text(design.module_mm, 4) + second_module(design) +
-            " mm: the largest that the outer diameter of " +
-            fixed_text(wishes_.outer_diameter_mm, 1) + " mm leaves"};
-    if (!found.verdict.warned.empty()) {
-      std::string list;
-      for (const std::string& id : found.verdict.warned) list += (list.empty() ? "" : ", ") + id;
-      told.push_back("of the sets judged none is without a warning; this one warns: " + list);
-    }
-    if (!motor_) return told;
-    const int input = design.topology.input;
-    const std::string driven = design.topology.name_of(input);
-    told.push_back("motor " + motor_->name + ": the bore of the " + driven +
-                   " is that of its shaft");
-    if (filed_ && motor_ == &*filed_)
-      told.push_back(
-          "its shaft is round, and no set screw has room or holds enough: file a flat on it, " +
-          fixed_text(motor_->flat_length_mm, 1) + " mm long from its end, " +
-          fixed_text(motor_->flat_mm, 1) +
-          " mm from the flat to the far side (flat_mm and flat_length_mm in [motor])");
-    const BearingsDesign& bearings = design.machine->bearings;
-    if (!design.topology.has_planets()) {
-      told.push_back(bearings.wheel
-                         ? "the wheel stands between bearing " + bearings.wheel->name +
-                               " in the floor and " + bearings.output.name + " in the lid"
-                         : "no room for a bearing under the wheel: two bearings " +
-                               bearings.output.name + " in the lid hold it");
-      return told;
-    }
-    told.push_back(bearings.planet
-                       ? "bearings " + bearings.planet->name + " in the planets and " +
-                             bearings.output.name +
-                             " at the output: the largest that leave the walls that " +
-                             process_->name + " makes"
-                       : "no bearings in the planets, which have no room for them: they turn "
-                         "on pins; bearing " +
-                             bearings.output.name + " at the output");
-    return told;
-  }
-
   const DesignWishes& wishes_;
   std::size_t most_sets_;
   Allowed allowed_ = Allowed::kNone;
@@ -590,12 +427,9 @@ class Wish {
   std::vector<std::string> common_failures_;  ///< and fail in, with the place
   std::string last_failed_;
   std::map<std::string, std::string> examples_;  ///< what the first said that fell, by check
-  ToolTables tools_ = standard_tools();
-  const WishedSets* sets_ = nullptr;
-  const Process* process_ = nullptr;
-  std::string material_;
-  const Motor* motor_ = nullptr;
-  std::optional<Motor> filed_;  ///< with a flat on its shaft, that it does not come with
+  KnownWishes known_;
+  const Motor* motor_ = nullptr;  ///< the one asked for, or that with a flat
+  std::optional<Motor> filed_;    ///< with a flat on its shaft, that it does not come with
   bool warned_alone_ = false;   ///< one of those judged passes with warnings
   bool grip_alone_ = false;     ///< one of those judged passes but for the round shaft
   std::size_t all_sets_ = 0;    ///< of the ratio

@@ -18,6 +18,7 @@ struct DesignWishes {
   std::string material =
       "pla";  ///< its name, or the beginning of the only one that goes on with "-"
   double outer_diameter_mm = 90.0;  ///< of the housing, at most
+  std::string bed;                  ///< of the printer, as in find_bed; empty: no print plates
   std::string tools;                ///< file of own motors and processes; empty: none
   std::string tools_named;          ///< the same, as the design file names it
 };

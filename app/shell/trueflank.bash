@@ -28,7 +28,7 @@ _trueflank() {
       check) options+=" --json --html --tolerance --material --materials --process --pictures --verbose" ;;
       make) options+=" -o --output --formats --tolerance-um --step-schema --part --correct --materials --process --compensate --kerf-mm --allow-failing --verbose" ;;
       fix) options+=" -o --output --warnings" ;;
-      new) options="--help --kind --ratio --input --output --motor --process --material --tools --outer-diameter" ;;
+      new) options="--help --kind --ratio --input --output --motor --process --material --tools --bed --outer-diameter" ;;
       search) options+=" -o --output --threads --materials --resume --shard --merge" ;;
       shifts) options+=" --teeth -o --output --points" ;;
       loop) options+=" -o --output --gear --aligned --effects" ;;

@@ -21,10 +21,12 @@ class NewWishes(unittest.TestCase):
     def test_the_design_passes_and_is_what_was_asked_for(self):
         (OUTPUT / "joint.toml").unlink(missing_ok=True)
         made = run("new", "joint", "--kind", "3k", "--ratio", "96", "--motor", "nema17", "--process", "fdm-0.4",
-                   "--material", "pla", "--outer-diameter", "90")
+                   "--material", "pla", "--bed", "220x220", "--outer-diameter", "90")
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertIn("for 96.000 asked", made.stdout)
-        self.assertIn("# ratio", (OUTPUT / "joint.toml").read_text(encoding="utf-8"))
+        text = (OUTPUT / "joint.toml").read_text(encoding="utf-8")
+        self.assertIn("# ratio", text)
+        self.assertIn('bed = "220x220"', text)
         report = json.loads(run("check", "joint.toml", "--json", "-").stdout)
         self.assertEqual(report["verdict"], "pass")
         self.assertAlmostEqual(report["train"]["ratio"] / 96, 1, delta=0.02)
@@ -109,7 +111,7 @@ class NewWishes(unittest.TestCase):
 
     def test_what_is_not_known_is_told(self):
         for option, value in (("--motor", "nema18"), ("--process", "fdm-0.5"), ("--material", "cheese"),
-                              ("--kind", "gear"), ("--kind", "stepped"), ("--input", "planet"),
+                              ("--kind", "gear"), ("--kind", "stepped"), ("--input", "planet"), ("--bed", "tiny"),
                               ("--output", "carrier"), ("--outer-diameter", "4")):
             with self.subTest((option, value)):
                 told = run("new", "other", "--ratio", "96", option, value)

@@ -39,4 +39,11 @@ std::optional<Bed> find_bed(const std::string& text) {
   return Bed{text, *width, *depth};
 }
 
+std::vector<std::string> known_beds() {
+  std::vector<std::string> known;
+  for (const Bed& bed : standard_beds()) known.push_back(bed.name);
+  known.emplace_back("or its size in mm from 20 to 5000, as \"250x210\"");
+  return known;
+}
+
 }  // namespace trueflank

@@ -17,5 +17,7 @@ struct Bed {
 [[nodiscard]] const std::vector<Bed>& standard_beds();
 /// The bed of a name, or of a size as "250x210" in mm; nothing where the text is neither.
 [[nodiscard]] std::optional<Bed> find_bed(const std::string& text);
+/// What find_bed takes, for messages: the names, and how a size is written.
+[[nodiscard]] std::vector<std::string> known_beds();
 
 }  // namespace trueflank
