@@ -36,13 +36,17 @@ TEST(CheckStages, SaysOfEachWhatItSaysOfItAlone) {
       const Finding* found = find(all, expected.id, where);
       ASSERT_NE(found, nullptr) << expected.id << " " << where;
       EXPECT_EQ(found->status, expected.status) << expected.id << " " << where;
-      if (!std::isnan(expected.value)) EXPECT_EQ(found->value, expected.value) << expected.id << " " << where;
+      if (!std::isnan(expected.value)) {
+        EXPECT_EQ(found->value, expected.value) << expected.id << " " << where;
+      }
     }
   }
   std::set<std::string> seen;  // check by check
   std::string last;
   for (const Finding& finding : all) {
-    if (finding.id != last) EXPECT_TRUE(seen.insert(finding.id).second) << finding.id;
+    if (finding.id != last) {
+      EXPECT_TRUE(seen.insert(finding.id).second) << finding.id;
+    }
     last = finding.id;
   }
 }

@@ -42,7 +42,9 @@ TEST(Iso1328, LimitsOfEveryClassStandBesideTheFigures) {
   gear.root_form_mm = ToothProfile::make(design_of(gear))->root_form_radius_mm();
   bool seen = false;
   for (const auto& figure : loop::inspection_figures(evaluated(gear, {}))) {
-    if (figure.symbol == "fHam") EXPECT_TRUE(figure.limits_um.empty());  // a mean has no tolerance
+    if (figure.symbol == "fHam") {
+      EXPECT_TRUE(figure.limits_um.empty());  // a mean has no tolerance
+    }
     if (figure.symbol != "fHa") continue;
     seen = true;
     ASSERT_EQ(figure.limits_um.size(), 11u);
@@ -123,7 +125,9 @@ TEST(TraceEvaluation, TheFilterPassesHalfOfAWaveOfTheCutOff) {
   for (auto& p : trace) p.deviation_um = 3.0 * p.at_mm;
   const auto line = loop::gaussian_filtered(trace, 0.8);
   for (const auto& p : line) {
-    if (p.at_mm > 1.0 && p.at_mm < 39.0) EXPECT_NEAR(p.deviation_um, 3.0 * p.at_mm, 1e-6);
+    if (p.at_mm > 1.0 && p.at_mm < 39.0) {
+      EXPECT_NEAR(p.deviation_um, 3.0 * p.at_mm, 1e-6);
+    }
   }
 }
 

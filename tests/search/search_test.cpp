@@ -243,7 +243,7 @@ TEST(Search, ADesignThatFailsACheckIsMovedToTheBorderOfTheCheckAndNoFarther) {
     for (const TrainMesh& mesh : tight->meshes) {
       const GearPair pair = tight->pair(mesh);
       if (std::min(corner_clearance_in_gear1_mm(pair), corner_clearance_in_gear2_mm(pair)) < 0.0023)
-        verdict.failed.push_back("fillet_interference");
+        verdict.failed.emplace_back("fillet_interference");
     }
     return verdict;
   };

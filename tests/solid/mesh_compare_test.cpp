@@ -159,9 +159,9 @@ TEST_F(MeshCompareParts, RoundedCopyIsAsFarAsItsFarthestCornerOrMiddle) {
     farthest_mm = std::max(farthest_mm, tree.nearest(p).distance_mm);
   };
   for (const auto& t : rounded.triangles) {
-    const Point3 a(rounded.vertices[t[0]].data()), b(rounded.vertices[t[1]].data()),
-        c(rounded.vertices[t[2]].data());
-    for (const Point3& p : {a, b, c, Point3((a + b + c) / 3.0)}) look(p);
+    const Point3 p0(rounded.vertices[t[0]].data()), p1(rounded.vertices[t[1]].data()),
+        p2(rounded.vertices[t[2]].data());
+    for (const Point3& p : {p0, p1, p2, Point3((p0 + p1 + p2) / 3.0)}) look(p);
   }
   EXPECT_GT(farthest_mm, 0.0);
   EXPECT_NEAR(c.from_new.largest_mm, farthest_mm, 1e-9 * farthest_mm);
