@@ -27,6 +27,7 @@
 #include "trueflank/solid/measure/measured_mesh.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
 #include "trueflank/solid/measure/solid_fault.h"
+#include "trueflank/solid/shape/crossing_outlines.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
@@ -380,6 +381,7 @@ class Exporter {
 ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
                                                   const ExportOptions& options) {
   TRUEFLANK_EXPECTS(model.train != nullptr && model.shapes != nullptr);
+  if (Errors errors = crossing_outlines(*model.shapes); !errors.empty()) return fail_all(std::move(errors));
   return Exporter(model, options).run();
 }
 

@@ -53,8 +53,8 @@ struct ExportOptions {
 /// and report are the same whatever their number. The result is in the order parts x formats, the
 /// assembly last. Where the tolerance cannot be kept, accuracy_um of a file says so. Errors: kUsage
 /// (no such part), kFileNotFound, kPermission, kDisk, kInterrupted, kUnsupported (STEP of outlines
-/// that cross), kInfeasible (the kerf does not fit into a hole; a mesh that was to be proved
-/// crosses itself). Files written before an error stay; none of them is incomplete.
+/// with teeth that cross), kInfeasible (round outlines of a part cross: nothing is written then; the
+/// kerf does not fit into a hole; a mesh that was to be proved crosses itself). Files written before an error stay; none of them is incomplete.
 [[nodiscard]] ResultAll<std::vector<ReportedFile>> export_parts(const ExportModel& model,
                                                                 const ExportOptions& options);
 

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/solid/measure/body_layers.h"
+#include "trueflank/solid/shape/crossing_outlines.h"
 #include "trueflank/solid/shape/outline_loop.h"
 #include "trueflank/train/machine/machine_layout.h"
 
@@ -180,6 +181,8 @@ ThinnestWall thinnest_wall(const PartShape& part) {
       }
     }
   }
+  // a hole that runs out of the layer below or above it
+  for (const OutlineCrossing& crossing : outline_crossings(part)) take(-crossing.depth_mm, *crossing.slab);
   return thinnest;
 }
 

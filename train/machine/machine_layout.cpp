@@ -183,6 +183,10 @@ class Layout {
         m_.stop_radius_mm =
             std::min(m_.stop_radius_mm, train_.centre_distance_mm - m_.clearance_mm -
                                             train_.gears[i].profile.tip_radius_mm());
+    if (m_.output_gear < 0)  // the carrier's inserts are pressed in through the face that it stands on
+      m_.stop_radius_mm =
+          std::min(m_.stop_radius_mm, m_.output_screws.at.front().norm() -
+                                          0.5 * machine_.fasteners.output.insert_hole_mm - m_.clearance_mm);
     if (m_.stop_radius_mm < m_.stop_hole_radius_mm + m_.wall_mm ||
         m_.stop.upper_mm - m_.stop.lower_mm < m_.wall_mm)
       m_.stop.lower_mm = m_.stop.upper_mm;
