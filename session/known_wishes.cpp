@@ -88,7 +88,7 @@ Errors KnownWishes::read(const DesignWishes& wishes) {
                       .message = "no diameter of a gearbox",
                       .key = "--outer-diameter",
                       .value = fixed_text(wishes.outer_diameter_mm, 3),
-                      .remedy = "40 to 500"});
+                      .remedy = "40 to " + printed_number(kLargestWish_mm, "%g")});
   if (!wishes.tools.empty()) {
     auto read = read_tools(wishes.tools);
     if (!read) return read.error();
@@ -96,7 +96,7 @@ Errors KnownWishes::read(const DesignWishes& wishes) {
   }
   process = tools.processes.find(wishes.process);
   if (!process)
-    errors.push_back(unknown("--process", wishes.process, names_of_all(tools.processes.all())));
+    errors.push_back(unknown("--process", wishes.process, joined(names_of(tools.processes))));
   material = material_named(wishes.material);
   if (material.empty())
     errors.push_back(

@@ -164,25 +164,25 @@ AssemblyClearance assembly_clearance(const GearTrain& train, const PartShapes& s
 
 ThinnestWall thinnest_wall(const PartShape& part) {
   ThinnestWall thinnest;
-  const auto take = [&](double width_mm, const Slab& slab) {
+  const auto take = [&](double width_mm, double height_mm) {
     if (width_mm >= thinnest.width_mm) return;  // NaN: the first one
-    thinnest = {width_mm, slab.z_lower_mm};
+    thinnest = {width_mm, height_mm};
   };
   for (const Slab& slab : part.slabs) {
     const OutlineExtent outer = extent(slab.outer);
     for (std::size_t i = 0; i < slab.holes.size(); ++i) {
       const OutlineExtent hole = extent(slab.holes[i]);
       take(outer.inner_radius_mm - hole.outer_radius_mm - (outer.centre - hole.centre).norm(),
-           slab);
+           slab.z_lower_mm);
       for (std::size_t j = 0; j < i; ++j) {
         const OutlineExtent other = extent(slab.holes[j]);
         take((other.centre - hole.centre).norm() - hole.outer_radius_mm - other.outer_radius_mm,
-             slab);
+             slab.z_lower_mm);
       }
     }
   }
   // a hole that runs out of the layer below or above it
-  for (const OutlineCrossing& crossing : outline_crossings(part)) take(-crossing.depth_mm, *crossing.slab);
+  for (const OutlineCrossing& crossing : outline_crossings(part)) take(-crossing.depth_mm, crossing.height_mm);
   return thinnest;
 }
 

@@ -38,7 +38,7 @@ std::vector<OutlineCrossing> outline_crossings(const PartShape& part) {
     std::vector<OutlineExtent> here = circles_of(slab);
     const auto compare = [&](const OutlineExtent& a, const OutlineExtent& b) {
       if (const double depth = depth_mm(a, b); depth > tolerance::kTouch_mm)
-        crossings.push_back({2.0 * a.outer_radius_mm, 2.0 * b.outer_radius_mm, depth, &slab});
+        crossings.push_back({2.0 * a.outer_radius_mm, 2.0 * b.outer_radius_mm, depth, slab.z_lower_mm});
     };
     for (std::size_t i = 0; i < here.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) compare(here[i], here[k]);
@@ -58,7 +58,7 @@ Errors crossing_outlines(const PartShapes& shapes) {
     errors.push_back({.code = ErrorCode::kInfeasible,
                       .message = "part " + part.name + ": its outlines of " + fixed_mm(first.diameter1_mm) +
                                  " and " + fixed_mm(first.diameter2_mm) + " mm diameter cross at height " +
-                                 fixed_mm(first.slab->z_lower_mm) + " mm: they bound no solid",
+                                 fixed_mm(first.height_mm) + " mm: they bound no solid",
                       .key = part.name,
                       .remedy = "another bolt circle, smaller fasteners, or gears that leave more room"});
   }

@@ -12,8 +12,8 @@ namespace trueflank {
 /// is bounded by them.
 struct OutlineCrossing {
   double diameter1_mm = 0.0, diameter2_mm = 0.0;
-  double depth_mm = 0.0;  ///< so far one would have to move, at least
-  const Slab* slab = nullptr;  ///< of the part: the layer, or the upper of the two
+  double depth_mm = 0.0;   ///< so far one would have to move, at least
+  double height_mm = 0.0;  ///< in the part: lower face of the layer, or of the upper of the two
 };
 
 /// All of them, from below. Outlines with teeth, flats or corners are not looked at.
