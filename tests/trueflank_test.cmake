@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
+function(trueflank_test_cost result slow said)
+  if(NOT said STREQUAL "")
+    set(${result} ${said} PARENT_SCOPE)
+  elseif(slow)
+    set(${result} 10 PARENT_SCOPE)
+  else()
+    set(${result} 0 PARENT_SCOPE)
+  endif()
+endfunction()
+
 # The tests of one folder:
-#   trueflank_test(<name> [SLOW] [WHOLE] SOURCES <file>... [LIBRARIES <target>...])
+#   trueflank_test(<name> [SLOW] [WHOLE] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
 # SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
-# tests that share something dear.
+# tests that share something dear. COST: the longest start first, so that no processor waits for them at the end; seconds
+# on a quiet one, for SLOW 10 where nothing is said.
 function(trueflank_test name)
-  cmake_parse_arguments(arg "SLOW;WHOLE" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;WHOLE" "COST" "SOURCES;LIBRARIES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_test(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -29,23 +40,34 @@ function(trueflank_test name)
   if(arg_SLOW)
     set(label slow)
   endif()
+  trueflank_test_cost(cost "${arg_SLOW}" "${arg_COST}")
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES LABELS ${label})
+    set_tests_properties(${name} PROPERTIES LABELS ${label} COST ${cost})
   else()
     # At test time, not after each link: listing tests is no part of building.
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-      DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label})
+      DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} COST ${cost})
   endif()
 endfunction()
 
+# The surveys of test_<name> with all their random trials (survey_size.h), of which `make test` makes the first ones:
+#   trueflank_campaign(<name> <gtest filter>)
+# Label campaign: `make campaign` runs it, `make test` does not.
+function(trueflank_campaign name filter)
+  add_test(NAME campaign.${name} COMMAND test_${name} --gtest_filter=${filter})
+  set_tests_properties(campaign.${name} PROPERTIES
+    ENVIRONMENT TRUEFLANK_CAMPAIGN=1 LABELS campaign TIMEOUT 7200)
+endfunction()
+
 # A test written as a script, run by the distribution's Python:
-#   trueflank_script_test(<name> [SLOW] [WITHOUT_PROGRAM] SCRIPT <file.py> [ARGUMENTS <argument>...])
+#   trueflank_script_test(<name> [SLOW | CAMPAIGN] [WITHOUT_PROGRAM] [COST <s>] SCRIPT <file.py> [ARGUMENTS <argument>...])
 # The script finds the repository in TRUEFLANK_SOURCE_DIR, the program in TRUEFLANK_PROGRAM, and a
 # folder for its output, its own, in TRUEFLANK_TEST_OUTPUT. WITHOUT_PROGRAM: it does not run the program;
-# all others are left out where the program is not built (TRUEFLANK_BUILD_PROGRAM=OFF).
+# all others are left out where the program is not built (TRUEFLANK_BUILD_PROGRAM=OFF). CAMPAIGN: labelled campaign,
+# with TRUEFLANK_CAMPAIGN in its environment; `make campaign` runs it.
 function(trueflank_script_test name)
-  cmake_parse_arguments(arg "SLOW;WITHOUT_PROGRAM" "SCRIPT" "ARGUMENTS" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;CAMPAIGN;WITHOUT_PROGRAM" "SCRIPT;COST" "ARGUMENTS" ${ARGN})
   if(NOT arg_WITHOUT_PROGRAM AND NOT TARGET trueflank_program)
     return()
   endif()
@@ -64,5 +86,11 @@ function(trueflank_script_test name)
   if(arg_SLOW)
     set(label slow)
   endif()
-  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS ${label})
+  if(arg_CAMPAIGN)
+    set(label campaign)
+    list(APPEND environment TRUEFLANK_CAMPAIGN=1)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 7200)
+  endif()
+  trueflank_test_cost(cost "${arg_SLOW}" "${arg_COST}")
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS ${label} COST ${cost})
 endfunction()

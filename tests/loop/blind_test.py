@@ -10,6 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "blind"))
 import blind  # noqa: E402
 
 SEED = int(os.environ.get("TRUEFLANK_BLIND_SEED", "1"))
+CAMPAIGN = "TRUEFLANK_CAMPAIGN" in os.environ  # three times as many: the gate tries every effect and form once
 
 
 class BlindTrial(unittest.TestCase):
@@ -28,14 +29,14 @@ class BlindTrial(unittest.TestCase):
         return len(wrong)
 
     def test_nothing_hidden_seldom_alarms(self):
-        # At 3 % six or more of 60 come once in a hundred such tests.
-        self.assertLessEqual(self.run_cases("null", 60), 5)
+        # At 3 % six or more of 60, and three or more of 20, come once or twice in a hundred such tests.
+        self.assertLessEqual(*((self.run_cases("null", 60), 5) if CAMPAIGN else (self.run_cases("null", 20), 1)))
 
     def test_what_has_a_name_is_named(self):
-        self.assertLessEqual(self.run_cases("named", 33), 4)
+        self.assertLessEqual(*((self.run_cases("named", 33), 4) if CAMPAIGN else (self.run_cases("named", 11), 1)))
 
     def test_what_has_no_name_is_seen_and_not_misnamed(self):
-        self.assertLessEqual(self.run_cases("unnamed", 39), 7)
+        self.assertLessEqual(*((self.run_cases("unnamed", 39), 7) if CAMPAIGN else (self.run_cases("unnamed", 13), 2)))
 
 
 if __name__ == "__main__":

@@ -2,13 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/loop/counted_runs.h"
+#include "tests/support/survey_size.h"
 
 // The claims of docs/loop.md, counted: at most 5 % false alarms, intervals of 95 % that hold the truth
 // in 90 to 98 % of the runs. The seeds are fixed, so that a count is the same every time.
 namespace trueflank::test {
 namespace {
 
-constexpr int kRuns = 200;
+const int kRuns = survey_size(80, 200);
 
 void expect_few_alarms(DataKind kind, double correlation) {
   const auto count = count_false_alarms(kind, correlation, kRuns);

@@ -28,6 +28,7 @@ EXAMPLES = sorted(p.parent.name for p in SOURCE.glob("examples/*/design.toml")
                   and "[housing]" not in p.read_text(encoding="utf-8"))
 DRIVE = "bilateral_drive"
 TOLERANCE_MM = 1e-3
+CLOSE_MM = 0.01  # beside a strip of points: what is farther off is looked for among all segments
 
 
 def run(*command, timeout=120):
@@ -64,15 +65,28 @@ def wall_edges(triangles, z):
     return ends[:, 0], ends[:, 1]
 
 
+def nearest_mm(points, begin, end):
+    """Distance of each point to the nearest of some segments; infinite where there are none."""
+    along = end - begin
+    share = np.einsum("pij,ij->pi", points[:, None] - begin[None], along)
+    share = np.clip(share / np.maximum((along * along).sum(axis=1), 1e-30), 0, 1)
+    nearest = begin[None] + share[..., None] * along[None]
+    return np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1, initial=np.inf)
+
+
 def farthest_mm(points, begin, end):
     """Largest distance of points to the nearest of some segments."""
+    low, high = np.minimum(begin, end)[:, 0], np.maximum(begin, end)[:, 0]
+    ordered = points[np.argsort(points[:, 0])]
     farthest = 0.0
-    for chunk in np.array_split(points, max(1, len(points) // 200)):
-        along = end - begin
-        share = np.einsum("pij,ij->pi", chunk[:, None] - begin[None], along)
-        share = np.clip(share / np.maximum((along * along).sum(axis=1), 1e-30), 0, 1)
-        nearest = begin[None] + share[..., None] * along[None]
-        farthest = max(farthest, np.linalg.norm(chunk[:, None] - nearest, axis=2).min(axis=1).max())
+    for strip in np.array_split(ordered, max(1, len(ordered) // 40)):
+        close = (low <= strip[-1, 0] + CLOSE_MM) & (high >= strip[0, 0] - CLOSE_MM)
+        distances = nearest_mm(strip, begin[close], end[close])
+        # a segment that is left out is farther off than CLOSE_MM: it may be the nearest of these only
+        doubtful = distances > CLOSE_MM
+        if doubtful.any():
+            distances[doubtful] = nearest_mm(strip[doubtful], begin, end)
+        farthest = max(farthest, distances.max())
     return farthest
 
 

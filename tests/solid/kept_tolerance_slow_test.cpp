@@ -7,6 +7,7 @@
 
 #include "tests/solid/kept_tolerance.h"
 #include "tests/support/sampled_deviation.h"
+#include "tests/support/survey_size.h"
 #include "trueflank/solid/measure/mesh_validity.h"
 
 namespace trueflank {
@@ -18,8 +19,9 @@ std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
 }
 
 TEST(KeptTolerance, ByEveryPartOfRandomDesigns) {
-  test::expect_tolerance_kept(asked("TRUEFLANK_SEED", 20),
-                              static_cast<int>(asked("TRUEFLANK_DESIGNS", 500)));
+  test::expect_tolerance_kept(
+      asked("TRUEFLANK_SEED", 20),
+      static_cast<int>(asked("TRUEFLANK_DESIGNS", test::survey_size(100, 500))));
 }
 
 /// The other measure knows nothing of the program's own: it walks on the surface.
