@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/finding.h"
 
+#include <algorithm>
+
 namespace trueflank {
 
 const char* to_text(CheckStatus status) {
@@ -11,6 +13,13 @@ const char* to_text(CheckStatus status) {
     case CheckStatus::kNotApplicable: return "not_applicable";
   }
   return "";
+}
+
+void renew_findings(Findings& findings, const Findings& anew) {
+  std::erase_if(findings, [&](const Finding& old) {
+    return std::any_of(anew.begin(), anew.end(), [&](const Finding& f) { return f.id == old.id; });
+  });
+  findings.insert(findings.end(), anew.begin(), anew.end());
 }
 
 CheckStatus verdict(const Findings& findings) {

@@ -26,6 +26,8 @@ struct Finding {
 using Findings = std::vector<Finding>;
 
 [[nodiscard]] const char* to_text(CheckStatus status);
+/// What was found anew, in the place of what the same checks said before.
+void renew_findings(Findings& findings, const Findings& anew);
 /// fail where any finding fails, else warn where any warns, else pass.
 [[nodiscard]] CheckStatus verdict(const Findings& findings);
 

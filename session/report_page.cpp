@@ -30,9 +30,7 @@ Status add_tolerance_findings(const std::string& tolerance, io::Report& report) 
   const auto result = analyse_tolerances(*report.train, *options);
   if (!result) return fail(result.error());
   // what is asked for on the command line stands for what the design says
-  std::erase_if(report.findings, [](const Finding& f) { return f.id == "tolerance"; });
-  for (Finding& finding : check_tolerance(*report.train, *result))
-    report.findings.push_back(std::move(finding));
+  renew_findings(report.findings, check_tolerance(*report.train, *result));
   return {};
 }
 

@@ -50,7 +50,22 @@ constexpr double kRootRadius = 0.2, kAddendum = 0.9, kDedendum = 1.15;
 
 constexpr const char* kShaftGrip = "shaft_grip";
 /// What is on the motor's shaft has an overhang: the foot of a set screw stands out over its hub.
-constexpr const char* kFootHangs = "overhang of the foot";
+/// It has a name of its own here; where it is tolerated, its check is.
+struct OverhangOfFoot {
+  static constexpr const char* kName = "overhang of the foot";
+  static constexpr const char* kCheck = "overhang";
+};
+
+/// What a warning is called when designs are compared.
+std::string name_of_warning(const Finding& warning, const std::string& on_shaft) {
+  const bool of_foot = warning.id == OverhangOfFoot::kCheck && warning.where == on_shaft;
+  return of_foot ? OverhangOfFoot::kName : warning.id;
+}
+
+/// The check that gives a warning of this name.
+std::string check_of_warning(const std::string& name) {
+  return name == OverhangOfFoot::kName ? OverhangOfFoot::kCheck : name;
+}
 /// A flat that is filed on a round shaft: what it leaves of the diameter, how long it is at most,
 /// and the shaft left round over the motor's face, where no file gets to.
 constexpr double kFiled = 0.9, kLongestFlat_mm = 15.0, kNotFiled_mm = 3.0;
@@ -303,8 +318,9 @@ class Wish {
     DesignVerdict verdict = judged(gears, warns, fails);
     if (!verdict.failed.empty()) last_failed_ = verdict.failed.front();
     grip_alone_ |= fails.empty() && !warns.empty() &&
-                   std::all_of(warns.begin(), warns.end(),
-                               [](const auto& id) { return id == kShaftGrip || id == kFootHangs; });
+                   std::all_of(warns.begin(), warns.end(), [](const auto& id) {
+                     return id == kShaftGrip || id == OverhangOfFoot::kName;
+                   });
     warned_alone_ |= !verdict.failed.empty() && fails.empty();
     keep_common(warns, common_);
     keep_common(fails, common_failures_);
@@ -340,19 +356,17 @@ class Wish {
     // it did not help
     if (filed_ && std::count(common_.begin(), common_.end(), kShaftGrip) > 0)
       motor_ = find_element(known_.tools.elements.motors, wishes_.motor);
-    tolerated_.insert(tolerated_.end(), common_.begin(), common_.end());
+    for (const std::string& name : common_) tolerated_.push_back(check_of_warning(name));
     return true;
   }
 
   [[nodiscard]] bool is_allowed(const Finding& finding) const {
     return allowed_ == Allowed::kEveryWarning ||
            (allowed_ == Allowed::kUndercut && finding.id == "undercut") ||
-           std::find(tolerated_.begin(), tolerated_.end(), finding.id) != tolerated_.end() ||
-           (finding.id == "overhang" &&
-            std::find(tolerated_.begin(), tolerated_.end(), kFootHangs) != tolerated_.end());
+           std::find(tolerated_.begin(), tolerated_.end(), finding.id) != tolerated_.end();
   }
 
-  /// `warns` gets the ids of the warnings that are not allowed, `fails` what fails and where.
+  /// `warns` gets the names of the warnings that are not allowed, `fails` what fails and where.
   [[nodiscard]] DesignVerdict judged(const GearTrain& gears, std::vector<std::string>& warns,
                                      std::vector<std::string>& fails) {
     DesignVerdict verdict;
@@ -366,8 +380,7 @@ class Wish {
           verdict.failed.push_back(finding.id);
           examples_.insert({finding.id, finding.message});
           if (warning)
-            warns.push_back(finding.id == "overhang" && finding.where == on_shaft ? kFootHangs
-                                                                                  : finding.id);
+            warns.push_back(name_of_warning(finding, on_shaft));
           else
             fails.push_back(finding.id + " " + finding.where);
         }
