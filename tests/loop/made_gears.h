@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "tests/loop/hidden_process.h"
+#include "tests/loop/measured_process.h"
 #include "trueflank/loop/gear/close_loop.h"
 
 // The library's gear for a made one, and the loop closed on what was measured of it.
