@@ -139,6 +139,32 @@ outputs = 2
 process = "fdm-0.4"
 )";
 
+/// A sun wider than the circle of the motor's screws, and small planets.
+inline std::string large_sun() {
+  return replaced(
+      "format = 1\n[gearbox]\nkind = \"simple\"\nplanets = 3\nmodule_mm = 1\nbacklash_mm = 0.15\n"
+      "[sun]\nteeth = 48\nface_width_mm = 14\n[planet]\nteeth = 24\nface_width_mm = 14\n"
+      "[ring]\nteeth = 96\nface_width_mm = 14\n" +
+          kMachine,
+      "planet = \"625\"", "planet = \"624\"");
+}
+
+inline std::string type_two(const std::string& text) {
+  return replaced(text, "output = \"ring2\"", "output = \"ring1\"");
+}
+inline std::string idle_sun(const std::string& text) {
+  return replaced(text, "planets = 3", "planets = 3\ninput = \"carrier\"");
+}
+/// The hub is as long as the flat of the motor's shaft wants it.
+inline std::string split_ring(const std::string& text) {
+  return replaced(idle_sun(text), "[sun]\nteeth = 12\nface_width_mm = 10\n", "") +
+         "[carrier]\nplate_thickness_mm = 10\npin_hole_clearance_mm = 0.1\n";
+}
+/// Simple and stepped sets whose ring drives out.
+inline std::string held_carrier(const std::string& text) {
+  return replaced(text, "planets = 3", "planets = 3\noutput = \"ring\"");
+}
+
 /// On a motor whose shaft has no flat.
 inline std::string round_shaft(const std::string& text) {
   return replaced(text, "name = \"nema17\"",
