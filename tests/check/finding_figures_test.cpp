@@ -12,6 +12,7 @@
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/finding.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/tip_clearance.h"
 #include "trueflank/check/tip_thickness.h"
@@ -181,6 +182,19 @@ TEST(CentreDistanceFigures, OfTheCureHold) {
   EXPECT_NEAR(0.2 + change, shift, 1e-5);
   d.centre_distance_mm = number_after(f.cure, "centre distance ");
   EXPECT_NEAR(check_centre_distance(laid_out(d))[0].value, 0.0, 1e-4);
+}
+
+TEST(Findings, FoundAnewStandForThoseOfTheSameChecksAndNoOthers) {
+  Findings findings{{.id = "tolerance", .where = "sun-planet"},
+                    {.id = "axial", .where = "train"},
+                    {.id = "tolerance", .where = "train"}};
+  renew_findings(findings,
+                 {{.id = "tolerance", .where = "sun-planet", .status = CheckStatus::kFail}});
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].id, "axial");
+  EXPECT_EQ(findings[1].status, CheckStatus::kFail);
+  renew_findings(findings, {});
+  EXPECT_EQ(findings.size(), 2U);
 }
 
 TEST(AxialFigures, AreTheGapBetweenTheLayers) {
