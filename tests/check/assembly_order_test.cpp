@@ -110,6 +110,7 @@ TEST(AssemblyOrder, EveryKindGoesTogetherBodyByBody) {
 TEST(AssemblyOrder, UnitsAreMadeByThemselves) {
   const Made made(k3k + kMachine);
   const AssemblyOrder order = assembly_order(made.train, made.shapes);
+  ASSERT_TRUE(order.exists());
   std::vector<std::string> names;
   for (const AssemblyUnit& unit : order.units) names.push_back(unit.name);
   for (const char* name : {"housing", "lid", "planet", "carrier", "gearbox"})
