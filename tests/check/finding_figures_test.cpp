@@ -199,7 +199,34 @@ TEST(Findings, FoundAnewStandForThoseOfTheSameChecksAndNoOthers) {
 
 TEST(AxialFigures, AreTheGapBetweenTheLayers) {
   GearboxDesign d = paper_design();
-  EXPECT_NEAR(number_after(check_axial(laid_out(d))[0].message, "stand "), 1.0, 1e-6);
+  const Finding apart = check_axial(laid_out(d))[0];
+  EXPECT_NEAR(number_after(apart.message, "stand "), 1.0, 1e-6);
+  EXPECT_EQ(apart.margin, apart.value);
+  gear(d, "ring1").face_width_mm = 11.5;
+  const Finding f = check_axial(laid_out(d))[0];
+  EXPECT_NEAR(number_after(f.message, "overlap by "), 0.5, 1e-6);
+  EXPECT_EQ(f.message.find("ring1 and ring2"), 0U) << f.message;
+  EXPECT_NEAR(number_after(f.cure, "layer_gap_mm above "), 1.5, 1e-6);
+  EXPECT_NEAR(number_after(f.cure, "face width of ring1 below "), 11.0, 1e-6);
+  d.layer_gap_mm = 1.51;
+  EXPECT_NEAR(check_axial(laid_out(d))[0].value, 0.01, 1e-9);
+  EXPECT_EQ(check_axial(laid_out(simple_design(12, 30, 72, 3)))[0].status,
+            CheckStatus::kNotApplicable);
+}
+
+TEST(AxialFigures, CountOnlyPartsThatDoNotPassEachOther) {
+  GearboxDesign d = paper_design();
+  gear(d, "sun").face_width_mm = 14.0;  // up between the second planets, which are smaller
+  EXPECT_NEAR(check_axial(laid_out(d))[0].value, 1.0, 1e-9);
+  d.centre_distance_mm = 22.6;
+  const int teeth[] = {15, 30, 75, 36, 81};
+  for (std::size_t i = 0; i < 5; ++i) d.gears[i].teeth = teeth[i];
+  d.gears[2].shift = d.gears[4].shift = 0.3;
+  const GearTrain train = laid_out(d);
+  const Finding f = check_axial(train)[0];
+  EXPECT_EQ(f.message.find("sun and planet2"), 0U) << f.message;
+  EXPECT_NEAR(f.value, train.gears[3].z_lower_mm - train.gears[0].z_lower_mm - 14.0, 1e-9);
+  EXPECT_EQ(f.status, CheckStatus::kFail);
 }
 
 }  // namespace

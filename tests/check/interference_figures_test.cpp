@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/check/check_designs.h"
+#include "trueflank/base/tolerance.h"
 #include "trueflank/check/fillet_interference.h"
 #include "trueflank/check/involute_interference.h"
 #include "trueflank/check/trimming_interference.h"
@@ -106,6 +107,7 @@ TEST(InvoluteInterferenceFigures, AreTheRollLengthsAtBothTips) {
   Finding f = check_involute_interference(unshifted_pair(20, 40, false), state(0.05, 0.01))[0];
   const double on_pinion = 30.0 * kSin - roll(21.0, 40), on_wheel = 30.0 * kSin - roll(11.0, 20);
   EXPECT_EQ(f.status, CheckStatus::kPass);
+  EXPECT_FALSE(says(f.message, "without load"));
   EXPECT_NEAR(told(f.message, "meets pinion "), on_pinion, 1e-4);
   EXPECT_NEAR(told(f.message, "meets wheel "), on_wheel, 1e-4);
   EXPECT_NEAR(f.value, std::min(on_pinion, on_wheel), 1e-9);
@@ -127,7 +129,8 @@ TEST(InvoluteInterferenceFigures, WhatTheProfilesDoIsTheVerdict) {
   const double ends_at_base_circle = 2.0 * std::hypot(35.0 * kSin, 30.0 * kCos);
   EXPECT_NEAR(told(f.cure, "tip diameter of wheel "), ends_at_base_circle, 2e-3);
   EXPECT_LE(told(f.cure, "tip diameter of wheel "), ends_at_base_circle);
-  EXPECT_EQ(check_involute_interference(train, state(-0.5e-6, 0.01))[0].status, CheckStatus::kWarn);
+  EXPECT_EQ(check_involute_interference(train, state(-tolerance::kTouch_mm, 0.01))[0].status,
+            CheckStatus::kWarn);
   f = check_involute_interference(train, state(-0.02, 0.01))[0];
   EXPECT_EQ(f.status, CheckStatus::kFail);
   EXPECT_NEAR(told(f.message, "profiles penetrate by "), 20.0, 1e-6);
@@ -147,7 +150,8 @@ TEST(InvoluteInterferenceFigures, ReliefsKeepContactOnTheInvoluteWhileTheProfile
   EXPECT_EQ(f.status, CheckStatus::kPass);
   EXPECT_NEAR(f.value, 0.3, 1e-3);
   EXPECT_NEAR(told(f.message, "touch without load from "), f.value, 1e-4);
-  EXPECT_EQ(check_involute_interference(train, state(0.05, -0.5e-6))[0].status, CheckStatus::kPass);
+  EXPECT_EQ(check_involute_interference(train, state(0.05, -tolerance::kTouch_mm))[0].status,
+            CheckStatus::kPass);
   f = check_involute_interference(train, state(0.05, -0.01))[0];
   EXPECT_EQ(f.status, CheckStatus::kWarn);
   EXPECT_NEAR(f.value, 35.0 * kSin - roll(31.0, 60), 1e-9);  // then the whole flank counts
@@ -165,6 +169,7 @@ TEST(FilletInterferenceFigures, AreRadiiAboveTheRootFormCircles) {
         std::hypot(12.0 * kCos, start1) - train.gears[0].profile.root_form_radius_mm();
     double gap2 = std::hypot(30.0 * kCos, start2) - train.gears[1].profile.root_form_radius_mm();
     if (internal) gap2 = -gap2;
+    EXPECT_FALSE(says(f.message, "without load"));
     EXPECT_NEAR(told(f.message, "form circle by "), gap1, 1e-4);
     EXPECT_NEAR(told(f.message, " on pinion, "), gap2, 1e-4);
     EXPECT_NEAR(f.value, std::min(gap1, gap2), 1e-9);
@@ -186,7 +191,8 @@ TEST(FilletInterferenceFigures, WhatTheProfilesDoAtTheirRootsIsTheVerdict) {
     EXPECT_EQ(f.status, CheckStatus::kFail);
     EXPECT_NEAR(told(f.message, "the criterion holds, but the exact profiles penetrate by "), 20.0,
                 1e-6);
-    EXPECT_EQ(judged(good, state(-0.5e-6, 0.0, piece1, piece2)).status, CheckStatus::kPass);
+    EXPECT_EQ(judged(good, state(-tolerance::kTouch_mm, 0.0, piece1, piece2)).status,
+              CheckStatus::kPass);
   }
   const Finding fails = judged(bad, state(-0.02, -0.02, PieceKind::kFillet));
   EXPECT_EQ(fails.status, CheckStatus::kFail);
@@ -202,8 +208,30 @@ TEST(FilletInterferenceFigures, WhatTheProfilesDoAtTheirRootsIsTheVerdict) {
                    "tip diameter of pinion "));
   EXPECT_NEAR(told(judged(bad, state(0.05, -0.01)).message, " meet "), 10.0, 1e-6);
   EXPECT_TRUE(says(judged(bad, state(0.0, -0.01)).message, "driving, the"));
-  EXPECT_FALSE(says(judged(bad, state(0.05, -0.5e-6)).message, "driving, the"));
+  EXPECT_FALSE(says(judged(bad, state(0.05, -tolerance::kTouch_mm)).message, "driving, the"));
   EXPECT_TRUE(says(judged(bad, state(-0.02, -0.02)).message, "not worst at a root"));
+}
+
+TEST(FilletInterferenceFigures, ReliefsKeepContactOffTheRootsUntilALoadTakesThemUp) {
+  for (const bool pinion_first : {true, false}) {
+    GearboxDesign d = pinion_first ? pair_design(10, 60, false) : pair_design(60, 10, false);
+    d.gears[0].shift = d.gears[1].shift = 0.0;
+    const GearTrain plain = laid_out(d);
+    gear(d, pinion_first ? "wheel" : "pinion").modifications = {
+        .tip_relief_um = 30.0,
+        .tip_relief_start_diameter_mm = 2.0 * std::hypot(30.0 * kCos, 35.0 * kSin - 1.5)};
+    const GearTrain train = laid_out(d);
+    const Finding f = check_fillet_interference(train, state(0.05, -tolerance::kTouch_mm))[0];
+    ASSERT_GE(f.value, 0.0);
+    EXPECT_EQ(f.status, CheckStatus::kPass);
+    EXPECT_TRUE(says(f.message, "under a load that takes up the reliefs")) << f.message;
+    const Finding whole = check_fillet_interference(plain, state(0.05, 0.01))[0];
+    EXPECT_NEAR(told(f.message, "(to their tips: "), told(whole.message, "form circle by "), 1e-4);
+    EXPECT_EQ(check_fillet_interference(train, state(-tolerance::kTouch_mm, 0.01))[0].status,
+              CheckStatus::kPass);
+    for (const auto& s : {state(0.05, -0.01), state(-0.02, 0.01)})  // turned, they do not pass
+      EXPECT_EQ(check_fillet_interference(train, s)[0].status, CheckStatus::kWarn);
+  }
 }
 
 /// KHK's criteria of internal gears, as angles of the ring [deg].
@@ -248,7 +276,8 @@ TEST(TrochoidInterferenceFigures, WhatTheProfilesDoIsTheVerdict) {
   Finding f = check_trochoid_interference(train, state(0.05, 0.01))[0];
   EXPECT_NEAR(told(f.message, "profiles clear each other by "), 50.0, 1e-6);
   EXPECT_FALSE(f.cure.empty());
-  EXPECT_EQ(check_trochoid_interference(train, state(-0.5e-6, 0.01))[0].status, CheckStatus::kWarn);
+  EXPECT_EQ(check_trochoid_interference(train, state(-tolerance::kTouch_mm, 0.01))[0].status,
+            CheckStatus::kWarn);
   f = check_trochoid_interference(train, state(-0.02, 0.01))[0];
   EXPECT_EQ(f.status, CheckStatus::kFail);
   EXPECT_NEAR(told(f.message, "profiles penetrate by "), 20.0, 1e-6);
@@ -278,10 +307,45 @@ TEST(TrimmingInterferenceFigures, AreTheTextbooksAndTheRotationsAtWhichThePinion
     EXPECT_EQ(says(f.cure, "more teeth between pinion and ring"), margin >= 0.0) << margin;
     EXPECT_TRUE(says(judged(0.0).message, "radially at no rotation"));
     EXPECT_TRUE(says(judged(0.0, -0.02).message, "Axially it does not go in either"));
-    EXPECT_TRUE(says(judged(0.0, -0.5e-6).message, "It goes in axially."));
+    EXPECT_TRUE(says(judged(0.0, -tolerance::kTouch_mm).message, "It goes in axially."));
   }
   EXPECT_EQ(check_trimming_interference(unshifted_pair(30, 60, false), state(0.05, 0.01))[0].status,
             CheckStatus::kNotApplicable);
+}
+
+/// A pair of which one flank's helix is off, and a tip of the pinion.
+GearTrain with_slope(int pinion, int wheel, double slope_um,
+                     std::optional<double> tip_diameter_mm = {}) {
+  GearboxDesign d = pair_design(pinion, wheel, true);
+  gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
+  gear(d, "pinion").modifications.helix_slope_um = slope_um;
+  gear(d, "pinion").tip_diameter_mm = tip_diameter_mm;
+  return laid_out(d);
+}
+
+/// The tip that a cure names is where the margin is used up, what the modifications take of it
+/// included.
+void expect_cure_counts_modifications(Finding (*judged)(const GearTrain&), int pinion, int wheel) {
+  const double cost =
+      judged(with_slope(pinion, wheel, 0.0)).value - judged(with_slope(pinion, wheel, 30.0)).value;
+  ASSERT_GT(cost, 0.02);
+  const Finding f = judged(with_slope(pinion, wheel, 30.0));
+  ASSERT_LT(f.value, 0.0);
+  const double tip = told(f.cure, "tip diameter of pinion ");
+  ASSERT_GT(tip, pinion) << f.cure;
+  EXPECT_NEAR(judged(with_slope(pinion, wheel, 30.0, tip)).value, 0.0, 0.2 * cost) << f.cure;
+}
+
+TEST(TrochoidInterferenceFigures, TheCureCountsModifications) {
+  expect_cure_counts_modifications(
+      [](const GearTrain& t) { return check_trochoid_interference(t, state(0.05, 0.01))[0]; }, 40,
+      48);
+}
+
+TEST(TrimmingInterferenceFigures, TheCureCountsModifications) {
+  expect_cure_counts_modifications(
+      [](const GearTrain& t) { return check_trimming_interference(t, state(0.05, 0.01))[0]; }, 44,
+      60);
 }
 
 TEST(TrimmingInterferenceFigures, APinionLargerThanTheRingsTipsHasNoCriterion) {

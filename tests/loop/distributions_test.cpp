@@ -39,6 +39,49 @@ TEST(Distributions, NoNumberGivesNoNumber) {
   EXPECT_TRUE(std::isnan(student_two_sided(1.0, none)));
 }
 
+// The tail's integral by Simpson's rule over what lies beyond x, scaled so that nothing underflows.
+double minus_log_tail(double x, int degrees) {
+  constexpr int kSteps = 40000;
+  const double step = 120.0 / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double u = step * i, weight = i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+    sum += weight * std::pow(x + u, 0.5 * degrees - 1.0) * std::exp(-0.5 * u);
+  }
+  return 0.5 * x + 0.5 * degrees * std::log(2.0) + std::lgamma(0.5 * degrees) -
+         std::log(sum * step / 3.0);
+}
+
+TEST(Distributions, ChiSquareIsTheIntegralOfItsDensity) {
+  for (int degrees = 1; degrees <= 8; ++degrees)
+    for (double x : {0.3, 2.0, 11.0, 90.0, 700.0})
+      EXPECT_NEAR(minus_log_chi_square_tail(x, degrees), minus_log_tail(x, degrees), 1e-8)
+          << x << ' ' << degrees;
+}
+
+TEST(Distributions, ChiSquareStaysExactWhereErfcUnderflows) {
+  for (int degrees = 1; degrees <= 8; ++degrees)
+    for (double x : {801.0, 1500.0, 1e5})
+      EXPECT_NEAR(minus_log_chi_square_tail(x, degrees), minus_log_tail(x, degrees), 1e-5)
+          << x << ' ' << degrees;
+}
+
+TEST(Distributions, OfNothingBeyondZeroIsTheWholeTail) {
+  for (int degrees : {1, 2, 5}) {
+    EXPECT_EQ(minus_log_chi_square_tail(0.0, degrees), 0.0);
+    EXPECT_EQ(minus_log_chi_square_tail(-3.0, degrees), 0.0);
+  }
+  EXPECT_EQ(f_tail(-1.0, 2.0, 5.0), 1.0);
+}
+
+// t(0.975; n) of printed tables.
+TEST(Distributions, StudentsLimitsAreTheTables) {
+  EXPECT_NEAR(student_95(1.0), 12.706, 5e-4);
+  EXPECT_NEAR(student_95(2.0), 4.303, 5e-4);
+  EXPECT_NEAR(student_95(30.0), 2.042, 5e-4);
+  EXPECT_NEAR(student_95(1e6), 1.960, 5e-4);
+}
+
 // 2 degrees: exp(-x / 2); 1 degree: erfc(sqrt(x / 2)); far beyond where the tail itself underflows.
 TEST(Distributions, ChiSquareKeepsItsLogarithm) {
   EXPECT_NEAR(minus_log_chi_square_tail(12.0, 2), 6.0, 1e-12);

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
-#include <set>
 #include <type_traits>
 #include <utility>
 
 // What scripts/mutate puts into a copy of a source: every place where it could be wrong gets
 // numbers, and the number in TRUEFLANK_MUTANT is wrong. One build serves for all of them.
 // TRUEFLANK_MUTANTS_SEEN: a file that gets the numbers of places that were passed, one a line;
-// negative where an operator is of no number and stays as it is.
+// negative where an operator is of no number and stays as it is. After a comparison of real numbers
+// stands "real", and "equal" where they were equal once: only there does `<=` differ from `<`.
 namespace mutation {
 
 inline int wanted() {
@@ -24,32 +26,54 @@ inline int wanted() {
   return number;
 }
 
-/// The places passed, written at the end.
+/// What was met at the places passed, written at the end.
 class Seen {
  public:
-  static void pass(int number) {
+  enum What : unsigned char { kPassed = 1, kNoNumber = 2, kReal = 4, kEqual = 8 };
+  static void pass(int number, unsigned char what = kPassed) {
     static const char* const file = std::getenv("TRUEFLANK_MUTANTS_SEEN");
     if (file == nullptr) return;
     static Seen seen(file);
-    seen.numbers_.insert(number);
+    const auto place = static_cast<std::size_t>(number);
+    if (place < kPlaces && (places_[place].load(std::memory_order_relaxed) & what) != what)
+      places_[place].fetch_or(what, std::memory_order_relaxed);
   }
 
  private:
   explicit Seen(const char* file) : file_(file) {}
   ~Seen() {
-    if (std::FILE* out = std::fopen(file_, "a")) {
-      for (const int number : numbers_) std::fprintf(out, "%d\n", number);
-      std::fclose(out);
+    std::FILE* out = std::fopen(file_, "a");
+    if (out == nullptr) return;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+      const unsigned what = places_[i].load();
+      if ((what & kNoNumber) != 0U) std::fprintf(out, "-%zu\n", i);
+      if ((what & kPassed) != 0U)
+        std::fprintf(out, "%zu%s%s\n", i, (what & kReal) != 0U ? " real" : "",
+                     (what & kEqual) != 0U ? " equal" : "");
     }
+    std::fclose(out);
   }
+  static constexpr std::size_t kPlaces = 100000;
+  static inline std::array<std::atomic<unsigned char>, kPlaces> places_{};
   const char* file_;
-  std::set<int> numbers_;
 };
 
 constexpr bool on(int number) {
   if (std::is_constant_evaluated()) return false;
   Seen::pass(number);
   return wanted() == number;
+}
+
+constexpr void without_number(int number) {
+  if (!std::is_constant_evaluated()) Seen::pass(number, Seen::kNoNumber);
+}
+
+template <class A, class B>
+constexpr void compared(int number, const A& a, const B& b) {
+  if constexpr (std::is_floating_point_v<A> || std::is_floating_point_v<B>)
+    if (!std::is_constant_evaluated())
+      Seen::pass(number,
+                 static_cast<unsigned char>(a == b ? Seen::kReal | Seen::kEqual : Seen::kReal));
 }
 
 // An operator stands twice with its place between: `a + place + b` binds as `a + b` does.
@@ -70,11 +94,12 @@ constexpr bool on(int number) {
   constexpr decltype(auto) operator op(name##Left<A>&& left, B&& b) {                           \
     using Plain = std::remove_cvref_t<decltype(std::forward<A>(left.a) op std::forward<B>(b))>; \
     if constexpr (std::is_arithmetic_v<Plain>) {                                                \
+      if constexpr (std::is_same_v<Plain, bool>) compared(left.number, left.a, b);              \
       if (on(left.number)) return static_cast<Plain>(left.a first b);                           \
       if (on(left.number + 1)) return static_cast<Plain>(left.a second b);                      \
       return static_cast<Plain>(left.a op b);                                                   \
     } else {                                                                                    \
-      if (!std::is_constant_evaluated()) Seen::pass(-left.number);                              \
+      without_number(left.number);                                                              \
       return std::forward<A>(left.a) op std::forward<B>(b);                                     \
     }                                                                                           \
   }
@@ -105,8 +130,11 @@ TRUEFLANK_MUTATED(Over, /, *, *)
   }                                                                 \
   template <class A, class B>                                       \
   constexpr A& operator op(A& a, name##Right<B>&& right) {          \
-    if constexpr (std::is_arithmetic_v<A>)                          \
+    if constexpr (std::is_arithmetic_v<A>) {                        \
       if (on(right.number)) return a other static_cast<A>(right.b); \
+    } else {                                                        \
+      without_number(right.number);                                 \
+    }                                                               \
     a op std::forward<B>(right.b);                                  \
     return a;                                                       \
   }
