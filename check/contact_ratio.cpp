@@ -22,8 +22,7 @@ double ratio_with_tip(const GearPair& pair, double tip_diameter_mm) {
   if (!made || made->notes().pointed) return kNaN;
   GearPair changed = pair;
   changed.profile1 = &*made;
-  const ContactRatios ratios = contact_ratios(changed);
-  return std::min(ratios.total, ratios.effective);
+  return contact_ratios(changed).effective;
 }
 
 Finding contact_ratio_finding(const GearTrain& train, const TrainMesh& mesh) {

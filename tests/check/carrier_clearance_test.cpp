@@ -24,6 +24,9 @@ TEST(CarrierClearance, PlatesClearThePlanetsByTheirGap) {
   const Finding finding = carrier_finding(10.0, 70.0);
   EXPECT_EQ(finding.status, CheckStatus::kPass);
   EXPECT_NEAR(finding.value, 0.3, 1e-12);
+  EXPECT_EQ(finding.margin, finding.value);
+  EXPECT_EQ(finding.message, "carrier and sun clear each other by 0.3 mm");
+  EXPECT_TRUE(finding.cure.empty());
 }
 
 TEST(CarrierClearance, AWiderRingPassesAroundASmallerPlate) {
@@ -35,7 +38,8 @@ TEST(CarrierClearance, AWiderRingRunsIntoALargerPlate) {
   const Finding finding = carrier_finding(14.0, 84.0);
   EXPECT_EQ(finding.status, CheckStatus::kFail);
   EXPECT_NEAR(finding.value, 0.5 * (82.9934 - 84.0), 1e-3);
-  EXPECT_FALSE(finding.cure.empty());
+  EXPECT_EQ(finding.message, "carrier_top and ring2 run into each other by 0.5033 mm");
+  EXPECT_NE(finding.cure.find("larger by more than 0.5033 mm"), std::string::npos) << finding.cure;
 }
 
 TEST(CarrierClearance, WithoutACarrierNothingIsSaid) {

@@ -65,7 +65,11 @@ TEST(PlanetSpacingFigures, MostPlanetsAreThoseThatOneMoreWouldOverlap) {
     EXPECT_EQ(most_planets(8.0, 8.0 * tip), most) << tip;
   }
   EXPECT_EQ(most_planets(1.0, 1.0), 1);
+  EXPECT_EQ(most_planets(1.0, 1.05), 1);
   EXPECT_EQ(most_planets(1.0, 3.0), 1);
+  for (int n = 3; n < 60; ++n) EXPECT_EQ(most_planets(7.0, 7.0 * std::sin(kPi / n)), n - 1) << n;
+  EXPECT_EQ(check_planet_spacing(laid_out(simple_design(12, 30, 72, 1)))[0].status,
+            CheckStatus::kNotApplicable);
 }
 
 TEST(ContactRatioFigures, TheLimitIsOneBelowOneAndTheWantedAbove) {
@@ -123,6 +127,69 @@ TEST(ContactRatioFigures, BetweenTheStartsOfReliefs) {
   EXPECT_NEAR(number_after(f.cure, "tip and root, by "), (1.0 - between) * kPi * c, 1e-3);
 }
 
+TEST(ContactRatioFigures, OnlyWhatIsThereIsTold) {
+  GearboxDesign d = pair_design(20, 40, false);
+  const auto told = [&] { return check_contact_ratio(laid_out(d))[0].message; };
+  const auto says = [&](const char* words) { return told().find(words) != std::string::npos; };
+  EXPECT_TRUE(says("from the tip circles"));
+  EXPECT_FALSE(says("by the helix"));
+  EXPECT_FALSE(says("between the starts"));
+  for (const char* name : {"pinion", "wheel"}) {
+    d = pair_design(20, 40, false);
+    gear(d, name).modifications.tip_rounding_mm = 0.1;
+    EXPECT_TRUE(says("from the tip form circles")) << name;
+  }
+}
+
+TEST(ContactRatioFigures, TheHelixCarriesOverReliefs) {
+  GearboxDesign d = pair_design(20, 40, false);
+  for (GearDesign& g : d.gears) {
+    g.modifications.tip_relief_um = 20.0;
+    g.modifications.tip_relief_start_diameter_mm = g.teeth / std::cos(0.2) + 0.9;
+  }
+  int enough = 0, missing = 0;
+  for (const double width : {1.0, 4.0, 7.0, 10.0}) {
+    d.helix_angle_rad = 0.2;
+    for (GearDesign& g : d.gears) g.face_width_mm = width;
+    const Finding f = check_contact_ratio(laid_out(d))[0];
+    const double overlap = width * std::sin(0.2) / kPi;
+    const double there = number_after(f.message, "starts of the reliefs ") + overlap;
+    ASSERT_GT(std::abs(there - 1.0), 2e-3);
+    EXPECT_EQ(f.status, there > 1.0 ? CheckStatus::kPass : CheckStatus::kWarn) << there;
+    ++(there > 1.0 ? enough : missing);
+    const double base_pitch =
+        kPi / std::cos(0.2) * std::cos(std::atan(std::tan(kPi / 9.0) / std::cos(0.2)));
+    if (there < 1.0) {
+      EXPECT_NEAR(number_after(f.cure, "tip and root, by "), (1.0 - there) * base_pitch, 3e-3);
+    }
+  }
+  EXPECT_GT(enough, 0);
+  EXPECT_GT(missing, 0);
+}
+
+TEST(ContactRatioFigures, NameTheRootThatTakesContactAway) {
+  for (const bool pinion_first : {true, false}) {
+    GearboxDesign d = pinion_first ? pair_design(7, 40, false) : pair_design(40, 7, false);
+    d.gears[0].shift = d.gears[1].shift = 0.0;
+    const GearTrain train = laid_out(d);
+    const TrainGear& small = train.gears[pinion_first ? 0 : 1];
+    const auto roll = [](double radius, int teeth) {
+      return std::sqrt(radius * radius - std::pow(0.5 * teeth * kCos20, 2));
+    };
+    // contact from the start of the undercut pinion's involute to its tip
+    const double ratio =
+        (roll(4.5, 7) - roll(small.profile.root_form_radius_mm(), 7)) / (kPi * kCos20);
+    const double total =
+        (roll(4.5, 7) + roll(21.0, 40) - 23.5 * std::sin(kPi / 9.0)) / (kPi * kCos20);
+    const Finding f = check_contact_ratio(train)[0];
+    ASSERT_LT(ratio, 1.1);
+    EXPECT_NEAR(f.value, ratio, 1e-9);
+    EXPECT_NEAR(number_after(f.message, "transverse "), total, 1e-3);
+    EXPECT_EQ(f.cure.find("the root of " + small.name + " takes "), 0U) << f.cure;
+    EXPECT_NEAR(number_after(f.cure, "takes "), total - ratio, 1e-3);
+  }
+}
+
 TEST(TipClearanceFigures, NameTheTipThatIsTooNear) {
   GearboxDesign d = pair_design(20, 40, false);
   gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
@@ -141,6 +208,63 @@ TEST(TipClearanceFigures, NameTheTipThatIsTooNear) {
   f = check_tip_clearance(laid_out(ring))[0];
   EXPECT_NEAR(number_after(f.cure, "tip diameter of wheel of "), 57.7, 1e-6);
   EXPECT_NEAR(number_after(f.cure, " mm (+"), 0.1, 1e-6);
+}
+
+TEST(TipClearanceFigures, OfEqualTipsTheFirstIsNamed) {
+  GearboxDesign d = pair_design(30, 30, false);
+  d.gears[0].shift = d.gears[1].shift = 0.0;
+  d.gears[0].tip_diameter_mm = d.gears[1].tip_diameter_mm = 32.4;
+  const Finding f = check_tip_clearance(laid_out(d))[0];
+  EXPECT_NEAR(f.value, 0.05, 1e-9);
+  EXPECT_NEAR(number_after(f.cure, "tip diameter of pinion of "), 32.3, 1e-6) << f.cure;
+}
+
+/// Where the flanks of a tooth without backlash meet, by bisection; module 1.
+double pointed_diameter(int teeth, double shift) {
+  double low = teeth * kCos20, high = 2.0 * teeth;
+  while (high - low > 1e-12) {
+    const double d = 0.5 * (low + high);
+    const double half = (kPi / 2.0 + 2.0 * shift * std::tan(kPi / 9.0)) / teeth +
+                        involute(kPi / 9.0) - involute(std::acos(teeth * kCos20 / d));
+    (half > 0.0 ? low : high) = d;
+  }
+  return low;
+}
+
+TEST(TipThicknessFigures, APointedToothEndsBeforeItsTipCircle) {
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
+  d.gears = {{.name = "gear", .teeth = 8, .shift = 1.0}};
+  const Finding f = check_tip_thickness(laid_out(d))[0];
+  EXPECT_NEAR(number_after(f.message, "pointed at diameter "), pointed_diameter(8, 1.0), 1e-4);
+  EXPECT_NEAR(number_after(f.message, "before the tip circle of "), 12.0, 1e-6);
+}
+
+TEST(TipThicknessFigures, CrowningTakesItsShareOnBothSides) {
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
+  d.gears = {{.name = "gear", .teeth = 24, .shift = 0.3}};
+  const Finding plain = check_tip_thickness(laid_out(d))[0];
+  EXPECT_EQ(plain.message.find("modifications"), std::string::npos);
+  d.gears[0].modifications.crowning_um = 25.0;
+  d.gears[0].modifications.edge_chamfer_mm = 0.2;
+  const Finding f = check_tip_thickness(laid_out(d))[0];
+  EXPECT_NE(f.message.find("where the modifications leave least"), std::string::npos);
+  // along the tangent of the base circle, so more by its ratio to the tip circle, in diameters
+  EXPECT_NEAR(plain.value - f.value, 2.0 * 0.025 * 26.6 / (24.0 * kCos20), 1e-9);
+}
+
+TEST(TipThicknessFigures, TheCureOfARingIsALargerTipDiameter) {
+  GearboxDesign d{.name = "ring", .topology = train_topology("gear")};
+  d.rack.pressure_angle_rad = rad_from_deg(30.0);
+  d.gears = {{.name = "gear", .kind = GearKind::kInternal, .teeth = 60, .shift = 0.0}};
+  d.gears[0].tip_diameter_mm = 57.0;
+  const Finding f = check_tip_thickness(laid_out(d))[0];
+  ASSERT_EQ(f.status, CheckStatus::kWarn) << f.message;
+  EXPECT_NE(f.cure.find("a smaller shift of the ring"), std::string::npos) << f.cure;
+  d.gears[0].tip_diameter_mm = number_after(f.cure, "tip diameter of ");
+  EXPECT_GT(*d.gears[0].tip_diameter_mm, 57.0);
+  const Finding cured = check_tip_thickness(laid_out(d))[0];
+  EXPECT_NEAR(cured.margin, 0.0, 1e-3);
+  EXPECT_GE(cured.margin, 0.0);
 }
 
 TEST(TipThicknessFigures, AreTheInvolutes) {
@@ -169,6 +293,30 @@ TEST(BacklashFigures, ThinningIsOnTheReferenceCircle) {
   EXPECT_NEAR(number_after(f.cure, "another "), 20.0 * 30.0 / train.centre_distance_mm, 0.02);
 }
 
+TEST(BacklashFigures, NormalToTheFlanksItIsLessByBothAngles) {
+  GearboxDesign d = pair_design(20, 40, false, 0.05);
+  d.gears[0].shift = d.gears[1].shift = 0.0;
+  d.helix_angle_rad = 0.4;
+  const Finding f = check_backlash(laid_out(d))[0];
+  const double transverse = std::atan(std::tan(kPi / 9.0) / std::cos(0.4));
+  const double base_helix = std::asin(std::sin(0.4) * kCos20);
+  EXPECT_NEAR(number_after(f.message, "pitch circle, "),
+              1e3 * f.value * std::cos(transverse) * std::cos(base_helix), 0.011);
+  EXPECT_EQ(f.message.find("no play"), std::string::npos);
+  EXPECT_EQ(f.message.find("modifications"), std::string::npos);
+  EXPECT_NE(check_backlash(laid_out(pair_design(20, 40, false)))[0].message.find("no play"),
+            std::string::npos);
+}
+
+TEST(BacklashFigures, AHelixThatIsOffTakesItFromBothSides) {
+  GearboxDesign d = pair_design(20, 40, false, 0.05);
+  d.gears[0].shift = d.gears[1].shift = 0.0;
+  gear(d, "pinion").modifications.helix_slope_um = 20.0;
+  const Finding f = check_backlash(laid_out(d))[0];
+  EXPECT_NEAR(f.value, 0.05 - 0.02 / kCos20, 1e-6);
+  EXPECT_NEAR(number_after(f.message, "modifications leave ("), 0.05, 1e-6);
+}
+
 TEST(CentreDistanceFigures, OfTheCureHold) {
   GearboxDesign d = pair_design(20, 40, false);
   gear(d, "pinion").shift = gear(d, "wheel").shift = 0.2;
@@ -195,6 +343,35 @@ TEST(Findings, FoundAnewStandForThoseOfTheSameChecksAndNoOthers) {
   EXPECT_EQ(findings[1].status, CheckStatus::kFail);
   renew_findings(findings, {});
   EXPECT_EQ(findings.size(), 2U);
+}
+
+TEST(CentreDistanceFigures, OfTheCureOfARingHold) {
+  GearboxDesign d = pair_design(20, 60, true);
+  gear(d, "pinion").shift = 0.3;
+  gear(d, "wheel").shift = 0.1;
+  d.centre_distance_mm = 20.0;
+  const Finding tight = check_centre_distance(laid_out(d))[0];
+  ASSERT_EQ(tight.status, CheckStatus::kFail);
+  EXPECT_EQ(tight.margin, tight.value);
+  GearboxDesign shifted = d;
+  gear(shifted, "wheel").shift = number_after(tight.cure, "shift of wheel ");
+  EXPECT_NEAR(check_centre_distance(laid_out(shifted))[0].value, 0.0, 1e-4);
+  EXPECT_NEAR(number_after(tight.cure, "(+"), *gear(shifted, "wheel").shift - 0.1, 1e-5);
+  d.centre_distance_mm = number_after(tight.cure, "centre distance ");
+  EXPECT_NEAR(check_centre_distance(laid_out(d))[0].value, 0.0, 1e-4);
+  d.centre_distance_mm = 19.0;
+  const Finding loose = check_centre_distance(laid_out(d))[0];
+  ASSERT_GT(loose.value, 0.25);
+  EXPECT_NEAR(loose.limit, 0.25, 1e-12);
+  EXPECT_NEAR(loose.margin, 0.25 - loose.value, 1e-12);
+}
+
+TEST(AxialFigures, APlanetUnderTheOtherRingIsInItsWay) {
+  GearTrain train = laid_out(paper_design());
+  train.gears[1].face_width_mm += 2.0;
+  const Finding f = check_axial(train)[0];
+  EXPECT_EQ(f.message.find("planet1 and ring2 touch"), 0U) << f.message;
+  EXPECT_NEAR(f.value, -1.0, 1e-9);
 }
 
 TEST(AxialFigures, AreTheGapBetweenTheLayers) {

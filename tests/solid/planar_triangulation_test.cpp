@@ -103,6 +103,72 @@ TEST(PlanarTriangulation, APointOnASideIsNoInsideOfAnEar) {
   EXPECT_NEAR(area, 2.0 * (2.0 + 3.0), 1e-12);
 }
 
+TEST(PlanarTriangulation, CornersInLineMakeNoEmptyTriangle) {
+  // seen from the middle in turn, on a grid: many corners on a line, and on sides of ears
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> place(-4, 4);
+  int tried = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::map<std::pair<int, int>, Point2> by_direction;
+    for (int i = 0; i < 14; ++i) {
+      const int x = place(random), y = place(random), common = std::gcd(x, y);
+      if (common > 0) by_direction.insert({{x / common, y / common}, Point2(x, y)});
+    }
+    std::vector<Point2> points;
+    for (const auto& [direction, p] : by_direction) points.push_back(p);
+    const auto angle = [](const Point2& p) { return std::atan2(p.y(), p.x()); };
+    std::sort(points.begin(), points.end(),
+              [&](const Point2& p, const Point2& q) { return angle(p) < angle(q); });
+    bool around = points.size() > 3;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      around = around && twice_area(Point2(0, 0), points[i], points[(i + 1) % points.size()]) > 0.0;
+    if (!around) continue;
+    ++tried;
+    std::vector<IndexTriangle> triangles = clip_ears(points, all_of(points));
+    expect_cover(points, all_of(points), triangles);
+    make_delaunay(points, triangles);
+    expect_cover(points, all_of(points), triangles);
+  }
+  EXPECT_GT(tried, 100);
+}
+
+/// No corner lies within the circle through the corners of a triangle on the other side of an edge.
+void expect_delaunay(const std::vector<Point2>& points,
+                     const std::vector<IndexTriangle>& triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
+  for (const IndexTriangle& t : triangles)
+    for (std::size_t e = 0; e < 3; ++e) opposite[{t[e], t[(e + 1) % 3]}] = t[(e + 2) % 3];
+  for (const auto& [side, c] : opposite) {
+    const auto other = opposite.find({side.second, side.first});
+    if (other == opposite.end()) continue;
+    // centre of the circle through three corners, from its two chords' bisectors
+    const Point2 a = points[side.first], b = points[side.second] - a, p = points[c] - a;
+    const double twice = 2.0 * (b.x() * p.y() - b.y() * p.x());
+    const Point2 centre = a + Point2(p.y() * b.squaredNorm() - b.y() * p.squaredNorm(),
+                                     b.x() * p.squaredNorm() - p.x() * b.squaredNorm()) /
+                                  twice;
+    EXPECT_GE((points[other->second] - centre).norm(), (a - centre).norm() * (1.0 - 1e-9));
+  }
+}
+
+TEST(PlanarTriangulation, AFanInAnyOrderBecomesDelaunay) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::uint32_t corners = 5 + static_cast<std::uint32_t>(trial % 20);
+    std::vector<Point2> points;
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const Point2 p = unit_vector(kTwoPi * (i + 0.3 * (i % 3)) / corners);
+      points.emplace_back(3.0 * p.x(), p.y());
+    }
+    std::vector<IndexTriangle> triangles;
+    for (std::uint32_t i = 1; i + 1 < corners; ++i) triangles.push_back({0U, i, i + 1});
+    std::shuffle(triangles.begin(), triangles.end(), random);
+    make_delaunay(points, triangles);
+    expect_cover(points, all_of(points), triangles);
+    expect_delaunay(points, triangles);
+  }
+}
+
 TEST(PlanarTriangulation, NoOpenCircleHoldsANeighbour) {
   std::mt19937 random(2);
   for (int corners : {4, 5, 8, 20, 60})
@@ -111,21 +177,7 @@ TEST(PlanarTriangulation, NoOpenCircleHoldsANeighbour) {
       std::vector<IndexTriangle> triangles = clip_ears(points, all_of(points));
       make_delaunay(points, triangles);
       expect_cover(points, all_of(points), triangles);
-      std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
-      for (const IndexTriangle& t : triangles)
-        for (std::size_t e = 0; e < 3; ++e) opposite[{t[e], t[(e + 1) % 3]}] = t[(e + 2) % 3];
-      for (const auto& [side, c] : opposite) {
-        const auto other = opposite.find({side.second, side.first});
-        if (other == opposite.end()) continue;
-        // centre of the circle through three corners, from its two chords' bisectors
-        const Point2 a = points[side.first], b = points[side.second] - a, p = points[c] - a;
-        const double twice = 2.0 * (b.x() * p.y() - b.y() * p.x());
-        const Point2 centre = a + Point2(p.y() * b.squaredNorm() - b.y() * p.squaredNorm(),
-                                         b.x() * p.squaredNorm() - p.x() * b.squaredNorm()) /
-                                      twice;
-        const double radius = (a - centre).norm();
-        EXPECT_GE((points[other->second] - centre).norm(), radius * (1.0 - 1e-9));
-      }
+      expect_delaunay(points, triangles);
     }
 }
 
