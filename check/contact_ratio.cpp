@@ -22,7 +22,8 @@ double ratio_with_tip(const GearPair& pair, double tip_diameter_mm) {
   if (!made || made->notes().pointed) return kNaN;
   GearPair changed = pair;
   changed.profile1 = &*made;
-  return contact_ratios(changed).effective;
+  const ContactRatios ratios = contact_ratios(changed);
+  return std::min(ratios.total, ratios.effective);
 }
 
 Finding contact_ratio_finding(const GearTrain& train, const TrainMesh& mesh) {

@@ -22,7 +22,7 @@ double smallest_angle_rad(const std::vector<double>& positions) {
 
 Finding planet_spacing_finding(const GearTrain& train, const TrainGear& gear) {
   const double a = train.centre_distance_mm, tip = gear.profile.tip_radius_mm();
-  const double angle = smallest_angle_rad(train.phases.positions_rad(train.topology().first_planet()));
+  const double angle = std::min(smallest_angle_rad(train.phases.positions_rad(train.topology().first_planet())), kPi);
   const double gap = 2.0 * a * std::sin(0.5 * angle) - 2.0 * tip;
   const int most = most_planets(a, tip);
   Finding finding{.id = "planet_spacing",

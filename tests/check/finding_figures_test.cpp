@@ -231,6 +231,13 @@ double pointed_diameter(int teeth, double shift) {
   return low;
 }
 
+TEST(TipThicknessFigures, TheLimitIsAFifthOfTheModule) {
+  GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
+  d.module_mm = 2.0;
+  d.gears = {{.name = "gear", .teeth = 24, .shift = 0.3}};
+  EXPECT_NEAR(check_tip_thickness(laid_out(d))[0].limit, 0.4, 1e-12);
+}
+
 TEST(TipThicknessFigures, APointedToothEndsBeforeItsTipCircle) {
   GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
   d.gears = {{.name = "gear", .teeth = 8, .shift = 1.0}};
@@ -389,6 +396,17 @@ TEST(AxialFigures, AreTheGapBetweenTheLayers) {
   EXPECT_NEAR(check_axial(laid_out(d))[0].value, 0.01, 1e-9);
   EXPECT_EQ(check_axial(laid_out(simple_design(12, 30, 72, 3)))[0].status,
             CheckStatus::kNotApplicable);
+}
+
+TEST(AxialFigures, AreThoseOfTheNearestParts) {
+  GearTrain train = laid_out(paper_design());
+  EXPECT_EQ(check_axial(train)[0].message.find("planet1 and ring2"),
+            0U);  // the first of equal ones
+  train.gears[1].face_width_mm -= 1.0;
+  train.gears[3].z_lower_mm += 3.0;
+  const Finding f = check_axial(train)[0];
+  EXPECT_EQ(f.message.find("ring1 and ring2"), 0U) << f.message;
+  EXPECT_NEAR(f.value, 1.0, 1e-9);
 }
 
 TEST(AxialFigures, CountOnlyPartsThatDoNotPassEachOther) {

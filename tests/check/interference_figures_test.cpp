@@ -270,6 +270,14 @@ TEST(TrochoidInterferenceFigures, AreTheTextbooks) {
             CheckStatus::kNotApplicable);
 }
 
+TEST(TrochoidInterferenceFigures, APinionAroundTheRingsTipsHasNoCriterion) {
+  const Finding f = check_trochoid_interference(unshifted_pair(58, 60, true), state(0.05, 0.01))[0];
+  EXPECT_TRUE(says(f.message, "the tip circle of pinion lies all around that of wheel"))
+      << f.message;
+  EXPECT_EQ(f.status, CheckStatus::kWarn);
+  EXPECT_TRUE(std::isnan(f.value));
+}
+
 TEST(TrochoidInterferenceFigures, WhatTheProfilesDoIsTheVerdict) {
   const GearTrain train = unshifted_pair(40, 45, true);
   ASSERT_LT(Khk(40, 45).trochoid_deg, 0.0);
