@@ -109,6 +109,22 @@ TEST(ContactRatioFigures, TheHelixAddsItsOverlap) {
   EXPECT_NEAR(f.value, number_after(f.message, "transverse ") + overlap, 1e-3);
 }
 
+TEST(ContactRatioFigures, TheCureCountsTheHelix) {
+  GearboxDesign d = pair_design(20, 40, false);
+  d.gears[0].shift = d.gears[1].shift = 0.0;
+  d.helix_angle_rad = 0.2;
+  for (GearDesign& g : d.gears) {
+    g.face_width_mm = 3.0;
+    g.tip_diameter_mm = g.teeth / std::cos(0.2) + 0.9;
+  }
+  const Finding f = check_contact_ratio(laid_out(d))[0];
+  ASSERT_LT(f.margin, 0.0);
+  gear(d, "pinion").tip_diameter_mm = number_after(f.cure, "tip diameter of pinion of ");
+  const Finding cured = check_contact_ratio(laid_out(d))[0];
+  EXPECT_NEAR(cured.value, f.limit, 1e-3) << f.cure;
+  EXPECT_GE(cured.value, f.limit - 1e-12);
+}
+
 TEST(ContactRatioFigures, BetweenTheStartsOfReliefs) {
   GearboxDesign d = pair_design(20, 40, false);
   gear(d, "pinion").shift = gear(d, "wheel").shift = 0.0;
@@ -398,10 +414,20 @@ TEST(AxialFigures, AreTheGapBetweenTheLayers) {
             CheckStatus::kNotApplicable);
 }
 
+/// Second planets so large that neither the sun nor the first ring passes them.
+GearboxDesign large_second_planets() {
+  GearboxDesign d = paper_design();
+  d.centre_distance_mm = 22.6;
+  const int teeth[] = {15, 30, 75, 36, 81};
+  for (std::size_t i = 0; i < 5; ++i) d.gears[i].teeth = teeth[i];
+  d.gears[2].shift = d.gears[4].shift = 0.3;
+  return d;
+}
+
 TEST(AxialFigures, AreThoseOfTheNearestParts) {
-  GearTrain train = laid_out(paper_design());
-  EXPECT_EQ(check_axial(train)[0].message.find("planet1 and ring2"),
+  EXPECT_EQ(check_axial(laid_out(paper_design()))[0].message.find("planet1 and ring2"),
             0U);  // the first of equal ones
+  GearTrain train = laid_out(large_second_planets());
   train.gears[1].face_width_mm -= 1.0;
   train.gears[3].z_lower_mm += 3.0;
   const Finding f = check_axial(train)[0];
@@ -413,10 +439,8 @@ TEST(AxialFigures, CountOnlyPartsThatDoNotPassEachOther) {
   GearboxDesign d = paper_design();
   gear(d, "sun").face_width_mm = 14.0;  // up between the second planets, which are smaller
   EXPECT_NEAR(check_axial(laid_out(d))[0].value, 1.0, 1e-9);
-  d.centre_distance_mm = 22.6;
-  const int teeth[] = {15, 30, 75, 36, 81};
-  for (std::size_t i = 0; i < 5; ++i) d.gears[i].teeth = teeth[i];
-  d.gears[2].shift = d.gears[4].shift = 0.3;
+  d = large_second_planets();
+  gear(d, "sun").face_width_mm = 14.0;
   const GearTrain train = laid_out(d);
   const Finding f = check_axial(train)[0];
   EXPECT_EQ(f.message.find("sun and planet2"), 0U) << f.message;
