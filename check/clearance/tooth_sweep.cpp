@@ -203,7 +203,8 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   // A low value from the start saves columns that others would have to show to be no use.
   double lowest = std::numeric_limits<double>::infinity();
   const Position at_centres = position_at(-reach + step * static_cast<double>(columns / 2));
-  for (const Sample& sample : samples) lowest = std::min(lowest, clearance(sample.point, at_centres));
+  for (const Sample& sample : samples)
+    lowest = std::min(lowest, clearance(sample.point, at_centres));
   const double mate_tip = mate_profile_.tip_radius_mm();
   const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
   // A distance falls by no more than its point moves: columns within which it cannot come down to

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -29,26 +30,58 @@ constexpr int kLeastSamples = 5, kMostSamples = 4000;
 constexpr std::array kCutShares = {0.013, 0.171, 0.337, 0.523, 0.689, 0.854, 0.987};
 /// The same over the height of a bed chamfer.
 constexpr std::array kBedShares = {0.07, 0.41, 0.83};
-/// At each of these heights one sample in so many of the true curve is looked at, at the next the next.
+/// At each of these heights one sample in so many of the true curve is looked at, at the next the
+/// next.
 constexpr std::size_t kSampleStride = 3;
 /// Edges on a twisted wall longer than this part of its radius are looked at in three places.
 constexpr double kLongEdge = 0.05;
 /// One facet in so many of a twisted wall is looked at in its middle, too.
 constexpr std::size_t kFacetsPerMiddle = 4;
-/// A chord over a bend is farthest off near one of its ends, but in its middle nearly half as far. Where that is as
-/// much as this share of the largest distance yet, one edge in so many (teeth and rows repeat each) is looked at beside
-/// its middle, and where it is off as much there, up to the place that is farthest.
+/// A chord over a bend is farthest off near one of its ends, but in its middle nearly half as far.
+/// Where that is as much as this share of the largest distance yet, one edge in so many (teeth and
+/// rows repeat each) is looked at beside its middle, and where it is off as much there, up to the
+/// place that is farthest.
 constexpr double kWorthALook = 0.3, kAsMuchBeside = 0.9;
 constexpr std::uint32_t kEdgesPerLook = 3;
+
+/// Points folded into half a tooth that lie this near to each other are copies; so much may their
+/// distances differ.
+constexpr double kSamePlace_mm = 1e-9;
+/// A sum with this is rounded to 2^-14 mm, the size of the cells in which places are kept.
+constexpr double kRoundsToCell_mm = 0x1.8p38;
+constexpr std::size_t kPlaceBits = 12;  // of so many places
+
+/// The distances of places on a wall, by where they are folded to: teeth are copies of each other,
+/// and so are most places of a mesh.
+class KnownPlaces {
+ public:
+  struct Place {
+    std::size_t slab = 0, wall = 0;
+    Point2 folded = Point2::Constant(std::numeric_limits<double>::infinity());
+    double excess_mm = 0.0;
+  };
+  /// The last that was kept in the cell of a place.
+  [[nodiscard]] Place& at(const Point2& folded) {
+    if (places_.empty()) places_.resize(std::size_t{1} << kPlaceBits);
+    const auto cell = [](double mm) { return std::bit_cast<std::uint64_t>(mm + kRoundsToCell_mm); };
+    constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15U;
+    const std::uint64_t hash = (cell(folded.x()) * kSpread ^ cell(folded.y())) * kSpread;
+    return places_[hash >> (64U - kPlaceBits)];
+  }
+
+ private:
+  std::vector<Place> places_;
+};
 
 /// An outline of a slab: its curves and the cut's segments that lie on it.
 struct Wall {
   OutlineDistance curves;
   bool hole = false;
-  std::optional<WallSurface> surface = {};  ///< of a wall that is no prism
-  std::vector<std::vector<Segment>> cuts = {};    ///< one a height of the slab's
-  double error_mm = 0.0;  ///< largest found from the facets' side
-  Point2 error_foot = Point2::Zero();  ///< where on the curve
+  std::optional<WallSurface> surface = {};      ///< of a wall that is no prism
+  std::vector<std::vector<Segment>> cuts = {};  ///< one a height of the slab's
+  double alone_mm = 0.0;                        ///< no other wall of the slab is nearer to it
+  double error_mm = 0.0;                        ///< largest found from the facets' side
+  Point2 error_foot = Point2::Zero();           ///< where on the curve
 };
 
 struct SlabWalls {
@@ -61,21 +94,31 @@ struct SlabWalls {
 
 double bed_height_mm(const Slab& slab) {
   double height = bed_height_mm(slab.outer) - slab.z_lower_mm;
-  for (const Outline& hole : slab.holes) height = std::max(height, bed_height_mm(hole) - slab.z_lower_mm);
+  for (const Outline& hole : slab.holes)
+    height = std::max(height, bed_height_mm(hole) - slab.z_lower_mm);
   return std::max(0.0, height);
 }
 
 SlabWalls walls_of(const Slab& slab) {
   SlabWalls result{slab.z_lower_mm, slab.z_upper_mm, {}};
   const auto add = [&](const Outline& outline, bool hole) {
-    result.walls.push_back({.curves = OutlineDistance(outline), .hole = hole,
+    result.walls.push_back({.curves = OutlineDistance(outline),
+                            .hole = hole,
                             .surface = wall_surface(outline, slab.z_lower_mm)});
     result.prismatic = result.prismatic && !result.walls.back().surface;
   };
   add(slab.outer, false);
   for (const Outline& hole : slab.holes) add(hole, true);
+  if (result.prismatic)
+    for (Wall& wall : result.walls) {
+      wall.alone_mm = std::numeric_limits<double>::infinity();
+      for (const Wall& other : result.walls)
+        if (&other != &wall)
+          wall.alone_mm = std::min(wall.alone_mm, wall.curves.lower_bound_mm(other.curves));
+    }
   auto& heights = result.cut_heights_mm;
-  if (result.prismatic) heights = {0.5 * (slab.z_lower_mm + slab.z_upper_mm)};
+  if (result.prismatic)
+    heights = {0.5 * (slab.z_lower_mm + slab.z_upper_mm)};
   else
     for (const double share : kCutShares)
       heights.push_back(std::lerp(slab.z_lower_mm, slab.z_upper_mm, share));
@@ -117,7 +160,8 @@ class Measurement {
 
   void facet_is_off(double distance_mm, const Point3& place) {
     if (!(distance_mm > result_.facets_to_surface_mm)) return;
-    if (distance_mm > result_.largest_mm()) result_.worst_place_mm = {place.x(), place.y(), place.z()};
+    if (distance_mm > result_.largest_mm())
+      result_.worst_place_mm = {place.x(), place.y(), place.z()};
     result_.facets_to_surface_mm = distance_mm;
   }
 
@@ -150,17 +194,21 @@ class Measurement {
       if (w != first) look_at(slab, w, point, nearest);
     return nearest;
   }
-  static void look_at(const SlabWalls& slab, std::size_t index, const Point3& point, NearestWall& nearest) {
+  static double lower_bound_mm(const Wall& wall, const Point3& p) {
+    return wall.surface ? trueflank::lower_bound_mm(*wall.surface, p)
+                        : wall.curves.lower_bound_mm(p.head<2>());
+  }
+  static void look_at(const SlabWalls& slab, std::size_t index, const Point3& point,
+                      NearestWall& nearest) {
     const Point2 p = point.head<2>();
     const Wall& wall = slab.walls[index];
+    if (lower_bound_mm(wall, point) >= std::abs(nearest.excess_mm)) return;
     if (wall.surface) {
-      if (lower_bound_mm(*wall.surface, point) >= std::abs(nearest.excess_mm)) return;
       const double distance = distance_mm(*wall.surface, point);
       if (std::abs(distance) < std::abs(nearest.excess_mm))
         nearest = {index, wall.hole ? -distance : distance, p};
       return;
     }
-    if (wall.curves.lower_bound_mm(p) >= std::abs(nearest.excess_mm)) return;
     const OutlineFoot foot = wall.curves.foot(p);
     if (std::abs(foot.distance_mm) < std::abs(nearest.excess_mm))
       nearest = {index, wall.hole ? -foot.distance_mm : foot.distance_mm, foot.point};
@@ -205,16 +253,16 @@ class Measurement {
   }
 
   /// A facet of a wall that is no prism, its corners measured: places along the edges, where all
-  /// surfaces but domes are farthest, and of some facets the middle. An edge has two facets: it is looked
-  /// at with the one that runs it upwards in the order of its coordinates.
+  /// surfaces but domes are farthest, and of some facets the middle. An edge has two facets: it is
+  /// looked at with the one that runs it upwards in the order of its coordinates.
   void measure_twisted_facet(const std::array<Point3, 3>& corner, std::size_t slab) {
     if (twisted_facets_++ % kFacetsPerMiddle == 0)
       measure_on_wall(slab, (corner[0] + corner[1] + corner[2]) / 3.0);
     for (std::size_t i = 0; i < 3; ++i) {
       const Point3 &from = corner[i], &to = corner[(i + 1) % 3];
       if (!std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end())) continue;
-      const bool is_long = (to - from).squaredNorm() >
-                           std::pow(kLongEdge, 2) * from.head<2>().squaredNorm();
+      const bool is_long =
+          (to - from).squaredNorm() > std::pow(kLongEdge, 2) * from.head<2>().squaredNorm();
       // by no rule that the rows of a grid could follow
       const bool look = is_long || (edges_++ * 2654435761U >> 16U) % kEdgesPerLook == 0;
       measure_edge(slab, from, to, look);
@@ -223,9 +271,10 @@ class Measurement {
     }
   }
 
-  /// An edge in its middle; with `look_beside` also beside it, where it could be farther off than all yet. Returns the
-  /// wall the middle belongs to.
-  std::size_t measure_edge(std::size_t slab, const Point3& from, const Point3& to, bool look_beside) {
+  /// An edge in its middle; with `look_beside` also beside it, where it could be farther off than
+  /// all yet. Returns the wall the middle belongs to.
+  std::size_t measure_edge(std::size_t slab, const Point3& from, const Point3& to,
+                           bool look_beside) {
     const auto distance_at = [&](double share) {
       measure_on_wall(slab, from + share * (to - from));
       return last_distance_mm_;
@@ -239,7 +288,8 @@ class Measurement {
       if (largest < kAsMuchBeside * middle) continue;
       for (double step = 0.125; step > 0.02; step *= 0.5)
         for (const double next : {share - step, share + step})
-          if (const double there = distance_at(next); there > largest) largest = there, share = next;
+          if (const double there = distance_at(next); there > largest)
+            largest = there, share = next;
     }
     return wall;
   }
@@ -252,8 +302,10 @@ class Measurement {
       if (measured_[t[i]] == stamp) continue;
       measured_[t[i]] = stamp;
       // the vertex below or above was measured just before: walls come in rows
-      if (corner[i].head<2>() != last_vertex_ || slab != last_slab_) measure_on_wall(slab, corner[i]);
-      else facet_is_off(outside_stack_mm(corner[i].z()), corner[i]);
+      if (corner[i].head<2>() != last_vertex_ || slab != last_slab_)
+        measure_on_wall(slab, corner[i]);
+      else
+        facet_is_off(outside_stack_mm(corner[i].z()), corner[i]);
       last_vertex_ = corner[i].head<2>();
     }
     std::size_t longest = 0;
@@ -264,9 +316,9 @@ class Measurement {
     }
     const Point3 &from = corner[longest], &to = corner[(longest + 1) % 3];
     // the other triangle of a rectangle is seen from above as the same chord
-    const bool same = slab == last_slab_ &&
-                      ((from.head<2>() == last_from_ && to.head<2>() == last_to_) ||
-                       (to.head<2>() == last_from_ && from.head<2>() == last_to_));
+    const bool same =
+        slab == last_slab_ && ((from.head<2>() == last_from_ && to.head<2>() == last_to_) ||
+                               (to.head<2>() == last_from_ && from.head<2>() == last_to_));
     if (same) return;
     last_slab_ = slab;
     last_from_ = from.head<2>();
@@ -282,6 +334,41 @@ class Measurement {
 
   /// Returns the wall the point belongs to.
   std::size_t measure_on_wall(std::size_t slab, const Point3& p) {
+    const std::size_t likely = slabs_[slab].last_nearest;
+    const Wall& wall = slabs_[slab].walls[likely];
+    const auto place = wall.surface ? std::nullopt : wall.curves.place_of_copies(p.head<2>());
+    if (!place) return measure_place(slab, p).wall;
+    KnownPlaces::Place& known = known_places_.at(*place);
+    const bool copy = known.slab == slab && known.wall == likely &&
+                      std::abs(known.folded.x() - place->x()) < kSamePlace_mm &&
+                      std::abs(known.folded.y() - place->y()) < kSamePlace_mm;
+    if (copy && tells_nothing(slab, likely, known.excess_mm, p)) {
+      last_distance_mm_ = std::abs(known.excess_mm);
+      return likely;
+    }
+    const NearestWall nearest = measure_place(slab, p);
+    if (nearest.wall == likely) known = {slab, likely, *place, nearest.excess_mm};
+    return nearest.wall;
+  }
+
+  /// Whether a place whose copy was measured on a wall belongs to that wall and is no farther off
+  /// than others.
+  [[nodiscard]] bool tells_nothing(std::size_t slab, std::size_t index, double excess_mm,
+                                   const Point3& p) const {
+    const std::vector<Wall>& walls = slabs_[slab].walls;
+    const double most_mm = std::abs(excess_mm) + 2.0 * kSamePlace_mm;
+    if (most_mm > walls[index].error_mm ||
+        excess_mm + 2.0 * kSamePlace_mm > result_.most_excess_mm ||
+        excess_mm - 2.0 * kSamePlace_mm < result_.most_deficit_mm ||
+        most_mm + outside_stack_mm(p.z()) > result_.facets_to_surface_mm)
+      return false;
+    if (most_mm < 0.5 * walls[index].alone_mm) return true;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      if (w != index && lower_bound_mm(walls[w], p) <= most_mm) return false;
+    return true;
+  }
+
+  NearestWall measure_place(std::size_t slab, const Point3& p) {
     const NearestWall nearest = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest);
     slabs_[slab].last_nearest = nearest.wall;
     last_distance_mm_ = std::abs(nearest.excess_mm);
@@ -293,7 +380,7 @@ class Measurement {
     result_.most_excess_mm = std::max(result_.most_excess_mm, nearest.excess_mm);
     result_.most_deficit_mm = std::min(result_.most_deficit_mm, nearest.excess_mm);
     facet_is_off(std::hypot(nearest.excess_mm, outside_stack_mm(p.z())), p);
-    return nearest.wall;
+    return nearest;
   }
 
   /// Neither wall nor plane face: no part has such facets, so a coarse measure will do.
@@ -304,13 +391,13 @@ class Measurement {
         const double u = static_cast<double>(i) / kParts, v = static_cast<double>(j) / kParts;
         const Point3 p = corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
         const double excess = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest).excess_mm;
-        facet_is_off(std::min(plane_distance_mm(p),
-                              std::hypot(excess, outside_stack_mm(p.z()))), p);
+        facet_is_off(std::min(plane_distance_mm(p), std::hypot(excess, outside_stack_mm(p.z()))),
+                     p);
       }
   }
 
-  /// Keeps where a facet crosses the heights at which slabs are cut. In its own slab a wall facet has
-  /// just been measured.
+  /// Keeps where a facet crosses the heights at which slabs are cut. In its own slab a wall facet
+  /// has just been measured.
   void cut_triangle(const std::array<Point3, 3>& corner, std::size_t measured_slab) {
     const double lower = std::min({corner[0].z(), corner[1].z(), corner[2].z()});
     const double upper = std::max({corner[0].z(), corner[1].z(), corner[2].z()});
@@ -352,7 +439,8 @@ class Measurement {
       if (wall.surface) return point_at_height(*wall.surface, piece, parameter, copy, z_mm);
       return wall.curves.to_outline(point_at(wall.curves.pieces()[piece].curve, parameter), copy);
     }
-    /// Square to the surface; where even the distance within the plane is less than `least_mm`, that.
+    /// Square to the surface; where even the distance within the plane is less than `least_mm`,
+    /// that.
     [[nodiscard]] double distance_mm(std::size_t piece, double parameter, int copy,
                                      double least_mm) const {
       const double within = fan.distance_mm(place(piece, parameter, copy));
@@ -382,19 +470,18 @@ class Measurement {
     for (std::size_t i = 0; i < wall.curves.pieces().size(); ++i) sample(curves, height, i, worst);
     refine(curves, worst);
     surface_is_off(worst.distance_mm, curves.place(worst.piece, worst.parameter, worst.copy), z_mm);
-    if (!wall.surface)
-      surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, z_mm);
+    if (!wall.surface) surface_is_off(fan.distance_mm(wall.error_foot), wall.error_foot, z_mm);
     wall.cuts[height].clear();
   }
 
   void surface_is_off(double distance_mm, const Point2& place, double z_mm) {
     if (!(distance_mm > result_.surface_to_facets_mm)) return;
-    if (distance_mm > result_.largest_mm())
-      result_.worst_place_mm = {place.x(), place.y(), z_mm};
+    if (distance_mm > result_.largest_mm()) result_.worst_place_mm = {place.x(), place.y(), z_mm};
     result_.surface_to_facets_mm = distance_mm;
   }
 
-  static void sample(const TrueCurves& curves, std::size_t height, std::size_t index, Worst& worst) {
+  static void sample(const TrueCurves& curves, std::size_t height, std::size_t index,
+                     Worst& worst) {
     const Wall& wall = curves.wall;
     const OutlineDistance::Piece& piece = wall.curves.pieces()[index];
     // a curve of length s that turns by t needs sqrt(s t / (8 error)) chords, spread at their best
@@ -409,9 +496,9 @@ class Measurement {
       for (int copy = 0; copy < wall.curves.copies(); ++copy) {
         if (wall.surface && (static_cast<std::size_t>(i + copy) + height) % kSampleStride != 0)
           continue;
-        const double distance = wall.surface
-                                    ? curves.distance_mm(index, parameter, copy, worst.distance_mm)
-                                    : curves.fan.distance_mm(wall.curves.to_outline(on_piece, copy));
+        const double distance =
+            wall.surface ? curves.distance_mm(index, parameter, copy, worst.distance_mm)
+                         : curves.fan.distance_mm(wall.curves.to_outline(on_piece, copy));
         if (distance > worst.distance_mm)
           worst = {distance, parameter, span / samples, index, copy};
       }
@@ -447,11 +534,12 @@ class Measurement {
   const TriangleMesh& mesh_;
   std::vector<SlabWalls> slabs_;
   std::vector<double> planes_mm_;
-  std::vector<std::int32_t> measured_;  ///< slab a vertex was last measured in
+  std::vector<std::int32_t> measured_;     ///< slab a vertex was last measured in
   std::vector<std::size_t> vertex_walls_;  ///< of vertices measured in slabs that are no prisms
   std::size_t twisted_facets_ = 0;
   std::uint32_t edges_ = 0;  ///< of twisted walls
-  double last_distance_mm_ = 0.0;  ///< of measure_on_wall()
+  KnownPlaces known_places_;
+  double last_distance_mm_ = 0.0;              ///< of measure_on_wall()
   std::size_t last_slab_ = 0, last_wall_ = 0;  ///< of the chord measured last
   Point2 last_from_ = Point2::Zero(), last_to_ = Point2::Zero(), last_vertex_ = Point2::Zero();
   Accuracy result_;

@@ -15,8 +15,8 @@ namespace {
 
 /// Places where a curve's radii are taken.
 constexpr int kNodes = 33;
-/// The tooth in whose pitch a point is comes from a table; from an arc tangent near the middle of a gap, as
-/// a share of half a pitch, and where teeth are few.
+/// The tooth in whose pitch a point is comes from a table; from an arc tangent near the middle of a
+/// gap, as a share of half a pitch, and where teeth are few.
 constexpr std::size_t kBinsPerTooth = 8;
 constexpr double kSurePitch = 0.999;
 constexpr int kLeastTeethLikely = 5;
@@ -58,7 +58,8 @@ InnerFoot inner_foot(const CircularArc& c, const Curve& curve, const Point2& p) 
   const Point2 from_centre = p - c.centre;
   const double distance = from_centre.norm();
   if (distance == 0.0 || low + wrapped_rad(polar_angle_rad(from_centre) - low) > high) return {};
-  const double outside = curve.end > curve.begin ? 1.0 : -1.0;  // counter-clockwise: away from the centre
+  const double outside =
+      curve.end > curve.begin ? 1.0 : -1.0;  // counter-clockwise: away from the centre
   return OutlineFoot{c.centre + from_centre * (c.radius_mm / distance),
                      outside * (distance - c.radius_mm)};
 }
@@ -75,8 +76,9 @@ InnerFoot inner_foot(const StraightLine& c, const Curve& curve, const Point2& p)
 InnerFoot inner_foot(const Involute& c, const Curve& curve, const Point2& p) {
   const double r2 = p.squaredNorm(), r_b = c.base_radius_mm;
   if (r2 < r_b * r_b) return {};
-  // The normal through p touches the base circle at angle tau and crosses the involute at roll angle
-  // xi; outside the enclosed area the point is farther from there than the involute, on either kind.
+  // The normal through p touches the base circle at angle tau and crosses the involute at roll
+  // angle xi; outside the enclosed area the point is farther from there than the involute, on
+  // either kind.
   const double tangent = std::sqrt(r2 - r_b * r_b);
   const double tau = polar_angle_rad(r_b * p + c.sense * tangent * perpendicular(p));
   const double xi = c.sense * (tau - c.base_half_angle_rad);
@@ -106,6 +108,7 @@ OutlineDistance::OutlineDistance(const Outline& outline) {
     find_likely_teeth();
     for (const ProfilePiece& piece : toothed->profile->pieces()) add(piece.curve);
   } else if (const auto* circle = std::get_if<CircleOutline>(&outline)) {
+    is_circle_ = true;
     add({CircularArc{Point2::Zero(), circle->radius_mm}, 0.0, kTwoPi});
   } else {
     const BoreDesign& bore = std::get<BoreOutline>(outline).bore;
@@ -139,7 +142,8 @@ void OutlineDistance::add(const Curve& curve) {
     form.high = form.high.cwiseMax(node);
   }
   // a curve bulges beyond its samples
-  const double margin = 1e-9 + pieces_.back().length_mm * std::min(0.1, pieces_.back().turning_rad / 8.0);
+  const double margin =
+      1e-9 + pieces_.back().length_mm * std::min(0.1, pieces_.back().turning_rad / 8.0);
   form.low.array() -= margin;
   form.high.array() += margin;
   forms_.push_back(std::move(form));
@@ -169,9 +173,17 @@ double OutlineDistance::lower_bound_mm(const Point2& point) const {
   return std::max({0.0, r - outer_radius_mm_, inner_radius_mm_ - r});
 }
 
+double OutlineDistance::lower_bound_mm(const OutlineDistance& other) const {
+  const double apart = (other.centre_ - centre_).norm();
+  return std::max({0.0, apart - outer_radius_mm_ - other.outer_radius_mm_,
+                   inner_radius_mm_ - apart - other.outer_radius_mm_,
+                   other.inner_radius_mm_ - apart - outer_radius_mm_});
+}
+
 Point2 OutlineDistance::to_outline(const Point2& on_piece, int copy) const {
   if (teeth_ == 0) return on_piece + centre_;
-  return from_tooth(copy % 2 == 0 ? on_piece : mirrored(on_piece), static_cast<std::size_t>(copy / 2));
+  return from_tooth(copy % 2 == 0 ? on_piece : mirrored(on_piece),
+                    static_cast<std::size_t>(copy / 2));
 }
 
 Point2 OutlineDistance::from_tooth(const Point2& p, std::size_t tooth) const {
@@ -206,19 +218,21 @@ std::size_t OutlineDistance::tooth_at(const Point2& point) const {
   return sure ? tooth : nearest_direction(point);
 }
 
-OutlineFoot OutlineDistance::foot(const Point2& point) const {
-  if (teeth_ == 0) {
-    OutlineFoot result = foot_on_half_tooth(point - centre_);
-    result.point += centre_;
-    return result;
-  }
+OutlineDistance::Folded OutlineDistance::folded(const Point2& point) const {
+  if (teeth_ == 0) return {.place = point - centre_};
   const std::size_t tooth = tooth_at(point);
   const Point2& direction = directions_[tooth];
-  Point2 local(direction.dot(point), cross(direction, point));
+  const Point2 local(direction.dot(point), cross(direction, point));
   const bool below = local.y() < 0.0;
-  if (below) local = mirrored(local);
-  OutlineFoot result = foot_on_half_tooth(local);
-  result.point = from_tooth(below ? mirrored(result.point) : result.point, tooth);
+  return {below ? mirrored(local) : local, tooth, below};
+}
+
+OutlineFoot OutlineDistance::foot(const Folded& point) const {
+  OutlineFoot result = foot_on_half_tooth(point.place);
+  if (teeth_ == 0)
+    result.point += centre_;
+  else
+    result.point = from_tooth(point.mirrored ? mirrored(result.point) : result.point, point.tooth);
   return result;
 }
 
@@ -226,7 +240,8 @@ OutlineFoot OutlineDistance::foot_on_half_tooth(const Point2& point) const {
   std::size_t first = 0;  // most likely the nearest: the others will not be looked at
   double least_mm2 = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < pieces_.size() && least_mm2 > 0.0; ++i)
-    if (const double to_box = to_box_mm2(i, point); to_box < least_mm2) least_mm2 = to_box, first = i;
+    if (const double to_box = to_box_mm2(i, point); to_box < least_mm2)
+      least_mm2 = to_box, first = i;
   OutlineFoot best = foot_on_piece(first, point, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     if (i == first || to_box_mm2(i, point) > best.distance_mm * best.distance_mm) continue;
@@ -255,7 +270,8 @@ OutlineFoot OutlineDistance::foot_on_piece(std::size_t index, const Point2& poin
     within = {foot->point, foot->on_left ? -foot->distance_mm : foot->distance_mm};
   if (within) return *within;
   const bool start = (point - form.start).squaredNorm() < (point - form.end).squaredNorm();
-  return start ? signed_foot(form.start, form.start_normal) : signed_foot(form.end, form.end_normal);
+  return start ? signed_foot(form.start, form.start_normal)
+               : signed_foot(form.end, form.end_normal);
 }
 
 }  // namespace trueflank
