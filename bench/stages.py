@@ -110,6 +110,7 @@ def jobs(program, folder):
     scan(folder / "scan.ply", 20000)
     ring = folder / "helical/ring"
     return {
+        "check 3k": ([program, "check", SOURCE / "examples/bilateral_drive/design.toml"], None),
         "3k": make("bilateral_drive", "stl,3mf", "3k"),
         "3k step": make("bilateral_drive", "stl,3mf,step", "3k_step"),
         "helical": make("helical_planetary", "stl,3mf", "helical"),

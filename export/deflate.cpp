@@ -390,6 +390,20 @@ bool inflate(std::string_view packed, std::string& content) {
                                                    content.size(), nullptr) == LIBDEFLATE_SUCCESS;
 }
 
+std::optional<std::string> inflated_row(std::string_view packed, std::size_t most_bytes) {
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  std::string whole(packed);
+  whole += kLastDeflatedBlock;
+  const auto content = std::make_unique_for_overwrite<char[]>(most_bytes);
+  std::size_t taken = 0, made = 0;
+  if (!unpacker || libdeflate_deflate_decompress_ex(unpacker.get(), whole.data(), whole.size(), content.get(),
+                                                    most_bytes, &taken, &made) != LIBDEFLATE_SUCCESS)
+    return std::nullopt;
+  if (taken != whole.size()) return std::nullopt;  // it had a last block of its own
+  return std::string(content.get(), made);
+}
+
 std::uint32_t checksum(std::string_view text, std::uint32_t before) {
   return libdeflate_crc32(before, text.data(), text.size());
 }

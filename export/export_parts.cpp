@@ -13,6 +13,7 @@
 #include "trueflank/export/facet_comparison.h"
 #include "trueflank/export/glb_writer.h"
 #include "trueflank/export/section/kerf_path.h"
+#include "trueflank/export/known_meshes.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/obj_writer.h"
 #include "trueflank/export/parallel_jobs.h"
@@ -133,20 +134,30 @@ class Exporter {
     }
     if (packed) {
       packed_meshes_.resize(shapes_.parts.size());
+      known_meshes_.resize(shapes_.parts.size());
       for (const std::size_t i : parts_largest_first())
         prepared[i] = {add(prepared[i], [this, i] {
           packed_meshes_[i] = packed_3mf_mesh(meshes_[i].part.mesh);
+          known_meshes_[i].packed = packed_meshes_[i].bytes();
           return true;
         })};
     }
-    for (const std::size_t i : files_largest_first()) {
-      std::vector<std::size_t> needs;
+    std::vector<std::size_t> packed_parts;  // their files are read back before that of all: they tell what it holds
+    const auto add_file = [&](std::size_t i, std::vector<std::size_t> needs) {
       if (is_mesh(jobs_[i]))
         for (std::size_t part = 0; part < prepared.size(); ++part)
           if (jobs_[i].part == kAssembly || jobs_[i].part == static_cast<int>(part))
             needs.insert(needs.end(), prepared[part].begin(), prepared[part].end());
-      add(std::move(needs), [this, i] { return keep_error(run(i)); });
+      return add(std::move(needs), [this, i] { return keep_error(run(i)); });
+    };
+    const auto is_packed_whole = [](const Job& j) { return j.part == kAssembly && j.format == FileFormat::k3mf; };
+    for (const std::size_t i : files_largest_first()) {
+      if (is_packed_whole(jobs_[i])) continue;
+      const std::size_t file = add_file(i, {});
+      if (jobs_[i].format == FileFormat::k3mf) packed_parts.push_back(file);
     }
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      if (is_packed_whole(jobs_[i])) add_file(i, packed_parts);
     run_jobs(queue);
   }
 
@@ -320,6 +331,14 @@ class Exporter {
     return all;
   }
 
+  /// Those in the order of packed_meshes_of().
+  [[nodiscard]] std::vector<KnownMesh*> known_meshes_of(const Job& job) {
+    if (job.part != kAssembly) return {&known_meshes_[static_cast<std::size_t>(job.part)]};
+    std::vector<KnownMesh*> all;
+    for (KnownMesh& mesh : known_meshes_) all.push_back(&mesh);
+    return all;
+  }
+
   Status write_step(const Job& job, const std::filesystem::path& path, ReportedFile& file) const {
     if (job.part != kAssembly) {
       file.accuracy_um = um_from_mm(solids_[job.part].solid.fit_error_mm);
@@ -335,7 +354,10 @@ class Exporter {
   /// Reads the file from the disk and compares it with what was to be written.
   Status read_back(std::size_t index, const std::filesystem::path& path, const Scene& scene) {
     FacetComparison comparison(scene);
-    if (auto status = visit_facets(path, [&](const Facet& facet) { comparison.take(facet); });
+    const auto compare = [&](const Facet& facet) { comparison.take(facet); };
+    const Job& job = jobs_[index];
+    if (auto status = job.format == FileFormat::k3mf ? visit_facets(path, known_meshes_of(job), compare)
+                                                     : visit_facets(path, compare);
         !status)
       return status;
     const auto rounding_mm = comparison.rounding_mm();
@@ -369,6 +391,7 @@ class Exporter {
   std::vector<Job> jobs_;
   std::vector<MeasuredMesh> meshes_;  ///< one a part of which there are mesh files
   std::vector<PackedText> packed_meshes_;
+  std::vector<KnownMesh> known_meshes_;  ///< what was read of them
   std::vector<StepPart> solids_;
   std::vector<double> rounding_mm_;  ///< farthest that a corner moved on its way through a file
   std::vector<ReportedFile> files_;

@@ -12,6 +12,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/file_formats.h"
 #include "trueflank/export/input_file.h"
+#include "trueflank/export/known_meshes.h"
 #include "trueflank/export/mesh_parsers.h"
 
 namespace trueflank::io {
@@ -206,13 +207,32 @@ TriangleMesh merged(Bodies&& bodies) {
 
 }  // namespace
 
-Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
-  Reading reading(content.size());
+namespace {
+
+Result<Bodies> checked_bodies(std::string_view content, std::string_view extension, Reading& reading) {
   auto bodies = parsed(content, extension, reading);
   if (!bodies) return bodies;
   for (const MeshBody& body : *bodies)
     if (auto status = check_mesh(body.mesh); !status) return fail(std::move(status.error()));
   return bodies;
+}
+
+Status show_facets(const Bodies& bodies, const std::filesystem::path& path,
+                   const std::function<void(const Facet&)>& show) {
+  bool any = false;
+  for (const auto& [name, mesh] : bodies)
+    for (const auto& t : mesh.triangles) {
+      show({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+      any = true;
+    }
+  return any ? Status{} : fail(no_triangle(path));
+}
+
+}  // namespace
+
+Result<std::vector<MeshBody>> parse_bodies(std::string_view content, std::string_view extension) {
+  Reading reading(content.size());
+  return checked_bodies(content, extension, reading);
 }
 
 Result<ScanMesh> parse_scan(std::string_view content, std::string_view extension) {
@@ -262,13 +282,7 @@ Status visit_facets(const std::filesystem::path& path,
       *file.regular_size() == kStlHeaderBytes) {
     const auto bodies = read_bodies(path);
     if (!bodies) return fail(bodies.error());
-    bool any = false;
-    for (const auto& [name, mesh] : *bodies)
-      for (const auto& t : mesh.triangles) {
-        show({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-        any = true;
-      }
-    return any ? Status{} : fail(no_triangle(path));
+    return show_facets(*bodies, path, show);
   }
   std::string block(1000 * kStlRecordBytes, '\0');
   for (std::size_t left = *file.regular_size() - kStlHeaderBytes; left > 0;) {
@@ -284,6 +298,17 @@ Status visit_facets(const std::filesystem::path& path,
     left -= wanted;
   }
   return {};
+}
+
+Status visit_facets(const std::filesystem::path& path, std::vector<KnownMesh*> known,
+                    const std::function<void(const Facet&)>& show) {
+  const auto content = read_file(path);
+  if (!content) return fail(content.error());
+  Reading reading(content->size());
+  reading.expect(std::move(known));
+  const auto bodies = checked_bodies(*content, path.extension().string(), reading);
+  if (!bodies) return fail(with_file(bodies.error(), path));
+  return show_facets(*bodies, path, show);
 }
 
 Result<std::vector<std::array<double, 3>>> read_points(const std::filesystem::path& path) {

@@ -16,12 +16,18 @@ namespace trueflank::io {
 /// Facets, and as many vertices, that any file may hold: 1 GB of memory.
 constexpr std::size_t kMostFacets = 50'000'000;
 
+struct KnownMesh;  // known_meshes.h
+
 class Reading {
  public:
   /// Of a damaged file: refuse it, or use what can be read of it and note the rest, as for measured data.
   enum class Damage { kRefuse, kNote };
 
   explicit Reading(std::size_t file_bytes, Damage damage = Damage::kRefuse);
+
+  /// Packed meshes that may stand in the file, in the order they would have there.
+  void expect(std::vector<KnownMesh*> known) { known_ = std::move(known); }
+  [[nodiscard]] const std::vector<KnownMesh*>& expected() const { return known_; }
 
   [[nodiscard]] bool notes_damage() const { return damage_ == Damage::kNote; }
   void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
@@ -46,6 +52,7 @@ class Reading {
   Damage damage_;
   std::size_t facets_left_, vertices_left_, bytes_left_, pieces_left_;
   std::vector<std::string> notes_;
+  std::vector<KnownMesh*> known_;
 };
 
 }  // namespace trueflank::io

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "trueflank/export/known_meshes.h"
 #include "trueflank/export/mesh_parsers.h"
 #include "trueflank/export/xml_scanner.h"
 #include "trueflank/export/zip_archive.h"
@@ -194,6 +195,17 @@ class ModelParser {
     text.remove_prefix(static_cast<std::size_t>(at - text.data()));
     return {};
   }
+  /// A piece of text begins, between tags.
+  void begin_piece() { searched_to_ = nullptr; }
+  /// Whether an object is open that has no mesh yet.
+  [[nodiscard]] bool is_at_mesh() const { return object_ && object_->mesh.vertices.empty() && object_->mesh.triangles.empty(); }
+  [[nodiscard]] const TriangleMesh& mesh() const { return object_->mesh; }
+  /// The open object's mesh, read before.
+  [[nodiscard]] Status take(const TriangleMesh& mesh) {
+    if (auto status = reading_.take_facets(mesh.triangles.size(), mesh.vertices.size()); !status) return status;
+    object_->mesh = mesh;
+    return {};
+  }
   [[nodiscard]] bool seen() const { return seen_; }
   [[nodiscard]] Model finish() { return std::move(model_); }
 
@@ -252,16 +264,40 @@ class ModelParser {
   bool seen_ = false;
 };
 
-Result<Model> parse_model(std::string_view text, Reading& reading) {
+tl::unexpected<Error> broken_model() { return syntax_error("the 3MF model is no valid XML, or cut off"); }
+
+/// Tags from the first to the last of a text that is cut between tags.
+Status parse_text(std::string_view text, ModelParser& parser) {
   XmlScanner scanner(text);
   XmlScanner::Tag tag;
-  ModelParser parser(reading);
+  parser.begin_piece();
   while (scanner.next(tag)) {
-    if (auto status = parser.take(tag); !status) return fail(status.error());
-    if (auto status = parser.take_plain(scanner.rest()); !status) return fail(status.error());
+    if (auto status = parser.take(tag); !status) return status;
+    if (auto status = parser.take_plain(scanner.rest()); !status) return status;
   }
-  if (scanner.is_broken() || !parser.seen())
-    return syntax_error("the 3MF model is no valid XML, or cut off");
+  return scanner.is_broken() ? broken_model() : Status{};
+}
+
+Result<Model> parse_model(std::string_view text, Reading& reading) {
+  ModelParser parser(reading);
+  if (auto status = parse_text(text, parser); !status) return fail(status.error());
+  if (!parser.seen()) return broken_model();
+  return parser.finish();
+}
+
+/// A mesh among the pieces is what an open object holds, and all of it.
+Result<Model> parse_model(const std::vector<ContentPiece>& pieces, Reading& reading) {
+  ModelParser parser(reading);
+  for (const ContentPiece& piece : pieces) {
+    if (piece.mesh != nullptr && !parser.is_at_mesh()) return broken_model();
+    const bool is_read = piece.mesh != nullptr && piece.mesh->read;
+    if (auto status = is_read ? parser.take(piece.mesh->mesh) : parse_text(piece.text, parser); !status)
+      return fail(status.error());
+    if (piece.mesh == nullptr || is_read) continue;
+    piece.mesh->mesh = parser.mesh();
+    piece.mesh->read = true;
+  }
+  if (!parser.seen()) return broken_model();
   return parser.finish();
 }
 
@@ -288,6 +324,9 @@ class Package {
   [[nodiscard]] Result<const Model*> model(const std::string& name) {
     const std::string entry = name.starts_with('/') ? name.substr(1) : name;
     if (const auto known = models_.find(entry); known != models_.end()) return &known->second;
+    if (const auto pieces = zip_pieces(archive_, entry, reading_))
+      if (auto parsed = parse_model(*pieces, reading_))
+        return &models_.emplace(entry, std::move(*parsed)).first->second;
     const auto text = zip_content(archive_, entry, reading_);
     if (!text) return fail(text.error());
     auto parsed = parse_model(*text, reading_);

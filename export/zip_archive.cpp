@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "trueflank/export/known_meshes.h"
+
 namespace trueflank::io {
 namespace {
 
@@ -137,8 +139,8 @@ Result<std::vector<DirectoryEntry>> directory(std::string_view archive) {
   return entries;
 }
 
-Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& entry,
-                             Reading& reading) {
+/// The entry's bytes as they stand in the archive.
+Result<std::string_view> packed_content(std::string_view archive, const DirectoryEntry& entry) {
   if ((entry.flags & kEncrypted) || (entry.method != kStored && entry.method != kDeflated))
     return fail(Error{.code = ErrorCode::kUnsupported,
                       .message = "entry '" + std::string(entry.name) +
@@ -153,9 +155,16 @@ Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& ent
     return fail(broken("is cut off"));
   // Deflate cannot pack more than 1032 : 1; a larger claim is a trap for our memory.
   if (entry.content_bytes / 1040 > entry.packed_bytes) return fail(broken("is damaged"));
+  return archive.substr(begin, entry.packed_bytes);
+}
+
+Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& entry,
+                             Reading& reading) {
+  const auto packed = packed_content(archive, entry);
+  if (!packed) return fail(packed.error());
+  const std::string_view body = *packed;
   if (auto status = reading.take_unpacked_bytes(entry.content_bytes); !status)
     return fail(status.error());
-  const std::string_view body = archive.substr(begin, entry.packed_bytes);
   std::string content(entry.content_bytes, '\0');
   if (entry.method == kStored) {
     if (entry.packed_bytes != entry.content_bytes) return fail(broken("is damaged"));
@@ -167,6 +176,50 @@ Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& ent
     return fail(broken("is damaged: a checksum is wrong"));
   return content;
 }
+
+/// Cuts a row of deflated blocks where known meshes stand and unpacks each piece by itself. A piece that would need
+/// bytes of the one before it, or did not end on a whole byte, cannot be unpacked so.
+class PieceCutter {
+ public:
+  explicit PieceCutter(const DirectoryEntry& entry) : checksum_wanted_(entry.checksum), left_(entry.content_bytes) {}
+
+  [[nodiscard]] bool cut(std::string_view body, const std::vector<KnownMesh*>& known) {
+    if (!body.ends_with(PackedText::kLastBlock)) return false;
+    body.remove_suffix(PackedText::kLastBlock.size());
+    for (KnownMesh* mesh : known) {
+      const std::size_t at = body.find(mesh->packed);
+      if (at == body.npos || !add(body.substr(0, at), nullptr) || !add(mesh->packed, mesh)) return false;
+      body.remove_prefix(at + mesh->packed.size());
+    }
+    return add(body, nullptr) && left_ == 0 && checksum_ == checksum_wanted_;
+  }
+  [[nodiscard]] std::vector<ContentPiece> take() { return std::move(pieces_); }
+
+ private:
+  [[nodiscard]] bool add(std::string_view packed, KnownMesh* mesh) {
+    ContentPiece piece{.text = {}, .mesh = mesh};
+    std::size_t bytes = 0;
+    std::uint32_t sum = 0;
+    if (mesh != nullptr && mesh->read) {
+      bytes = mesh->text_bytes, sum = mesh->checksum;
+    } else {
+      auto text = inflated_row(packed, left_);
+      if (!text) return false;
+      bytes = text->size(), sum = checksum(*text);
+      piece.text = std::move(*text);
+      if (mesh != nullptr) mesh->text_bytes = bytes, mesh->checksum = sum;
+    }
+    if (bytes > left_) return false;
+    left_ -= bytes;
+    checksum_ = joined_checksum(checksum_, sum, bytes);
+    pieces_.push_back(std::move(piece));
+    return true;
+  }
+
+  std::uint32_t checksum_wanted_, checksum_ = 0;
+  std::size_t left_;  ///< bytes of the content that are not yet unpacked
+  std::vector<ContentPiece> pieces_;
+};
 
 }  // namespace
 
@@ -224,6 +277,21 @@ Result<std::string> zip_content(std::string_view archive, std::string_view name,
     if (entry.name == name) return unpacked(archive, entry, reading);
   return fail(Error{.code = ErrorCode::kMissingKey,
                     .message = "the archive holds no '" + std::string(name) + "'"});
+}
+
+std::optional<std::vector<ContentPiece>> zip_pieces(std::string_view archive, std::string_view name,
+                                                    Reading& reading) {
+  const auto entries = directory(archive);
+  if (!entries || reading.expected().empty()) return std::nullopt;
+  for (const DirectoryEntry& entry : *entries) {
+    if (entry.name != name) continue;
+    const auto body = packed_content(archive, entry);
+    PieceCutter cutter(entry);
+    if (!body || entry.method != kDeflated || !cutter.cut(*body, reading.expected())) return std::nullopt;
+    if (!reading.take_unpacked_bytes(entry.content_bytes)) return std::nullopt;
+    return cutter.take();
+  }
+  return std::nullopt;
 }
 
 }  // namespace trueflank::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +30,15 @@ struct ZipEntry {
 /// kUnsupported (encrypted, another method; more bytes than the reading allows).
 [[nodiscard]] Result<std::string> zip_content(std::string_view archive, std::string_view name,
                                               Reading& reading);
+
+/// A piece of an entry's content: text, or a mesh that was read before and is not unpacked again.
+struct ContentPiece {
+  std::string text;
+  KnownMesh* mesh = nullptr;  ///< that the piece is
+};
+/// One entry's content, cut where the meshes stand that the reading expects, its checksum verified. Nothing where one
+/// of them does not stand there, and where zip_content() would find an error.
+[[nodiscard]] std::optional<std::vector<ContentPiece>> zip_pieces(std::string_view archive, std::string_view name,
+                                                                  Reading& reading);
 
 }  // namespace trueflank::io

@@ -2,6 +2,7 @@
 #include "trueflank/check/clearance/gear_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,49 @@ double rough_angle_rad(double x, double y) {
   return t * (0.995354 + square * (-0.288679 + square * 0.079331));
 }
 constexpr double kRoughAngle_rad = 1e-3;
+
+bool same_shape(const RackTrochoid& a, const RackTrochoid& b) {
+  return a.pitch_radius_mm == b.pitch_radius_mm && a.corner_depth_mm == b.corner_depth_mm &&
+         a.corner_offset_mm == b.corner_offset_mm && a.corner_radius_mm == b.corner_radius_mm &&
+         a.stretch == b.stretch && a.gap_angle_rad == b.gap_angle_rad;
+}
+bool same_shape(const CutterTrochoid& a, const CutterTrochoid& b) {
+  return a.centre_distance_mm == b.centre_distance_mm &&
+         a.cutter_pitch_radius_mm == b.cutter_pitch_radius_mm &&
+         a.corner_centre_radius_mm == b.corner_centre_radius_mm &&
+         a.corner_centre_angle_rad == b.corner_centre_angle_rad &&
+         a.corner_radius_mm == b.corner_radius_mm && a.ratio == b.ratio &&
+         a.gap_angle_rad == b.gap_angle_rad && a.contact == b.contact;
+}
+bool same_shape(const PointCurve& a, const PointCurve& b) { return a.point == b.point; }
+/// Other curves have no spline, and curves of two kinds are not the same.
+template <class A, class B>
+bool same_shape(const A&, const B&) {
+  return false;
+}
+
+bool same_curve(const Curve& a, const Curve& b) {
+  return a.begin == b.begin && a.end == b.end &&
+         std::visit([](const auto& one, const auto& other) { return same_shape(one, other); },
+                    a.shape, b.shape);
+}
+
+/// A curve's spline. The search for a cure asks for one gear after the other that differ in their
+/// tips alone and have one fillet: the last few splines of a thread are kept. They depend on the
+/// curve and on nothing else.
+std::shared_ptr<const CurveSpline> spline_of(const Curve& curve) {
+  struct Kept {
+    Curve curve;
+    std::shared_ptr<const CurveSpline> spline;
+  };
+  thread_local std::array<Kept, 4> kept;
+  thread_local std::size_t oldest = 0;
+  for (const Kept& one : kept)
+    if (one.spline && same_curve(one.curve, curve)) return one.spline;
+  Kept& next = kept[oldest++ % kept.size()];
+  next = {curve, std::make_shared<const CurveSpline>(curve)};
+  return next.spline;
+}
 
 }  // namespace
 
@@ -39,16 +83,15 @@ GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces
                            std::max(curve.begin, curve.end), sign, index});
     } else if (const auto* involute = std::get_if<Involute>(&curve.shape)) {
       half.flanks.push_back({involute->base_radius_mm, involute->base_half_angle_rad,
-                             static_cast<double>(involute->sense),
-                             std::min(curve.begin, curve.end), std::max(curve.begin, curve.end),
-                             index});
+                             static_cast<double>(involute->sense), std::min(curve.begin, curve.end),
+                             std::max(curve.begin, curve.end), index});
     } else if (const auto* line = std::get_if<StraightLine>(&curve.shape)) {
       const double sign = curve.end > curve.begin ? 1.0 : -1.0;
       const double scale = line->direction.norm();
       half.lines.push_back({point_at(curve, curve.begin), sign * line->direction / scale, 0.0,
                             std::abs(curve.end - curve.begin) * scale, index});
     } else {
-      half.splines.push_back({CurveSpline(curve), index});
+      half.splines.push_back({spline_of(curve), index});
     }
   }
   add_joints(pieces, half);
@@ -73,8 +116,8 @@ void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& hal
       {pieces.back().curve.end_point(), last + image, static_cast<int>(pieces.size()) - 1});
 }
 
-/// The tooth in whose pitch a point lies. A mesh is turned on the mate's +x side: there a rough angle
-/// tells the tooth of all points but those next to the middle of a gap.
+/// The tooth in whose pitch a point lies. A mesh is turned on the mate's +x side: there a rough
+/// angle tells the tooth of all points but those next to the middle of a gap.
 int GearDistance::tooth_at(const Point2& point) const {
   if (point.x() > std::abs(point.y())) {
     const double pitches = rough_angle_rad(point.x(), point.y()) / pitch_rad_;
@@ -179,7 +222,7 @@ void GearDistance::measure_line(const Line& line, const Point2& q, Best& best) c
 }
 
 void GearDistance::measure_spline(const Spline& spline, const Point2& q, Best& best) const {
-  const auto foot = spline.curve.foot(q, best.magnitude);
+  const auto foot = spline.curve->foot(q, best.magnitude);
   if (!foot) return;
   best = {foot->distance_mm,
           (outward_ > 0.0) == foot->on_left ? -foot->distance_mm : foot->distance_mm, spline.piece,

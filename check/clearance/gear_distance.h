@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,18 +13,18 @@ namespace trueflank {
 /// Signed distance from the exact profile of a whole gear.
 ///
 /// A point is first folded into the wedge of half a tooth. That is exact: the profile is symmetric
-/// in the middles of tooth and gap, and of a point's mirror images the one in the same wedge is never
-/// farther. Where the halves of the teeth differ, the neighbours of that wedge are looked at too.
-/// Involutes, arcs and straight lines are then measured in closed form, trochoids on cubic
+/// in the middles of tooth and gap, and of a point's mirror images the one in the same wedge is
+/// never farther. Where the halves of the teeth differ, the neighbours of that wedge are looked at
+/// too. Involutes, arcs and straight lines are then measured in closed form, trochoids on cubic
 /// pieces within 1e-9 module of the curve.
 /// Frame: the gear's own, tooth 1 on +x.
 class GearDistance {
  public:
   struct Nearest {
-    double distance_mm = 0.0;  ///< from the profile; > 0 outside the material, < 0 inside
-    int piece = -1;            ///< index of the nearest point's piece, of that half's pieces
-    bool corner = false;          ///< it is the beginning of that piece (or the end of the last)
-    bool clockwise_half = false;  ///< on which half of its tooth the nearest point lies
+    double distance_mm = 0.0;       ///< from the profile; > 0 outside the material, < 0 inside
+    int piece = -1;                 ///< index of the nearest point's piece, of that half's pieces
+    bool corner = false;            ///< it is the beginning of that piece (or the end of the last)
+    bool clockwise_half = false;    ///< on which half of its tooth the nearest point lies
     Point2 point = Point2::Zero();  ///< nearest point, folded into the first half tooth's wedge
   };
 
@@ -53,7 +54,7 @@ class GearDistance {
     int piece;
   };
   struct Spline {
-    CurveSpline curve;
+    std::shared_ptr<const CurveSpline> curve;
     int piece;
   };
   struct Best {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "trueflank/base/always_inline.h"
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/solid/measure/outline_distance.h"
@@ -186,20 +187,22 @@ class Measurement {
   }
 
   /// `first` is looked at first: the others will be too far to look at where it is the nearest.
-  [[nodiscard]] static NearestWall nearest_wall(const SlabWalls& slab, const Point3& point,
-                                                std::size_t first) {
+  [[nodiscard]] TRUEFLANK_ALWAYS_INLINE static NearestWall nearest_wall(const SlabWalls& slab,
+                                                                        const Point3& point,
+                                                                        std::size_t first) {
     NearestWall nearest{.wall = 0, .excess_mm = std::numeric_limits<double>::infinity()};
     look_at(slab, first, point, nearest);
     for (std::size_t w = 0; w < slab.walls.size(); ++w)
       if (w != first) look_at(slab, w, point, nearest);
     return nearest;
   }
-  static double lower_bound_mm(const Wall& wall, const Point3& p) {
+  // Always inline: this and what calls it, once for every place of a mesh.
+  TRUEFLANK_ALWAYS_INLINE static double lower_bound_mm(const Wall& wall, const Point3& p) {
     return wall.surface ? trueflank::lower_bound_mm(*wall.surface, p)
                         : wall.curves.lower_bound_mm(p.head<2>());
   }
-  static void look_at(const SlabWalls& slab, std::size_t index, const Point3& point,
-                      NearestWall& nearest) {
+  TRUEFLANK_ALWAYS_INLINE static void look_at(const SlabWalls& slab, std::size_t index,
+                                              const Point3& point, NearestWall& nearest) {
     const Point2 p = point.head<2>();
     const Wall& wall = slab.walls[index];
     if (lower_bound_mm(wall, point) >= std::abs(nearest.excess_mm)) return;
@@ -368,7 +371,7 @@ class Measurement {
     return true;
   }
 
-  NearestWall measure_place(std::size_t slab, const Point3& p) {
+  TRUEFLANK_ALWAYS_INLINE NearestWall measure_place(std::size_t slab, const Point3& p) {
     const NearestWall nearest = nearest_wall(slabs_[slab], p, slabs_[slab].last_nearest);
     slabs_[slab].last_nearest = nearest.wall;
     last_distance_mm_ = std::abs(nearest.excess_mm);
