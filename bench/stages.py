@@ -43,7 +43,7 @@ STAGES = {
     "meshes turned through": r"std::__future_base::_Async_state_impl<.*mesh_states.*::_M_run",
     "packing": r"trueflank::io::deflated?\(|trueflank::io::packed",
     "reading back": r"trueflank::io::visit_facets\(",
-    "unpacking": r"libdeflate_(zlib|deflate)_decompress_ex|trueflank::io::inflated?\(",
+    "unpacking": r"libdeflate_(zlib|deflate)_decompress_ex",
     "exact bodies": r"trueflank::brep_of\(",
     "STEP": r"trueflank::io::.*write_step|trueflank::io::step_",
     "reading measured files": r"trueflank::loop::read_measured_files\(",
