@@ -397,8 +397,9 @@ std::optional<std::string> inflated_row(std::string_view packed, std::size_t mos
   whole += kLastDeflatedBlock;
   const auto content = std::make_unique_for_overwrite<char[]>(most_bytes);
   std::size_t taken = 0, made = 0;
-  if (!unpacker || libdeflate_deflate_decompress_ex(unpacker.get(), whole.data(), whole.size(), content.get(),
-                                                    most_bytes, &taken, &made) != LIBDEFLATE_SUCCESS)
+  if (!unpacker ||
+      libdeflate_deflate_decompress_ex(unpacker.get(), whole.data(), whole.size(), content.get(),
+                                       most_bytes, &taken, &made) != LIBDEFLATE_SUCCESS)
     return std::nullopt;
   if (taken != whole.size()) return std::nullopt;  // it had a last block of its own
   return std::string(content.get(), made);

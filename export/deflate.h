@@ -22,9 +22,11 @@ constexpr std::string_view kLastDeflatedBlock{"\3\0", 2};
 /// Fills `content` with exactly what `packed` holds; false where it is damaged or of another size.
 [[nodiscard]] bool inflate(std::string_view packed, std::string& content);
 
-/// What a row of blocks holds of which none is the last, at most `most_bytes`. Errors: nothing where it is damaged, where
-/// it goes on beyond its end or begins before it, and where it holds more.
-[[nodiscard]] std::optional<std::string> inflated_row(std::string_view packed, std::size_t most_bytes);
+/// What a row of blocks holds of which none is the last, at most `most_bytes`. Errors: nothing
+/// where it is damaged, where it goes on beyond its end or begins before it, and where it holds
+/// more.
+[[nodiscard]] std::optional<std::string> inflated_row(std::string_view packed,
+                                                      std::size_t most_bytes);
 
 /// CRC-32 as zip has it, of `text` behind a text whose checksum is `before`.
 [[nodiscard]] std::uint32_t checksum(std::string_view text, std::uint32_t before = 0);

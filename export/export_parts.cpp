@@ -9,10 +9,8 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/section/dxf_writer.h"
 #include "trueflank/export/facet_comparison.h"
 #include "trueflank/export/glb_writer.h"
-#include "trueflank/export/section/kerf_path.h"
 #include "trueflank/export/known_meshes.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/obj_writer.h"
@@ -20,10 +18,12 @@
 #include "trueflank/export/ply_writer.h"
 #include "trueflank/export/scad/scad_writer.h"
 #include "trueflank/export/scene.h"
+#include "trueflank/export/section/dxf_writer.h"
+#include "trueflank/export/section/kerf_path.h"
 #include "trueflank/export/section/section_contour.h"
+#include "trueflank/export/section/svg_writer.h"
 #include "trueflank/export/step/step_writer.h"
 #include "trueflank/export/stl_writer.h"
-#include "trueflank/export/section/svg_writer.h"
 #include "trueflank/export/threemf_writer.h"
 #include "trueflank/solid/measure/measured_mesh.h"
 #include "trueflank/solid/measure/mesh_accuracy.h"
@@ -142,7 +142,8 @@ class Exporter {
           return true;
         })};
     }
-    std::vector<std::size_t> packed_parts;  // their files are read back before that of all: they tell what it holds
+    std::vector<std::size_t>
+        packed_parts;  // their files are read back before that of all: they tell what it holds
     const auto add_file = [&](std::size_t i, std::vector<std::size_t> needs) {
       if (is_mesh(jobs_[i]))
         for (std::size_t part = 0; part < prepared.size(); ++part)
@@ -150,7 +151,9 @@ class Exporter {
             needs.insert(needs.end(), prepared[part].begin(), prepared[part].end());
       return add(std::move(needs), [this, i] { return keep_error(run(i)); });
     };
-    const auto is_packed_whole = [](const Job& j) { return j.part == kAssembly && j.format == FileFormat::k3mf; };
+    const auto is_packed_whole = [](const Job& j) {
+      return j.part == kAssembly && j.format == FileFormat::k3mf;
+    };
     for (const std::size_t i : files_largest_first()) {
       if (is_packed_whole(jobs_[i])) continue;
       const std::size_t file = add_file(i, {});
@@ -356,8 +359,9 @@ class Exporter {
     FacetComparison comparison(scene);
     const auto compare = [&](const Facet& facet) { comparison.take(facet); };
     const Job& job = jobs_[index];
-    if (auto status = job.format == FileFormat::k3mf ? visit_facets(path, known_meshes_of(job), compare)
-                                                     : visit_facets(path, compare);
+    if (auto status = job.format == FileFormat::k3mf
+                          ? visit_facets(path, known_meshes_of(job), compare)
+                          : visit_facets(path, compare);
         !status)
       return status;
     const auto rounding_mm = comparison.rounding_mm();

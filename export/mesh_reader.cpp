@@ -209,7 +209,8 @@ TriangleMesh merged(Bodies&& bodies) {
 
 namespace {
 
-Result<Bodies> checked_bodies(std::string_view content, std::string_view extension, Reading& reading) {
+Result<Bodies> checked_bodies(std::string_view content, std::string_view extension,
+                              Reading& reading) {
   auto bodies = parsed(content, extension, reading);
   if (!bodies) return bodies;
   for (const MeshBody& body : *bodies)

@@ -198,11 +198,14 @@ class ModelParser {
   /// A piece of text begins, between tags.
   void begin_piece() { searched_to_ = nullptr; }
   /// Whether an object is open that has no mesh yet.
-  [[nodiscard]] bool is_at_mesh() const { return object_ && object_->mesh.vertices.empty() && object_->mesh.triangles.empty(); }
+  [[nodiscard]] bool is_at_mesh() const {
+    return object_ && object_->mesh.vertices.empty() && object_->mesh.triangles.empty();
+  }
   [[nodiscard]] const TriangleMesh& mesh() const { return object_->mesh; }
   /// The open object's mesh, read before.
   [[nodiscard]] Status take(const TriangleMesh& mesh) {
-    if (auto status = reading_.take_facets(mesh.triangles.size(), mesh.vertices.size()); !status) return status;
+    if (auto status = reading_.take_facets(mesh.triangles.size(), mesh.vertices.size()); !status)
+      return status;
     object_->mesh = mesh;
     return {};
   }
@@ -264,7 +267,9 @@ class ModelParser {
   bool seen_ = false;
 };
 
-tl::unexpected<Error> broken_model() { return syntax_error("the 3MF model is no valid XML, or cut off"); }
+tl::unexpected<Error> broken_model() {
+  return syntax_error("the 3MF model is no valid XML, or cut off");
+}
 
 /// Tags from the first to the last of a text that is cut between tags.
 Status parse_text(std::string_view text, ModelParser& parser) {
@@ -291,7 +296,8 @@ Result<Model> parse_model(const std::vector<ContentPiece>& pieces, Reading& read
   for (const ContentPiece& piece : pieces) {
     if (piece.mesh != nullptr && !parser.is_at_mesh()) return broken_model();
     const bool is_read = piece.mesh != nullptr && piece.mesh->read;
-    if (auto status = is_read ? parser.take(piece.mesh->mesh) : parse_text(piece.text, parser); !status)
+    if (auto status = is_read ? parser.take(piece.mesh->mesh) : parse_text(piece.text, parser);
+        !status)
       return fail(status.error());
     if (piece.mesh == nullptr || is_read) continue;
     piece.mesh->mesh = parser.mesh();

@@ -177,18 +177,21 @@ Result<std::string> unpacked(std::string_view archive, const DirectoryEntry& ent
   return content;
 }
 
-/// Cuts a row of deflated blocks where known meshes stand and unpacks each piece by itself. A piece that would need
-/// bytes of the one before it, or did not end on a whole byte, cannot be unpacked so.
+/// Cuts a row of deflated blocks where known meshes stand and unpacks each piece by itself. A piece
+/// that would need bytes of the one before it, or did not end on a whole byte, cannot be unpacked
+/// so.
 class PieceCutter {
  public:
-  explicit PieceCutter(const DirectoryEntry& entry) : checksum_wanted_(entry.checksum), left_(entry.content_bytes) {}
+  explicit PieceCutter(const DirectoryEntry& entry)
+      : checksum_wanted_(entry.checksum), left_(entry.content_bytes) {}
 
   [[nodiscard]] bool cut(std::string_view body, const std::vector<KnownMesh*>& known) {
     if (!body.ends_with(PackedText::kLastBlock)) return false;
     body.remove_suffix(PackedText::kLastBlock.size());
     for (KnownMesh* mesh : known) {
       const std::size_t at = body.find(mesh->packed);
-      if (at == body.npos || !add(body.substr(0, at), nullptr) || !add(mesh->packed, mesh)) return false;
+      if (at == body.npos || !add(body.substr(0, at), nullptr) || !add(mesh->packed, mesh))
+        return false;
       body.remove_prefix(at + mesh->packed.size());
     }
     return add(body, nullptr) && left_ == 0 && checksum_ == checksum_wanted_;
@@ -287,7 +290,8 @@ std::optional<std::vector<ContentPiece>> zip_pieces(std::string_view archive, st
     if (entry.name != name) continue;
     const auto body = packed_content(archive, entry);
     PieceCutter cutter(entry);
-    if (!body || entry.method != kDeflated || !cutter.cut(*body, reading.expected())) return std::nullopt;
+    if (!body || entry.method != kDeflated || !cutter.cut(*body, reading.expected()))
+      return std::nullopt;
     if (!reading.take_unpacked_bytes(entry.content_bytes)) return std::nullopt;
     return cutter.take();
   }

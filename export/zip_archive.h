@@ -36,9 +36,10 @@ struct ContentPiece {
   std::string text;
   KnownMesh* mesh = nullptr;  ///< that the piece is
 };
-/// One entry's content, cut where the meshes stand that the reading expects, its checksum verified. Nothing where one
-/// of them does not stand there, and where zip_content() would find an error.
-[[nodiscard]] std::optional<std::vector<ContentPiece>> zip_pieces(std::string_view archive, std::string_view name,
+/// One entry's content, cut where the meshes stand that the reading expects, its checksum verified.
+/// Nothing where one of them does not stand there, and where zip_content() would find an error.
+[[nodiscard]] std::optional<std::vector<ContentPiece>> zip_pieces(std::string_view archive,
+                                                                  std::string_view name,
                                                                   Reading& reading);
 
 }  // namespace trueflank::io
