@@ -113,14 +113,17 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   return result;
 }
 
-GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, Observations table,
+GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, SharedTable table,
                    const LoopOptions& options) {
   PartLoop loop(geometry, std::move(table), {.declared = options.declared, .makings = options.makings});
   loop.run();
   const auto fit = loop.fit_of(loop.effects());
-  std::vector<float> before_um, after_um, unused;
-  fit->residuals(unused, after_um);
-  loop.plain_fit()->residuals(before_um, unused);
+  std::vector<float> before_um, after_um;
+  {
+    std::vector<float> unused;
+    fit->residuals(unused, after_um);
+    loop.plain_fit()->residuals(before_um, unused);
+  }
   GearLoop done{result_of(geometry, loop, *fit, after_um, options.makings), geometry, {}, {}, {}};
   done.result.gear = gear_name;
   done.before_um = std::move(before_um);
@@ -148,20 +151,21 @@ std::vector<std::string> parts_of(const MeasuredData& data) {
   return names;
 }
 
+/// Takes out the files of one part.
 template <class T>
-std::vector<T> of_part(const std::vector<T>& files, const std::string& part) {
-  std::vector<T> kept;
-  std::copy_if(files.begin(), files.end(), std::back_inserter(kept),
-               [&](const T& file) { return file.part == part; });
-  return kept;
+std::vector<T> of_part(std::vector<T>& files, const std::string& part) {
+  std::vector<T> taken;
+  for (T& file : files)
+    if (file.part == part) taken.push_back(std::move(file));
+  std::erase_if(files, [&](const T& file) { return file.part == part; });
+  return taken;
 }
 
 /// Deviations that no gear of this design can have are another unit's or another gear's.
-void doubt_unit_and_gear(const FlankGeometry& geometry, const MeasuredData& data,
-                         LoopResult& result) {
+void doubt_unit_and_gear(const FlankGeometry& geometry, bool scanned, LoopResult& result) {
   constexpr double kFinest_um = 0.02, kLargeInModules = 0.08;
   const double rms = result.before.rms, module_um = 1e3 * geometry.gear().normal_module_mm;
-  if (data.scans.empty() && rms > 1e-4 && rms < kFinest_um)
+  if (!scanned && rms > 1e-4 && rms < kFinest_um)
     result.notes.push_back(printed(
         "deviations of %.2g um rms are finer than any machine measures: are they in millimetres?",
         rms));
@@ -197,10 +201,10 @@ void find_largest_errors(GearLoop& done) {
 namespace {
 
 ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std::string& gear_name,
-                                       const MeasuredData& data, const LoopOptions& options) {
+                                       MeasuredData data, const LoopOptions& options) {
   const std::vector<std::string> names = parts_of(data);
   if (names.empty()) {
-    auto table = make_observations(geometry, data, {.aligned = options.aligned});
+    auto table = make_observations(geometry, std::move(data), {.aligned = options.aligned});
     if (!table) return fail_all(std::move(table.error()));
     if (auto few = too_few(*table, {}); !few.empty()) return fail_all(std::move(few));
     return close_one(geometry, gear_name, std::move(*table), options);
@@ -210,7 +214,7 @@ ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std:
   for (const std::string& name : names) {
     MeasuredData of_one{of_part(data.scans, name), of_part(data.inspections, name),
                         of_part(data.sizes, name), {}, {}};
-    auto table = make_observations(geometry, of_one, {.aligned = options.aligned});
+    auto table = make_observations(geometry, std::move(of_one), {.aligned = options.aligned});
     Errors found = table ? too_few(*table, name) : table.error();
     errors.insert(errors.end(), found.begin(), found.end());
     if (table && found.empty())
@@ -226,11 +230,11 @@ ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std:
 }  // namespace
 
 ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string& gear_name,
-                               const MeasuredData& data, const LoopOptions& options) {
+                               MeasuredData data, const LoopOptions& options) {
   const KnownProcess known = process_of(data, options);
   LoopOptions open = options;
   open.makings = known.makings;
-  auto closed = close_with_process(geometry, gear_name, data, open);
+  auto closed = close_with_process(geometry, gear_name, std::move(data), open);
   if (!closed) return closed;
   LoopResult& result = closed->result;
   result.process = known.name;
@@ -259,8 +263,9 @@ ResultAll<GearLoop> close_loop(const GearTrain& train, const std::string& gear_n
   if (options.aligned) move_into_gear_frame(train, *gear, geometry, *data);
   LoopOptions of_design = options;
   if (!of_design.process) of_design.process = train.design.made.process;
-  auto closed = close_loop(geometry, gear_name, *data, of_design);
-  if (closed) doubt_unit_and_gear(geometry, *data, closed->result);
+  const bool scanned = !data->scans.empty();
+  auto closed = close_loop(geometry, gear_name, std::move(*data), of_design);
+  if (closed) doubt_unit_and_gear(geometry, scanned, closed->result);
   return closed;
 }
 

@@ -40,6 +40,6 @@ void find_largest_errors(GearLoop& done);
 /// The same for a profile and data already read.
 [[nodiscard]] ResultAll<GearLoop> close_loop(const FlankGeometry& geometry,
                                              const std::string& gear_name,
-                                             const MeasuredData& data, const LoopOptions& options);
+                                             MeasuredData data, const LoopOptions& options);
 
 }  // namespace trueflank::loop

@@ -109,8 +109,7 @@ class Survey {
               std::abs(share_left(here, there, here_moved, moved(there)) - 1.0));
       }
     }
-    const double middle =
-        geometry_.on_flank(tooth, 1, from, 0.0).centre_rad + geometry_.twist_rad(z_mm);
+    const double middle = geometry_.centre_rad(tooth) + geometry_.twist_rad(z_mm);
     const Point tip = at(geometry_.tip_radius_mm(), middle, z_mm);
     const Point root = at(geometry_.root_radius_mm(), middle + kPi / geometry_.teeth(), z_mm);
     const double height = geometry_.sense() * (radius_mm(moved(tip)) - radius_mm(moved(root)));

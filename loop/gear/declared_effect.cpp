@@ -22,7 +22,7 @@ std::array<double, 12> variables_at(const FlankGeometry& g, const Place& p) {
           p.roll_mm,
           p.z_mm,
           p.radius_mm,
-          p.centre_rad,
+          g.centre_rad(p.tooth),
           p.polar_rad,
           static_cast<double>(p.tooth),
           static_cast<double>(p.side),

@@ -6,11 +6,14 @@
 namespace trueflank::loop {
 
 /// Makes the fit exact for finite displacements: every point of a scan is moved back by the body
-/// effects as fitted, its exact distance taken there, and the linear part of the effects put back on.
-/// Near the base circle a flank is so curved that 30 um of shrinkage leave 0.4 um to second order.
-/// `measured` is the table as measured; `table` gets the new deviations and places.
-/// Returns the largest change of a deviation [um].
-double linearise_at(const FlankGeometry& geometry, const PointFit& fit, const Observations& measured,
-                    Observations& table);
+/// effects as fitted, its exact distance taken there, and the linear part of the effects put back
+/// on. Near the base circle a flank is so curved that 30 um of shrinkage leave 0.4 um to second
+/// order. The table gets the new deviations and places. Returns the largest change of a deviation
+/// [um].
+double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table);
+
+/// Deviations and places of the gear as designed, as make_observations had them: computed again
+/// from the points, which takes no memory beside the table.
+void undo_displacement(const FlankGeometry& geometry, Observations& table);
 
 }  // namespace trueflank::loop

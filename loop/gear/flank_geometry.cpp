@@ -9,15 +9,13 @@
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank::loop {
-namespace {
 
-Place directed(Place place) {
+Place FlankGeometry::directed(const Undirected& found) {
+  Place place = found.place;
   place.polar_direction = {std::cos(place.polar_rad), std::sin(place.polar_rad)};
-  place.normal_direction = {std::cos(place.normal_rad), std::sin(place.normal_rad)};
+  place.normal_direction = {std::cos(found.normal_rad), std::sin(found.normal_rad)};
   return place;
 }
-
-}  // namespace
 
 FlankGeometry::FlankGeometry(const ToothProfile& profile, double face_width_mm,
                              double bore_radius_mm, bool herringbone)
@@ -82,21 +80,22 @@ Place FlankGeometry::on_flank(int tooth, int side, double roll_mm, double z_mm) 
   return directed(flank_place(tooth, side, roll_mm, z_mm));
 }
 
-Place FlankGeometry::flank_place(int tooth, int side, double roll_mm, double z_mm) const {
-  Place place;
+FlankGeometry::Undirected FlankGeometry::flank_place(int tooth, int side, double roll_mm,
+                                                     double z_mm) const {
+  Undirected found;
+  Place& place = found.place;
   place.surface = Surface::kFlank;
   place.tooth = tooth;
-  place.side = side;
+  place.side = static_cast<std::int8_t>(side);
   place.roll_mm = roll_mm;
   place.z_mm = z_mm;
-  place.centre_rad = kTwoPi * (tooth - 1) / gear_.teeth;
   const double xi = roll_mm / base_radius_;
   const double inv = xi - std::atan(xi);
-  const double centre = place.centre_rad + twist_rad(z_mm);
+  const double centre = centre_rad(tooth) + twist_rad(z_mm);
   place.radius_mm = std::hypot(base_radius_, roll_mm);
   place.polar_rad = centre + side * (half_angle_ - sense_ * inv);
-  place.normal_rad = centre + side * (0.5 * kPi + half_angle_ - sense_ * xi);
-  return place;
+  found.normal_rad = centre + side * (0.5 * kPi + half_angle_ - sense_ * xi);
+  return found;
 }
 
 Place FlankGeometry::on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
@@ -104,9 +103,10 @@ Place FlankGeometry::on_circle(Surface surface, int tooth, double polar_rad, dou
   return directed(circle_place(surface, tooth, polar_rad, radius_mm, z_mm));
 }
 
-Place FlankGeometry::circle_place(Surface surface, int tooth, double polar_rad, double radius_mm,
-                                  double z_mm) const {
-  Place place;
+FlankGeometry::Undirected FlankGeometry::circle_place(Surface surface, int tooth, double polar_rad,
+                                                      double radius_mm, double z_mm) const {
+  Undirected found;
+  Place& place = found.place;
   place.surface = surface;
   place.tooth = tooth;
   place.z_mm = z_mm;
@@ -114,30 +114,28 @@ Place FlankGeometry::circle_place(Surface surface, int tooth, double polar_rad, 
   place.polar_rad = polar_rad;
   // Walls of the toothing face outwards on a gear, inwards on a ring; a bore faces the axis.
   const bool outwards = surface != Surface::kBore && sense_ > 0.0;
-  place.normal_rad = outwards ? polar_rad : polar_rad + kPi;
-  place.centre_rad = kTwoPi * (tooth - 1) / gear_.teeth;
-  return place;
+  found.normal_rad = outwards ? polar_rad : polar_rad + kPi;
+  return found;
 }
 
 PlacedPoint FlankGeometry::nearest_flank(const std::array<double, 3>& p, double margin) const {
-  PlacedPoint placed = undirected_flank(p, margin);
-  placed.place = directed(placed.place);
-  return placed;
+  const Undirected found = undirected_flank(p, margin);
+  return {directed(found), found.distance_mm};
 }
 
 PlacedPoint FlankGeometry::nearest(const std::array<double, 3>& p, double reach_mm) const {
-  PlacedPoint placed = undirected(p, reach_mm);
-  placed.place = directed(placed.place);
-  return placed;
+  const Undirected found = undirected(p, reach_mm);
+  return {directed(found), found.distance_mm};
 }
 
 double FlankGeometry::nearest_distance_mm(const std::array<double, 3>& p, double reach_mm) const {
-  const PlacedPoint placed = undirected(p, reach_mm);
+  const Undirected placed = undirected(p, reach_mm);
   return placed.place.surface == Surface::kNone ? kNaN : std::abs(placed.distance_mm);
 }
 
-PlacedPoint FlankGeometry::undirected_flank(const std::array<double, 3>& p, double margin) const {
-  PlacedPoint result;
+FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<double, 3>& p,
+                                                          double margin) const {
+  Undirected result;
   const double radius = std::hypot(p[0], p[1]);
   const double polar = std::atan2(p[1], p[0]);
   const double pitch = kTwoPi / gear_.teeth;
@@ -154,27 +152,27 @@ PlacedPoint FlankGeometry::undirected_flank(const std::array<double, 3>& p, doub
   }
   const double roll = std::sqrt((radius - base_radius_) * (radius + base_radius_));
   const double involute = roll - base_radius_ * std::atan2(roll, base_radius_);
-  const double transverse =
-      base_radius_ * (side * offset - half_angle_) + sense_ * involute;
-  result.place = flank_place(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
+  const double transverse = base_radius_ * (side * offset - half_angle_) + sense_ * involute;
+  result = flank_place(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
   result.distance_mm = transverse * cos_base_helix_ - designed_deviation_mm(result.place);
   const double u = profile_coordinate(result.place.roll_mm);
   if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;
   return result;
 }
 
-PlacedPoint FlankGeometry::undirected(const std::array<double, 3>& p, double reach_mm) const {
-  PlacedPoint flank = undirected_flank(p, 0.03);
+FlankGeometry::Undirected FlankGeometry::undirected(const std::array<double, 3>& p,
+                                                    double reach_mm) const {
+  Undirected flank = undirected_flank(p, kFlankMargin);
   if (flank.place.surface == Surface::kFlank && std::abs(flank.distance_mm) < reach_mm)
     return flank;
   const double radius = std::hypot(p[0], p[1]);
   const double polar = std::atan2(p[1], p[0]);
   const double pitch = kTwoPi / gear_.teeth;
   const double from_tooth = std::abs(centred_rad(polar - twist_rad(p[2]), pitch));
-  PlacedPoint result;
+  Undirected result;
   result.place.surface = Surface::kNone;
   const auto place_on = [&](Surface surface, double nominal) {
-    result.place = circle_place(surface, flank.place.tooth, polar, nominal, p[2]);
+    result = circle_place(surface, flank.place.tooth, polar, nominal, p[2]);
     const double outward = surface == Surface::kBore ? -1.0 : sense_;
     result.distance_mm = outward * (radius - nominal);
   };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_profile.h"
 #include "trueflank/train/gear_train.h"
 
@@ -13,26 +14,30 @@ namespace trueflank::loop {
 
 enum class Surface : std::uint8_t { kFlank, kTip, kRoot, kBore, kNone };
 
-/// A place on the surface as designed, with its outward normal.
+/// A place on the surface as designed, with its outward normal. Every point of a scan has one: kept
+/// small.
 struct Place {
   Surface surface = Surface::kFlank;
-  int tooth = 0;               ///< 1-based, counter-clockwise; 0: none
-  int side = 1;                ///< +1 counter-clockwise flank of its tooth, -1 clockwise
-  double roll_mm = 0.0;        ///< transverse roll length of the flank point
+  std::int8_t side = 1;  ///< +1 counter-clockwise flank of its tooth, -1 clockwise
+  int tooth = 0;         ///< 1-based, counter-clockwise; 0: none
+  double roll_mm = 0.0;  ///< transverse roll length of the flank point
   double z_mm = 0.0;
   double radius_mm = 0.0;
-  double polar_rad = 0.0;      ///< of the point
-  double normal_rad = 0.0;     ///< direction of the transverse part of the outward normal
-  double centre_rad = 0.0;     ///< 2 pi (tooth - 1) / z: the tooth's angle at z = 0
-  /// Cosine and sine of polar_rad and of normal_rad: every fit asks every place for them.
+  double polar_rad = 0.0;  ///< of the point
+  /// Cosine and sine of polar_rad, and of the direction of the transverse part of the outward
+  /// normal: every fit asks every place for them.
   std::array<double, 2> polar_direction{1.0, 0.0}, normal_direction{1.0, 0.0};
 };
+static_assert(sizeof(Place) == 72);
 
 /// Place nearest to a measured point, and how far the point lies outside the material there.
 struct PlacedPoint {
   Place place;
   double distance_mm = 0.0;  ///< along the normal, + = too much material
 };
+
+/// Share of a flank's length at either end that is not taken as flank: its edges are rounded.
+inline constexpr double kFlankMargin = 0.03;
 
 /// The surfaces of one gear in closed form.
 /// Source: distances and normals derived in docs/theory/flank-distance.md: involutes of one base
@@ -72,6 +77,8 @@ class FlankGeometry {
   [[nodiscard]] double face_coordinate(double z_mm) const;
   /// Rotation of the section at a height against that at z = 0.
   [[nodiscard]] double twist_rad(double z_mm) const;
+  /// 2 pi (tooth - 1) / z: a tooth's angle at z = 0.
+  [[nodiscard]] double centre_rad(int tooth) const { return kTwoPi * (tooth - 1) / gear_.teeth; }
   /// z part of the unit normal of a flank.
   [[nodiscard]] double normal_z(const Place& place) const;
 
@@ -79,8 +86,8 @@ class FlankGeometry {
   [[nodiscard]] Place on_flank(int tooth, int side, double roll_mm, double z_mm) const;
   [[nodiscard]] Place on_circle(Surface surface, int tooth, double polar_rad, double radius_mm,
                                 double z_mm) const;
-  /// Nearest flank of a point, whatever its distance from the flank as designed; place.surface is kNone outside the involute
-  /// (with a margin of `margin` of its length at either end).
+  /// Nearest flank of a point, whatever its distance from the flank as designed; place.surface is
+  /// kNone outside the involute (with a margin of `margin` of its length at either end).
   [[nodiscard]] PlacedPoint nearest_flank(const std::array<double, 3>& point_mm,
                                           double margin = 0.0) const;
   /// Nearest surface within `reach_mm`: flank, else tip, root or bore, else kNone.
@@ -95,13 +102,19 @@ class FlankGeometry {
   [[nodiscard]] BallContact ball_contact(double diameter_mm) const;
 
  private:
-  [[nodiscard]] Place flank_place(int tooth, int side, double roll_mm, double z_mm) const;
-  [[nodiscard]] Place circle_place(Surface surface, int tooth, double polar_rad, double radius_mm,
-                                   double z_mm) const;
-  [[nodiscard]] PlacedPoint undirected_flank(const std::array<double, 3>& point_mm,
-                                             double margin) const;
-  [[nodiscard]] PlacedPoint undirected(const std::array<double, 3>& point_mm,
-                                       double reach_mm) const;
+  /// A place whose directions are not computed yet.
+  struct Undirected {
+    Place place;
+    double normal_rad = 0.0;  ///< direction of the transverse part of the outward normal
+    double distance_mm = 0.0;
+  };
+  [[nodiscard]] static Place directed(const Undirected& found);
+  [[nodiscard]] Undirected flank_place(int tooth, int side, double roll_mm, double z_mm) const;
+  [[nodiscard]] Undirected circle_place(Surface surface, int tooth, double polar_rad,
+                                        double radius_mm, double z_mm) const;
+  [[nodiscard]] Undirected undirected_flank(const std::array<double, 3>& point_mm,
+                                            double margin) const;
+  [[nodiscard]] Undirected undirected(const std::array<double, 3>& point_mm, double reach_mm) const;
   Gear gear_;
   double sense_, base_radius_, reference_radius_, tip_radius_, root_radius_, bore_radius_;
   double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;

@@ -13,11 +13,16 @@ Observations joined_table(const std::vector<const Observations*>& tables) {
                             table->pose_is_free.end());
     all.points_mm.insert(all.points_mm.end(), table->points_mm.begin(), table->points_mm.end());
     all.outliers += table->outliers;
+    all.is_displaced = all.is_displaced || table->is_displaced;
   }
   const int scans = static_cast<int>(all.poses.size());
   std::vector<std::size_t> first_place;
   for (const Observations* table : tables) {
     first_place.push_back(all.places.size());
+    if (!table->sigmas_um.empty()) {
+      all.sigmas_um.resize(all.places.size(), kNaN);
+      all.sigmas_um.insert(all.sigmas_um.end(), table->sigmas_um.begin(), table->sigmas_um.end());
+    }
     all.places.insert(all.places.end(), table->places.begin(), table->places.end());
   }
   for (const bool of_scans : {true, false}) {
@@ -27,7 +32,8 @@ Observations joined_table(const std::vector<const Observations*>& tables) {
       const int own = static_cast<int>(table.poses.size());
       const std::size_t middle = table.points_mm.size();
       int most = -1;
-      for (std::size_t i = of_scans ? 0 : middle; i < (of_scans ? middle : table.rows.size()); ++i) {
+      for (std::size_t i = of_scans ? 0 : middle; i < (of_scans ? middle : table.rows.size());
+           ++i) {
         Observation row = table.rows[i];
         row.first_place += static_cast<std::uint32_t>(first_place[t]);
         const int source = of_scans ? row.source : row.source - own;

@@ -12,52 +12,69 @@ namespace trueflank::loop {
 
 /// Kind of an observation: rows of one kind share their noise.
 enum class ObservationKind : std::uint8_t {
-  kScanFlank, kScanTip, kScanRoot, kScanBore, kProfile, kHelix, kIndex, kRadial, kSize
+  kScanFlank,
+  kScanTip,
+  kScanRoot,
+  kScanBore,
+  kProfile,
+  kHelix,
+  kIndex,
+  kRadial,
+  kSize
 };
 inline constexpr int kObservationKinds = 9;
 
-/// One measured value: a weighted sum of deviations at places (one place for a point of a flank, two
-/// for a ball in a gap, all teeth for a span).
+/// One measured value: the sum of deviations at places (one place for a point of a flank, two for a
+/// ball in a gap, all teeth for a span), each times the same weight.
 struct Observation {
-  std::uint32_t first_place = 0;
-  std::uint32_t places = 1;
   double deviation_um = 0.0;
-  double sigma_um = kNaN;   ///< as given with the data; NaN: not given
-  int trace = -1;           ///< rows that share one unknown zero; -1: none
-  int source = 0;           ///< scan or file it came from
+  double weight = 1.0;  ///< of each of its places
+  std::uint32_t first_place = 0;
+  int trace = -1;  ///< rows that share one unknown zero; -1: none
+  int source = 0;  ///< scan or file it came from
+  std::uint16_t places = 1;
   ObservationKind kind = ObservationKind::kScanFlank;
 };
-
-struct WeightedPlace {
-  Place place;
-  double weight = 1.0;
-};
+static_assert(sizeof(Observation) == 32);
 
 /// All inputs in one table. Deviations in um along the surface normal, + = too much material.
 struct Observations {
   std::vector<Observation> rows;
-  std::vector<WeightedPlace> places;
+  std::vector<Place> places;
   /// Points of scans in the gear's frame [mm], one for each of the first rows (scans come first).
   std::vector<std::array<double, 3>> points_mm;
+  /// As given with the data, of a row by its first place; NaN: not given. Empty: of none.
+  std::vector<double> sigmas_um;
   int traces = 0;
-  std::vector<Pose> poses;            ///< of each scan
-  std::vector<bool> pose_is_free;     ///< of each scan
+  /// Deviations and places of scanned flanks are about a displacement (finite_displacement.h).
+  bool is_displaced = false;
+  std::vector<Pose> poses;         ///< of each scan
+  std::vector<bool> pose_is_free;  ///< of each scan
   int outliers = 0;
   std::vector<std::string> notes;
 
-  [[nodiscard]] const Place& place(const Observation& row) const {
-    return places[row.first_place].place;
+  [[nodiscard]] const Place& place(const Observation& row) const { return places[row.first_place]; }
+  [[nodiscard]] double sigma_um(const Observation& row) const {
+    return row.first_place < sigmas_um.size() ? sigmas_um[row.first_place] : kNaN;
   }
 };
+
+/// A scanned row of a flank on the gear as designed, whatever the table says of it now: the same
+/// place and distance as when it entered the table.
+[[nodiscard]] inline PlacedPoint as_designed(const FlankGeometry& geometry,
+                                             const Observations& table, std::size_t row) {
+  return geometry.nearest_flank(table.points_mm[row], kFlankMargin);
+}
 
 struct ObservationOptions {
   bool aligned = false;
 };
 
 /// Puts measured data of one gear into the table: poses fitted, points classed, outliers left out.
+/// The points of scans stay where they are and become the table's.
 /// Errors: data that do not belong to this gear, or hold nothing usable.
 [[nodiscard]] ResultAll<Observations> make_observations(const FlankGeometry& geometry,
-                                                        const MeasuredData& data,
+                                                        MeasuredData data,
                                                         const ObservationOptions& options);
 
 }  // namespace trueflank::loop

@@ -8,6 +8,7 @@
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/plain_rms.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -19,16 +20,16 @@ constexpr double kNextLevel = 0.01;
 
 }  // namespace
 
-PartLoop::PartLoop(const FlankGeometry& geometry, Observations table, Options options)
+PartLoop::PartLoop(const FlankGeometry& geometry, SharedTable table, Options options)
     : geometry_(geometry),
       options_(std::move(options)),
-      measured_(std::move(table)),
-      table_(measured_),
+      table_(std::move(table)),
       candidates_(candidate_effects(geometry, options_.declared, options_.makings)) {
-  const bool scanned = !measured_.points_mm.empty();
+  const bool scanned = !table_->points_mm.empty();
   std::erase_if(candidates_, [&](const Effect& effect) {
     const std::vector<const EffectFamily*>& without = options_.without;
-    return (scanned && effect.family->of_traces_only) || (options_.names_only && effect.is_term()) ||
+    return (scanned && effect.family->of_traces_only) ||
+           (options_.names_only && effect.is_term()) ||
            std::find(without.begin(), without.end(), effect.family) != without.end();
   });
   banned_.assign(candidates_.size(), false);
@@ -61,8 +62,8 @@ std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effe
 
 std::shared_ptr<const PointFit> PartLoop::plain_fit() const {
   if (!plain_fit_)
-    plain_fit_ = std::make_shared<const PointFit>(geometry_, measured_, patches_,
-                                                  std::vector<Effect>());
+    plain_fit_ = std::make_shared<const PointFit>(geometry_, table_, patches_,
+                                                  std::vector<Effect>(), 1, DeviationsOf::kDesign);
   return plain_fit_;
 }
 
@@ -112,7 +113,8 @@ void PartLoop::explain() {
 
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
 bool PartLoop::is_rounding() const {
-  constexpr double kFileRounding_um = 0.01;
+  constexpr double kFileRounding_um = 0.01, kClearly = 1.1;
+  if (least_plain_rms_um(geometry_, table_, patches_) > kClearly * kFileRounding_um) return false;
   const auto plain = plain_fit();
   return plain->observations() > 0 && plain->errors({}).rms_um < kFileRounding_um;
 }
@@ -128,13 +130,13 @@ void PartLoop::ban_what_cannot_be_seen() {
   double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
   bool scanned = false, whole_ring = false;
   std::set<int> traced_teeth;
-  for (const Observation& row : table_.rows) {
+  for (const Observation& row : table_->rows) {
     whole_ring =
         whole_ring || row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
     const bool scan = row.kind == ObservationKind::kScanFlank;
     scanned = scanned || scan;
-    const double u = geometry_.profile_coordinate(table_.place(row).roll_mm);
-    const double v = geometry_.face_coordinate(table_.place(row).z_mm);
+    const double u = geometry_.profile_coordinate(table_->place(row).roll_mm);
+    const double v = geometry_.face_coordinate(table_->place(row).z_mm);
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
     if (row.kind == ObservationKind::kHelix) {
@@ -162,7 +164,8 @@ void PartLoop::ban_what_cannot_be_seen() {
     return !scanned && !effect.family->tells_order_along_profile && in_traces_only && traced > 0 &&
            2.0 * effect.order() >= traced;
   };
-  // Waves that stand alike on every tooth looked at are a form of the flank, and no machine's order.
+  // Waves that stand alike on every tooth looked at are a form of the flank, and no machine's
+  // order.
   const auto is_alike_on_all = [&](const Effect& effect) {
     if (!effect.family->tells_order_along_profile) return false;
     const double z = geometry_.teeth();
@@ -276,9 +279,9 @@ bool PartLoop::linearise() {
   const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
     return static_cast<bool>(effect.family->displacement_mm);
   });
-  if (!body || measured_.points_mm.empty()) return false;
+  if (!body || table_->points_mm.empty()) return false;
   const auto fit = fit_of(effects_);
-  const double change = linearise_at(geometry_, *fit, measured_, table_);
+  const double change = linearise_at(geometry_, *fit, table_.own());
   forget_fits();
   if (!(change > 0.02 * fit->noise_um())) return false;
   divide_into_patches();
@@ -334,10 +337,11 @@ bool PartLoop::ban_misnamed() {
   return any;
 }
 
-/// Beside a drift around the gear that is larger, waves are what its even course leaves: no cause of
-/// their own. True where any was banned.
+/// Beside a drift around the gear that is larger, waves are what its even course leaves: no cause
+/// of their own. True where any was banned.
 bool PartLoop::ban_waves_of_a_drift() {
-  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.family->is_drift; }))
+  if (std::none_of(effects_.begin(), effects_.end(),
+                   [](const Effect& e) { return e.family->is_drift; }))
     return false;
   const PointFit fit(geometry_, table_, patches_, effects_);
   double drift_um = 0.0;
@@ -400,7 +404,7 @@ void PartLoop::look_at_single_teeth() {
 void PartLoop::look_at_sizes() {
   constexpr double kSure = 1e-3, kTie = 4.0;
   const auto sizes =
-      std::count_if(table_.rows.begin(), table_.rows.end(),
+      std::count_if(table_->rows.begin(), table_->rows.end(),
                     [](const Observation& row) { return row.kind == ObservationKind::kSize; });
   for (int round = 0; round < 2 && sizes > 0; ++round) {
     const double before = fit_of(effects_)->residual_square();

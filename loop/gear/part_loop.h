@@ -12,6 +12,7 @@
 #include "trueflank/loop/gear/local/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/remainder.h"
+#include "trueflank/loop/gear/shared_table.h"
 
 namespace trueflank::loop {
 
@@ -28,7 +29,7 @@ class PartLoop {
     std::vector<const EffectFamily*> without = {};  ///< families that are not asked about
     int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
   };
-  PartLoop(const FlankGeometry& geometry, Observations table, Options options);
+  PartLoop(const FlankGeometry& geometry, SharedTable table, Options options);
   PartLoop(const PartLoop&) = delete;  ///< fits refer to its tables
   PartLoop& operator=(const PartLoop&) = delete;
 
@@ -42,8 +43,7 @@ class PartLoop {
   /// About the effects found: exact for finite displacements.
   [[nodiscard]] const Observations& table() const { return table_; }
   /// The same at the end, without a copy.
-  [[nodiscard]] Observations take_table() && { return std::move(table_); }
-  [[nodiscard]] const Observations& measured() const { return measured_; }
+  [[nodiscard]] Observations take_table() && { return std::move(table_).taken(); }
   [[nodiscard]] const Patches& patches() const { return patches_; }
   /// The fit of effects to the table as it is; asked for again, it is at hand.
   [[nodiscard]] std::shared_ptr<const PointFit> fit_of(const std::vector<Effect>& effects) const;
@@ -118,8 +118,7 @@ class PartLoop {
 
   const FlankGeometry& geometry_;
   Options options_;
-  Observations measured_;  ///< deviations of the gear as designed
-  Observations table_;
+  SharedTable table_;
   Patches patches_;
   std::vector<Effect> candidates_;
   std::vector<bool> banned_, unseen_;

@@ -121,11 +121,11 @@ bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>&
 /// in which traces may differ from it, or without them.
 void PartLoop::hold_to_single_values() {
   const bool traced =
-      std::any_of(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
+      std::any_of(table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
         return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
       });
-  if (!traced || !measured_.points_mm.empty()) return;
-  Observations single = values_one_a_tooth(measured_);
+  if (!traced || !table_->points_mm.empty()) return;
+  Observations single = values_one_a_tooth(table_);
   if (single.rows.empty()) return;
   Options options = options_;
   options.given.resize(options_.given.size() - given_p_values_.size());
@@ -182,6 +182,7 @@ double height_of_single_values(const Observations& table, const Effect& tooth,
 /// along the traces are as far out now and then, it is one of those.
 void PartLoop::drop_teeth_within_the_tails() {
   constexpr double kByChance = 0.01;
+  if (std::none_of(table_->rows.begin(), table_->rows.end(), is_one_a_tooth)) return;
   for (std::size_t e = effects_.size(); e-- > options_.given.size();) {
     if (!effects_[e].family->local || effects_[e].columns() != 1) continue;
     std::vector<Effect> without = effects_;
@@ -191,9 +192,9 @@ void PartLoop::drop_teeth_within_the_tails() {
     const double height = height_of_single_values(table_, effects_[e], geometry_, after_um);
     if (!(height > 0.0)) continue;
     std::vector<double> along, single;
-    for (std::size_t i = 0; i < table_.rows.size(); ++i)
+    for (std::size_t i = 0; i < table_->rows.size(); ++i)
       if (patches_.patch_of_row[i] >= 0)
-        (is_one_a_tooth(table_.rows[i]) ? single : along)
+        (is_one_a_tooth(table_->rows[i]) ? single : along)
             .push_back(std::abs(static_cast<double>(after_um[i])));
     const double usual_along = usual_size(along), usual_single = usual_size(single);
     if (!(usual_along > 0.0) || !(usual_single > 0.0)) continue;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 
+#include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -272,9 +273,11 @@ void PartLoop::veto() {
       return static_cast<bool>(effect.family->displacement_mm);
     });
     if (!body &&
-        !measured_.points_mm.empty()) {  // deviations about a displacement that is taken back
-      table_ = measured_;
-      divide_into_patches();
+        !table_->points_mm.empty()) {  // deviations about a displacement that is taken back
+      if (table_->is_displaced) {
+        undo_displacement(geometry_, table_.own());
+        divide_into_patches();
+      }
       leave_out_across_steps();
     }
   }

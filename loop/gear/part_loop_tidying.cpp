@@ -145,22 +145,24 @@ void PartLoop::join_flanks() {
     }
 }
 
-/// Forms that were found first may stand where fewer names say the same: all is chosen once more from names
-/// alone.
+/// Forms that were found first may stand where fewer names say the same: all is chosen once more
+/// from names alone.
 void PartLoop::prefer_names() {
-  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); })) return;
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
+    return;
   Options options = options_;
   options.names_only = true;
   (void)adopt_if_simpler(std::move(options), 0);
 }
 
-/// Two that these data cannot tell from one and the same third are perhaps that: without the first of them
-/// all is chosen once more.
+/// Two that these data cannot tell from one and the same third are perhaps that: without the first
+/// of them all is chosen once more.
 void PartLoop::prefer_one_name_to_two() {
   for (std::size_t a = 0; a < effects_.size(); ++a)
     for (std::size_t b = a + 1; b < effects_.size(); ++b) {
       if (!effects_[a].family->named || !effects_[b].family->named) continue;
-      const std::vector<int>&of_a = discovery_.chosen[a].confounded, &of_b = discovery_.chosen[b].confounded;
+      const std::vector<int>&of_a = discovery_.chosen[a].confounded,
+            &of_b = discovery_.chosen[b].confounded;
       const bool third = std::any_of(of_a.begin(), of_a.end(), [&](int group) {
         return candidates_[static_cast<std::size_t>(group)].family->named &&
                std::find(of_b.begin(), of_b.end(), group) != of_b.end();
@@ -173,14 +175,16 @@ void PartLoop::prefer_one_name_to_two() {
     }
 }
 
-/// Makes the whole choice again in another way. It is taken over where it has names alone, so many columns fewer,
-/// leaves no more, and nothing is left that a form would say.
+/// Makes the whole choice again in another way. It is taken over where it has names alone, so many
+/// columns fewer, leaves no more, and nothing is left that a form would say.
 bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
-  // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of the
-  // error is no loss.
+  // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of
+  // the error is no loss.
   constexpr double kNothing = 9.0, kByChance = 4.0, kNoLoss = 1e-3;
   options.given.resize(options_.given.size() - given_p_values_.size());
-  PartLoop names(geometry_, measured_, std::move(options));
+  SharedTable measured = table_;
+  if (measured->is_displaced) undo_displacement(geometry_, measured.own());
+  PartLoop names(geometry_, std::move(measured), std::move(options));
   names.run();
   if (names.effects_.empty()) return false;
   names.tell_parts_of_a_form();
@@ -212,7 +216,7 @@ void PartLoop::take_over(PartLoop& other) {
   candidates_ = std::move(other.candidates_);
   banned_ = std::move(other.banned_);
   unseen_ = std::move(other.unseen_);
-  table_ = std::move(other.table_);
+  table_ = other.table_;
   patches_ = std::move(other.patches_);
   options_.given = std::move(other.options_.given);
   neighbours_ = std::move(other.neighbours_);
@@ -237,9 +241,9 @@ void PartLoop::doubt_names_below_what_is_left() {
     with[kind] = error.square / error.count;
     left[kind] = std::max(0.0, error.square - error.random_square) / error.count;
   }
-  const bool sizes = std::any_of(table_.rows.begin(), table_.rows.end(), [](const Observation& row) {
-    return row.kind == ObservationKind::kSize;
-  });
+  const bool sizes =
+      std::any_of(table_->rows.begin(), table_->rows.end(),
+                  [](const Observation& row) { return row.kind == ObservationKind::kSize; });
   for (std::size_t e = effects_.size(); e-- > told;) {
     const EffectFamily& family = *effects_[e].family;
     if (!family.named || family.local || (sizes && family.shows_in_sizes)) continue;

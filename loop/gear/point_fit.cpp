@@ -20,11 +20,12 @@ bool counts_as_error(ObservationKind kind) {
 }
 
 PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect> effects, std::size_t stride)
+                   std::vector<Effect> effects, std::size_t stride, DeviationsOf what)
     : geometry_(geometry),
       table_(table),
       patches_(patches),
       stride_(stride),
+      what_(table.is_displaced ? what : DeviationsOf::kTable),
       nuisance_(geometry, table),
       effects_(std::move(effects)) {
   columns_ = nuisance_.count();
@@ -38,19 +39,28 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
 }
 
 /// Nuisance and effect columns of a row, the value last.
-void PointFit::features(const Observation& row, double* values) const {
+void PointFit::features(std::size_t i, double* values) const {
   std::fill_n(values, columns_ + 1, 0.0);
-  double one[8];
-  for (std::uint32_t i = 0; i < row.places; ++i) {
-    const WeightedPlace& place = table_.places[row.first_place + i];
-    nuisance_.add(place.place, row.kind, row.source, place.weight, values);
-    for (std::size_t e = 0; e < effects_.size(); ++e) {
-      effects_[e].evaluate(geometry_, place.place, one);
-      for (int k = 0; k < effects_[e].columns(); ++k)
-        values[first_column_[e] + k] += place.weight * one[k];
-    }
+  const Observation& row = table_.rows[i];
+  if (what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank) {
+    const PlacedPoint placed = as_designed(geometry_, table_, i);
+    add_place(row, placed.place, values);
+    values[columns_] = um_from_mm(placed.distance_mm);
+    return;
   }
+  for (std::uint32_t k = 0; k < row.places; ++k)
+    add_place(row, table_.places[row.first_place + k], values);
   values[columns_] = row.deviation_um;
+}
+
+void PointFit::add_place(const Observation& row, const Place& place, double* values) const {
+  nuisance_.add(place, row.kind, row.source, row.weight, values);
+  double one[8];
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    effects_[e].evaluate(geometry_, place, one);
+    for (int k = 0; k < effects_[e].columns(); ++k)
+      values[first_column_[e] + k] += row.weight * one[k];
+  }
 }
 
 /// Means of all columns over every trace: what its unknown zero takes out of them. The hold-out has
@@ -66,7 +76,7 @@ void PointFit::average_zeros() {
     if (trace < 0 || patches_.patch_of_row[i] < 0) continue;
     const auto& patch = patches_.patches[patches_.patch_of_row[i]];
     const double w = patch.weight / patch.count;
-    features(table_.rows[i], row.data());
+    features(i, row.data());
     const int slot = 2 * trace + (patch.fold == 0 ? 1 : 0);
     zero_means_[slot] += w * row;
     weights[slot] += w;
@@ -172,7 +182,7 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
     const double w = patch.weight;
     const bool held = patch.held, in_trace = observation.trace >= 0;
     const bool counts = counts_as_error(observation.kind);
-    features(observation, row.data());
+    features(i * stride_, row.data());
     if (in_trace) {
       const Eigen::VectorXd part = row - zero_means_[2 * observation.trace + (held ? 1 : 0)];
       if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
@@ -409,7 +419,7 @@ void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& afte
     Eigen::VectorXd row(columns_ + 1);
     for (std::size_t i = begin; i < end; ++i) {
       if (patches_.patch_of_row[i] < 0) continue;
-      features(table_.rows[i], row.data());
+      features(i, row.data());
       if (table_.rows[i].trace >= 0) row -= whole_zero_means_[table_.rows[i].trace];
       before_um[i] = static_cast<float>(row[columns_] - none.dot(row.head(columns_)));
       after_um[i] = static_cast<float>(row[columns_] - coefficients_.dot(row.head(columns_)));

@@ -13,13 +13,17 @@ namespace trueflank::loop {
 /// tips and bores of scans, which only help to tell effects apart.
 [[nodiscard]] bool counts_as_error(ObservationKind kind);
 
+/// What a fit is to: the table as it stands, or the deviations of the gear as designed.
+enum class DeviationsOf : std::uint8_t { kTable, kDesign };
+
 /// Joint least squares of effects and nuisance on the single values, with the patches' weights.
 /// Linear in the values: one pass on all processors gathers normal equations per unit, the same
 /// ones on any number of them. With a stride only every n-th value is used.
 class PointFit {
  public:
   PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-           std::vector<Effect> effects, std::size_t stride = 1);
+           std::vector<Effect> effects, std::size_t stride = 1,
+           DeviationsOf what = DeviationsOf::kTable);
 
   [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
   [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
@@ -61,7 +65,8 @@ class PointFit {
   [[nodiscard]] int held_out() const { return held_out_; }
 
  private:
-  void features(const Observation& row, double* values) const;
+  void features(std::size_t row, double* values) const;
+  void add_place(const Observation& row, const Place& place, double* values) const;
   void average_zeros();
   struct PatchOfRow;
   struct Sums;
@@ -77,6 +82,7 @@ class PointFit {
   const Observations& table_;
   const Patches& patches_;
   std::size_t stride_;
+  DeviationsOf what_;
   NuisanceColumns nuisance_;
   std::vector<Effect> effects_;
   std::vector<int> first_column_;

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/gear/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {
@@ -37,7 +39,7 @@ struct Sample {
   double u = 0.0, v = 0.0, um = 0.0;
 };
 
-/// Of one trace, or of one flank of a scan.
+/// Of one trace.
 using Whole = std::vector<Sample>;
 
 /// Takes off what all wholes of a flank have in common, place by place; how much variance that
@@ -82,8 +84,8 @@ Eigen::VectorXd spectrum(const Whole& whole) {
   return result;
 }
 
-/// Sum of a spectrum in which a line counts as what stands beside it: waves of one length that every
-/// trace has in a phase of its own are no random error, whose spectrum is smooth.
+/// Sum of a spectrum in which a line counts as what stands beside it: waves of one length that
+/// every trace has in a phase of its own are no random error, whose spectrum is smooth.
 double sum_without_lines(const std::vector<double>& level) {
   constexpr int kNear = 4, kFar = 10;
   constexpr double kLine = 3.0;
@@ -139,53 +141,156 @@ double variance_of_traces(std::vector<Whole>& wholes, double lost) {
   return lost * sum_without_lines(level) / (n - 1);
 }
 
-double variance_of_flank(const Whole& whole, bool with_form) {
-  const auto n = static_cast<Eigen::Index>(whole.size());
-  const Eigen::Index columns = with_form ? 6 : 1;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(columns);
-  double squares = 0.0;
-  for (const Sample& s : whole) {
-    Eigen::VectorXd form(columns);
-    form[0] = 1.0;
-    if (with_form) form.tail(5) << s.u, s.v, s.u * s.u, s.u * s.v, s.v * s.v;
-    gram += form * form.transpose();
-    right += s.um * form;
-    squares += s.um * s.um;
+/// The flanks of a scan, whose values are many: nothing is kept of them but where they stand.
+class ScannedFlanks {
+ public:
+  ScannedFlanks(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                const std::vector<float>& row_um, int source)
+      : geometry_(geometry),
+        table_(table),
+        row_um_(row_um),
+        rows_(table.rows.size(), 2 * static_cast<std::size_t>(geometry.teeth()),
+              [&, flank_of = flanks_of(geometry, patches, source)](std::size_t i) {
+                const int patch = patches.patch_of_row[i];
+                return patch < 0 ? -1 : flank_of[static_cast<std::size_t>(patch)];
+              }) {
+    for (std::size_t flank = 0; flank < 2 * static_cast<std::size_t>(geometry.teeth()); ++flank)
+      if (rows_.count(flank) > 0)
+        of_side_[flank / static_cast<std::size_t>(geometry.teeth())].push_back(flank);
   }
-  gram.diagonal().array() += 1e-9 * static_cast<double>(n);
-  const double left = squares - right.dot(gram.ldlt().solve(right));
-  return std::max(0.0, left) / static_cast<double>(std::max<Eigen::Index>(1, n - columns));
-}
 
-double variance_of_scan(std::vector<Whole>& wholes, double lost) {
-  std::vector<double> variances;
-  double values = 0.0;
-  for (const Whole& whole : wholes) {
-    if (whole.size() < 12) continue;
-    variances.push_back(variance_of_flank(whole, true));
-    values += static_cast<double>(whole.size());
+  /// Variance of the random error of one side, and mean square of its usual flank, whatever its
+  /// form.
+  struct Side {
+    double variance = 0.0, usual = 0.0, count = 0.0;
+  };
+  [[nodiscard]] Side side(std::size_t side) const {
+    Side result;
+    const std::vector<std::size_t>& flanks = of_side_[side];
+    double values = 0.0, wholes = 0.0;
+    for (const std::size_t flank : flanks) {
+      const auto count = static_cast<double>(rows_.count(flank));
+      result.count += count;
+      if (rows_.count(flank) < kFewest) continue;
+      values += count;
+      wholes += 1.0;
+    }
+    const Common common = common_of(flanks);
+    std::vector<double> squares(flanks.size()), variances(flanks.size());
+    for_each_piece(flanks.size(), [&](std::size_t k) {
+      squares[k] = mean_square(flanks[k]);
+      variances[k] = variance_of_flank(flanks[k], common);
+    });
+    const auto of_few = [&](std::vector<double>& figures) {
+      for (std::size_t k = flanks.size(); k-- > 0;)
+        if (rows_.count(flanks[k]) < kFewest)
+          figures.erase(figures.begin() + static_cast<std::ptrdiff_t>(k));
+    };
+    of_few(squares);
+    of_few(variances);
+    if (squares.empty()) return result;
+    const double each = values / wholes;
+    result.usual = median(squares) * mean_over_median(each);
+    result.variance = common.lost * median(variances) * mean_over_median(each - kForms);
+    return result;
   }
-  if (variances.empty()) return 0.0;
-  const double degrees = values / static_cast<double>(variances.size()) - 6.0;
-  return lost * median(variances) * mean_over_median(degrees);
-}
 
-/// Mean square of the usual flank, whatever its form.
-double usual_square(const std::vector<Whole*>& flank) {
-  std::vector<double> squares;
-  double values = 0.0;
-  for (const Whole* whole : flank) {
-    if (whole->size() < 12) continue;
+ private:
+  static constexpr std::size_t kFewest = 12;
+  static constexpr int kForms = 6, kParts = 12;
+
+  /// What all flanks of a side have in common, place by place; how much variance it costs to take
+  /// it off.
+  struct Common {
+    std::vector<double> um = std::vector<double>(kParts * kParts, 0.0);
+    double lost = 1.0;
+  };
+
+  static std::vector<int> flanks_of(const FlankGeometry& geometry, const Patches& patches,
+                                    int source) {
+    std::vector<int> flank_of(patches.patches.size(), -1);
+    for (std::size_t p = 0; p < flank_of.size(); ++p) {
+      const Patches::Patch& patch = patches.patches[p];
+      if (patch.kind != ObservationKind::kScanFlank || patch.source != source) continue;
+      const Place& place = patch.places.front().place;
+      flank_of[p] = (place.side > 0 ? geometry.teeth() : 0) + place.tooth - 1;
+    }
+    return flank_of;
+  }
+  static std::size_t cell_of(double u, double v) {
+    const auto part = [](double c) {
+      return std::clamp(static_cast<int>(0.5 * (c + 1.0) * kParts), 0, kParts - 1);
+    };
+    return static_cast<std::size_t>(part(u) * kParts + part(v));
+  }
+  /// `visit(u, v, um)` for the values of a flank, in order.
+  template <class Visit>
+  void for_each(std::size_t flank, const Visit& visit) const {
+    rows_.for_each(flank, table_, [&](std::size_t i) {
+      const Place& place = table_.place(table_.rows[i]);
+      visit(geometry_.profile_coordinate(place.roll_mm), geometry_.face_coordinate(place.z_mm),
+            static_cast<double>(row_um_[i]));
+    });
+  }
+
+  [[nodiscard]] Common common_of(const std::vector<std::size_t>& flanks) const {
+    Common common;
+    std::vector<double> sums(common.um.size(), 0.0), counts(sums);
+    double values = 0.0, used = 0.0;
+    for (const std::size_t flank : flanks)
+      for_each(flank, [&](double u, double v, double um) {
+        const std::size_t cell = cell_of(u, v);
+        sums[cell] += um;
+        counts[cell] += 1.0;
+        values += 1.0;
+      });
+    for (const double count : counts) used += count > 0.0 ? 1.0 : 0.0;
+    if (used > 0.5 * values) return common;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      if (counts[k] > 0.0) common.um[k] = sums[k] / counts[k];
+    common.lost = values / (values - used);
+    return common;
+  }
+
+  [[nodiscard]] double mean_square(std::size_t flank) const {
     double sum = 0.0;
-    for (const Sample& s : *whole) sum += s.um * s.um;
-    squares.push_back(sum / static_cast<double>(whole->size()));
-    values += static_cast<double>(whole->size());
+    rows_.for_each(flank, [&](std::size_t i) {
+      const double um = row_um_[i];
+      sum += um * um;
+    });
+    return sum / static_cast<double>(rows_.count(flank));
   }
-  if (squares.empty()) return 0.0;
-  const double degrees = values / static_cast<double>(squares.size());
-  return median(squares) * mean_over_median(degrees);
-}
+
+  /// Of what a bent and twisted plane leaves.
+  [[nodiscard]] double variance_of_flank(std::size_t flank, const Common& common) const {
+    using Matrix = Eigen::Matrix<double, kForms, kForms>;
+    using Vector = Eigen::Matrix<double, kForms, 1>;
+    const auto n = static_cast<double>(rows_.count(flank));
+    Matrix gram = Matrix::Zero();
+    Vector right = Vector::Zero();
+    double squares = 0.0;
+    for_each(flank, [&](double u, double v, double value) {
+      const double um = value - common.um[cell_of(u, v)];
+      const std::array<double, kForms> form{1.0, u, v, u * u, u * v, v * v};
+      for (int a = 0; a < kForms; ++a) {
+        const double own = form[static_cast<std::size_t>(a)];
+        for (int b = 0; b <= a; ++b) gram(a, b) += own * form[static_cast<std::size_t>(b)];
+        right[a] += um * own;
+      }
+      squares += um * um;
+    });
+    gram.diagonal().array() += 1e-9 * n;
+    const Eigen::VectorXd score = right;
+    const double left = squares - score.dot(Eigen::LDLT<Eigen::MatrixXd>(gram).solve(score));
+    return std::max(0.0, left) / std::max(1.0, n - kForms);
+  }
+
+  const FlankGeometry& geometry_;
+  const Observations& table_;
+  const std::vector<float>& row_um_;
+  RowsByClass rows_;
+  std::array<std::vector<std::size_t>, 2> of_side_;
+};
 
 /// One value a tooth: second differences around the gear, each flank apart.
 double variance_around(const std::map<int, double>& by_tooth) {
@@ -201,10 +306,28 @@ double variance_around(const std::map<int, double>& by_tooth) {
 }
 
 struct Gathered {
-  std::map<std::pair<int, int>, Whole> wholes;  ///< of side and trace or tooth
+  std::map<std::pair<int, int>, Whole> wholes;  ///< traces, of side and trace or tooth
   std::array<std::map<int, double>, 2> around;
   double squares = 0.0, count = 0.0;
 };
+
+double variance_of_scan(const ScannedFlanks& flanks, double plain, bool nothing_left) {
+  std::array<ScannedFlanks::Side, 2> sides;
+  for_each_piece(2, [&](std::size_t side) { sides[side] = flanks.side(side); });
+  // Either flank by itself: a probe may be noisier on one.
+  double sum = 0.0, values = 0.0, usual = 0.0;
+  for (const ScannedFlanks::Side& side : sides) {
+    if (!(side.count > 0.0)) continue;
+    usual += side.count * side.usual;
+    if (!(side.variance > 0.0)) return plain;
+    sum += side.count * side.variance;
+    values += side.count;
+  }
+  if (!(values > 0.0)) return plain;
+  // What stands on a few flanks is in their mean square and not in the usual flank.
+  constexpr double kUsual = 1.21;
+  return nothing_left && plain < kUsual * usual / values ? plain : sum / values;
+}
 
 double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
   const double plain = data.squares / data.count;
@@ -212,14 +335,11 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
     const double around = 0.5 * (variance_around(data.around[0]) + variance_around(data.around[1]));
     return nothing_left || !(around > 0.0) ? plain : std::min(plain, around);
   }
-  const bool scan = kind == ObservationKind::kScanFlank;
   std::array<std::vector<Whole*>, 2> of_flank;
   for (auto& [key, whole] : data.wholes)
     of_flank[static_cast<std::size_t>(key.first)].push_back(&whole);
-  // Either flank by itself: a probe may be noisier on one.
-  double sum = 0.0, values = 0.0, usual = 0.0;
-  for (std::size_t side = 0; side < of_flank.size(); ++side) {
-    std::vector<Whole*>& flank = of_flank[side];
+  double sum = 0.0, values = 0.0;
+  for (std::vector<Whole*>& flank : of_flank) {
     if (flank.empty()) continue;
     std::size_t longest = 0;
     double count = 0.0;
@@ -228,21 +348,31 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
       count += static_cast<double>(whole->size());
     }
     const int places = static_cast<int>(std::min<std::size_t>(longest, 256));
-    if (scan) usual += count * usual_square(flank);
-    const double lost = scan                                ? take_common_off(flank, 12, 12)
-                        : kind == ObservationKind::kProfile ? take_common_off(flank, places, 1)
-                                                            : take_common_off(flank, 1, places);
+    const double lost = kind == ObservationKind::kProfile ? take_common_off(flank, places, 1)
+                                                          : take_common_off(flank, 1, places);
     std::vector<Whole> wholes;
     for (Whole* whole : flank) wholes.push_back(std::move(*whole));
-    const double variance = scan ? variance_of_scan(wholes, lost) : variance_of_traces(wholes, lost);
+    const double variance = variance_of_traces(wholes, lost);
     if (!(variance > 0.0)) return plain;
     sum += count * variance;
     values += count;
   }
-  if (!(values > 0.0)) return plain;
-  // What stands on a few flanks is in their mean square and not in the usual flank.
-  constexpr double kUsual = 1.21;
-  return scan && nothing_left && plain < kUsual * usual / values ? plain : sum / values;
+  return values > 0.0 ? sum / values : plain;
+}
+
+/// Takes a value of a trace, or one of a tooth, to those of its kind.
+void add_to(Gathered& data, const FlankGeometry& geometry, const Observation& row,
+            const Place& place, double um) {
+  const auto side = static_cast<std::size_t>(place.side > 0 ? 1 : 0);
+  if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial) {
+    data.around[side][place.tooth] = um;
+    return;
+  }
+  // A trace runs along one direction; the other stands still.
+  const bool helix = row.kind == ObservationKind::kHelix;
+  data.wholes[{static_cast<int>(side), row.trace >= 0 ? row.trace : place.tooth}].push_back(
+      {helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
+       helix ? geometry.face_coordinate(place.z_mm) : 0.0, um});
 }
 
 }  // namespace
@@ -253,35 +383,34 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
                                                      const std::vector<float>& row_um,
                                                      bool nothing_left) {
   std::map<Class, Gathered> classes;
+  // Of each patch, the values it belongs to: nullptr where these are not asked.
+  std::vector<Gathered*> class_of(patches.patches.size(), nullptr);
+  for (std::size_t p = 0; p < class_of.size(); ++p) {
+    const Patches::Patch& patch = patches.patches[p];
+    if (patch.kind != ObservationKind::kScanTip && patch.kind != ObservationKind::kScanRoot &&
+        patch.kind != ObservationKind::kScanBore && patch.kind != ObservationKind::kSize)
+      class_of[p] = &classes[{patch.source, patch.kind}];
+  }
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const Observation& row = table.rows[i];
-    const bool single = row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
-    const bool whole = row.kind == ObservationKind::kScanFlank ||
-                       row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
-    if (patches.patch_of_row[i] < 0 || !(single || whole)) continue;
-    const Place& place = table.place(row);
+    const int patch = patches.patch_of_row[i];
+    if (patch < 0 || class_of[static_cast<std::size_t>(patch)] == nullptr) continue;
+    Gathered& data = *class_of[static_cast<std::size_t>(patch)];
     const double um = row_um[i];
-    const int side = place.side > 0 ? 1 : 0;
-    Gathered& data = classes[{row.source, row.kind}];
     data.squares += um * um;
     data.count += 1.0;
-    if (single) {
-      data.around[static_cast<std::size_t>(side)][place.tooth] = um;
-      continue;
-    }
-    // A trace runs along one direction; the other stands still.
-    const bool profile = row.kind == ObservationKind::kProfile,
-               helix = row.kind == ObservationKind::kHelix;
-    const int key = !profile && !helix ? place.tooth : row.trace >= 0 ? row.trace : place.tooth;
-    data.wholes[{side, key}].push_back({helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
-                                        profile ? 0.0 : geometry.face_coordinate(place.z_mm), um});
+    if (patches.patches[static_cast<std::size_t>(patch)].kind != ObservationKind::kScanFlank)
+      add_to(data, geometry, table.rows[i], table.place(table.rows[i]), um);
   }
   std::map<ObservationKind, KindError> errors;
   for (auto& [key, data] : classes) {
     KindError& error = errors[key.kind];
     error.count += data.count;
     error.square += data.squares;
-    error.random_square += data.count * variance_of(key.kind, data, nothing_left);
+    const double variance = key.kind == ObservationKind::kScanFlank
+                                ? variance_of_scan({geometry, table, patches, row_um, key.source},
+                                                   data.squares / data.count, nothing_left)
+                                : variance_of(key.kind, data, nothing_left);
+    error.random_square += data.count * variance;
   }
   return errors;
 }
@@ -290,7 +419,8 @@ double random_error_um(const FlankGeometry& geometry, const Observations& table,
                        const Patches& patches, const std::vector<float>& row_um,
                        bool nothing_left) {
   double sum = 0.0, count = 0.0;
-  for (const auto& [kind, error] : errors_of_kinds(geometry, table, patches, row_um, nothing_left)) {
+  for (const auto& [kind, error] :
+       errors_of_kinds(geometry, table, patches, row_um, nothing_left)) {
     sum += error.random_square;
     count += error.count;
   }

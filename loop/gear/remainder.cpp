@@ -14,6 +14,7 @@
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
 #include "trueflank/loop/gear/local/flank_waves.h"
+#include "trueflank/loop/gear/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {
@@ -56,18 +57,26 @@ struct Courses {
   }
 
   /// Courses of scans are gathered in narrow cells at once: there are many values.
-  void add_to_cell(int side, int course, double share, double um) {
+  void open(int side, int course) {
     std::vector<RemainderSample>& cells = of_flank[side][course];
-    if (cells.empty()) {
-      cells.resize(kCells);
-      for (int i = 0; i < kCells; ++i)
-        cells[static_cast<std::size_t>(i)] = {low + (high - low) * (i + 0.5) / kCells, 0.0, 0.0};
-    }
+    if (!cells.empty()) return;
+    cells.resize(kCells);
+    for (int i = 0; i < kCells; ++i)
+      cells[static_cast<std::size_t>(i)] = {low + (high - low) * (i + 0.5) / kCells, 0.0, 0.0};
+  }
+  /// To a course that is open.
+  static void add_to_cell(std::vector<RemainderSample>& cells, double share, double um) {
     RemainderSample& cell = cells[static_cast<std::size_t>(
         std::clamp(static_cast<int>(share * kCells), 0, kCells - 1))];
     cell.um += um;
     cell.count += 1.0;
-    ++samples;
+  }
+  void count_cells() {
+    double count = 0.0;
+    for (const auto& flank : of_flank)
+      for (const auto& [course, cells] : flank)
+        for (const RemainderSample& cell : cells) count += cell.count;
+    samples = static_cast<std::size_t>(count);
   }
 
   [[nodiscard]] int places(bool scan) const {
@@ -181,52 +190,132 @@ class RemainderSearch {
     courses.high = face ? geometry_.face_width_mm() : geometry_.tip_form_roll_mm();
     return courses;
   }
-
-  void gather() {
-    int source = -1;
-    Courses *profile = nullptr, *face = nullptr;
-    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
-      if (!is_used(i)) continue;
-      const Observation& row = table_.rows[i];
-      const Place& place = table_.place(row);
-      const double um = row_um_[i];
-      const int side = place.side > 0 ? 1 : 0;
-      add_moments(row, place, um);
-      if (is_trace(row.kind)) {
-        const bool helix = row.kind == ObservationKind::kHelix;
-        courses_[{row.source, row.kind, helix}].add(side, row.trace >= 0 ? row.trace : place.tooth,
-                                                    place.tooth, helix ? place.z_mm : place.roll_mm,
-                                                    um);
-      } else if (row.kind == ObservationKind::kScanFlank) {
-        // Teeth are gathered to few courses, each dense enough.
-        const int course = place.tooth % std::min(kScanCourses, geometry_.teeth());
-        if (row.source != source) {
-          source = row.source;
-          profile = &scan_courses_of(source, false);
-          face = &scan_courses_of(source, true);
-        }
-        profile->add_to_cell(side, course,
-                             0.5 * (geometry_.profile_coordinate(place.roll_mm) + 1.0), um);
-        face->add_to_cell(side, course, 0.5 * (geometry_.face_coordinate(place.z_mm) + 1.0), um);
-      }
-    }
+  std::vector<Moments>& moments_of(int what, int source) {
+    std::vector<Moments>& moments = moments_[{what, source}];
+    moments.resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1));
+    return moments;
   }
 
-  void add_moments(const Observation& row, const Place& place, double um) {
-    if (row.kind == ObservationKind::kRadial) return;
+  /// Where the values of a scan are gathered.
+  struct OfScan {
+    Courses *profile = nullptr, *face = nullptr;
+    std::vector<Moments>* moments = nullptr;
+  };
+
+  struct OfCourse {
+    std::vector<RemainderSample> profile, face;
+    std::vector<Moments> moments;  ///< of the teeth of one side
+  };
+
+  /// One course of one scan: a class of rows.
+  struct Course {
+    const OfScan* scan = nullptr;
+    int side = 0, course = 0;
+  };
+
+  /// Teeth of scans are gathered to few courses, each dense enough. Courses do not ask each other:
+  /// the same sums on any number of processors.
+  void gather() {
+    std::map<int, OfScan> of_source;
+    std::map<std::array<int, 3>, int> numbers;  // of source, side and course
+    std::vector<Course> courses;
+    constexpr int kOther = -2, kNone = -1;
+    std::vector<int> class_of(patches_.patches.size(), kNone);
+    for (std::size_t p = 0; p < class_of.size(); ++p) {
+      const Patches::Patch& patch = patches_.patches[p];
+      if (!is_asked(patch)) continue;
+      class_of[p] = kOther;
+      if (patch.kind != ObservationKind::kScanFlank) continue;
+      const Place& place = patch.places.front().place;
+      const int side = place.side > 0 ? 1 : 0,
+                course = place.tooth % std::min(kScanCourses, geometry_.teeth());
+      const auto [number, is_new] =
+          numbers.emplace(std::array{patch.source, side, course}, static_cast<int>(courses.size()));
+      class_of[p] = number->second;
+      if (is_new) courses.push_back({&opened(of_source, patch.source, side, course), side, course});
+    }
+    const RowsByClass rows(table_.rows.size(), courses.size() + 1, [&](std::size_t i) {
+      const int patch = patches_.patch_of_row[i];
+      const int number = patch < 0 ? kNone : class_of[static_cast<std::size_t>(patch)];
+      return number == kOther ? static_cast<int>(courses.size()) : number;
+    });
+    for_each_piece(courses.size(), [&](std::size_t k) { gather_course(rows, k, courses[k]); });
+    for (auto& [source, scan] : of_source)
+      for (Courses* all : {scan.profile, scan.face}) all->count_cells();
+    rows.for_each(courses.size(), [&](std::size_t i) {
+      if (is_used(i)) gather_other(i);
+    });
+  }
+
+  const OfScan& opened(std::map<int, OfScan>& of_source, int source, int side, int course) {
+    OfScan& scan = of_source[source];
+    if (scan.profile == nullptr)
+      scan = {&scan_courses_of(source, false), &scan_courses_of(source, true),
+              &moments_of(kScans, source)};
+    scan.profile->open(side, course);
+    scan.face->open(side, course);
+    return scan;
+  }
+
+  /// Teeth have their sums side by side: they are added up apart, lest processors wait for each
+  /// other's memory.
+  void gather_course(const RowsByClass& rows, std::size_t of_class, const Course& of) const {
+    const auto flank = static_cast<std::size_t>(of.side);
+    std::vector<RemainderSample>&profile = of.scan->profile->of_flank[flank].at(of.course),
+    &face = of.scan->face->of_flank[flank].at(of.course);
+    OfCourse sums{profile, face,
+                  std::vector<Moments>(static_cast<std::size_t>(geometry_.teeth()) + 1)};
+    rows.for_each(of_class, table_, [&](std::size_t i) {
+      add_scanned(table_.place(table_.rows[i]), row_um_[i], sums);
+    });
+    profile = std::move(sums.profile);
+    face = std::move(sums.face);
+    for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth)
+      if (const Moments& own = sums.moments[static_cast<std::size_t>(tooth)]; own.count > 0)
+        (*of.scan->moments)[moment_at(of.side, tooth)] = own;
+  }
+
+  void add_scanned(const Place& place, double um, OfCourse& to) const {
     const double u = geometry_.profile_coordinate(place.roll_mm),
                  v = geometry_.face_coordinate(place.z_mm);
-    const std::array<double, 5> form{1.0, u, v, u * u - 1.0 / 3.0, v * v - 1.0 / 3.0};
+    const std::array<double, 5> form = forms_at(u, v);
+    Moments& of_tooth = to.moments[static_cast<std::size_t>(place.tooth)];
+    ++of_tooth.count;
+    for (std::size_t k = 0; k < form.size(); ++k) {
+      of_tooth.sum[k] += form[k] * um;
+      of_tooth.square[k] += form[k] * form[k];
+    }
+    Courses::add_to_cell(to.profile, 0.5 * (u + 1.0), um);
+    Courses::add_to_cell(to.face, 0.5 * (v + 1.0), um);
+  }
+
+  void gather_other(std::size_t i) {
+    const Observation& row = table_.rows[i];
+    const Place& place = table_.place(row);
+    const double um = row_um_[i];
+    add_moments(row, place, um);
+    if (!is_trace(row.kind)) return;
+    const bool helix = row.kind == ObservationKind::kHelix;
+    courses_[{row.source, row.kind, helix}].add(
+        place.side > 0 ? 1 : 0, row.trace >= 0 ? row.trace : place.tooth, place.tooth,
+        helix ? place.z_mm : place.roll_mm, um);
+  }
+
+  static std::array<double, 5> forms_at(double u, double v) {
+    return {1.0, u, v, u * u - 1.0 / 3.0, v * v - 1.0 / 3.0};
+  }
+
+  /// Of values that are no scan's.
+  void add_moments(const Observation& row, const Place& place, double um) {
+    if (row.kind == ObservationKind::kRadial) return;
+    const std::array<double, 5> form = forms_at(geometry_.profile_coordinate(place.roll_mm),
+                                                geometry_.face_coordinate(place.z_mm));
     const bool profile = row.kind == ObservationKind::kProfile,
                helix = row.kind == ObservationKind::kHelix;
-    const bool scan = row.kind == ObservationKind::kScanFlank;
-    const std::pair<int, int> key{scan ? kScans : profile ? 1 : helix ? 2 : 3, row.source};
-    if (last_moments_ == nullptr || key != last_key_) {
-      last_moments_ = &moments_[key];
-      last_key_ = key;
-      last_moments_->resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1));
-    }
-    Moments& of_tooth = (*last_moments_)[moment_at(place.side > 0 ? 1 : 0, place.tooth)];
+    Moments& of_tooth = moments_of(profile ? 1
+                                   : helix ? 2
+                                           : 3,
+                                   row.source)[moment_at(place.side > 0 ? 1 : 0, place.tooth)];
     ++of_tooth.count;
     for (std::size_t k = 0; k < form.size(); ++k) {
       // A trace shows its own direction; with a zero of its own no height.
@@ -370,7 +459,8 @@ class RemainderSearch {
           wave->amplitude_um, false);
     if (const auto& apart = spectrum.apart)
       add_text(apart->p_value,
-               printed("the flanks stand each by itself, with a standard deviation of %.3g um from tooth to tooth",
+               printed("the flanks stand each by itself, with a standard deviation of %.3g um from "
+                       "tooth to tooth",
                        apart->spread_um),
                apart->spread_um);
   }
@@ -511,14 +601,16 @@ class RemainderSearch {
     return true;
   }
 
+  [[nodiscard]] bool is_asked(const Patches::Patch& patch) const {
+    return which_ != RemainderOf::kTraining || patch.fold != 0;
+  }
   /// True for rows that are looked at.
   [[nodiscard]] bool is_used(std::size_t i) const {
     const int patch = patches_.patch_of_row[i];
-    if (patch < 0 || table_.rows[i].places != 1) return false;
-    if (which_ == RemainderOf::kTraining &&
-        patches_.patches[static_cast<std::size_t>(patch)].fold == 0)
-      return false;
-    return table_.place(table_.rows[i]).surface == Surface::kFlank;
+    if (patch < 0 || !is_asked(patches_.patches[static_cast<std::size_t>(patch)])) return false;
+    if (patches_.patches[static_cast<std::size_t>(patch)].kind == ObservationKind::kScanFlank)
+      return true;
+    return table_.rows[i].places == 1 && table_.place(table_.rows[i]).surface == Surface::kFlank;
   }
 
   static constexpr int kScans = 0;
@@ -529,8 +621,6 @@ class RemainderSearch {
   RemainderOf which_;
   std::map<CourseKey, Courses> courses_;
   std::map<std::pair<int, int>, std::vector<Moments>> moments_;  ///< of kind and source
-  std::vector<Moments>* last_moments_ = nullptr;
-  std::pair<int, int> last_key_;
   int looks_ = 0;
   std::vector<RemainderFinding> found_;
 };

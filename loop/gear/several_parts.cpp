@@ -68,7 +68,7 @@ class PartsLoop {
 
   void discover_all() {
     std::vector<const Observations*> tables;
-    for (const PartTable& part : parts_) tables.push_back(&part.table);
+    for (const PartTable& part : parts_) tables.push_back(part.table.operator->());
     const int tests = count() + 1;
     together_ = std::make_unique<PartLoop>(
         geometry_, joined_table(tables),
@@ -81,7 +81,7 @@ class PartsLoop {
     const std::vector<Effect> given = together_->effects();
     for (int p = 0; p < count(); ++p) {
       each_.push_back(std::make_unique<PartLoop>(
-          geometry_, parts_[p].table,
+          geometry_, std::move(parts_[p].table),
           PartLoop::Options{.declared = options_.declared,
                             .makings = options_.makings,
                             .given = given,

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
+#include "trueflank/loop/gear/shared_table.h"
 
 namespace trueflank::loop {
 
 /// What was measured of one part.
 struct PartTable {
   std::string name;
-  Observations table;
+  SharedTable table;
 };
 
 /// Closes the loop of several parts of one process.

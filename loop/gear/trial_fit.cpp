@@ -62,8 +62,8 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
     const Observation& row = table.rows[rows_[i].row];
     std::fill(values.begin(), values.end(), 0.0);
     for (std::uint32_t k = 0; k < row.places; ++k) {
-      const WeightedPlace& place = table.places[row.first_place + k];
-      nuisance.add(place.place, row.kind, row.source, place.weight, values.data());
+      const Place& place = table.places[row.first_place + k];
+      nuisance.add(place, row.kind, row.source, row.weight, values.data());
     }
     values.back() = row.deviation_um;
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -104,10 +104,9 @@ Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Observation& row = table_.rows[rows_[i].row];
     for (std::uint32_t p = 0; p < row.places; ++p) {
-      const WeightedPlace& place = table_.places[row.first_place + p];
-      effect.evaluate(geometry_, place.place, one);
+      effect.evaluate(geometry_, table_.places[row.first_place + p], one);
       for (int k = 0; k < count; ++k)
-        columns(static_cast<Eigen::Index>(i), k) += place.weight * one[k];
+        columns(static_cast<Eigen::Index>(i), k) += row.weight * one[k];
     }
   }
   centre(columns);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/measured/csv_rows.h"
 #include "trueflank/loop/measured/read_measurement.h"
 #include "trueflank/loop/measured/text_table.h"
@@ -30,16 +31,19 @@ std::optional<RecordKind> record_of(std::string_view field) {
 std::string inspection_row(const CsvRows& rows, const std::array<int, 7>& columns,
                            InspectionRow& row) {
   const auto record = record_of(rows.field(columns[0]));
-  if (!record) return "record " + in_quotes(rows.field(columns[0])) +
-                      " is none of profile, helix, index, radial";
+  if (!record)
+    return "record " + in_quotes(rows.field(columns[0])) +
+           " is none of profile, helix, index, radial";
   row.record = *record;
   const double tooth = rows.number(columns[1]);
   if (!(tooth >= 1.0) || tooth != std::floor(tooth) || tooth > 1e6)
     return "tooth " + in_quotes(rows.field(columns[1])) + " is no tooth number";
   row.tooth = static_cast<int>(tooth);
   const std::string flank = lowered(rows.field(columns[2]));
-  if (flank == "left" || flank == "l") row.flank = Flank::kLeft;
-  else if (flank == "right" || flank == "r") row.flank = Flank::kRight;
+  if (flank == "left" || flank == "l")
+    row.flank = Flank::kLeft;
+  else if (flank == "right" || flank == "r")
+    row.flank = Flank::kRight;
   else if (*record != RecordKind::kRadial)
     return "flank " + in_quotes(rows.field(columns[2])) + " is neither left nor right";
   row.diameter_mm = rows.number(columns[3]);
@@ -83,25 +87,74 @@ Result<ScanData> read_scan_csv(const std::string& file, std::string_view text,
   return scan;
 }
 
+namespace {
+
+/// Some lines of a file of points.
+struct PointLines {
+  std::vector<std::array<double, 3>> points_mm;
+  std::vector<int> bad;  ///< lines, from 1 on
+  int lines = 0;
+};
+
+/// `begins`: these are the first of the file, where a count of points or a header may stand.
+PointLines read_point_lines(std::string_view text, bool begins) {
+  PointLines read;
+  read.points_mm.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+  std::vector<std::string_view> fields;
+  while (!text.empty()) {
+    const std::string_view row = trimmed(next_line(text));
+    ++read.lines;
+    if (row.empty() || row.front() == '#' || row.starts_with("//")) continue;
+    split_blanks(row, fields);
+    const bool none = begins && read.points_mm.empty();
+    // A lone first number is the count of points some programs write.
+    if (fields.size() == 1 && none && !std::isnan(number_in(fields[0]))) continue;
+    std::array<double, 3> point{kNaN, kNaN, kNaN};
+    for (std::size_t i = 0; i < 3 && i < fields.size(); ++i) point[i] = number_in(fields[i]);
+    if (is_measured_point(point))
+      read.points_mm.push_back(point);
+    else if (none && read.lines == 1)
+      continue;  // a header
+    else
+      read.bad.push_back(read.lines);
+  }
+  return read;
+}
+
+/// Takes some bytes, and the rest of their last line, off the text.
+std::string_view next_lines(std::string_view& text, std::size_t bytes) {
+  const std::size_t end = text.find('\n', std::min(bytes, text.size()));
+  const std::string_view lines = text.substr(0, end == std::string_view::npos ? end : end + 1);
+  text.remove_prefix(lines.size());
+  return lines;
+}
+
+}  // namespace
+
 Result<ScanData> read_xyz(const std::string& file, std::string_view text,
                           std::vector<std::string>& notes) {
+  constexpr std::size_t kBytesOfWork = std::size_t{1} << 20U;
+  std::vector<std::string_view> texts;
+  for (std::string_view rest = text; !rest.empty();)
+    texts.push_back(next_lines(rest, kBytesOfWork));
+  std::vector<PointLines> pieces(texts.size());
+  for_each_piece(texts.size(),
+                 [&](std::size_t k) { pieces[k] = read_point_lines(texts[k], k == 0); });
+  // without a point in the first megabyte the file's beginning may be longer than that
+  if (!pieces.empty() && pieces.front().points_mm.empty()) pieces = {read_point_lines(text, true)};
   ScanData scan;
   scan.file = file;
   BadLines bad(file);
-  std::vector<std::string_view> fields;
+  std::size_t points = 0;
+  for (const PointLines& piece : pieces) points += piece.points_mm.size();
+  scan.points_mm.reserve(points);
   int line = 0;
-  while (!text.empty()) {
-    const std::string_view row = trimmed(next_line(text));
-    ++line;
-    if (row.empty() || row.front() == '#' || row.starts_with("//")) continue;
-    split_blanks(row, fields);
-    // A lone first number is the count of points some programs write.
-    if (fields.size() == 1 && scan.points_mm.empty() && !std::isnan(number_in(fields[0]))) continue;
-    std::array<double, 3> point{kNaN, kNaN, kNaN};
-    for (std::size_t i = 0; i < 3 && i < fields.size(); ++i) point[i] = number_in(fields[i]);
-    if (is_measured_point(point)) scan.points_mm.push_back(point);
-    else if (scan.points_mm.empty() && line == 1) continue;  // a header
-    else bad.add(line, "x, y, z are not three numbers, of a kilometre at most");
+  for (PointLines& piece : pieces) {
+    scan.points_mm.insert(scan.points_mm.end(), piece.points_mm.begin(), piece.points_mm.end());
+    for (const int at : piece.bad)
+      bad.add(line + at, "x, y, z are not three numbers, of a kilometre at most");
+    line += piece.lines;
+    piece = {};
   }
   if (scan.points_mm.empty()) return fail(bad.error("the scan has no usable point"));
   bad.tell(notes);
@@ -112,9 +165,9 @@ Result<InspectionData> read_inspection_csv(const std::string& file, std::string_
                                            std::vector<std::string>& notes) {
   CsvRows rows(file, text);
   if (auto error = rows.missing({"record", "tooth", "flank", "deviation_um"})) return fail(*error);
-  const std::array<int, 7> columns{rows.column("record"),       rows.column("tooth"),
-                                   rows.column("flank"),        rows.column("diameter_mm"),
-                                   rows.column("z_mm"),         rows.column("deviation_um"),
+  const std::array<int, 7> columns{rows.column("record"),  rows.column("tooth"),
+                                   rows.column("flank"),   rows.column("diameter_mm"),
+                                   rows.column("z_mm"),    rows.column("deviation_um"),
                                    rows.column("sigma_um")};
   InspectionData data;
   data.file = file;
@@ -122,8 +175,10 @@ Result<InspectionData> read_inspection_csv(const std::string& file, std::string_
     InspectionRow row;
     row.line = rows.line();
     const std::string wrong = inspection_row(rows, columns, row);
-    if (wrong.empty()) data.rows.push_back(row);
-    else rows.bad.add(rows.line(), wrong);
+    if (wrong.empty())
+      data.rows.push_back(row);
+    else
+      rows.bad.add(rows.line(), wrong);
   }
   if (data.rows.empty()) return fail(rows.bad.error("the inspection file has no usable row"));
   data.keys = rows.keys;
@@ -151,20 +206,27 @@ Result<SizeData> read_sizes_csv(const std::string& file, std::string_view text,
     const std::string name = lowered(rows.field(quantity));
     row.value_mm = rows.number(value);
     row.detail = rows.number(detail);
-    if (name == "span") row.quantity = SizeQuantity::kSpan;
-    else if (name == "over_pins") row.quantity = SizeQuantity::kOverPins;
-    else if (name == "tip_diameter") row.quantity = SizeQuantity::kTipDiameter;
-    else if (name == "root_diameter") row.quantity = SizeQuantity::kRootDiameter;
-    else if (name == "bore") row.quantity = SizeQuantity::kBore;
+    if (name == "span")
+      row.quantity = SizeQuantity::kSpan;
+    else if (name == "over_pins")
+      row.quantity = SizeQuantity::kOverPins;
+    else if (name == "tip_diameter")
+      row.quantity = SizeQuantity::kTipDiameter;
+    else if (name == "root_diameter")
+      row.quantity = SizeQuantity::kRootDiameter;
+    else if (name == "bore")
+      row.quantity = SizeQuantity::kBore;
     else {
-      rows.bad.add(rows.line(), "quantity " + in_quotes(name) +
-                                    " is none of span, over_pins, tip_diameter, root_diameter, bore");
+      rows.bad.add(rows.line(),
+                   "quantity " + in_quotes(name) +
+                       " is none of span, over_pins, tip_diameter, root_diameter, bore");
       continue;
     }
     const bool needs_detail =
         row.quantity == SizeQuantity::kSpan || row.quantity == SizeQuantity::kOverPins;
     if (!(row.value_mm > 0.0))
-      rows.bad.add(rows.line(), "value_mm " + in_quotes(rows.field(value)) + " is no positive number");
+      rows.bad.add(rows.line(),
+                   "value_mm " + in_quotes(rows.field(value)) + " is no positive number");
     else if (needs_detail && !(row.detail > 0.0))
       rows.bad.add(rows.line(), name + " needs a detail: teeth spanned, or the pin diameter");
     else if (!read_sigma(rows, sigma, row.sigma_um))

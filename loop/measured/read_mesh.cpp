@@ -56,8 +56,8 @@ class MeshSampler {
   void add(const Point& p, const Point& n) {
     if (!is_measured_point(p)) return;
     scan_.points_mm.push_back(p);
-    scan_.normals.push_back({static_cast<float>(n[0]), static_cast<float>(n[1]),
-                             static_cast<float>(n[2])});
+    scan_.normals.push_back(
+        {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
   }
   void sample_long_edge(const std::array<Point, 3>& p, const Point& n) {
     std::array<std::pair<double, int>, 3> edge;
@@ -93,21 +93,21 @@ Result<ScanData> read_scan_mesh(const std::string& file, std::string_view text,
   for (const std::string& note : read->notes) notes.push_back(file + ": " + note);
   ScanData scan;
   scan.file = file;
-  const TriangleMesh& surface = read->mesh;
+  TriangleMesh& surface = read->mesh;
   if (!surface.triangles.empty()) {
     MeshSampler(surface, scan).run();
   } else {
-    for (const Point& p : surface.vertices)
-      if (is_measured_point(p)) scan.points_mm.push_back(p);
-    if (scan.points_mm.size() < surface.vertices.size())
-      notes.push_back(file + ": " +
-                      std::to_string(surface.vertices.size() - scan.points_mm.size()) +
+    const std::size_t all = surface.vertices.size();
+    scan.points_mm = std::move(surface.vertices);
+    std::erase_if(scan.points_mm, [](const Point& p) { return !is_measured_point(p); });
+    if (scan.points_mm.size() < all)
+      notes.push_back(file + ": " + std::to_string(all - scan.points_mm.size()) +
                       " points without three numbers of a kilometre at most left out");
   }
   if (scan.points_mm.size() > kMostPoints)
     return fail(Error{.code = ErrorCode::kUnsupported,
-                      .message = "the scan has more than " + std::to_string(kMostPoints / 1'000'000) +
-                                 " million points",
+                      .message = "the scan has more than " +
+                                 std::to_string(kMostPoints / 1'000'000) + " million points",
                       .remedy = "a thinned scan: a gear needs some thousand points a tooth",
                       .file = file});
   if (scan.points_mm.empty()) return fail(broken(file, "the scan has no usable point"));

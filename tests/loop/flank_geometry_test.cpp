@@ -28,8 +28,8 @@ void expect_exact_distance(const MadeGear& made) {
           EXPECT_NEAR(placed.distance_mm, distance, bound);
           EXPECT_NEAR(geometry.profile_coordinate(placed.place.roll_mm), u, 1e-2);
           const double nt = std::cos(geometry.base_helix_rad());
-          EXPECT_NEAR(nt * std::cos(placed.place.normal_rad), n[0], 2e-3);
-          EXPECT_NEAR(nt * std::sin(placed.place.normal_rad), n[1], 2e-3);
+          EXPECT_NEAR(nt * placed.place.normal_direction[0], n[0], 2e-3);
+          EXPECT_NEAR(nt * placed.place.normal_direction[1], n[1], 2e-3);
           EXPECT_NEAR(geometry.normal_z(placed.place), n[2], 2e-3);
         }
 }

@@ -27,7 +27,7 @@ EffectFamily ghost_order() {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
     const double rotation =
-        p.centre_rad + g.twist_rad(p.z_mm) - g.sense() * p.side * p.roll_mm / g.base_radius_mm();
+        g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) - g.sense() * p.side * p.roll_mm / g.base_radius_mm();
     c[0] = std::cos(shape[0] * rotation);
     c[1] = std::sin(shape[0] * rotation);
   };
@@ -69,7 +69,7 @@ EffectFamily ghost_order_counted_backwards() {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
     const double rotation =
-        p.centre_rad + g.twist_rad(p.z_mm) + g.sense() * p.side * p.roll_mm / g.base_radius_mm();
+        g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) + g.sense() * p.side * p.roll_mm / g.base_radius_mm();
     c[0] = std::cos(shape[0] * rotation);
     c[1] = std::sin(shape[0] * rotation);
   };

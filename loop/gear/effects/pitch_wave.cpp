@@ -26,7 +26,7 @@ EffectFamily pitch_wave() {
     if (p.surface != Surface::kFlank) return;
     // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
     const double lever = p.side * g.base_radius_mm() / g.reference_radius_mm() * g.cos_base_helix();
-    const auto [cosine, sine] = direction_at(shape[0] * p.centre_rad);
+    const auto [cosine, sine] = direction_at(shape[0] * g.centre_rad(p.tooth));
     c[0] = lever * cosine;
     c[1] = lever * sine;
   };

@@ -94,7 +94,7 @@ EffectFamily unnamed() {
       c[0] = value;
       return;
     }
-    const auto [cosine, sine] = direction_at(shape[2] * p.centre_rad);
+    const auto [cosine, sine] = direction_at(shape[2] * g.centre_rad(p.tooth));
     c[0] = value * cosine;
     c[1] = value * sine;
   };

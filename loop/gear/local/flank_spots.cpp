@@ -6,6 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/threads.h"
+#include "trueflank/loop/gear/rows_by_class.h"
+
 namespace trueflank::loop {
 namespace {
 
@@ -39,40 +42,61 @@ class SpotSearch {
   SpotSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
              const std::vector<float>& row_um)
       : geometry_(geometry) {
-    std::array<std::vector<float>, 2> of_side;
-    std::vector<std::size_t> rows;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      if (table.rows[i].kind != ObservationKind::kScanFlank || patches.patch_of_row[i] < 0)
-        continue;
-      rows.push_back(i);
-      of_side[side_index(table.place(table.rows[i]).side)].push_back(row_um[i]);
+    const auto flanks = 2 * static_cast<std::size_t>(geometry.teeth());
+    std::vector<int> flank_of(patches.patches.size(), -1);
+    for (std::size_t p = 0; p < flank_of.size(); ++p) {
+      const Place& place = patches.patches[p].places.front().place;
+      if (patches.patches[p].kind == ObservationKind::kScanFlank)
+        flank_of[p] = 2 * (place.tooth - 1) + static_cast<int>(side_index(place.side));
     }
-    const std::size_t per_flank = rows.size() / static_cast<std::size_t>(2 * geometry.teeth());
+    const RowsByClass rows(table.rows.size(), flanks, [&](std::size_t i) {
+      const int patch = patches.patch_of_row[i];
+      return patch < 0 ? -1 : flank_of[static_cast<std::size_t>(patch)];
+    });
+    std::size_t points = 0;
+    for (std::size_t flank = 0; flank < flanks; ++flank) points += rows.count(flank);
+    const std::size_t per_flank = points / flanks;
     if (per_flank < kFewestPoints) return;
     cells_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(per_flank) / 2.5)),
                         kFewestCells, kMostCells);
     // A probe may be noisier on one flank than on the other.
-    const std::array<double, 2> limits{kClip * spread_of(std::move(of_side[0])),
-                                       kClip * spread_of(std::move(of_side[1]))};
-    for (const std::size_t i : rows) {
-      const Place& place = table.place(table.rows[i]);
-      Field& field = *at_flank(place.tooth, place.side);
-      if (field.sum.empty())
-        field.sum = field.count = field.plain = std::vector<double>(corners(), 0.0);
-      const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
-                                    cell(geometry.face_coordinate(place.z_mm)) + 1);
-      const double um = row_um[i], limit = limits[side_index(place.side)];
-      field.sum[at] += std::clamp(um, -limit, limit);
-      field.plain[at] += um;
-      field.count[at] += 1.0;
-      Steps& steps = steps_[{place.tooth, place.side}];
-      if (steps.any) steps.um.push_back(row_um[i] - steps.last_um);
-      steps.last_um = row_um[i];
-      steps.any = true;
-    }
-    tell_loud_flanks();
-    for (auto& [key, field] : fields_)
+    std::array<double, 2> limits{};
+    for_each_piece(2, [&](std::size_t side) {
+      std::vector<float> um;
+      um.reserve(points / 2);
+      for (std::size_t flank = side; flank < flanks; flank += 2)
+        rows.for_each(flank, [&](std::size_t i) { um.push_back(row_um[i]); });
+      limits[side] = kClip * spread_of(std::move(um));
+    });
+    std::vector<Field*> fields(flanks, nullptr);
+    for (std::size_t flank = 0; flank < flanks; ++flank)
+      if (rows.count(flank) > 0)
+        fields[flank] = &fields_[{static_cast<int>(flank / 2) + 1, flank % 2 == 1 ? 1 : -1}];
+    // Flanks do not ask each other: the same sums on any number of processors.
+    for_each_piece(flanks, [&](std::size_t flank) {
+      if (fields[flank] == nullptr) return;
+      Field& field = *fields[flank];
+      field.sum = field.count = field.plain = std::vector<double>(corners(), 0.0);
+      const double limit = limits[flank % 2];
+      std::vector<float> steps;  // from one point of the flank to the next
+      float last_um = 0.0F;
+      bool any = false;
+      rows.for_each(flank, table, [&](std::size_t i) {
+        const Place& place = table.place(table.rows[i]);
+        const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
+                                      cell(geometry.face_coordinate(place.z_mm)) + 1);
+        const double um = row_um[i];
+        field.sum[at] += std::clamp(um, -limit, limit);
+        field.plain[at] += um;
+        field.count[at] += 1.0;
+        if (any) steps.push_back(row_um[i] - last_um);
+        last_um = row_um[i];
+        any = true;
+      });
+      field.loud = spread_of(std::move(steps));
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
+    });
+    tell_loud_flanks();
   }
 
   std::vector<FlankSpot> run() {
@@ -101,34 +125,14 @@ class SpotSearch {
   }
 
  private:
-  /// From one point of a flank to the next.
-  struct Steps {
-    std::vector<float> um;
-    float last_um = 0.0F;
-    bool any = false;
-  };
-
   /// A flank that scatters more than the usual one from point to point is measured against itself.
   void tell_loud_flanks() {
     constexpr double kByChance = 1.5;
     std::vector<float> scatters;
-    for (auto& [key, steps] : steps_) {
-      fields_[key].loud = spread_of(std::move(steps.um));
-      scatters.push_back(static_cast<float>(fields_[key].loud));
-    }
+    for (const auto& [key, field] : fields_) scatters.push_back(static_cast<float>(field.loud));
     const double usual = spread_of(std::move(scatters)) / 1.4826;
     for (auto& [key, field] : fields_)
       field.loud = usual > 0.0 && field.loud > kByChance * usual ? field.loud / usual : 1.0;
-    steps_.clear();
-  }
-
-  /// The field of a flank; looked up once.
-  Field* at_flank(int tooth, int side) {
-    if (flanks_.empty())
-      flanks_.resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1), nullptr);
-    Field*& field = flanks_[2 * static_cast<std::size_t>(tooth) + (side > 0 ? 1 : 0)];
-    if (field == nullptr) field = &fields_[{tooth, side}];
-    return field;
   }
 
   [[nodiscard]] std::size_t corners() const {
@@ -197,8 +201,6 @@ class SpotSearch {
   const FlankGeometry& geometry_;
   int cells_ = 0;
   std::map<std::pair<int, int>, Field> fields_;
-  std::map<std::pair<int, int>, Steps> steps_;
-  std::vector<Field*> flanks_;
 };
 
 }  // namespace

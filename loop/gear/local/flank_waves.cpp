@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -117,8 +118,8 @@ class Spectrum {
         std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
     const auto most = static_cast<std::uint64_t>(share * 4294967296.0);
     for (std::size_t i = 0; i < used.size(); ++i) {
-      if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
       if (((i * 2654435761ull) & 0xffffffffull) >= most) continue;
+      if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
       const Place& place = table.place(table.rows[i]);
       values_.push_back({place.tooth, place.side > 0 ? 1 : 0,
                          0.5 * (geometry.profile_coordinate(place.roll_mm) + 1.0),
@@ -141,11 +142,12 @@ class Spectrum {
     for (Value& value : values_) value.um = std::clamp(value.um, -most, most);
   }
 
-  /// Values in the order of their flanks.
-  [[nodiscard]] std::vector<const Value*> by_flank() {
-    std::vector<std::size_t> next(flanks_.size() + 1, 0);
+  /// Values in the order of their flanks; `first` of each flank.
+  [[nodiscard]] std::vector<const Value*> by_flank(std::vector<std::size_t>& first) {
+    first.assign(flanks_.size() + 1, 0);
     for (std::size_t f = 0; f < flanks_.size(); ++f)
-      next[f + 1] = next[f] + static_cast<std::size_t>(flanks_[f].count);
+      first[f + 1] = first[f] + static_cast<std::size_t>(flanks_[f].count);
+    std::vector<std::size_t> next = first;
     std::vector<const Value*> sorted(values_.size());
     for (const Value& value : values_)
       sorted[next[static_cast<std::size_t>(&flank_of(value) - flanks_.data())]++] = &value;
@@ -155,21 +157,22 @@ class Spectrum {
   /// Sums of all waves of every flank. Cosines and sines over the profile times those over the
   /// face: waves that rise and waves that fall are made of the same four products.
   void transform() {
-    const std::vector<const Value*> sorted = by_flank();
-    std::size_t next = 0;
-    for (Flank& flank : flanks_) {
+    std::vector<std::size_t> first;
+    const std::vector<const Value*> sorted = by_flank(first);
+    // Flanks do not ask each other: the same sums on any number of processors.
+    for_each_piece(flanks_.size(), [&](std::size_t f) {
+      Flank& flank = flanks_[f];
       WaveProducts products;
-      const std::size_t end = next + static_cast<std::size_t>(flank.count);
-      for (; next < end; next += kAtOnce)
+      const std::size_t end = first[f + 1];
+      for (std::size_t next = first[f]; next < end; next += kAtOnce)
         products.add({sorted.data() + next, std::min(kAtOnce, end - next)});
-      next = end;
       flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
       for (int a = 0; a <= kProfile; ++a)
         for (int b = 0; b <= kFace; ++b) {
           flank.sums[at(a, b)] = products.sum(a, b, 1.0);
           flank.sums[at(a, -b)] = products.sum(a, b, -1.0);
         }
-    }
+    });
   }
 
   /// Power of all orders at one pair of wavelengths on one side.

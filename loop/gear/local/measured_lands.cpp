@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 
 namespace trueflank::loop {
@@ -26,23 +27,43 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
       normals_(!scan.normals.empty()),
       tip_mm_(static_cast<std::size_t>(geometry.teeth()), geometry.tip_radius_mm()) {
   const double pitch = kTwoPi / geometry.teeth(), tip = geometry.tip_radius_mm();
-  const double half = tooth_half_angle_rad(geometry.gear(), std::max(tip, geometry.base_radius_mm()));
+  const double half =
+      tooth_half_angle_rad(geometry.gear(), std::max(tip, geometry.base_radius_mm()));
   std::vector<std::vector<double>> of_tooth(tip_mm_.size());
   std::vector<double> tips, roots;
-  for (const auto& point : scan.points_mm) {
-    const auto p = pose(point);
-    if (p[2] < 0.0 || p[2] > geometry.face_width_mm()) continue;
-    const double radius = std::hypot(p[0], p[1]);
-    const double from_first = std::atan2(p[1], p[0]) - geometry.twist_rad(p[2]);
-    const double number = std::round(from_first / pitch), offset = std::abs(from_first - number * pitch);
+  // Those near a land are picked out on all processors.
+  constexpr std::size_t kPointsOfWork = 16384;
+  struct NearLand {
+    double radius_mm = 0.0, from_first_rad = 0.0;
+  };
+  std::vector<std::vector<NearLand>> near((scan.points_mm.size() + kPointsOfWork - 1) /
+                                          kPointsOfWork);
+  for_each_piece(near.size(), [&](std::size_t piece) {
+    const std::size_t end = std::min(scan.points_mm.size(), (piece + 1) * kPointsOfWork);
+    for (std::size_t i = piece * kPointsOfWork; i < end; ++i) {
+      const auto p = pose(scan.points_mm[i]);
+      if (p[2] < 0.0 || p[2] > geometry.face_width_mm()) continue;
+      const double radius = std::hypot(p[0], p[1]);
+      if (std::abs(radius - tip) < reach_mm ||
+          std::abs(radius - geometry.root_radius_mm()) < reach_mm)
+        near[piece].push_back({radius, std::atan2(p[1], p[0]) - geometry.twist_rad(p[2])});
+    }
+  });
+  const auto sort = [&](double radius, double from_first) {
+    const double number = std::round(from_first / pitch),
+                 offset = std::abs(from_first - number * pitch);
     const int z = geometry.teeth();
     if (offset < 0.5 * half && std::abs(radius - tip) < reach_mm) {
-      of_tooth[static_cast<std::size_t>(((static_cast<int>(number) % z) + z) % z)].push_back(radius);
+      of_tooth[static_cast<std::size_t>(((static_cast<int>(number) % z) + z) % z)].push_back(
+          radius);
       tips.push_back(radius);
     }
-    if (0.5 * pitch - offset < 0.05 * pitch && std::abs(radius - geometry.root_radius_mm()) < reach_mm)
+    if (0.5 * pitch - offset < 0.05 * pitch &&
+        std::abs(radius - geometry.root_radius_mm()) < reach_mm)
       roots.push_back(radius - geometry.root_radius_mm());
-  }
+  };
+  for (const auto& points : near)
+    for (const NearLand& point : points) sort(point.radius_mm, point.from_first_rad);
   if (roots.size() >= kFewest) root_mm_ = geometry.sense() * median(roots);
   if (tips.size() < kFewest) return;
   const double whole = median(tips);
@@ -52,7 +73,8 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
     for (const double radius : of_tooth[k]) scatter.push_back(std::abs(radius - tip_mm_[k]));
   }
   constexpr double kSigmaOfMedian = 1.4826;
-  guard_mm_ = std::min(3.0 * kSigmaOfMedian * median(scatter), 0.1 * geometry.gear().normal_module_mm);
+  guard_mm_ =
+      std::min(3.0 * kSigmaOfMedian * median(scatter), 0.1 * geometry.gear().normal_module_mm);
 }
 
 bool MeasuredLands::covers(const Place& place, const std::array<double, 3>& point) const {

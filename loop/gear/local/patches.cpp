@@ -10,15 +10,17 @@
 #include <span>
 #include <unordered_map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/export/parallel_jobs.h"
+#include "trueflank/loop/gear/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {
 
 constexpr int kMostPatches = 24000;
-constexpr int kFolds = 8;           // of the cross-validation
+constexpr int kFolds = 8;                // of the cross-validation
 constexpr int kAnchorFold = kFolds + 1;  // tips, roots and sizes
-constexpr int kFewestUnits = 24;    // below, units are cut into parts
+constexpr int kFewestUnits = 24;         // below, units are cut into parts
 constexpr double kDefaultSizeSigma_um = 2.0;
 
 bool is_trace(ObservationKind kind) {
@@ -76,7 +78,7 @@ class PatchMaker {
  private:
   static constexpr int kProfileParts = 12, kTraceParts = 40;
   static constexpr int kFinerParts = 8;  // of the lowest millimetre
-  using Key = std::array<int, 7>;  // kind, source, zero, tooth, side, profile part, face part
+  using Key = std::array<int, 7>;        // kind, source, zero, tooth, side, profile part, face part
 
   /// Height band; the lowest millimetre is cut finer, because first layers are.
   [[nodiscard]] int face_part(double z) const {
@@ -88,7 +90,8 @@ class PatchMaker {
   [[nodiscard]] Key key_of(const Observation& row, int number) const {
     const Place& place = table_.place(row);
     Key key{static_cast<int>(row.kind), row.source, row.trace, place.tooth, place.side, 0, 0};
-    if (is_single(row.kind)) key[5] = number;
+    if (is_single(row.kind))
+      key[5] = number;
     else if (row.kind == ObservationKind::kProfile)
       key[5] = part_of(geometry_.profile_coordinate(place.roll_mm), kTraceParts);
     else if (row.kind == ObservationKind::kHelix)
@@ -116,11 +119,56 @@ class PatchMaker {
            static_cast<std::size_t>(in_flank);
   }
 
+  struct Sum {
+    double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
+    double z_low_mm = 1e300, z_high_mm = -1e300;
+    void add(const Observation& row, const Place& place, double sigma_um) {
+      const double w = std::isnan(sigma_um) ? 1.0 : 1.0 / (sigma_um * sigma_um);
+      weight += w;
+      value += w * row.deviation_um;
+      roll += w * place.roll_mm;
+      z += w * place.z_mm;
+      x += w * place.polar_direction[0];
+      y += w * place.polar_direction[1];
+      count += 1.0;
+      z_low_mm = std::min(z_low_mm, place.z_mm);
+      z_high_mm = std::max(z_high_mm, place.z_mm);
+    }
+  };
+  static constexpr std::size_t kMostSamples = 8;
+  static constexpr int kNoPatch = -1, kByKey = -2;
+
+  /// What takes time for every row is done on all processors; patches get their numbers, and their
+  /// samples, in the order of the rows.
   void gather() {
-    struct Sum {
-      double weight = 0.0, value = 0.0, roll = 0.0, z = 0.0, x = 0.0, y = 0.0, count = 0.0;
-      double z_low_mm = 1e300, z_high_mm = -1e300;
-    };
+    find_places_in_lists();
+    number_patches();
+    sum_patches();
+  }
+
+  /// Patches of scanned flanks, nearly all there are, by their place in a list; into patch_of_row.
+  void find_places_in_lists() {
+    result_.patch_of_row.assign(table_.rows.size(), kNoPatch);
+    const double b = geometry_.face_width_mm();
+    constexpr std::size_t kRowsOfWork = 16384;
+    const std::size_t rows = table_.rows.size();
+    for_each_piece((rows + kRowsOfWork - 1) / kRowsOfWork, [&](std::size_t piece) {
+      const std::size_t end = std::min(rows, (piece + 1) * kRowsOfWork);
+      for (std::size_t i = piece * kRowsOfWork; i < end; ++i) {
+        const Observation& row = table_.rows[i];
+        const double z = table_.place(row).z_mm;
+        const bool circle =
+            row.kind == ObservationKind::kScanTip || row.kind == ObservationKind::kScanRoot;
+        // Tip and root serve as sizes: taken where face effects are small.
+        if (circle && (z < 0.3 * b || z > 0.7 * b)) continue;
+        result_.patch_of_row[i] = row.kind == ObservationKind::kScanFlank
+                                      ? static_cast<int>(place_in_list(key_of(row, 0)))
+                                      : kByKey;
+      }
+    });
+  }
+
+  void number_patches() {
     struct HashOfKey {
       std::size_t operator()(const Key& key) const {
         std::size_t hash = 0;
@@ -130,86 +178,96 @@ class PatchMaker {
       }
     };
     std::unordered_map<Key, int, HashOfKey> numbers;
-    // Patches of scanned flanks, nearly all there are, by their place in a list.
     std::vector<int> of_flanks;
-    std::vector<Sum> sums;
-    result_.patch_of_row.assign(table_.rows.size(), -1);
-    const double b = geometry_.face_width_mm();
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
-      const Observation& row = table_.rows[i];
-      const Place& place = table_.place(row);
-      const bool circle =
-          row.kind == ObservationKind::kScanTip || row.kind == ObservationKind::kScanRoot;
-      // Tip and root serve as sizes: taken where face effects are small.
-      if (circle && (place.z_mm < 0.3 * b || place.z_mm > 0.7 * b)) continue;
-      const Key key = key_of(row, static_cast<int>(i));
+      int& patch = result_.patch_of_row[i];
+      if (patch == kNoPatch) continue;
       int* known = nullptr;
-      if (row.kind == ObservationKind::kScanFlank) {
-        const auto at = place_in_list(key);
+      if (patch != kByKey) {
+        const auto at = static_cast<std::size_t>(patch);
         if (at >= of_flanks.size()) of_flanks.resize(at + patches_of_flanks(), -1);
         known = &of_flanks[at];
       } else {
-        known = &numbers.emplace(key, -1).first->second;
+        known = &numbers.emplace(key_of(table_.rows[i], static_cast<int>(i)), -1).first->second;
       }
-      if (*known < 0) {
-        *known = static_cast<int>(sums.size());
-        sums.emplace_back();
-        Patches::Patch patch;
-        patch.kind = row.kind;
-        patch.source = row.source;
-        patch.zero = row.trace;
-        patch.places.assign(table_.places.begin() + row.first_place,
-                            table_.places.begin() + row.first_place + row.places);
-        result_.patches.push_back(std::move(patch));
-        keys_.push_back(key);
-      }
-      result_.patch_of_row[i] = *known;
-      Sum& sum = sums[static_cast<std::size_t>(*known)];
-      const double w = std::isnan(row.sigma_um) ? 1.0 : 1.0 / (row.sigma_um * row.sigma_um);
-      sum.weight += w;
-      sum.value += w * row.deviation_um;
-      sum.roll += w * place.roll_mm;
-      sum.z += w * place.z_mm;
-      sum.x += w * place.polar_direction[0];
-      sum.y += w * place.polar_direction[1];
-      sum.count += 1.0;
-      if (!is_single(row.kind)) keep_sample(*known, place, sum.count);
-      sum.z_low_mm = std::min(sum.z_low_mm, place.z_mm);
-      sum.z_high_mm = std::max(sum.z_high_mm, place.z_mm);
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      Patches::Patch& patch = result_.patches[i];
-      const Sum& s = sums[i];
-      patch.mean_um = s.value / s.weight;
-      patch.count = s.count;
-      patch.z_low_mm = s.z_low_mm;
-      patch.z_high_mm = s.z_high_mm;
-      if (is_single(patch.kind)) continue;
-      Place& place = patch.places.front().place;
-      if (place.surface == Surface::kFlank)
-        place = geometry_.on_flank(place.tooth, place.side, s.roll / s.weight, s.z / s.weight);
-      else
-        place = geometry_.on_circle(place.surface, place.tooth, std::atan2(s.y, s.x),
-                                    place.radius_mm, s.z / s.weight);
+      if (*known < 0) *known = add_patch(i);
+      patch = *known;
+      keep_sample(static_cast<std::size_t>(patch), i);
     }
   }
 
-  /// Every value is as likely to be among those kept; `count` of them were there, this one
-  /// included.
-  void keep_sample(int patch, const Place& place, double count) {
-    constexpr std::size_t kMost = 8;
-    auto at = static_cast<std::size_t>(count) - 1;
-    if (at >= kMost) at = static_cast<std::size_t>(random_() % static_cast<std::uint64_t>(count));
-    if (at >= kMost) return;
-    std::vector<Place>& sample = result_.patches[static_cast<std::size_t>(patch)].sample;
-    if (at < sample.size())
-      sample[at] = place;
+  /// Its number.
+  int add_patch(std::size_t first_row) {
+    const Observation& row = table_.rows[first_row];
+    Patches::Patch patch;
+    patch.kind = row.kind;
+    patch.source = row.source;
+    patch.zero = row.trace;
+    for (std::uint32_t k = 0; k < row.places; ++k)
+      patch.places.push_back({table_.places[row.first_place + k], row.weight});
+    result_.patches.push_back(std::move(patch));
+    keys_.push_back(key_of(row, static_cast<int>(first_row)));
+    samples_.emplace_back();
+    return static_cast<int>(keys_.size()) - 1;
+  }
+
+  void sum_patches() {
+    const std::size_t patches = result_.patches.size();
+    constexpr std::size_t kPatchesOfWork = 256;
+    const std::size_t pieces = (patches + kPatchesOfWork - 1) / kPatchesOfWork;
+    const RowsByClass rows(table_.rows.size(), pieces, [&](std::size_t i) {
+      const int patch = result_.patch_of_row[i];
+      return patch < 0 ? -1 : patch / static_cast<int>(kPatchesOfWork);
+    });
+    for_each_piece(pieces, [&](std::size_t piece) {
+      const std::size_t first = piece * kPatchesOfWork,
+                        end = std::min(patches, first + kPatchesOfWork);
+      std::vector<Sum> sums(end - first);
+      rows.for_each(piece, table_, [&](std::size_t i) {
+        const Observation& row = table_.rows[i];
+        sums[static_cast<std::size_t>(result_.patch_of_row[i]) - first].add(row, table_.place(row),
+                                                                            table_.sigma_um(row));
+      });
+      for (std::size_t k = first; k < end; ++k) finish_patch(k, sums[k - first]);
+    });
+    samples_ = {};
+  }
+
+  void finish_patch(std::size_t number, const Sum& s) {
+    Patches::Patch& patch = result_.patches[number];
+    patch.mean_um = s.value / s.weight;
+    patch.count = s.count;
+    patch.z_low_mm = s.z_low_mm;
+    patch.z_high_mm = s.z_high_mm;
+    if (is_single(patch.kind)) return;
+    const Sample& sample = samples_[number];
+    for (std::size_t k = 0; k < std::min<std::size_t>(sample.count, kMostSamples); ++k)
+      patch.sample.push_back(table_.place(table_.rows[sample.rows[k]]));
+    Place& place = patch.places.front().place;
+    if (place.surface == Surface::kFlank)
+      place = geometry_.on_flank(place.tooth, place.side, s.roll / s.weight, s.z / s.weight);
     else
-      sample.push_back(place);
+      place = geometry_.on_circle(place.surface, place.tooth, std::atan2(s.y, s.x), place.radius_mm,
+                                  s.z / s.weight);
   }
 
-  /// What may share its random error: a flank of a scan, a trace, a single value. Where there are few,
-  /// they are cut across, far longer than the error hangs together.
+  /// Rows of a patch that are kept, and how many there were.
+  struct Sample {
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, kMostSamples> rows{};
+  };
+
+  /// Every value is as likely to be among those kept.
+  void keep_sample(std::size_t patch, std::size_t row) {
+    if (is_single(result_.patches[patch].kind)) return;
+    Sample& sample = samples_[patch];
+    std::uint64_t at = sample.count++;
+    if (at >= kMostSamples) at = random_() % sample.count;
+    if (at < kMostSamples) sample.rows[at] = static_cast<std::uint32_t>(row);
+  }
+
+  /// What may share its random error: a flank of a scan, a trace, a single value. Where there are
+  /// few, they are cut across, far longer than the error hangs together.
   void number_units() {
     std::map<std::array<int, 3>, std::set<int>> members;  // of kind and source: ids
     const auto id_of = [&](std::size_t i) {
@@ -228,26 +286,29 @@ class PatchMaker {
       const int count = static_cast<int>(members[{keys_[i][0], keys_[i][1], 0}].size());
       int part = 0;
       if (!is_single(patch.kind) && count < kFewestUnits) {
-        const int parts = std::min((kFewestUnits + count - 1) / count, is_trace(patch.kind) ? 6 : 4);
+        const int parts =
+            std::min((kFewestUnits + count - 1) / count, is_trace(patch.kind) ? 6 : 4);
         const Place& place = patch.places.front().place;
         part = patch.kind == ObservationKind::kProfile
                    ? part_of(geometry_.profile_coordinate(place.roll_mm), parts)
                    : part_of(geometry_.face_coordinate(place.z_mm), parts);
       }
-      const auto [found, is_new] = numbers.emplace(
-          std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
-          static_cast<int>(numbers.size()));
+      const auto [found, is_new] =
+          numbers.emplace(std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
+                          static_cast<int>(numbers.size()));
       patch.unit = found->second;
       if (is_trace(patch.kind) || patch.kind == ObservationKind::kScanFlank)
-        patch.whole = wholes.emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
-                                     static_cast<int>(wholes.size())).first->second;
+        patch.whole = wholes
+                          .emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
+                                   static_cast<int>(wholes.size()))
+                          .first->second;
     }
     result_.units = static_cast<int>(numbers.size());
   }
 
   void assign_folds() {
-    // Traces are often of three or four teeth, an index of all: each is shared out by itself, lest the
-    // lock takes most of the traces.
+    // Traces are often of three or four teeth, an index of all: each is shared out by itself, lest
+    // the lock takes most of the traces.
     std::set<int> trace_teeth, single_teeth;
     std::set<int> traces;
     for (const auto& patch : result_.patches) {
@@ -267,7 +328,8 @@ class PatchMaker {
         if (teeth.contains(number + 1)) rank.emplace(number + 1, static_cast<int>(rank.size()));
       return rank;
     };
-    const std::map<int, int> trace_rank = ranks_of(trace_teeth), single_rank = ranks_of(single_teeth);
+    const std::map<int, int> trace_rank = ranks_of(trace_teeth),
+                             single_rank = ranks_of(single_teeth);
     const auto fold_of_class = [](int c) { return c == 0 || c == 5 ? 0 : c < 5 ? c : c - 1; };
     int single = 0;
     for (std::size_t i = 0; i < result_.patches.size(); ++i) {
@@ -279,11 +341,16 @@ class PatchMaker {
       } else if (is_trace(patch.kind) || patch.kind == ObservationKind::kIndex ||
                  patch.kind == ObservationKind::kRadial) {
         const auto& rank = is_trace(patch.kind) ? trace_rank : single_rank;
-        if (rank.size() >= 10) patch.fold = fold_of_class(rank.at(place.tooth) % 10);
-        else if (rank.size() >= 5) patch.fold = rank.at(place.tooth) % 5;
-        else if (!is_trace(patch.kind)) patch.fold = 1 + keys_[i][5] % 4;
-        else if (traces.size() >= 5) patch.fold = patch.whole % 5;
-        else patch.fold = 1 + patch.whole % 4;
+        if (rank.size() >= 10)
+          patch.fold = fold_of_class(rank.at(place.tooth) % 10);
+        else if (rank.size() >= 5)
+          patch.fold = rank.at(place.tooth) % 5;
+        else if (!is_trace(patch.kind))
+          patch.fold = 1 + keys_[i][5] % 4;
+        else if (traces.size() >= 5)
+          patch.fold = patch.whole % 5;
+        else
+          patch.fold = 1 + patch.whole % 4;
         patch.fold = std::max(0, patch.fold);
       } else if (patch.kind == ObservationKind::kScanBore) {
         patch.fold = 1 + single++ % kFolds;
@@ -302,10 +369,10 @@ class PatchMaker {
       Key right = keys_[i], left = keys_[i];
       const auto single = static_cast<ObservationKind>(kind);
       if (is_single(single)) continue;
-      const int axis = single == ObservationKind::kHelix || single == ObservationKind::kScanBore ? 6
-                       : single == ObservationKind::kProfile || single == ObservationKind::kScanFlank
-                           ? 5
-                           : 3;
+      const int axis =
+          single == ObservationKind::kHelix || single == ObservationKind::kScanBore      ? 6
+          : single == ObservationKind::kProfile || single == ObservationKind::kScanFlank ? 5
+                                                                                         : 3;
       ++right[axis];
       --left[axis];
       const auto r = at.find(right), l = at.find(left);
@@ -318,8 +385,8 @@ class PatchMaker {
     return robust_variance(squares);
   }
 
-  /// Of values one a tooth: second differences around the gear, each flank apart, but no more than the
-  /// values scatter: where every other tooth differs, neighbours are no neighbourhood.
+  /// Of values one a tooth: second differences around the gear, each flank apart, but no more than
+  /// the values scatter: where every other tooth differs, neighbours are no neighbourhood.
   [[nodiscard]] double variance_around(const std::vector<int>& members) const {
     std::map<std::pair<int, int>, int> at;
     for (const int i : members) at[{keys_[i][4], keys_[i][3]}] = i;
@@ -355,10 +422,9 @@ class PatchMaker {
       classes[{keys_[i][0], keys_[i][1]}].push_back(static_cast<int>(i));
     for (const auto& [key, members] : classes) {
       const auto kind = static_cast<ObservationKind>(key.first);
-      double variance =
-          kind == ObservationKind::kIndex || kind == ObservationKind::kRadial
-              ? variance_around(members)
-              : variance_of(key.first, key.second, members);
+      double variance = kind == ObservationKind::kIndex || kind == ObservationKind::kRadial
+                            ? variance_around(members)
+                            : variance_of(key.first, key.second, members);
       double mean_count = 0.0;
       for (const int i : members)
         mean_count += result_.patches[i].count / static_cast<double>(members.size());
@@ -377,9 +443,9 @@ class PatchMaker {
       const Observation& observation = table_.rows[row];
       if (!is_single(observation.kind)) continue;
       Patches::Patch& patch = result_.patches[result_.patch_of_row[row]];
-      const double sigma = observation.kind == ObservationKind::kSize && std::isnan(observation.sigma_um)
-                               ? kDefaultSizeSigma_um
-                               : observation.sigma_um;
+      double sigma = table_.sigma_um(observation);
+      if (observation.kind == ObservationKind::kSize && std::isnan(sigma))
+        sigma = kDefaultSizeSigma_um;
       if (!std::isnan(sigma)) patch.weight = 1.0 / (sigma * sigma);
     }
   }
@@ -388,6 +454,7 @@ class PatchMaker {
   const Observations& table_;
   int face_parts_ = 8;
   std::vector<Key> keys_;
+  std::vector<Sample> samples_;
   std::mt19937_64 random_{20260103};
   Patches result_;
 };
@@ -492,7 +559,8 @@ std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<
     if (effect.family->complexity) group.complexity = effect.family->complexity(effect.shape);
     if (effect.family->local)
       group.local_family =
-          local_families.emplace(effect.family, static_cast<int>(local_families.size())).first->second;
+          local_families.emplace(effect.family, static_cast<int>(local_families.size()))
+              .first->second;
     if (effect.family->shape_is_continuous) group.kin = 3 * kin + static_cast<int>(effect.flank);
     groups.push_back(group);
     columns += group.columns;

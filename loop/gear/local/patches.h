@@ -11,6 +11,11 @@
 
 namespace trueflank::loop {
 
+struct WeightedPlace {
+  Place place;
+  double weight = 1.0;
+};
+
 /// Observations gathered into small patches of a flank (or pieces of a trace): their means carry
 /// all the effects at a fraction of the rows, and random error that hangs together stays inside.
 struct Patches {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "trueflank/base/threads.h"
+#include "trueflank/loop/gear/rows_by_class.h"
+
 namespace trueflank::loop {
 namespace {
 
@@ -31,12 +34,15 @@ ResidualGrid residual_grid(const GearLoop& closed, bool after) {
   const FlankGeometry& g = closed.geometry;
   std::vector<std::array<FlankMeans, 2>> means(g.teeth());
   std::array<std::array<std::array<Mean, kParts>, kParts>, 2> topography;
-  for (std::size_t i = 0; i < closed.table.rows.size(); ++i) {
+  const RowsByClass of_side(closed.table.rows.size(), 2, [&](std::size_t i) {
     const Observation& row = closed.table.rows[i];
     const Place& place = closed.table.place(row);
-    if (place.surface != Surface::kFlank || row.places != 1) continue;
+    return place.surface != Surface::kFlank || row.places != 1 ? -1 : place.side > 0 ? 1 : 0;
+  });
+  const auto add = [&](std::size_t i, std::size_t side) {
+    const Observation& row = closed.table.rows[i];
+    const Place& place = closed.table.place(row);
     const double value = after ? closed.after_um[i] : closed.before_um[i];
-    const int side = place.side > 0 ? 1 : 0;
     FlankMeans& flank = means[place.tooth - 1][side];
     const int u = part_of(g.profile_coordinate(place.roll_mm));
     const int v = part_of(g.face_coordinate(place.z_mm));
@@ -48,7 +54,10 @@ ResidualGrid residual_grid(const GearLoop& closed, bool after) {
       topography[side][u][v].add(value);
     }
     if (row.kind == ObservationKind::kIndex) flank.index.add(value);
-  }
+  };
+  for_each_piece(2, [&](std::size_t side) {
+    of_side.for_each(side, closed.table, [&](std::size_t i) { add(i, side); });
+  });
   ResidualGrid grid;
   grid.teeth.resize(means.size());
   for (std::size_t k = 0; k < means.size(); ++k)

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What scans of many points rest on: read in pieces, kept in little memory, worked on by all
+// processors with the digits of one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/plain_rms.h"
+#include "trueflank/loop/gear/rows_by_class.h"
+#include "trueflank/loop/gear/shared_table.h"
+#include "trueflank/loop/measured/read_measurement.h"
+
+namespace trueflank::test {
+namespace {
+
+/// A scan of a gear 30 um off its axis, on the table.
+class OffAxis : public ::testing::Test {
+ protected:
+  OffAxis() {
+    loop::MeasuredData data;
+    data.scans.push_back(
+        scan_of(gear_, {off_centre(30.0, 40.0)}, {.points = 6000, .noise_um = 2.0, .bore = true}));
+    table_ = *make_observations(geometry_, std::move(data), {.aligned = true});
+    patches_ = make_patches(geometry_, table_);
+  }
+  [[nodiscard]] loop::PointFit fit_of_eccentricity() const {
+    return {geometry_,
+            table_,
+            patches_,
+            {{loop::find_family("eccentricity"), loop::FlankChoice::kBoth, {}}}};
+  }
+
+  MadeGear gear_ = spur(24);
+  loop::FlankGeometry geometry_ = geometry_of(gear_);
+  loop::Observations table_;
+  loop::Patches patches_;
+};
+
+bool is_same(const loop::Place& a, const loop::Place& b) {
+  return a.surface == b.surface && a.side == b.side && a.tooth == b.tooth &&
+         a.roll_mm == b.roll_mm && a.z_mm == b.z_mm && a.radius_mm == b.radius_mm &&
+         a.polar_rad == b.polar_rad && a.polar_direction == b.polar_direction &&
+         a.normal_direction == b.normal_direction;
+}
+
+TEST_F(OffAxis, ADisplacementTakenBackLeavesTheTableAsItWasMeasured) {
+  const loop::Observations before = table_;
+  EXPECT_GT(linearise_at(geometry_, fit_of_eccentricity(), table_), 0.1);
+  EXPECT_TRUE(table_.is_displaced);
+  undo_displacement(geometry_, table_);
+  EXPECT_FALSE(table_.is_displaced);
+  ASSERT_EQ(table_.rows.size(), before.rows.size());
+  for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+    ASSERT_EQ(table_.rows[i].deviation_um, before.rows[i].deviation_um) << i;
+    ASSERT_TRUE(is_same(table_.place(table_.rows[i]), before.place(before.rows[i]))) << i;
+  }
+}
+
+TEST_F(OffAxis, TheFitToTheDesignIsTheSameHoweverTheTableWasDisplaced) {
+  const std::vector<loop::Effect> none;
+  const loop::PointFit before(geometry_, table_, patches_, none);
+  linearise_at(geometry_, fit_of_eccentricity(), table_);
+  const loop::PointFit after(geometry_, table_, patches_, none, 1, loop::DeviationsOf::kDesign);
+  EXPECT_EQ(after.errors({}).rms_um, before.errors({}).rms_um);
+  const loop::PointFit displaced(geometry_, table_, patches_, none);
+  EXPECT_NE(displaced.errors({}).rms_um, before.errors({}).rms_um);
+}
+
+TEST_F(OffAxis, ThePoseLeavesNoLessThanTheBoundSays) {
+  const double bound = least_plain_rms_um(geometry_, table_, patches_);
+  const loop::PointFit fit(geometry_, table_, patches_, {});
+  EXPECT_GT(bound, 1.0);
+  EXPECT_LE(bound, fit.errors({}).rms_um);
+}
+
+TEST_F(OffAxis, ATableIsSharedUntilOneChangesIt) {
+  loop::SharedTable one(table_);
+  loop::SharedTable other = one;
+  EXPECT_EQ(one->rows.data(), other->rows.data());
+  other.own().rows[0].deviation_um = 7.0;
+  EXPECT_NE(one->rows.data(), other->rows.data());
+  EXPECT_NE(one->rows[0].deviation_um, 7.0);
+}
+
+TEST(RowsByClass, EveryClassHasItsRowsInTheOrderOfTheTable) {
+  constexpr std::size_t kRows = 200'001, kClasses = 7;
+  const auto class_of = [](std::size_t i) {
+    const auto number = static_cast<int>(i * 2654435761U >> 7U) % 8;
+    return number == 7 ? -1 : number;
+  };
+  const loop::RowsByClass rows(kRows, kClasses, class_of);
+  for (std::size_t k = 0; k < kClasses; ++k) {
+    std::vector<std::size_t> expected, seen;
+    for (std::size_t i = 0; i < kRows; ++i)
+      if (class_of(i) == static_cast<int>(k)) expected.push_back(i);
+    rows.for_each(k, [&](std::size_t i) { seen.push_back(i); });
+    EXPECT_EQ(seen, expected);
+    EXPECT_EQ(rows.count(k), expected.size());
+  }
+}
+
+TEST(ScanOfManyPoints, LinesAreCountedThroughAllPiecesOfAFile) {
+  std::string text = "# a scan\n70000\n";
+  for (int i = 0; i < 70'000; ++i)
+    text += i == 65'000 ? "broken line\n" : std::to_string(i) + ".25 1.5000000 2.5000000\n";
+  std::vector<std::string> notes;
+  const auto scan = loop::read_xyz("a.xyz", text, notes);
+  ASSERT_TRUE(scan);
+  ASSERT_EQ(scan->points_mm.size(), 69'999U);
+  EXPECT_EQ(scan->points_mm[64'999][0], 64'999.25);
+  EXPECT_EQ(scan->points_mm[65'000][0], 65'001.25);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(notes[0].starts_with("a.xyz:65003:")) << notes[0];
+}
+
+TEST(ScanOfManyPoints, AHeaderLongerThanAPieceIsNoData) {
+  const std::string text = std::string(3'000'000, '#') + "\n2\n1 2 3\n4 5 6\n";
+  std::vector<std::string> notes;
+  EXPECT_EQ(loop::read_xyz("a.xyz", text, notes)->points_mm.size(), 2U);
+  EXPECT_TRUE(notes.empty());
+}
+
+}  // namespace
+}  // namespace trueflank::test
