@@ -140,7 +140,12 @@ struct Asked {
   const std::vector<bool>& observable;
 };
 
-/// What every whole says of the groups of a panel.
+/// True for a group of so many columns that lives in more wholes than are asked: flips judge it.
+bool lives_in_too_many(const Agreement& sum, int columns) {
+  return sum.degrees > static_cast<int>(kMost) * columns;
+}
+
+/// What every whole says of the groups of a panel, until all of them live in too many.
 void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const PanelColumns& panel,
                 std::vector<Agreement>& sums) {
   const std::vector<CandidateGroup>& groups = asked.problem.groups;
@@ -165,8 +170,10 @@ void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const 
       add_products(products, whole.weight[r], beside[r]);
     }
     add_rows(scores, whole.weighted_left.data(), beside.data(), beside.size());
+    bool any = false;
     for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
-      if (!asked.observable[g]) continue;
+      if (!asked.observable[g] || lives_in_too_many(sums[g], groups[g].columns)) continue;
+      any = true;
       const int own = groups[g].columns, at = groups[g].first_column - panel.first_column;
       GroupMatrix gram(own, own);
       GroupVector score(own);
@@ -177,6 +184,7 @@ void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const 
       add_whole(sums[g], gram, score,
                 asked.projected[g].trace() / static_cast<double>(wholes.size()));
     }
+    if (!any) return;
   }
 }
 
@@ -218,7 +226,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     const int columns = problem.groups[g].columns;
     if (!observable[g] || problem.groups[g].local_family >= 0 ||
         sums[g].gram.trace() < kInWholes * projected[g].trace() ||
-        sums[g].degrees > static_cast<int>(kMost) * columns)
+        lives_in_too_many(sums[g], columns))
       continue;
     single[g] = p_of(sums[g], static_cast<int>(model.columns.size()), within);
   }
