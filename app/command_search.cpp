@@ -37,6 +37,9 @@ ResultAll<SearchRecords> run_part(const SearchTask& task, const SearchPart& part
              .stop = &StopOnInterrupt::flag(),
              .on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
                progress.show(finished, total, record);
+             },
+             .on_stage = [&](const SearchRecord&, std::size_t finished) {
+               progress.show_stages(finished, task.enumeration.stages.size());
              }});
 }
 
@@ -52,11 +55,15 @@ int conclude(const SearchTask& task, const SearchRecords& records,
                         open_text((std::filesystem::path(options.folder) / "search.html").string()));
         !ok)
       return report_errors({ok.error()});
-  if (report.optimised == report.sets) return 0;
+  if (report.complete()) return 0;
+  const std::string done = report.optimised < report.sets
+                               ? std::to_string(report.optimised) + " of " +
+                                     std::to_string(report.sets) + " tooth sets"
+                               : std::to_string(records.stages.size()) + " of at most " +
+                                     std::to_string(task.enumeration.stages.size()) +
+                                     " stages of trains in series";
   return report_errors({{.code = ErrorCode::kInterrupted,
-                         .message = "stopped after " + std::to_string(report.optimised) + " of " +
-                                    std::to_string(report.sets) +
-                                    " tooth sets; what was found is written",
+                         .message = "stopped after " + done + "; what was found is written",
                          .remedy = "--resume to go on"}});
 }
 
@@ -88,7 +95,7 @@ int run_search(const SearchOptions& options) {
                         " -o DIR --merge FOLDERS\n");
         !ok)
       return report_errors({ok.error()});
-  if (records->sets() == total) return 0;
+  if (is_complete(*task, *records, part)) return 0;
   return report_errors({{.code = ErrorCode::kInterrupted,
                          .message = "stopped before the part was done",
                          .remedy = "--resume to go on"}});

@@ -55,8 +55,8 @@ int run_rank(SearchOptions options, int rank, int ranks) {
 
   std::string lines;
   for (const SearchRecord& record : records->optimised) lines += journal_line(record) + "\n";
-  const std::size_t own = part.size(task->enumeration.sets.size());
-  if (records->sets() == own) lines += journal_end(part) + "\n";
+  for (const SearchRecord& stage : records->stages) lines += journal_stage_line(stage) + "\n";
+  if (is_complete(*task, *records, part)) lines += journal_end(part) + "\n";
   const std::string all = gathered(lines, rank, ranks);
   if (rank == 0) {
     auto read = read_journal(journal_header(task->requirements, task->enumeration) + "\n" + all,

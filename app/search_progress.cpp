@@ -56,15 +56,26 @@ SearchProgress::~SearchProgress() {
   if (active_) std::fputs("\r\033[K", stderr);
 }
 
+bool SearchProgress::is_time() {
+  const Clock::time_point now = Clock::now();
+  if (duration<double>(now - shown_).count() < kShowEvery_s) return false;
+  shown_ = now;
+  return true;
+}
+
+void SearchProgress::show_stages(std::size_t optimised, std::size_t stages) {
+  if (!active_ || !is_time()) return;
+  std::fprintf(stderr, "\r\033[K%zu of at most %zu stages of trains in series", optimised, stages);
+  std::fflush(stderr);
+}
+
 void SearchProgress::show(std::size_t finished, std::size_t total, const SearchRecord& record) {
   if (!active_) return;
   if (first_ == 0) first_ = finished;
   for (const SearchCandidate& candidate : record.result.candidates)
     best_ = std::max(best_, candidate.forward);
-  const Clock::time_point now = Clock::now();
-  if (duration<double>(now - shown_).count() < kShowEvery_s) return;
-  shown_ = now;
-  const double seconds = duration<double>(now - begun_).count();
+  if (!is_time()) return;
+  const double seconds = duration<double>(shown_ - begun_).count();
   const double rate = static_cast<double>(finished + 1 - first_) / seconds;
   std::fprintf(stderr, "\r\033[K%zu of %zu tooth sets (%.0f %%), best %.2f %%, %.0f/s, %s left",
                finished, total, 100.0 * static_cast<double>(finished) / static_cast<double>(total),

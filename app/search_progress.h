@@ -27,8 +27,12 @@ class SearchProgress {
   SearchProgress(const SearchProgress&) = delete;
   SearchProgress& operator=(const SearchProgress&) = delete;
   void show(std::size_t finished, std::size_t total, const SearchRecord& record);
+  /// Of trains in series; most stages need not be optimised.
+  void show_stages(std::size_t optimised, std::size_t stages);
 
  private:
+  [[nodiscard]] bool is_time();
+
   bool active_ = false;
   std::size_t first_ = 0;  ///< finished when it was first shown: earlier ones are of a journal
   double best_ = 0.0;

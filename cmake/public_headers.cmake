@@ -41,6 +41,7 @@ set(TRUEFLANK_PUBLIC_HEADERS
   search/search_figures.h
   search/search_model.h
   search/search_optimise.h
+  search/search_record.h
   search/search_relax.h
   search/search_requirements.h
   search/search_stages.h

@@ -9,6 +9,7 @@
 
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_optimise.h"
+#include "trueflank/search/search_record.h"
 #include "trueflank/search/search_relax.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/search/search_stages.h"
@@ -19,39 +20,22 @@
 // function, so that parts put together give the answer of one run.
 namespace trueflank {
 
-/// The optimised set of an index into SetEnumeration::sets.
-struct SearchRecord {
-  std::size_t index = 0;
-  SetResult result;
-};
-
 /// What a search has of its tooth sets, or of those of a part.
 struct SearchRecords {
   std::vector<SearchRecord> optimised;  ///< by index
   /// Sets of which a bound says that they cannot be among the best that are listed, or that were not
   /// among them. Where there are any, `optimised` holds those that are listed and no others.
   std::size_t passed_over = 0;
+  /// Stages of trains in series, by index into SetEnumeration::stages: those of the pairs listed.
+  std::vector<SearchRecord> stages;
+  bool stages_left = false;  ///< the run was stopped before it knew which pairs are listed
   [[nodiscard]] std::size_t sets() const { return optimised.size() + passed_over; }
-};
-
-/// Part `part` (1-based) of `parts`: the sets whose index leaves part - 1 when divided by parts.
-struct SearchPart {
-  int part = 1, parts = 1;
-  [[nodiscard]] bool holds(std::size_t index) const {
-    return index % static_cast<std::size_t>(parts) == static_cast<std::size_t>(part - 1);
-  }
-  /// Of so many sets.
-  [[nodiscard]] std::size_t size(std::size_t sets) const {
-    const auto first = static_cast<std::size_t>(part - 1), step = static_cast<std::size_t>(parts);
-    return sets > first ? (sets - first + step - 1) / step : 0;
-  }
-  bool operator==(const SearchPart&) const = default;
 };
 
 struct SearchRunOptions {
   int threads = 0;  ///< 0: as many as the machine has
   SearchPart part;
-  std::vector<SearchRecord> done;           ///< of an earlier run: not computed again
+  std::vector<SearchRecord> done, done_stages;  ///< of an earlier run: not computed again
   const std::atomic<bool>* stop = nullptr;  ///< set: what is under way is finished, no more started
   /// Where bounds are known, sets of which they say that they are worse than this merit are passed
   /// over; NaN: none.
@@ -59,15 +43,21 @@ struct SearchRunOptions {
   /// Called for every new record, one call at a time, in no fixed order; `finished` counts the sets
   /// that are passed over too.
   std::function<void(const SearchRecord&, std::size_t finished, std::size_t total)> on_record;
+  /// Called for every new record of a stage in series, of which so many were optimised.
+  std::function<void(const SearchRecord&, std::size_t finished)> on_stage;
 };
 
-/// How many sets of one search are listed (SearchRequirements::listed); 0: all, since their number
-/// does not say or no bound is known.
+/// How many sets of one search are listed (SearchRequirements::listed): the best by one objective, by
+/// several those that fewer others beat in all of them. 0: all, since their number does not say or no
+/// bound is known.
 [[nodiscard]] std::size_t listed_sets(const SearchRequirements& requirements);
+/// Likewise how many trains in series; always a number.
+[[nodiscard]] std::size_t listed_pairs(const SearchRequirements& requirements);
 
 /// Optimises the sets of one part, those of the best bound (search_bound.h) first, until no other can
-/// be among the best that are listed. Where fewer sets have feasible shifts than are listed, all sets
-/// are optimised and recorded. Stopped early it returns what there is, with nothing passed over.
+/// be among the best that are listed; then the stages of trains in series (search_stage_pairs.h).
+/// Where fewer sets have feasible shifts than are listed, all sets are optimised and recorded.
+/// Stopped early it returns what there is, with nothing passed over.
 /// Guarantees: the same records for any number of threads and whatever was done before.
 [[nodiscard]] SearchRecords run_search(const SearchRequirements& requirements,
                                        const SetEnumeration& enumeration,
@@ -77,6 +67,11 @@ struct SearchRunOptions {
 /// Requires: what is missing could not be among them.
 [[nodiscard]] SearchRecords listed_records(const SearchRequirements& requirements,
                                            std::vector<SearchRecord> records, std::size_t sets);
+/// Likewise those of stages in series, all of whose pairs or those of one part are known.
+[[nodiscard]] std::vector<SearchRecord> listed_stages(const SearchRequirements& requirements,
+                                                      const SetEnumeration& enumeration,
+                                                      const std::vector<SearchRecord>& stages,
+                                                      const SearchPart& part = {});
 
 /// What the exact checks say of a design.
 struct DesignVerdict {
@@ -121,6 +116,9 @@ struct SearchReport {
   std::size_t passed_over = 0;    ///< of them, since they could not be among those listed
   std::size_t feasible = 0;       ///< with shifts that keep all limits
   long long evaluations = 0;      ///< of a layer
+  bool stages_left = false;       ///< stopped before it was known which trains in series are listed
+  /// Everything was looked at.
+  [[nodiscard]] bool complete() const { return optimised == sets && !stages_left; }
   std::vector<StagePair> pairs;          ///< trains of two stages that are ranked
   std::vector<RankedCandidate> ranking;  ///< of all candidates, best first
   std::vector<FoundDesign> designs;      ///< judged, best first
@@ -144,12 +142,15 @@ struct SearchReport {
 [[nodiscard]] std::string journal_header(const SearchRequirements& requirements,
                                          const SetEnumeration& enumeration);
 [[nodiscard]] std::string journal_line(const SearchRecord& record);
+[[nodiscard]] std::string journal_stage_line(const SearchRecord& stage);
 /// Ends the journal of a part that is done.
 [[nodiscard]] std::string journal_end(const SearchPart& part);
 struct SearchJournal {
-  std::vector<SearchRecord> records;
+  std::vector<SearchRecord> records, stages;
   std::vector<SearchPart> ended;  ///< parts of which nothing is missing but what was passed over
   [[nodiscard]] bool covers(std::size_t index) const;
+  /// Every one of so many.
+  [[nodiscard]] bool covers_all(std::size_t count) const;
 };
 /// Reads header and records; a last line cut short is left out. Errors: kInconsistent where the
 /// journal is of other requirements, kSyntax.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <vector>
 
@@ -231,6 +232,81 @@ class Bound {
 double efficiency_bound(const SearchRequirements& requirements, const ToothSet& set,
                         DriveDirection direction, BoundBy by, double enough) {
   return Bound(requirements, set, direction).run(by, enough);
+}
+
+double least_size_mm(const SearchRequirements& r, const ToothSet& set) {
+  if (r.outer_diameter_mm) return *r.outer_diameter_mm;
+  const SearchModel model(r, set);
+  // at one distance every gear's circle changes one way with its layer's shift: the ends tell
+  std::vector<double> least;
+  for (int i = 0; i < kDistances; ++i) {
+    const double distance = set.centre_distance_min +
+                            (set.centre_distance_max - set.centre_distance_min) * i / (kDistances - 1);
+    const auto first = model.shift_range(0, distance);
+    const auto second = model.has_layer2() ? model.shift_range(1, distance) : std::array{0.0, 0.0};
+    double here = std::numeric_limits<double>::infinity();
+    for (const double x1 : first)
+      for (const double x2 : second) here = std::min(here, model.outer_diameter({distance, x1, x2}));
+    least.push_back(here);
+  }
+  double bound = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    double step = 0.0;
+    for (const std::size_t beside : {i - 1, i + 1})
+      if (beside < least.size()) step = std::max(step, std::abs(least[i] - least[beside]));
+    bound = std::min(bound, least[i] - step);
+  }
+  return bound * r.module_mm;
+}
+
+namespace {
+
+/// What designs are ranked by; of a weighted product its factors.
+std::vector<SearchObjective> ranked_by(const SearchRequirements& r) {
+  std::vector<SearchObjective> all;
+  for (const SearchObjective objective : r.objectives)
+    if (objective != SearchObjective::kWeighted) all.push_back(objective);
+  for (const ObjectiveWeight& w : r.weights) all.push_back(w.objective);
+  return all;
+}
+
+bool is_bounded(SearchObjective objective) {
+  return objective == SearchObjective::kForward || objective == SearchObjective::kBackward ||
+         objective == SearchObjective::kSize;
+}
+
+}  // namespace
+
+bool has_bounds(const SearchRequirements& r) {
+  const std::vector<SearchObjective> all = ranked_by(r);
+  // more of the meshes is more of the drive, as long as friction does not fall with the load
+  return (!r.losses || r.losses->load_friction >= 0.0) &&
+         std::all_of(all.begin(), all.end(), is_bounded);
+}
+
+void MeshBounds::lower(const SearchRequirements& r, const ToothSet& set, BoundBy by, double enough) {
+  const std::vector<SearchObjective> all = ranked_by(r);
+  const auto asked = [&](SearchObjective o) { return std::count(all.begin(), all.end(), o) > 0; };
+  // where neither is ranked by, one tells whether there are shifts
+  const bool other = asked(SearchObjective::kBackward);
+  if (asked(SearchObjective::kForward) || !other)
+    forward = std::min(forward, efficiency_bound(r, set, DriveDirection::kForward, by, enough));
+  if (other && forward >= 0.0)
+    backward = std::min(backward, efficiency_bound(r, set, DriveDirection::kBackward, by, enough));
+}
+
+Merits merit_bounds(const SearchRequirements& r, double ratio, const MeshBounds& meshes,
+                    double least_size_mm) {
+  const ToldEfficiencies told = told_efficiencies(r, ratio, meshes.forward, meshes.backward);
+  Merits merits;
+  for (const SearchObjective objective : r.objectives)
+    merits.push_back(objective == SearchObjective::kForward    ? told.forward
+                     : objective == SearchObjective::kBackward ? told.backward
+                     : objective == SearchObjective::kSize     ? -least_size_mm
+                     : objective == SearchObjective::kWeighted && has_bounds(r)
+                         ? weighted_score(r, told, {.size_mm = least_size_mm})
+                         : std::numeric_limits<double>::infinity());
+  return merits;
 }
 
 }  // namespace trueflank

@@ -50,12 +50,28 @@ std::string digest(std::string_view text) {
   return {buffer, end};
 }
 
-constexpr std::string_view kEnd = "end";
+constexpr std::string_view kEnd = "end", kStage = "stage ";
 
 std::array<double*, 11> journaled(DesignFigures& f) {
   return {&f.mass_kg, &f.length_mm, &f.torque_density_nm_per_kg, &f.starting_torque_nm,
           &f.input_inertia_kg_m2, &f.output_inertia_kg_m2, &f.contact_ratio, &f.sliding,
           &f.backlash_arcmin, &f.acceleration_rad_s2, &f.settling_s};
+}
+
+std::string record_text(const SearchRecord& record) {
+  std::string line = std::to_string(record.index);
+  append(line, static_cast<long long>(record.result.failed_limit));
+  append(line, static_cast<long long>(record.result.evaluations));
+  append(line, static_cast<long long>(record.result.candidates.size()));
+  for (SearchCandidate c : record.result.candidates) {
+    for (const double value :
+         {c.free.centre_distance, c.free.layer1_shift, c.free.layer2_shift, c.forward, c.backward,
+          c.dimensions.face_width_mm, c.dimensions.module_mm, c.torque_nm, c.size_mm,
+          c.least_margin, c.gap, c.score})
+      append(line, value);
+    for (const double* figure : journaled(c.figures)) append(line, *figure);
+  }
+  return line;
 }
 
 /// A line ends with the digest of what stands before it.
@@ -101,26 +117,22 @@ bool read_record(const std::string& line, std::size_t sets, SearchRecord& record
 
 std::string journal_header(const SearchRequirements& requirements,
                            const SetEnumeration& enumeration) {
-  return "trueflank-search-journal 5 " + digest(fingerprint(requirements)) + " " +
-         std::to_string(enumeration.sets.size());
+  std::string header = "trueflank-search-journal 5 " + digest(fingerprint(requirements)) + " " +
+                       std::to_string(enumeration.sets.size());
+  if (!enumeration.stages.empty())
+    append(header, static_cast<long long>(enumeration.stages.size()));
+  return header;
 }
 
 std::string journal_line(const SearchRecord& record) {
-  std::string line = std::to_string(record.index);
-  append(line, static_cast<long long>(record.result.failed_limit));
-  append(line, static_cast<long long>(record.result.evaluations));
-  append(line, static_cast<long long>(record.result.candidates.size()));
-  for (SearchCandidate c : record.result.candidates) {
-    for (const double value :
-         {c.free.centre_distance, c.free.layer1_shift, c.free.layer2_shift, c.forward, c.backward,
-          c.dimensions.face_width_mm, c.dimensions.module_mm, c.torque_nm, c.size_mm,
-          c.least_margin, c.gap, c.score})
-      append(line, value);
-    for (const double* figure : journaled(c.figures)) append(line, *figure);
-  }
+  const std::string line = record_text(record);
   return line + ' ' + digest(line);
 }
 
+std::string journal_stage_line(const SearchRecord& stage) {
+  const std::string line = std::string(kStage) + record_text(stage);
+  return line + ' ' + digest(line);
+}
 std::string journal_end(const SearchPart& part) {
   std::string line(kEnd);
   append(line, static_cast<long long>(part.part));
@@ -131,6 +143,12 @@ std::string journal_end(const SearchPart& part) {
 bool SearchJournal::covers(std::size_t index) const {
   return std::any_of(ended.begin(), ended.end(),
                      [&](const SearchPart& part) { return part.holds(index); });
+}
+
+bool SearchJournal::covers_all(std::size_t count) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!covers(i)) return false;
+  return true;
 }
 
 Result<SearchJournal> read_journal(const std::string& text, const SearchRequirements& requirements,
@@ -152,6 +170,9 @@ Result<SearchJournal> read_journal(const std::string& text, const SearchRequirem
     const bool whole = read_undamaged(line);
     if (whole && read_end(line, part))
       journal.ended.push_back(part);
+    else if (whole && line.starts_with(kStage) &&
+             read_record(line.substr(kStage.size()), enumeration.stages.size(), record))
+      journal.stages.push_back(std::move(record));
     else if (whole && read_record(line, enumeration.sets.size(), record))
       journal.records.push_back(std::move(record));
     else

@@ -176,6 +176,7 @@ class Binding {
   double relaxed(const Relaxation& relaxation) const {
     if (!relaxation.apply) return kNaN;
     SearchRequirements other = r_;
+    other.objectives = {r_.objectives.front()};  // what is told is its best alone
     relaxation.apply(other, relaxation.relaxed);
     const auto set = within(other, set_);
     if (!set) return kNaN;
@@ -197,11 +198,17 @@ class Binding {
   std::vector<Relaxation> relaxations_;
 };
 
+bool is_efficiency(const std::vector<SearchObjective>& objectives) {
+  return objectives == std::vector{SearchObjective::kForward} ||
+         objectives == std::vector{SearchObjective::kBackward};
+}
+
 /// Of the sets of some requirements that may be better than a merit; NaN where none is.
 double best_of(SearchRequirements r, double than) {
   r.listed = r.results = 1;
   double best = kNaN;
-  const SetEnumeration enumeration = enumerate_sets(r);
+  SetEnumeration enumeration = enumerate_sets(r);
+  enumeration.stages.clear();  // of trains in series, which are no sets
   for (const SearchRecords found = run_search(r, enumeration, {.threads = 1, .better_than = than});
        const SearchRecord& record : found.optimised)
     for (const SearchCandidate& c : record.result.candidates) {
@@ -228,7 +235,7 @@ std::vector<BindingLimit> binding_limits(const SearchRequirements& requirements,
 std::vector<BindingLimit> binding_ranges(const SearchRequirements& r, const ToothSet& set,
                                          const SearchCandidate& candidate) {
   std::vector<BindingLimit> found;
-  if (listed_sets(r) == 0) return found;
+  if (listed_sets(r) == 0 || !is_efficiency(r.objectives)) return found;
   const double here = candidate.value(r.objectives.front());
   const auto add = [&](BindingLimit limit, const SearchRequirements& beyond) {
     limit.objective = best_of(beyond, here);

@@ -31,7 +31,8 @@ struct BindingLimit {
 
 /// The tooth ranges and ends of the ratio on which a design stands, each with the best of the sets
 /// just beyond (as many teeth more as there are planets, a hundredth of the ratio) where that is
-/// better. Ranges of one number are wishes. Computed where bounds are known (listed_sets).
+/// better. Ranges of one number are wishes. Computed where one efficiency ranks and bounds are known
+/// (listed_sets).
 [[nodiscard]] std::vector<BindingLimit> binding_ranges(const SearchRequirements& requirements,
                                                        const ToothSet& set,
                                                        const SearchCandidate& candidate);

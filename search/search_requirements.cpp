@@ -6,6 +6,7 @@
 
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_figures.h"
+#include "trueflank/search/search_stages.h"
 
 namespace trueflank {
 namespace {
@@ -146,21 +147,24 @@ void check_figures(const SearchRequirements& r, Errors& errors) {
             "one of both; limits.outer_diameter_max_mm holds a growing module");
 }
 
-/// Stages in series are optimised each by itself, which efficiencies allow.
+/// Stages in series are optimised each by itself, so the whole is ranked by what they add up to.
 void check_stages(const SearchRequirements& r, Errors& errors) {
   const auto& trains = searched_trains(r);
   const auto stage = std::find_if(trains.begin(), trains.end(),
                                   [](const SearchTrain* train) { return train->stage > 0; });
   if (stage == trains.end()) return;
-  if (r.objectives.size() > 1 || (r.objectives.front() != SearchObjective::kForward &&
-                                  r.objectives.front() != SearchObjective::kBackward))
-    errors.push_back({.code = ErrorCode::kInconsistent,
-                      .message = "trains of kind " + (*stage)->kind() +
-                                 " are ranked by one efficiency alone, their stages being "
-                                 "optimised each by itself",
-                      .key = "search.objectives",
-                      .remedy = "\"forward\" or \"backward\", with [limits] on other figures; or "
-                                "other kinds"});
+  std::vector<SearchObjective> all = r.objectives;
+  for (const ObjectiveWeight& w : r.weights) all.push_back(w.objective);
+  const auto refused = std::find_if_not(all.begin(), all.end(), is_of_stages);
+  if (refused == all.end()) return;
+  errors.push_back({.code = ErrorCode::kInconsistent,
+                    .message = "trains of kind " + (*stage)->kind() +
+                               " are not ranked by this figure: it is not made of their stages' own",
+                    .key = "search.objectives",
+                    .value = to_text(*refused),
+                    .remedy = "forward, backward, torque, size, mass, length, torque_density, "
+                              "contact_ratio or sliding, with [limits] on other figures; or other "
+                              "kinds"});
 }
 
 }  // namespace

@@ -16,57 +16,40 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/search/search.h"
 #include "trueflank/search/search_bound.h"
-#include "trueflank/search/search_values.h"
+#include "trueflank/search/search_listing.h"
+#include "trueflank/search/search_stage_pairs.h"
 
 namespace trueflank {
 namespace {
 
 /// Sets looked at together: the best of so many come first.
 constexpr std::size_t kBatch = 16384;
-constexpr double kNone = -std::numeric_limits<double>::infinity();
-
 int thread_count(int wanted) {
   return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// What a set is worth where it has feasible shifts and one objective ranks.
-std::optional<double> merit_of(const SearchRequirements& r, const SearchRecord& record) {
-  if (record.result.candidates.empty()) return std::nullopt;
-  return record.result.candidates.front().merit(r.objectives.front());
+std::vector<Merits> merits_of(const SearchRequirements& r, const SearchRecord& record) {
+  std::vector<Merits> designs;
+  for (const SearchCandidate& candidate : record.result.candidates)
+    designs.push_back(merits_of(candidate, r.objectives));
+  return designs;
 }
-
-/// The merit of the last one listed, as far as is known.
-class Threshold {
- public:
-  Threshold(const SearchRequirements& r, std::size_t listed, double better_than)
-      : r_(r), listed_(listed), least_(listed > 0 && better_than == better_than ? better_than : kNone) {}
-  void add(const SearchRecord& record) {
-    const auto merit = merit_of(r_, record);
-    if (listed_ == 0 || !merit) return;
-    best_.insert(*merit);
-    if (best_.size() > listed_) best_.erase(best_.begin());
-  }
-  [[nodiscard]] double merit() const {
-    return listed_ > 0 && best_.size() == listed_ ? std::max(least_, *best_.begin()) : least_;
-  }
-
- private:
-  const SearchRequirements& r_;
-  std::size_t listed_;
-  double least_;
-  std::multiset<double> best_;
-};
 
 enum class Known { kNothing, kOutlines, kProfiles, kAll };
 
 /// A set that waits for its next step.
 struct Waiting {
-  double bound = std::numeric_limits<double>::infinity();
   std::size_t index = 0;
   ToothSet set;
   Known known = Known::kNothing;
+  MeshBounds meshes;
+  double size_mm = 0.0;  ///< at least
+  Merits merits;         ///< at most; empty: nothing is known
+  [[nodiscard]] double promise() const {
+    return merits.empty() ? std::numeric_limits<double>::infinity() : merits.front();
+  }
   bool operator<(const Waiting& other) const {
-    return bound != other.bound ? bound < other.bound : index > other.index;
+    return promise() != other.promise() ? promise() < other.promise() : index > other.index;
   }
 };
 
@@ -75,13 +58,16 @@ class WaitingSets {
  public:
   using Records = std::map<std::size_t, SearchRecord>;
   WaitingSets(const ToothSets& sets, const SearchPart& part, bool bounded)
-      : sets_(sets), part_(part), bounded_(bounded), next_(static_cast<std::size_t>(part.part - 1)) {}
+      : sets_(sets),
+        part_(part),
+        bounded_(bounded),
+        next_(static_cast<std::size_t>(part.part - 1)) {}
 
-  /// The next one whose bound is not below the threshold; what is `done` is left out.
-  std::optional<Waiting> next(double threshold, const Records& done) {
+  /// The next one that may be listed; what is `done` is left out.
+  std::optional<Waiting> next(const Listing& listing, const Records& done) {
     while (true) {
-      if (!heap_.empty() && heap_.top().bound < threshold) drop_all();
-      if (threshold >= 0.0) drop_infeasible();
+      drop_excluded(listing);
+      if (!listing.wants_any()) drop_infeasible();
       if (heap_.empty() && take_batch(done)) continue;
       if (!heap_.empty()) {
         const Waiting first = heap_.top();
@@ -91,22 +77,29 @@ class WaitingSets {
       if (infeasible_.empty()) return std::nullopt;
       const std::size_t index = infeasible_.back();
       infeasible_.pop_back();
-      return Waiting{.bound = -1.0, .index = index, .set = sets_[index], .known = Known::kAll};
+      return Waiting{.index = index, .set = sets_[index], .known = Known::kAll};
     }
   }
   /// Those that a bound calls infeasible wait as indices alone: mostly they are all that there is.
   void put_back(const Waiting& waiting) {
-    if (waiting.bound < 0.0)
-      infeasible_.push_back(waiting.index);
-    else
+    if (waiting.meshes.possible())
       heap_.push(waiting);
+    else
+      infeasible_.push_back(waiting.index);
   }
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
 
  private:
-  void drop_all() {
-    dropped_ += heap_.size();
-    heap_ = {};
+  void drop_excluded(const Listing& listing) {
+    while (!heap_.empty() && !heap_.top().merits.empty() && listing.excludes(heap_.top().merits)) {
+      if (heap_.top().merits.size() == 1) {  // the others are no better
+        dropped_ += heap_.size();
+        heap_ = {};
+      } else {
+        ++dropped_;
+        heap_.pop();
+      }
+    }
   }
   void drop_infeasible() {
     dropped_ += infeasible_.size();
@@ -117,7 +110,8 @@ class WaitingSets {
     for (; next_ < sets_.size() && taken < kBatch; next_ += static_cast<std::size_t>(part_.parts)) {
       if (done.contains(next_)) continue;
       ++taken;
-      heap_.push({.index = next_, .set = sets_[next_], .known = bounded_ ? Known::kNothing : Known::kAll});
+      heap_.push(
+          {.index = next_, .set = sets_[next_], .known = bounded_ ? Known::kNothing : Known::kAll});
     }
     return taken > 0;
   }
@@ -136,11 +130,11 @@ class Run {
       const SearchRunOptions& options)
       : r_(requirements),
         options_(options),
-        threshold_(requirements, listed_sets(requirements), options.better_than),
+        listing_(listed_sets(requirements), options.better_than),
         waiting_(enumeration.sets, options.part, listed_sets(requirements) > 0) {
     for (const SearchRecord& record : options_.done)
       if (options_.part.holds(record.index) && records_.insert({record.index, record}).second)
-        threshold_.add(record);
+        listing_.add(merits_of(r_, record));
     total_ = options_.part.size(enumeration.sets.size());
   }
 
@@ -162,7 +156,7 @@ class Run {
     try {
       while (const auto waiting = next()) {
         if (waiting->known != Known::kAll) {
-          put_back(bounded(*waiting, threshold()));
+          put_back(bounded(*waiting, enough()));
           continue;
         }
         keep({waiting->index, optimise_set(r_, waiting->set)});
@@ -177,7 +171,7 @@ class Run {
   std::optional<Waiting> next() {
     const std::lock_guard lock(mutex_);
     // a stop that comes when nothing is left is none
-    auto waiting = stopped_ ? std::nullopt : waiting_.next(threshold_.merit(), records_);
+    auto waiting = stopped_ ? std::nullopt : waiting_.next(listing_, records_);
     if (waiting && options_.stop && options_.stop->load()) {
       stopped_ = true;
       return std::nullopt;
@@ -186,29 +180,24 @@ class Run {
   }
 
   [[nodiscard]] Waiting bounded(Waiting waiting, double enough) const {
-    const DriveDirection direction = r_.objectives.front() == SearchObjective::kForward
-                                         ? DriveDirection::kForward
-                                         : DriveDirection::kBackward;
-    const auto [by, known] = waiting.known == Known::kNothing
-                                 ? std::pair(BoundBy::kOutlines, Known::kOutlines)
-                             : waiting.known == Known::kOutlines
-                                 ? std::pair(BoundBy::kProfiles, Known::kProfiles)
-                                 : std::pair(BoundBy::kHalving, Known::kAll);
-    // what is told is no more than the meshes': a bound of these below `enough` does
-    double bound = efficiency_bound(r_, waiting.set, direction, by, enough);
-    if (bound >= 0.0) {
-      const ToldEfficiencies told =
-          told_efficiencies(r_, signed_ratio(waiting.set), bound, bound);
-      bound = direction == DriveDirection::kForward ? told.forward : told.backward;
-    }
-    waiting.bound = std::min(waiting.bound, bound);
+    const auto [by, known] =
+        waiting.known == Known::kNothing    ? std::pair(BoundBy::kOutlines, Known::kOutlines)
+        : waiting.known == Known::kOutlines ? std::pair(BoundBy::kProfiles, Known::kProfiles)
+                                            : std::pair(BoundBy::kHalving, Known::kAll);
+    waiting.meshes.lower(r_, waiting.set, by, enough);
+    if (waiting.known == Known::kNothing) waiting.size_mm = least_size_mm(r_, waiting.set);
     waiting.known = known;
+    if (waiting.meshes.possible())
+      waiting.merits = merit_bounds(r_, signed_ratio(waiting.set), waiting.meshes, waiting.size_mm);
     return waiting;
   }
 
-  double threshold() {
+  /// A mesh efficiency that is listed no more: what is told is no more than the meshes'.
+  double enough() {
     const std::lock_guard lock(mutex_);
-    return threshold_.merit();
+    const bool efficiency = r_.objectives == std::vector{SearchObjective::kForward} ||
+                            r_.objectives == std::vector{SearchObjective::kBackward};
+    return efficiency ? listing_.least() : 0.0;
   }
 
   void put_back(const Waiting& waiting) {
@@ -218,7 +207,7 @@ class Run {
 
   void keep(SearchRecord record) {
     const std::lock_guard lock(mutex_);
-    threshold_.add(record);
+    listing_.add(merits_of(r_, record));
     const auto it = records_.insert({record.index, std::move(record)}).first;
     if (options_.on_record)
       options_.on_record(it->second, records_.size() + waiting_.dropped(), total_);
@@ -228,7 +217,7 @@ class Run {
   const SearchRunOptions& options_;
   std::map<std::size_t, SearchRecord> records_;
   std::size_t total_ = 0;
-  Threshold threshold_;
+  Listing listing_;
   WaitingSets waiting_;
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -237,39 +226,75 @@ class Run {
 
 }  // namespace
 
+namespace {
+
+/// Trains of two stages are listed up to this where all sets are.
+constexpr std::size_t kMostPairs = 1000;
+
+}  // namespace
+
 SearchRecords run_search(const SearchRequirements& requirements, const SetEnumeration& enumeration,
                          const SearchRunOptions& options) {
-  return Run(requirements, enumeration, options).run();
+  SearchRecords records = Run(requirements, enumeration, options).run();
+  if (enumeration.stages.empty()) return records;
+  records.stages = options.done_stages;
+  records.stages_left = records.sets() < options.part.size(enumeration.sets.size());
+  if (records.stages_left) return records;
+  StageRunOptions stages{.listed = listed_pairs(requirements),
+                         .threads = static_cast<std::size_t>(thread_count(options.threads)),
+                         .part = options.part,
+                         .done = options.done_stages,
+                         .stop = options.stop};
+  std::size_t finished = 0;
+  stages.on_record = [&](const SearchRecord& record) {
+    if (options.on_stage) options.on_stage(record, ++finished);
+  };
+  StageRun run = run_stages(requirements, enumeration.stages, stages);
+  records.stages_left = run.stopped;
+  records.stages = run.stopped ? std::move(run.stages)
+                               : listed_stages(requirements, enumeration, run.stages, options.part);
+  return records;
 }
 
 std::size_t listed_sets(const SearchRequirements& r) {
-  // more of the meshes is more of the drive, as long as friction does not fall with the load
-  const bool monotone = !r.losses || r.losses->load_friction >= 0.0;
-  const bool bounded = r.objectives.size() == 1 && monotone &&
-                       (r.objectives.front() == SearchObjective::kForward ||
-                        r.objectives.front() == SearchObjective::kBackward);
-  return bounded && r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results)) : 0;
+  return has_bounds(r) && r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results))
+                                       : 0;
+}
+
+std::size_t listed_pairs(const SearchRequirements& r) {
+  return r.listed > 0 ? static_cast<std::size_t>(std::max(r.listed, r.results)) : kMostPairs;
 }
 
 SearchRecords listed_records(const SearchRequirements& r, std::vector<SearchRecord> records,
                              std::size_t sets) {
-  const std::size_t listed = listed_sets(r);
-  const auto feasible = std::stable_partition(
-      records.begin(), records.end(),
-      [&](const SearchRecord& record) { return merit_of(r, record).has_value(); });
-  const bool all = listed == 0 || static_cast<std::size_t>(feasible - records.begin()) < listed;
-  if (!all) {
-    records.erase(feasible, records.end());
+  Listing listing(listed_sets(r));
+  for (const SearchRecord& record : records) listing.add(merits_of(r, record));
+  if (listing.is_full()) {
+    const auto merit = [&](const SearchRecord& record) {
+      return record.result.candidates.front().merit(r.objectives.front());
+    };
+    std::erase_if(records, [&](const SearchRecord& record) {
+      const std::vector<Merits> designs = merits_of(r, record);
+      return std::all_of(designs.begin(), designs.end(),
+                         [&](const Merits& merits) { return listing.excludes(merits); });
+    });
     std::sort(records.begin(), records.end(), [&](const SearchRecord& p, const SearchRecord& q) {
-      const double mp = *merit_of(r, p), mq = *merit_of(r, q);
+      const double mp = merit(p), mq = merit(q);
       return mp != mq ? mp > mq : p.index < q.index;
     });
-    records.resize(listed);
+    if (r.objectives.size() == 1) records.resize(listed_sets(r));
   }
   std::sort(records.begin(), records.end(),
             [](const SearchRecord& p, const SearchRecord& q) { return p.index < q.index; });
   const std::size_t passed_over = sets - records.size();
   return {.optimised = std::move(records), .passed_over = passed_over};
+}
+
+std::vector<SearchRecord> listed_stages(const SearchRequirements& r,
+                                        const SetEnumeration& enumeration,
+                                        const std::vector<SearchRecord>& stages,
+                                        const SearchPart& part) {
+  return stages_of_best_pairs(r, enumeration.stages, stages, listed_pairs(r), part);
 }
 
 }  // namespace trueflank

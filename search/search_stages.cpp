@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/base/threads.h"
 #include "trueflank/design/kinds/train_kind.h"
-#include "trueflank/search/search_bound.h"
 #include "trueflank/search/search_values.h"
 #include "trueflank/train/gear_train.h"
 
@@ -18,8 +16,6 @@ namespace {
 constexpr double kSlack = 1.0 + 1e-6;
 /// Allowable torque of a whole against the first stage's times ratio and efficiency behind it.
 constexpr double kTorqueSlack = 1.05;
-/// Stages looked at together, whatever the number of threads.
-constexpr std::size_t kStagesAtOnce = 32;
 
 bool is_of_each_stage(SearchObjective figure) {
   return figure == SearchObjective::kSize || figure == SearchObjective::kContactRatio ||
@@ -32,143 +28,30 @@ ToldEfficiencies told_of(const SearchRequirements& r, const StagePair& pair) {
                            first.backward * second.backward);
 }
 
-bool ratio_fits(const SearchRequirements& r, double ratio) {
-  if (r.direction == OutputDirection::kSame && ratio < 0.0) return false;
-  if (r.direction == OutputDirection::kOpposite && ratio > 0.0) return false;
-  return std::abs(ratio) >= r.ratio_min && std::abs(ratio) <= r.ratio_max;
-}
-
-/// Cheap, and never wrong: what the stages alone say of a limit on the whole.
-bool may_keep(const FigureLimit& limit, const StagePair& pair) {
-  const SearchCandidate &first = pair.candidates[0], &second = pair.candidates[1];
-  const double a = first.value(limit.figure), b = second.value(limit.figure);
-  if (limit.figure == SearchObjective::kMass || limit.figure == SearchObjective::kLength)
-    return !(a + b > limit.value * kSlack);
-  if (limit.figure == SearchObjective::kTorque)
-    return !(a * std::abs(signed_ratio(pair.sets[1])) * kTorqueSlack < limit.value ||
-             b * kSlack < limit.value);
-  return true;
-}
-
-bool keeps(const FigureLimit& limit, const SearchCandidate& whole) {
-  return merit_of_figure(limit.figure, whole.value(limit.figure)) >=
-         merit_of_figure(limit.figure, limit.value);
-}
-
-/// A tooth set of a stage: bounded closer and closer, then optimised.
-class Stage {
- public:
-  explicit Stage(const ToothSet& set) : set_(set) {}
-
-  [[nodiscard]] const ToothSet& set() const { return set_; }
-  /// Of the meshes: what it is, or what it does not exceed; below 0 where it cannot be.
-  [[nodiscard]] double merit() const { return merit_; }
-  [[nodiscard]] bool known() const { return step_ == Step::kOptimised; }
-  [[nodiscard]] const SearchCandidate& candidate() const { return candidate_; }
-  [[nodiscard]] int evaluations() const { return evaluations_; }
-
-  void go_on(const SearchRequirements& r) {
-    const SearchRequirements own = stage_requirements(r, set_);
-    const SearchObjective objective = r.objectives.front();
-    const DriveDirection direction = objective == SearchObjective::kForward
-                                         ? DriveDirection::kForward
-                                         : DriveDirection::kBackward;
-    if (step_ == Step::kNothing) {
-      merit_ = efficiency_bound(own, set_, direction, BoundBy::kProfiles);
-      step_ = Step::kProfiles;
-    } else if (step_ == Step::kProfiles) {
-      merit_ = std::min(merit_, efficiency_bound(own, set_, direction, BoundBy::kHalving));
-      step_ = Step::kHalved;
-    } else if (step_ == Step::kHalved) {
-      const SetResult result = optimise_set(own, set_);
-      evaluations_ = result.evaluations;
-      merit_ = result.candidates.empty() ? -1.0 : result.candidates.front().merit(objective);
-      if (!result.candidates.empty()) candidate_ = result.candidates.front();
-      step_ = Step::kOptimised;
+/// A stage's share in the objectives of the whole. A weighted product comes first as the stage's
+/// own, with each of its factors: what a stage gives up of one depends on the other stage.
+std::vector<SearchObjective> objectives_of_stage(const SearchRequirements& r) {
+  std::vector<SearchObjective> own;
+  const auto add = [&](SearchObjective objective) {
+    if (std::find(own.begin(), own.end(), objective) == own.end()) own.push_back(objective);
+  };
+  const auto add_factors = [&](SearchObjective objective) {
+    if (objective == SearchObjective::kTorqueDensity) {
+      add(SearchObjective::kTorque);
+      add(SearchObjective::kMass);
+    } else {
+      add(objective);
     }
-  }
-
- private:
-  enum class Step { kNothing, kProfiles, kHalved, kOptimised };
-  ToothSet set_;
-  double merit_ = 1.0;
-  Step step_ = Step::kNothing;
-  SearchCandidate candidate_;
-  int evaluations_ = 0;
-};
-
-using Stages = std::vector<Stage*>;
-
-/// Those of one number that can be, the best first.
-Stages sorted_stages(std::vector<Stage>& all, int number) {
-  Stages stages;
-  for (Stage& stage : all)
-    if (stage.set().train->stage == number && stage.merit() >= 0.0) stages.push_back(&stage);
-  std::stable_sort(stages.begin(), stages.end(),
-                   [](const Stage* p, const Stage* q) { return p->merit() > q->merit(); });
-  return stages;
+  };
+  for (const SearchObjective objective : r.objectives) add_factors(objective);
+  for (const ObjectiveWeight& w : r.weights) add_factors(w.objective);
+  return own;
 }
 
-StagePair pair_of(const Stage& first, const Stage& second) {
-  return {{first.set(), second.set()}, {first.candidate(), second.candidate()}};
-}
-
-struct RatedPair {
-  double merit = 0.0;
-  Stage *first = nullptr, *second = nullptr;  ///< in one array
-  /// The better one first: a total order.
-  bool operator<(const RatedPair& o) const {
-    if (merit != o.merit) return merit > o.merit;
-    return first != o.first ? first < o.first : second < o.second;
-  }
-};
-
-/// The best pairs by what is known, `most` of them.
-std::vector<RatedPair> rated_pairs(const SearchRequirements& r, std::vector<Stage>& all,
-                                   std::size_t most) {
-  const Stages firsts = sorted_stages(all, 1), seconds = sorted_stages(all, 2);
-  const std::vector<FigureLimit> limits = asked_limits(r);
-  const bool forward = r.objectives.front() == SearchObjective::kForward;
-  std::vector<RatedPair> heap;  // the worst on top
-  for (Stage* first : firsts)
-    for (Stage* second : seconds) {
-      const bool full = heap.size() == most;
-      const double product = first->merit() * second->merit();
-      // without losses a pair is worth the product, and what follows is worth less
-      if (full && !r.losses && product < heap.front().merit) break;
-      const double ratio = signed_ratio(first->set()) * signed_ratio(second->set());
-      if (!ratio_fits(r, ratio)) continue;
-      const ToldEfficiencies told = told_efficiencies(r, ratio, product, product);
-      const RatedPair rated{forward ? told.forward : told.backward, first, second};
-      if (full && !(rated < heap.front())) continue;
-      if (first->known() && second->known()) {
-        const StagePair pair = pair_of(*first, *second);
-        if (!std::all_of(limits.begin(), limits.end(),
-                         [&](const FigureLimit& limit) { return may_keep(limit, pair); }))
-          continue;
-      }
-      heap.push_back(rated);
-      std::push_heap(heap.begin(), heap.end());
-      if (heap.size() > most) std::pop_heap(heap.begin(), heap.end()), heap.pop_back();
-    }
-  std::sort_heap(heap.begin(), heap.end());
-  return heap;
-}
-
-/// The best pairs, all of optimised stages.
-std::vector<RatedPair> optimised_pairs(const SearchRequirements& r, std::vector<Stage>& all,
-                                       std::size_t most) {
-  while (true) {
-    std::vector<RatedPair> rated = rated_pairs(r, all, most);
-    std::vector<Stage*> open;  // of the best first: what they are worth decides about the others
-    for (const RatedPair& pair : rated)
-      for (Stage* stage : {pair.first, pair.second})
-        if (open.size() < kStagesAtOnce && !stage->known() &&
-            std::find(open.begin(), open.end(), stage) == open.end())
-          open.push_back(stage);
-    if (open.empty()) return rated;
-    for_each_piece(open.size(), [&](std::size_t i) { open[i]->go_on(r); });
-  }
+/// How much of the first stage's torque is asked for behind it; NaN: nothing is.
+double torque_before(const SearchRequirements& r, const StagePair& pair) {
+  return r.output_torque_nm.value_or(kNaN) /
+         (std::abs(signed_ratio(pair.sets[1])) * pair.candidates[1].forward);
 }
 
 }  // namespace
@@ -178,17 +61,14 @@ SearchRequirements stage_requirements(const SearchRequirements& r, const ToothSe
   const int stage = set.train->stage;
   if (stage == 0) return own;
   own.losses.reset();
+  own.objectives = objectives_of_stage(r);
   std::erase_if(own.figure_limits,
                 [](const FigureLimit& limit) { return !is_of_each_stage(limit.figure); });
   if (!r.outer_diameter_mm) {
     own.backlash_mm = r.backlash_mm.value_or(kUsualBacklash * r.module_mm);
     own.module_mm = r.module_mm * set.layer2_module_ratio;
   }
-  if (stage == 1) {
-    own.output_torque_nm.reset();
-    own.face_width_max_mm.reset();
-  }
-  own.module_max_mm.reset();
+  if (stage == 1) own.output_torque_nm.reset();  // depends on the second
   return own;
 }
 
@@ -221,9 +101,47 @@ GearboxDesign design_of_stages(const SearchRequirements& r, const StagePair& pai
   return whole;
 }
 
+StagePair carrying(const SearchRequirements& r, StagePair pair) {
+  if (!r.output_torque_nm || !(r.face_width_max_mm || r.module_max_mm)) return pair;
+  SearchRequirements own = stage_requirements(r, pair.sets[0]);
+  double wanted = torque_before(r, pair);
+  SearchCandidate& first = pair.candidates[0];
+  // by the formula the drive's losses are not quite those told: once more with what is lacking
+  for (int i = 0; i < 2; ++i) {
+    own.output_torque_nm = wanted;
+    const DesignValues values = design_values(own, SearchModel(own, pair.sets[0]), first.free,
+                                              first.forward, first.backward);
+    first.dimensions = values.dimensions;
+    first.torque_nm = values.torque_nm;
+    first.size_mm = values.size_mm;
+    first.figures = values.figures;
+    const auto train = lay_out(design_of_stages(r, pair));
+    const double carried = train ? allowable_torque_nm(r, *train) : kNaN;
+    if (!(carried > 0.0 && carried < *r.output_torque_nm)) break;
+    wanted *= *r.output_torque_nm / carried;
+  }
+  return pair;
+}
+
+std::optional<StagePair> best_pair(const SearchRequirements& r, const std::array<ToothSet, 2>& sets,
+                                   const std::array<std::vector<SearchCandidate>, 2>& designs) {
+  std::optional<StagePair> best;
+  double merit = kNaN;
+  for (const SearchCandidate& first : designs[0])
+    for (const SearchCandidate& second : designs[1]) {
+      const StagePair pair{sets, {first, second}};
+      const double here = composed_of_stages(r, pair).merit(r.objectives.front());
+      if (best && !(here > merit)) continue;
+      best = pair;
+      merit = here;
+    }
+  if (best) best = carrying(r, *best);
+  return best;
+}
+
 SearchCandidate evaluate_stages(const SearchRequirements& r, const StagePair& pair) {
   const SearchCandidate &first = pair.candidates[0], &second = pair.candidates[1];
-  SearchCandidate whole{.free = first.free};
+  SearchCandidate whole{.free = first.free, .dimensions = first.dimensions};
   const ToldEfficiencies told = told_of(r, pair);
   whole.forward = told.forward;
   whole.backward = told.backward;
@@ -236,33 +154,59 @@ SearchCandidate evaluate_stages(const SearchRequirements& r, const StagePair& pa
   whole.torque_nm = allowable_torque_nm(r, *train);
   whole.figures = design_figures(r, *train, first.forward * second.forward,
                                  first.backward * second.backward, whole.torque_nm);
+  if (!r.weights.empty())
+    whole.score = weighted_score(
+        r, told,
+        {.torque_nm = whole.torque_nm, .size_mm = whole.size_mm, .figures = whole.figures});
   return whole;
 }
 
-StagePairs best_stage_pairs(const SearchRequirements& r, const std::vector<ToothSet>& sets,
-                            std::size_t count) {
-  std::vector<Stage> all(sets.begin(), sets.end());
-  for_each_piece(all.size(), [&](std::size_t i) { all[i].go_on(r); });
-  const std::vector<FigureLimit> limits = asked_limits(r);
-  StagePairs result;
-  for (std::size_t most = count;; most *= 4) {
-    const std::vector<RatedPair> rated = optimised_pairs(r, all, most);
-    result.best.clear();
-    for (const RatedPair& one : rated) {
-      if (result.best.size() == count) break;
-      RankedPair ranked{pair_of(*one.first, *one.second), {}};
-      ranked.whole = evaluate_stages(r, ranked.pair);
-      if (std::all_of(limits.begin(), limits.end(),
-                      [&](const FigureLimit& limit) { return keeps(limit, ranked.whole); }))
-        result.best.push_back(std::move(ranked));
-    }
-    if (result.best.size() == count || rated.size() < most) break;
+SearchCandidate composed_of_stages(const SearchRequirements& r, const StagePair& pair) {
+  const SearchCandidate &first = pair.candidates[0], &second = pair.candidates[1];
+  const Growth growth = growth_for(r, torque_before(r, pair), first.torque_nm, r.module_mm);
+  const double carries = growth.wider * growth.larger * growth.larger;
+  SearchCandidate whole{.free = first.free};
+  const ToldEfficiencies told = told_of(r, pair);
+  whole.forward = told.forward;
+  whole.backward = told.backward;
+  whole.size_mm = std::max(first.size_mm * growth.larger, second.size_mm);
+  whole.torque_nm =
+      std::min(first.torque_nm * carries * std::abs(signed_ratio(pair.sets[1])) * second.forward,
+               second.torque_nm);
+  whole.figures.mass_kg = first.figures.mass_kg * carries + second.figures.mass_kg;
+  whole.figures.length_mm = first.figures.length_mm * growth.wider + second.figures.length_mm +
+                            GearboxDesign().layer_gap_mm;
+  whole.figures.torque_density_nm_per_kg = whole.torque_nm / whole.figures.mass_kg;
+  whole.figures.contact_ratio = std::min(first.figures.contact_ratio, second.figures.contact_ratio);
+  whole.figures.sliding = std::max(first.figures.sliding, second.figures.sliding);
+  if (!r.weights.empty())
+    whole.score = weighted_score(
+        r, told,
+        {.torque_nm = whole.torque_nm, .size_mm = whole.size_mm, .figures = whole.figures});
+  return whole;
+}
+
+bool may_keep(const FigureLimit& limit, const SearchCandidate& composed) {
+  const double value = composed.value(limit.figure);
+  if (limit.figure == SearchObjective::kMass || limit.figure == SearchObjective::kLength)
+    return !(value > limit.value * kSlack);
+  if (limit.figure == SearchObjective::kTorque) return !(value * kTorqueSlack < limit.value);
+  return true;
+}
+
+bool is_of_stages(SearchObjective objective) {
+  using enum SearchObjective;
+  switch (objective) {
+    case kStartingTorque:
+    case kInputInertia:
+    case kOutputInertia:
+    case kBacklash:
+    case kAcceleration:
+    case kSettling:
+      return false;
+    default:
+      return true;
   }
-  for (const Stage& stage : all) {
-    result.optimised += stage.known();
-    result.evaluations += stage.evaluations();
-  }
-  return result;
 }
 
 }  // namespace trueflank

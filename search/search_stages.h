@@ -2,21 +2,21 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "trueflank/search/search_enumerate.h"
 #include "trueflank/search/search_optimise.h"
 
 // Trains of two stages in series. The stages share nothing but their speeds and torques: each is a
-// tooth set of its own, enumerated and optimised once, and pairs are put together from those: at
-// most n1 + n2 optimisations for n1 n2 trains, and far fewer as bounds tell which stages are worth
-// it.
+// tooth set of its own, enumerated and optimised once, and pairs are put together from those
+// (search_stage_pairs.h): at most n1 + n2 optimisations for n1 n2 trains.
 namespace trueflank {
 
 /// What a stage alone is asked for; the requirements themselves of a set that is no stage. The
-/// second stage carries the whole's output torque. Objectives are efficiencies of the meshes;
-/// figures that only the whole has (mass, length, what needs the motor or the losses) are left to
-/// the pairs.
+/// second stage carries the whole's output torque. Objectives are the stage's share in the whole's,
+/// efficiencies those of the meshes; limits on what only the whole has (mass, length, what needs
+/// the motor or the losses) are left to the pairs.
 [[nodiscard]] SearchRequirements stage_requirements(const SearchRequirements& requirements,
                                                     const ToothSet& set);
 
@@ -38,23 +38,31 @@ struct StagePair {
 [[nodiscard]] GearboxDesign design_of_stages(const SearchRequirements& requirements,
                                              const StagePair& pair);
 
-/// The values of the whole; `free` is the first stage's.
+/// With the first stage as wide and of such a module as the output torque asked for needs behind
+/// this second stage, where they may grow.
+[[nodiscard]] StagePair carrying(const SearchRequirements& requirements, StagePair pair);
+
+/// The best train that two stages' designs make, by the first objective; nothing where one has
+/// none.
+[[nodiscard]] std::optional<StagePair> best_pair(
+    const SearchRequirements& requirements, const std::array<ToothSet, 2>& sets,
+    const std::array<std::vector<SearchCandidate>, 2>& designs);
+
+/// The values of the whole; `free` and `dimensions` are the first stage's.
 [[nodiscard]] SearchCandidate evaluate_stages(const SearchRequirements& requirements,
                                               const StagePair& pair);
 
-struct RankedPair {
-  StagePair pair;
-  SearchCandidate whole;
-};
-struct StagePairs {
-  std::vector<RankedPair> best;  ///< best first
-  std::size_t optimised = 0;     ///< stages that had to be
-  long long evaluations = 0;     ///< of a layer
-};
-/// Of all pairs of stages the best by the first objective that keep the ratio and every limit asked
-/// for, `count` at most. A stage is optimised once a pair with it is among the best by what bounds
-/// (search_bound.h) say, in a fixed order: the same on any number of threads.
-[[nodiscard]] StagePairs best_stage_pairs(const SearchRequirements& requirements,
-                                          const std::vector<ToothSet>& stages, std::size_t count);
+/// What the stages alone say of the whole they would be when it carries what is asked for:
+/// efficiencies, size, mass, length, torque and what follows from them, least contact ratio,
+/// greatest sliding; NaN for the rest. Accuracy: torque 5 % where the losses are by the formula;
+/// else rounding.
+[[nodiscard]] SearchCandidate composed_of_stages(const SearchRequirements& requirements,
+                                                 const StagePair& pair);
+/// Cheap, and never wrong: whether the whole may keep a limit, by what is composed of its stages.
+[[nodiscard]] bool may_keep(const FigureLimit& limit, const SearchCandidate& composed);
+
+/// Figures by which a train in series can be ranked: sums, products or extremes of its stages'
+/// figures give them.
+[[nodiscard]] bool is_of_stages(SearchObjective objective);
 
 }  // namespace trueflank

@@ -161,6 +161,19 @@ double allowable_torque_nm(const SearchRequirements& r, const GearTrain& train) 
   return result && std::isfinite(result->output_torque_nm) ? result->output_torque_nm : 0.0;
 }
 
+Growth growth_for(const SearchRequirements& r, double asked_nm, double torque_nm,
+                  double module_mm) {
+  if (!(asked_nm > 0.0 && torque_nm > 0.0)) return {};
+  // the allowable torque is in proportion to the width and to the square of the module
+  constexpr double kEnough = 1.0 + 1e-9;
+  const double wanted = kEnough * asked_nm / torque_nm;
+  const double wider = std::clamp(
+      wanted, 1.0, std::max(1.0, r.face_width_max_mm.value_or(0.0) / r.face_width_mm));
+  const double larger = std::clamp(std::sqrt(wanted / wider), 1.0,
+                                   std::max(1.0, r.module_max_mm.value_or(0.0) / module_mm));
+  return {wider, larger};
+}
+
 DesignValues design_values(const SearchRequirements& r, const SearchModel& model,
                            const FreeShifts& free, double mesh_forward, double mesh_backward) {
   DesignValues values;
@@ -169,16 +182,9 @@ DesignValues design_values(const SearchRequirements& r, const SearchModel& model
   auto train = lay_out(model.design(free));
   if (!train) return values;
   values.torque_nm = allowable_torque_nm(r, *train);
-  const bool grows = r.face_width_max_mm || r.module_max_mm;
-  if (grows && r.output_torque_nm && values.torque_nm > 0.0) {
-    // the allowable torque is in proportion to the width and to the square of the module
-    constexpr double kEnough = 1.0 + 1e-9;
-    const double wanted = kEnough * *r.output_torque_nm / values.torque_nm;
-    const double wider = std::clamp(wanted, 1.0, r.face_width_max_mm.value_or(0.0) / r.face_width_mm > 1.0
-                                                     ? *r.face_width_max_mm / r.face_width_mm
-                                                     : 1.0);
-    const double larger = std::clamp(std::sqrt(wanted / wider), 1.0,
-                                     std::max(1.0, r.module_max_mm.value_or(0.0) / module));
+  if (r.output_torque_nm) {
+    const auto [wider, larger] =
+        growth_for(r, *r.output_torque_nm, values.torque_nm, module);
     if (wider > 1.0 || larger > 1.0) {
       values.dimensions = {.face_width_mm = r.face_width_mm * wider, .module_mm = module * larger};
       values.size_mm *= larger;

@@ -25,6 +25,13 @@ struct DesignValues {
   double size_mm = kNaN;
   DesignFigures figures;
 };
+/// How much wider a design of an allowable torque gets, and how much larger its module, to carry
+/// `asked_nm`, as far as both may grow; 1 where `asked_nm` is NaN.
+struct Growth {
+  double wider = 1.0, larger = 1.0;
+};
+[[nodiscard]] Growth growth_for(const SearchRequirements& requirements, double asked_nm,
+                                double torque_nm, double module_mm);
 /// With the width and module that carry the torque asked for, where they may grow.
 /// Requires: efficiencies of the meshes alone.
 [[nodiscard]] DesignValues design_values(const SearchRequirements& requirements,

@@ -16,7 +16,7 @@ constexpr std::size_t kMostBytesOfSet = 1U << 14, kMostBytesBeside = 1U << 20, k
 }  // namespace
 
 Result<SearchJournal> read_journal_file(const SearchTask& task, const std::filesystem::path& path) {
-  const std::size_t most = std::min(kMostBytes, kMostBytesBeside + kMostBytesOfSet * task.enumeration.sets.size());
+  const std::size_t most = std::min(kMostBytes, kMostBytesBeside + kMostBytesOfSet * (task.enumeration.sets.size() + task.enumeration.stages.size()));
   auto text = read_text_file(path.string(), most);
   if (!text) {
     if (text.error().code == ErrorCode::kOutOfRange) text.error().remedy = "a journal of these requirements";
@@ -46,8 +46,8 @@ Result<SearchJournal> JournalFile::open(const SearchTask& task, const std::files
   return found;
 }
 
-void JournalFile::append(const SearchRecord& record) {
-  stream_ << journal_line(record) << '\n';
+void JournalFile::append_line(const std::string& line) {
+  stream_ << line << '\n';
   const auto now = std::chrono::steady_clock::now();
   if (std::chrono::duration<double>(now - flushed_).count() < kFlushEvery_s) return;
   stream_.flush();
@@ -58,6 +58,7 @@ Status JournalFile::close(const SearchTask& task, const SearchJournal& written) 
   if (stream_.is_open()) stream_.close();
   std::string text = journal_header(task.requirements, task.enumeration) + "\n";
   for (const SearchRecord& record : written.records) text += journal_line(record) + "\n";
+  for (const SearchRecord& stage : written.stages) text += journal_stage_line(stage) + "\n";
   for (const SearchPart& part : written.ended) text += journal_end(part) + "\n";
   return io::write_file(path_, text);
 }

@@ -22,11 +22,14 @@ class JournalFile {
   [[nodiscard]] static Result<SearchJournal> open(const SearchTask& task,
                                                   const std::filesystem::path& path, bool resume,
                                                   JournalFile& journal);
-  void append(const SearchRecord& record);
+  void append(const SearchRecord& record) { append_line(journal_line(record)); }
+  void append_stage(const SearchRecord& stage) { append_line(journal_stage_line(stage)); }
   /// Writes it whole, in its order: equal searches leave equal bytes.
   [[nodiscard]] Status close(const SearchTask& task, const SearchJournal& written);
 
  private:
+  void append_line(const std::string& line);
+
   std::filesystem::path path_;
   std::ofstream stream_;
   std::chrono::steady_clock::time_point flushed_{};

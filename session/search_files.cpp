@@ -259,7 +259,7 @@ std::string search_json(const SearchTask& task, const SearchReport& report) {
           ", \"evaluations\": " + std::to_string(report.evaluations) +
           ", \"judged\": " + std::to_string(report.judged);
   text += ",\n  \"fell_in_checks\": " + classes_json(report.fell_in_checks);
-  text += std::string(",\n  \"complete\": ") + (report.optimised == report.sets ? "true" : "false");
+  text += std::string(",\n  \"complete\": ") + (report.complete() ? "true" : "false");
   text += ",\n  \"binding_ranges\": " + binding_json(report.binding_ranges);
   text += ",\n  \"designs\": [";
   for (std::size_t i = 0; i < report.designs.size(); ++i)
@@ -306,11 +306,16 @@ std::string search_summary(const SearchTask& task, const SearchReport& report) {
   if (report.passed_over > 0)
     text += printed("the best %zu of %zu sets listed; %zu judged by the checks\n", report.feasible,
                     report.sets, report.judged);
+  else if (report.sets == 0 && !task.enumeration.stages.empty())
+    text += printed("%zu judged by the checks\n", report.judged);
   else
     text += printed(
         "%zu of %zu sets optimised, %zu with shifts that keep every limit; %zu judged by "
         "the checks\n",
         report.optimised, report.sets, report.feasible, report.judged);
+  if (!task.enumeration.stages.empty())
+    text += printed("%zu trains put together from %zu stages listed\n", report.pairs.size(),
+                    task.enumeration.stages.size());
   for (const SetClass& c : report.fell_in_checks)
     text += printed("  %14lld  fell: %s\n", c.count, c.id.c_str());
   if (report.designs.empty()) return text + "no design found\n";

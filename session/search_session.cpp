@@ -2,7 +2,6 @@
 #include "trueflank/session/search_session.h"
 
 #include <algorithm>
-#include <map>
 #include <regex>
 
 #include "trueflank/check/check_gearbox.h"
@@ -41,6 +40,14 @@ Status write_designs(const SearchReport& report, const std::filesystem::path& fo
     if (auto ok = io::write_file(path, design_file_text(design, comment)); !ok) return ok;
   }
   return {};
+}
+
+/// Of a part of which a journal says that it was done.
+SearchRecords whole_part(const SearchTask& task, SearchJournal done, const SearchPart& part) {
+  SearchRecords records = listed_records(task.requirements, std::move(done.records),
+                                         part.size(task.enumeration.sets.size()));
+  records.stages = listed_stages(task.requirements, task.enumeration, done.stages, part);
+  return records;
 }
 
 /// Also by the share of sets that assemble, where tolerances are asked for.
@@ -96,19 +103,24 @@ ResultAll<SearchRecords> run_search_part(const SearchTask& task,
   JournalFile journal;
   auto done = JournalFile::open(task, journal_path(options.folder, options.part), options.resume, journal);
   if (!done) return fail_all({done.error()});
-  const std::size_t sets = options.part.size(task.enumeration.sets.size());
   if (std::find(done->ended.begin(), done->ended.end(), options.part) != done->ended.end())
-    return listed_records(task.requirements, std::move(done->records), sets);
-  SearchRunOptions run{
-      .threads = options.threads, .part = options.part, .done = std::move(done->records)};
+    return whole_part(task, std::move(*done), options.part);
+  SearchRunOptions run{.threads = options.threads,
+                       .part = options.part,
+                       .done = std::move(done->records),
+                       .done_stages = std::move(done->stages)};
   run.stop = options.stop;
   run.on_record = [&](const SearchRecord& record, std::size_t finished, std::size_t total) {
     journal.append(record);
     if (options.on_record) options.on_record(record, finished, total);
   };
+  run.on_stage = [&](const SearchRecord& stage, std::size_t finished) {
+    journal.append_stage(stage);
+    if (options.on_stage) options.on_stage(stage, finished);
+  };
   SearchRecords records = run_search(task.requirements, task.enumeration, run);
-  SearchJournal written{.records = records.optimised};
-  if (records.sets() == sets) written.ended.push_back(options.part);
+  SearchJournal written{.records = records.optimised, .stages = records.stages};
+  if (is_complete(task, records, options.part)) written.ended.push_back(options.part);
   if (auto ok = journal.close(task, written); !ok) return fail_all({ok.error()});
   return records;
 }
@@ -132,6 +144,7 @@ ResultAll<SearchRecords> merge_search(const SearchTask& task,
       const auto read = read_journal_file(task, path);
       if (read) {
         all.records.insert(all.records.end(), read->records.begin(), read->records.end());
+        all.stages.insert(all.stages.end(), read->stages.begin(), read->stages.end());
         all.ended.insert(all.ended.end(), read->ended.begin(), read->ended.end());
       } else {
         errors.push_back(read.error());
@@ -140,6 +153,11 @@ ResultAll<SearchRecords> merge_search(const SearchTask& task,
   }
   SearchRecords result = gathered_records(task, std::move(all));
   const std::size_t total = task.enumeration.sets.size();
+  if (errors.empty() && result.stages_left)
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "the journals do not cover all trains in series",
+                      .key = "--merge",
+                      .remedy = "the folders of all shards, each finished"});
   if (errors.empty() && result.sets() < total)
     errors.push_back({.code = ErrorCode::kInconsistent,
                       .message = "the journals cover " + std::to_string(result.sets()) + " of " +
@@ -150,16 +168,45 @@ ResultAll<SearchRecords> merge_search(const SearchTask& task,
   return result;
 }
 
+bool is_complete(const SearchTask& task, const SearchRecords& records, const SearchPart& part) {
+  return !records.stages_left && records.sets() == part.size(task.enumeration.sets.size());
+}
+
+namespace {
+
+/// Each index once, in their order.
+std::vector<SearchRecord> once(std::vector<SearchRecord> records) {
+  std::stable_sort(
+      records.begin(), records.end(),
+      [](const SearchRecord& p, const SearchRecord& q) { return p.index < q.index; });
+  const auto same = [](const SearchRecord& p, const SearchRecord& q) { return p.index == q.index; };
+  records.erase(std::unique(records.begin(), records.end(), same), records.end());
+  return records;
+}
+
+}  // namespace
+
 SearchRecords gathered_records(const SearchTask& task, SearchJournal journal) {
-  std::map<std::size_t, SearchRecord> records;
-  for (SearchRecord& record : journal.records) records.try_emplace(record.index, std::move(record));
-  const std::size_t total = task.enumeration.sets.size();
-  std::size_t covered = 0;
-  for (std::size_t i = 0; i < total; ++i) covered += journal.covers(i) || records.contains(i);
+  const SetEnumeration& enumeration = task.enumeration;
+  std::vector<SearchRecord> records = once(std::move(journal.records)),
+                            stages = once(std::move(journal.stages));
+  const std::size_t total = enumeration.sets.size();
+  std::size_t covered = 0, next = 0;
+  for (std::size_t i = 0; i < total; ++i) {
+    const bool recorded = next < records.size() && records[next].index == i;
+    covered += recorded || journal.covers(i);
+    next += recorded;
+  }
   SearchRecords result;
-  for (auto& [index, record] : records) result.optimised.push_back(std::move(record));
-  if (covered == total) return listed_records(task.requirements, std::move(result.optimised), total);
-  result.passed_over = covered - result.optimised.size();
+  if (covered == total) {
+    result = listed_records(task.requirements, std::move(records), total);
+  } else {
+    result.passed_over = covered - records.size();
+    result.optimised = std::move(records);
+  }
+  result.stages_left = !journal.covers_all(enumeration.stages.size());
+  result.stages = result.stages_left ? std::move(stages)
+                                     : listed_stages(task.requirements, enumeration, stages);
   return result;
 }
 

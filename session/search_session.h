@@ -33,15 +33,21 @@ struct SearchPartOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set: what is under way is finished, no more started
   /// Called for every new record, one call at a time.
   std::function<void(const SearchRecord&, std::size_t finished, std::size_t total)> on_record = {};
+  /// Likewise of stages of trains in series, which are optimised last.
+  std::function<void(const SearchRecord&, std::size_t finished)> on_stage = {};
 };
 /// search.journal, or search-i-of-n.journal of a part.
 [[nodiscard]] std::filesystem::path journal_path(const std::filesystem::path& folder,
                                                  const SearchPart& part);
 /// Runs a part with its journal in the folder. Returns its records, old and new; of fewer sets than the
-/// part has where it was stopped.
+/// part has, or with stages left, where it was stopped.
 /// Errors: kInconsistent (a journal of other requirements), kDisk, ...
 [[nodiscard]] ResultAll<SearchRecords> run_search_part(const SearchTask& task,
                                                                    const SearchPartOptions& options);
+/// Whether a part's records leave nothing to do.
+[[nodiscard]] bool is_complete(const SearchTask& task, const SearchRecords& records,
+                               const SearchPart& part = {});
+
 /// All records of the journals in some folders, by index. Errors: kInconsistent where they are not all
 /// of the task's.
 [[nodiscard]] ResultAll<SearchRecords> merge_search(const SearchTask& task,

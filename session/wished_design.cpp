@@ -175,16 +175,17 @@ class Wish {
   SearchReport searched_stages(SearchRequirements asked, const SetEnumeration& found) {
     asked.listed = static_cast<int>(kLot);
     const auto judge = [this](const GearTrain& train) { return judged(train); };
+    const SearchRecords records = run_search(asked, found);
     SearchReport report;
     do {
       begin_judging();
-      report = conclude_search(asked, found, {}, judge);
+      report = conclude_search(asked, found, records, judge);
     } while (report.designs.empty() && tolerate_what_all_warn());
     for (const Allowed allowed : {Allowed::kUndercut, Allowed::kEveryWarning}) {
       if (!report.designs.empty()) break;
       allowed_ = allowed;
       begin_judging();
-      report = conclude_search(asked, found, {}, judge);
+      report = conclude_search(asked, found, records, judge);
     }
     return report;
   }

@@ -3,49 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "trueflank/search/search_corner.h"
+#include "tests/search/small_search.h"
 
 namespace trueflank {
 namespace {
-
-const SearchRequirements& requirements() {
-  static const SearchRequirements r = [] {
-    SearchRequirements q;
-    q.ratio_min = 90;
-    q.ratio_max = 100;
-    q.sun = {12, 12};
-    q.planet1 = {37, 39};
-    q.planet2 = {30, 43};
-    q.ring1 = {87, 93};
-    q.ring2 = {78, 100};
-    q.results = 3;
-    return q;
-  }();
-  return r;
-}
-const SetEnumeration& sets() {
-  static const SetEnumeration found = enumerate_sets(requirements());
-  return found;
-}
-const SearchRecords& records() {
-  static const SearchRecords found = run_search(requirements(), sets(), {.threads = 1});
-  return found;
-}
-std::string text_of(const std::vector<SearchRecord>& list) {
-  std::string text = journal_header(requirements(), sets()) + "\n";
-  for (const SearchRecord& record : list) text += journal_line(record) + "\n";
-  return text;
-}
-std::string text_of(const SearchRecords& list) { return text_of(list.optimised); }
-
-/// The same search with so few listed that most sets are passed over.
-SearchRequirements listing(int listed) {
-  SearchRequirements r = requirements();
-  r.listed = listed;
-  return r;
-}
 
 TEST(Search, AnyNumberOfThreadsGivesTheSameRecords) {
   ASSERT_GT(sets().sets.size(), 4u);
@@ -106,43 +67,6 @@ TEST(Search, ThePartsOfAJournalThatHaveEndedAreRead) {
   EXPECT_FALSE(read_journal(text + damaged + "\n", requirements(), sets()).has_value());
 }
 
-TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
-  const SearchRecords few = run_search(listing(3), sets(), {.threads = 2});
-  ASSERT_EQ(few.optimised.size(), 3u);
-  EXPECT_EQ(few.sets(), sets().sets.size());
-  EXPECT_EQ(text_of(few), text_of(listed_records(listing(3), records().optimised, sets().sets.size())));
-  const SearchReport all = conclude_search(requirements(), sets(), records(), {}),
-                     short_list = conclude_search(listing(3), sets(), few, {});
-  ASSERT_EQ(short_list.designs.size(), all.designs.size());
-  for (std::size_t i = 0; i < all.designs.size(); ++i)
-    EXPECT_EQ(short_list.designs[i].candidate.free, all.designs[i].candidate.free);
-  long long sum = static_cast<long long>(short_list.feasible);
-  for (const SetClass& c : short_list.classes) sum += c.count;
-  EXPECT_EQ(sum, short_list.considered);
-}
-
-TEST(Search, WithTheLossesOfADriveTheSameAreListedAsWithoutABound) {
-  std::mt19937 random(20261123);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  for (const SearchObjective objective : {SearchObjective::kForward, SearchObjective::kBackward}) {
-    SearchRequirements r = requirements();
-    r.objectives = {objective};
-    r.losses = LossesDesign{};
-    r.losses->load_nm = 0.5 + 10.0 * share(random);
-    r.losses->drag_torque_nm = 0.02 * share(random);
-    r.losses->load_friction = 0.05 * share(random);
-    r.losses->bearing_load_share = 0.03 * share(random);
-    r.listed = r.results = 2;
-    const SearchRecords few = run_search(r, sets(), {.threads = 1});
-    SearchRequirements all = r;
-    all.listed = 0;
-    const SearchRecords every = run_search(all, sets(), {.threads = 1});
-    ASSERT_EQ(every.optimised.size(), sets().sets.size());
-    EXPECT_EQ(few.optimised.size(), 2u);
-    EXPECT_EQ(text_of(few), text_of(listed_records(r, every.optimised, sets().sets.size())));
-  }
-}
-
 TEST(Search, SetsThatAreNotKeptGiveTheSameRecords) {
   EXPECT_EQ(text_of(run_search(listing(3), enumerate_sets(requirements(), 0), {.threads = 2})),
             text_of(run_search(listing(3), sets())));
@@ -158,25 +82,6 @@ TEST(Search, PartsOfAShortListPutTogetherAreTheWhole) {
   EXPECT_GE(all.size(), 3u);
   EXPECT_EQ(text_of(listed_records(listing(3), all, sets().sets.size())),
             text_of(run_search(listing(3), sets())));
-}
-
-TEST(Search, WhereListedDesignsFailAChecksThoseBehindThemAreOptimised) {
-  // the first three sets fail what no distance mends: the answer is that of the whole list
-  const SearchReport plain = conclude_search(requirements(), sets(), records(), {});
-  const auto judge = [&](const GearTrain& train) {
-    DesignVerdict verdict;
-    for (const FoundDesign& found : plain.designs)
-      if (found.design.centre_distance_mm == train.centre_distance_mm)
-        verdict.failed.push_back("axial");
-    return verdict;
-  };
-  const SearchReport all = conclude_search(requirements(), sets(), records(), judge);
-  const SearchReport short_list =
-      conclude_search(listing(3), sets(), run_search(listing(3), sets()), judge);
-  ASSERT_EQ(short_list.designs.size(), all.designs.size());
-  ASSERT_FALSE(all.designs.empty());
-  for (std::size_t i = 0; i < all.designs.size(); ++i)
-    EXPECT_EQ(short_list.designs[i].candidate.free, all.designs[i].candidate.free);
 }
 
 TEST(Search, AJournalOfOtherRequirementsOrDamagedIsRefused) {
@@ -208,60 +113,6 @@ TEST(Search, AJournalWithOneDigitChangedIsRefusedAndTheLineNamed) {
   EXPECT_GT(changed, 20);
 }
 
-TEST(Search, DesignsAreRankedAndEveryClassIsCounted) {
-  const SearchReport report = conclude_search(requirements(), sets(), records(), {});
-  ASSERT_EQ(report.designs.size(), 3u);
-  EXPECT_GE(report.designs[0].candidate.forward, report.designs[1].candidate.forward);
-  EXPECT_GE(report.designs[1].candidate.forward, report.designs[2].candidate.forward);
-  long long sum = static_cast<long long>(report.feasible);
-  for (const SetClass& c : report.classes) sum += c.count;
-  EXPECT_EQ(sum, report.considered);
-  for (const FoundDesign& found : report.designs) EXPECT_TRUE(lay_out(found.design).has_value());
-}
-
-TEST(Search, ADesignThatFailsACheckIsTightenedUntilItPasses) {
-  int asked = 0;
-  const DesignJudge strict = [&](const GearTrain&) {
-    DesignVerdict verdict;
-    if (++asked <= 2) verdict.failed.push_back("overlap");
-    return verdict;
-  };
-  const SearchReport report = conclude_search(requirements(), sets(), records(), strict);
-  ASSERT_FALSE(report.designs.empty());
-  bool any = false;
-  for (const FoundDesign& found : report.designs) any = any || found.tightened() > 0.0;
-  EXPECT_TRUE(any);
-}
-
-TEST(Search, ADesignThatFailsACheckIsMovedToTheBorderOfTheCheckAndNoFarther) {
-  // a check that asks for 2.3 um where the search keeps 2
-  const DesignJudge wider = [](const GearTrain& train) {
-    GearboxDesign design = train.design;
-    design.backlash_mm = 0.0;
-    const auto tight = lay_out(design);
-    DesignVerdict verdict;
-    for (const TrainMesh& mesh : tight->meshes) {
-      const GearPair pair = tight->pair(mesh);
-      if (std::min(corner_clearance_in_gear1_mm(pair), corner_clearance_in_gear2_mm(pair)) < 0.0023)
-        verdict.failed.emplace_back("fillet_interference");
-    }
-    return verdict;
-  };
-  const SearchReport report = conclude_search(requirements(), sets(), records(), wider);
-  ASSERT_FALSE(report.designs.empty());
-  SearchRequirements asked = requirements();
-  asked.clearance_um = 2.3;
-  int moved = 0;
-  for (const FoundDesign& found : report.designs) {
-    if (found.tightened() == 0.0) continue;
-    const SetResult best = optimise_set(asked, found.set);
-    ASSERT_FALSE(best.candidates.empty());
-    EXPECT_GE(found.candidate.forward, best.candidates[0].forward - 1e-5);
-    ++moved;
-  }
-  EXPECT_GE(moved, 1);
-}
-
 TEST(Search, ADesignNoDistanceMendsIsCounted) {
   const DesignJudge never = [](const GearTrain&) {
     return DesignVerdict{.failed = {"axial"}, .warned = {}};
@@ -270,19 +121,6 @@ TEST(Search, ADesignNoDistanceMendsIsCounted) {
   EXPECT_TRUE(report.designs.empty());
   ASSERT_EQ(report.fell_in_checks.size(), 1u);
   EXPECT_EQ(report.fell_in_checks[0].count, static_cast<long long>(report.feasible));
-}
-
-TEST(Search, NoDesignOfAParetoFrontIsDominated) {
-  SearchRequirements r = requirements();
-  r.objectives = {SearchObjective::kForward, SearchObjective::kSize};
-  r.results = 100;
-  const SearchRecords list = run_search(r, sets(), {.threads = 1, .part = {1, 4}});
-  const SearchReport report = conclude_search(r, sets(), list, {});
-  ASSERT_GE(report.designs.size(), 2u);
-  for (const FoundDesign& found : report.designs)
-    for (const RankedCandidate& other : report.ranking)
-      EXPECT_FALSE(other.candidate.forward > found.candidate.forward &&
-                   other.candidate.size_mm < found.candidate.size_mm);
 }
 
 }  // namespace
