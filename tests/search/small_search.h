@@ -16,9 +16,9 @@ inline const SearchRequirements& requirements() {
     q.ratio_max = 100;
     q.sun = {12, 12};
     q.planet1 = {38, 39};
-    q.planet2 = {34, 43};
+    q.planet2 = {34, 40};
     q.ring1 = {90, 93};
-    q.ring2 = {84, 100};
+    q.ring2 = {84, 94};
     q.results = 3;
     return q;
   }();
