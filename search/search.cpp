@@ -77,8 +77,9 @@ void count_records(const SearchRequirements& requirements, const SetEnumeration&
     report.ranking.push_back({enumeration.sets.size() + report.pairs.size(), ranked.whole, false});
     report.pairs.push_back(ranked.pair);
   }
-  std::sort(report.ranking.begin(), report.ranking.end(),
-            BetterCandidate{&requirements.objectives});
+  // designs of one set that are worth the same keep their order
+  std::stable_sort(report.ranking.begin(), report.ranking.end(),
+                   BetterCandidate{&requirements.objectives});
   mark_front(report.ranking, requirements.objectives);
 }
 
