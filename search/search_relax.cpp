@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "trueflank/search/search.h"
@@ -218,11 +219,25 @@ double best_of(SearchRequirements r, double than) {
   return best;
 }
 
-/// The range of a gear in the requirements, with its keys' stem.
-struct NamedRange {
-  std::string name;
-  ToothRange SearchRequirements::* range;
-};
+/// The requirements with another range of a gear's teeth, under the name it has in its kind.
+SearchRequirements with_range(SearchRequirements r, const ToothSet& set, const std::string& name,
+                              const ToothRange& range) {
+  using R = SearchRequirements;
+  static const std::map<std::string, ToothRange R::*> kOfLayers{{"sun", &R::sun},
+                                                                {"planet1", &R::planet1},
+                                                                {"ring1", &R::ring1},
+                                                                {"planet2", &R::planet2},
+                                                                {"ring2", &R::ring2}};
+  static const std::map<std::string, OpenToothRange R::*> kOwn{
+      {"planet", &R::planet}, {"ring", &R::ring}, {"pinion", &R::pinion}, {"wheel", &R::wheel}};
+  if (const auto own = kOwn.find(name); own != kOwn.end()) {
+    r.kinds = {set.train->kind()};  // others have the range as it was
+    r.*(own->second) = {range.min, range.max};
+  } else {
+    r.*(kOfLayers.at(name)) = range;
+  }
+  return r;
+}
 
 }  // namespace
 
@@ -241,33 +256,22 @@ std::vector<BindingLimit> binding_ranges(const SearchRequirements& r, const Toot
     limit.objective = best_of(beyond, here);
     if (limit.objective > here) found.push_back(std::move(limit));
   };
-  using R = SearchRequirements;
-  static const std::vector<NamedRange> kRanges{{"sun", &R::sun},
-                                               {"planet1", &R::planet1},
-                                               {"ring1", &R::ring1},
-                                               {"planet2", &R::planet2},
-                                               {"ring2", &R::ring2}};
-  for (std::size_t i = 0; i < kRanges.size(); ++i) {
-    const auto& [name, member] = kRanges[i];
-    const auto place = static_cast<TrainPlace>(i);
-    const int teeth = set.teeth()[i];
-    if (teeth == 0 || set.train->name_at(place) != name) continue;  // a range of its own
+  for (const TrainPlace place : set.train->places()) {
+    const std::string& name = set.train->name_at(place);
+    const int teeth = set.teeth_at(place);
     const bool ring = place == TrainPlace::kRing1 || place == TrainPlace::kRing2;
-    const ToothRange asked = r.*member;
+    const ToothRange asked = tooth_range(r, *set.train, place);
     if (asked.min == asked.max) continue;  // wished, no limit
-    R beyond = r;
-    if (teeth == asked.max && teeth + set.planets <= 1000) {
-      beyond.*member = {teeth + 1, teeth + set.planets};
-      add({"teeth", name, "teeth." + name + "_max", 1.0 * teeth, 1.0 * (teeth + set.planets)}, beyond);
-    }
-    const int fewest = std::max(ring ? 6 : 4, teeth - set.planets);
-    if (teeth == asked.min && fewest < teeth) {
-      beyond.*member = {fewest, teeth - 1};
-      add({"teeth", name, "teeth." + name + "_min", 1.0 * teeth, 1.0 * fewest}, beyond);
-    }
+    const auto look = [&](const char* end, int farthest, const ToothRange& range) {
+      add({"teeth", name, "teeth." + name + end, 1.0 * teeth, 1.0 * farthest},
+          with_range(r, set, name, range));
+    };
+    const int most = teeth + set.planets, fewest = std::max(ring ? 6 : 4, teeth - set.planets);
+    if (teeth == asked.max && most <= 1000) look("_max", most, {teeth + 1, most});
+    if (teeth == asked.min && fewest < teeth) look("_min", fewest, {fewest, teeth - 1});
   }
   const double ratio = std::abs(signed_ratio(set));
-  R beyond = r;
+  SearchRequirements beyond = r;
   if (ratio < r.ratio_min * (1.0 + kRatioStep) && r.ratio_min * (1.0 - kRatioStep) > 1.0) {
     beyond.ratio_max = std::nextafter(r.ratio_min, 0.0);
     beyond.ratio_min = r.ratio_min * (1.0 - kRatioStep);

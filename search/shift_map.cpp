@@ -36,10 +36,19 @@ double& value_of(FreeShifts& free, MapAxis axis) {
 class Surface {
  public:
   Surface(const SearchRequirements& requirements, const ToothSet& set)
-      : values_(requirements, set, {}) {}
+      : values_(requirements, set, {}), limits_(set.train->limits) {
+    const SearchTrain& train = *set.train;
+    for (std::size_t l = 0; l < train.layers.size(); ++l) {
+      const int gear = train.layers[l].ring >= 0 ? train.layers[l].ring : train.layers[l].planet;
+      for (const char* end : {"least", "greatest"})
+        limits_.push_back({Limit::kShift, static_cast<int>(l) + 1,
+                           train.topology.gears[static_cast<std::size_t>(gear)].name, end});
+    }
+  }
 
   ShiftSurface run(int points) {
     ShiftSurface surface;
+    surface.limits = limits_;
     const SweepResult found = sweep(values_, values_.guide());
     best_ = surface.best = found.nearest.free;
     if (!found.peaks.empty()) {
@@ -77,7 +86,7 @@ class Surface {
     const Stretch all = whole(axis);
     const double around = std::max({kAround * (high - low), kLeastShown * (all.high - all.low),
                                     line.size() > 1 ? line[1] - line[0] : 0.0});
-    return {std::max(all.low, low - around), std::min(all.high, high + around)};
+    return {low - around, high + around};
   }
 
   ShiftMap map(MapAxis across, MapAxis up, Stretch x, Stretch y, int points) {
@@ -89,8 +98,7 @@ class Surface {
       return values;
     };
     result.x = line(x), result.y = line(y);
-    const std::size_t limits = values_.model().limits();
-    result.margins.assign(limits, {});
+    result.margins.assign(limits_.size(), {});
     // a layer that does not depend on `up` (or on `across`) is computed once a column (a row)
     std::vector<LayerEvaluation> columns, rows;
     const int by_column = up == MapAxis::kLayer1Shift ? 1 : 0;
@@ -110,7 +118,7 @@ class Surface {
         } else {
           other_layer = evaluate(1 - by_column, free);
         }
-        add(result, state);
+        add(result, state, free);
       }
     return result;
   }
@@ -120,20 +128,70 @@ class Surface {
                       : values_.layer2(free.centre_distance, free.layer2_shift);
   }
 
-  void add(ShiftMap& map, const SetValues::State& state) {
+  void add(ShiftMap& map, const SetValues::State& state, const FreeShifts& free) {
     std::vector<double> margins(kLimits);
     values_.margins(state, margins.data());
-    for (std::size_t l = 0; l < map.margins.size(); ++l)
-      map.margins[l].push_back(margins[l] + kLimitReserve);
+    std::size_t l = 0;
+    for (; l < values_.model().limits(); ++l) map.margins[l].push_back(margins[l] + kLimitReserve);
+    const SearchRequirements& r = values_.requirements();
+    const double shifts[] = {free.layer1_shift, free.layer2_shift};
+    for (std::size_t layer = 0; l < limits_.size(); ++layer, l += 2) {
+      map.margins[l].push_back(shifts[layer] - r.shift_min + kLimitReserve);
+      map.margins[l + 1].push_back(r.shift_max - shifts[layer] + kLimitReserve);
+    }
     const double merit = values_.model().efficiency(state.layer1, state.layer2, values_.guide());
     map.efficiency.push_back(merit > 0.0 ? merit : kNaN);
   }
 
   SetValues values_;
+  std::vector<LimitEntry> limits_;
   FreeShifts best_;
 };
 
+/// The pieces of a margin's border within one cell of a map.
+void add_border(const ShiftMap& map, const std::vector<double>& margin,
+                const std::array<std::size_t, 4>& corners, std::vector<BorderPiece>& pieces) {
+  std::vector<std::array<double, 2>> crossings;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t p = corners[k], q = corners[(k + 1) % 4];
+    if ((margin[p] >= 0.0) == (margin[q] >= 0.0)) continue;
+    const double share = margin[p] / (margin[p] - margin[q]);
+    const auto between = [&](const std::vector<double>& line, std::size_t a, std::size_t b) {
+      return line[a] + share * (line[b] - line[a]);
+    };
+    const std::size_t columns = map.x.size();
+    crossings.push_back(
+        {between(map.x, p % columns, q % columns), between(map.y, p / columns, q / columns)});
+  }
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+    pieces.push_back({crossings[k], crossings[k + 1]});
+}
+
 }  // namespace
+
+std::vector<BorderPiece> limit_border(const ShiftMap& map, std::size_t limit) {
+  std::vector<char> feasible;
+  for (std::size_t k = 0; k < map.efficiency.size(); ++k) feasible.push_back(map.feasible(k));
+  const bool any = std::find(feasible.begin(), feasible.end(), 1) != feasible.end();
+  std::vector<BorderPiece> pieces;
+  const std::size_t columns = map.x.size();
+  for (std::size_t j = 0; j + 1 < map.y.size(); ++j)
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+      const std::size_t at = j * columns + i;
+      const std::array<std::size_t, 4> corners{at, at + 1, at + columns + 1, at + columns};
+      if (any &&
+          std::none_of(corners.begin(), corners.end(), [&](std::size_t k) { return feasible[k]; }))
+        continue;
+      add_border(map, map.margins[limit], corners, pieces);
+    }
+  return pieces;
+}
+
+double best_efficiency(const SearchRequirements& requirements, const ToothSet& set) {
+  SetValues values(requirements, set, {});
+  const SweepResult found = sweep(values, values.guide());
+  return found.peaks.empty() ? kNaN : found.peaks.front().merit;
+}
 
 bool ShiftMap::feasible(std::size_t point) const {
   return std::all_of(margins.begin(), margins.end(),

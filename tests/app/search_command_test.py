@@ -224,11 +224,38 @@ def shift_map():
     assert all((float(row["margin_modules"]) >= 0) == (row["feasible"] == "1") for row in rows)
     page = (folder / "shifts.html").read_text()
     assert page.count("<svg") == 3 and "fillet_interference: planet1-ring1" in page
+    assert "3k, sun drives ring2, 3 planets" in page
+    # the bound of a shift is a border as any other, where it is
+    borders = list(csv.DictReader((folder / "shifts-borders.csv").open()))
+    bounds = [row for row in borders if row["limit"] == "shift: ring2 (greatest)"]
+    assert bounds and len(bounds) % 2 == 0
+    assert all(abs(float(row["layer2_shift"]) - 2.0) < 1e-5 for row in bounds)
+    assert {row["limit"] for row in borders} >= {"fillet_interference: planet1-ring1 (root of planet1)"}
     first = (folder / "shifts.csv").read_bytes()
     subprocess.run(call, capture_output=True, check=True)
     assert (folder / "shifts.csv").read_bytes() == first
     wrong = subprocess.run([*call[:4], "12/39", *call[5:]], capture_output=True, text=True)
     assert wrong.returncode == 2 and "--teeth" in wrong.stderr
+
+
+def shift_map_of_sets_alike():
+    """Of several sets of the same teeth the best is mapped, and the others are told; stages are sets."""
+    needs = OUTPUT / "pairs.toml"
+    needs.write_text('format = 1\n[gearbox]\nkind = "pair"\nwheel = "any"\n[ratio]\nmin = 2\nmax = 2\n'
+                     "[teeth]\npinion_min = 14\npinion_max = 14\nwheel_max = 40\n")
+    folder = OUTPUT / "map-pairs"
+    call = [PROGRAM, "shifts", needs, "--teeth", "14/28", "-o", folder, "--points", "11"]
+    told = subprocess.run(call, capture_output=True, text=True, check=True).stdout
+    first, _, others = told.partition("\n")
+    assert "as pair, internal wheel" in others and "pair, external wheel: 9" in others, told
+    best, other = float(first.split()[1]), float(others.split("external wheel: ")[1].split()[0])
+    assert best > other + 0.5, told
+    needs.write_text('format = 1\n[gearbox]\nkind = "two-stage"\n[ratio]\nmin = 26\nmax = 26.1\n'
+                     "[teeth]\nsun_min = 20\nsun_max = 20\nplanet1_min = 31\nplanet1_max = 31\n"
+                     "ring1_min = 82\nring1_max = 82\nplanet2_min = 31\nplanet2_max = 31\n"
+                     "ring2_min = 82\nring2_max = 82\n")
+    told = subprocess.run([*call[:4], "20/31/82", *call[5:]], capture_output=True, text=True, check=True).stdout
+    assert "stage 1 of two-stage, 3 planets" in told and (folder / "shifts.html").read_text().count("<svg") == 1, told
 
 
 def main():
@@ -299,6 +326,7 @@ def main():
     short_list()
     in_series()
     shift_map()
+    shift_map_of_sets_alike()
 
     # errors
     run(OUTPUT / "none.toml", "-o", whole, code=3)

@@ -67,7 +67,9 @@ def swept_gap(gear, radii):
     of the rack the farthest point of its corner circle on each radius."""
     land = math.pi / 4 - HF * TAN - RHO * (1 - SIN) / COS
     depth = HF - gear.x - RHO  # of the circle's centre below the pitch line
-    span = 2.2 / gear.r + 1.2 * math.sqrt(max(0.0, gear.r ** 2 - gear.root ** 2)) / gear.r
+    # where the rack does not reach the reference circle its corner leaves the flank far from the middle
+    above = max(0.0, gear.x - HF + RHO * (1 - SIN)) / (SIN * COS)
+    span = (2.2 + above + 1.2 * math.sqrt(max(0.0, gear.r ** 2 - gear.root ** 2))) / gear.r
     best, where = None, None
     low, high = np.full(radii.shape, -span), np.full(radii.shape, span)
     for count in (61, 13, 13, 13, 13):

@@ -229,5 +229,27 @@ TEST(SearchRelax, ARangeOfTeethThatEndsTooEarlyIsNamed) {
   EXPECT_FALSE(report.binding_ranges.empty());
 }
 
+TEST(SearchRelax, RangesOfGearsThatOnlyTheirKindHasAreNamedToo) {
+  SearchRequirements r = needs("pair");
+  r.losses.reset();
+  r.ratio_min = 2.9, r.ratio_max = 3.1;
+  r.sun = {12, 40};
+  r.wheel = {30, 45};  // wheels of more teeth slide less
+  const SetEnumeration sets = enumerate_sets(r);
+  const SearchReport report = conclude_search(r, sets, run_search(r, sets), {});
+  ASSERT_FALSE(report.designs.empty());
+  ASSERT_EQ(report.designs[0].set.planet1, 45);
+  const auto& found = report.binding_ranges;
+  const auto wheel = std::find_if(found.begin(), found.end(), [](const BindingLimit& b) {
+    return b.key == "teeth.wheel_max";
+  });
+  ASSERT_NE(wheel, found.end());
+  // the same, said in the requirements
+  r.wheel = {30, static_cast<int>(wheel->relaxed)};
+  const SetEnumeration wider = enumerate_sets(r);
+  const SearchReport really = conclude_search(r, wider, run_search(r, wider), {});
+  EXPECT_NEAR(really.designs.at(0).candidate.forward, wheel->objective, 1e-6);
+}
+
 }  // namespace
 }  // namespace trueflank
