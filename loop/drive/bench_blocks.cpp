@@ -123,7 +123,8 @@ bool merge_neighbours(BenchTable& table) {
 }
 
 /// Where the driving torque is set to the same few values and its sensor reads in steps, all rows
-/// of one reading share its rounding: they are one unit. A sensor's step shows where it reads the
+/// of one reading share its rounding: they are one unit, and predicted together, or any course over
+/// the load would predict the rounding itself. What is locked away stays so. A sensor's step shows where it reads the
 /// driven side, which scatters.
 void join_equal_readings(BenchTable& table) {
   constexpr double kCoarse =
@@ -158,7 +159,10 @@ void join_equal_readings(BenchTable& table) {
         !(rounding_nm * rounding_nm > kCoarse * of_mean_nm * of_mean_nm))
       continue;
     for (const auto& [number, of_reading] : readings) {
-      for (BenchPoint* p : of_reading) p->reading = units;
+      for (BenchPoint* p : of_reading) {
+        p->reading = units;
+        if (p->fold != 0) p->fold = 1 + units % kBenchFolds;
+      }
       ++units;
     }
   }

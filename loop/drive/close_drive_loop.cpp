@@ -183,7 +183,7 @@ class Loop {
     const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
       return static_cast<bool>(family.shape_of_wave);
     });
-    candidates_.push_back({&*host, host->shape_of_wave(line.order)});
+    candidates_.push_back({&*host, host->shape_of_wave(line.order, line.opposite)});
     banned_.push_back(false);
     return true;
   }

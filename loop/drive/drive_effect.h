@@ -110,8 +110,8 @@ struct DriveFamily : EffectFacts {
   std::function<void(DriveState&, const DriveShape&, double coefficient)> into_state = {};
   /// Waves per turn of the input; empty: it is none.
   std::function<double(const DriveShape&)> order = {};
-  /// The shape of a wave that the spectrum proposes; empty: it takes none.
-  std::function<DriveShape(double order)> shape_of_wave = {};
+  /// The shape of a wave that the spectrum proposes, the directions opposite or not; empty: it takes none.
+  std::function<DriveShape(double order, bool opposite)> shape_of_wave = {};
   /// @}
 
   /// @name How it is told

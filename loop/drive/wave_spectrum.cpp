@@ -27,44 +27,67 @@ class Spectrum {
       const BenchPoint& p = table.points[i];
       if (p.fold == 0) continue;
       angle_.push_back(p.angle_rad);
-      size_.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
-      sum_ += size_.back() * size_.back();
+      left_.push_back(left[static_cast<Eigen::Index>(i)] / p.sigma_nm);
+      forward_.push_back(p.forward);
+      load_.push_back(p.load_nm / table.most_load_nm);
+      sum_ += left_.back() * left_.back();
     }
     rows_ = static_cast<double>(angle_.size());
+    both_ = table.has(true) && table.has(false);
     step_ = wrapped_ ? 1.0 : std::max(0.25 / turns_, kHighest / kMostLines);
     first_ = wrapped_ ? 1.0 : std::max(step_, 1.5 / turns_);
   }
 
   LikeliestOrder highest() {
     if (rows_ < 12.0 || !(sum_ > 0.0)) return best_;
+    for (const bool with_load : {false, true})
+      for (const bool opposite : {false, true})
+        if (both_ || !opposite) look_at(opposite, with_load);
+    // Every line tried could have been the highest.
+    const double single = std::pow(std::max(0.0, 1.0 - highest_ / sum_), 0.5 * (rows_ - 3.0));
+    best_.p_value = std::min(1.0, single * tried_);
+    return best_;
+  }
+
+ private:
+  /// One spectrum: of what is left with this weight of every row.
+  void look_at(bool opposite, bool with_load) {
+    opposite_ = opposite;
+    with_load_ = with_load;
+    size_.clear();
+    square_.clear();
+    weights_ = 0.0;
+    lines_ = 0;
+    for (std::size_t i = 0; i < angle_.size(); ++i) {
+      const double weight = (with_load ? load_[i] : 1.0) * (opposite && !forward_[i] ? -1.0 : 1.0);
+      size_.push_back(weight * left_[i]);
+      square_.push_back(weight * weight);
+      weights_ += square_.back();
+    }
     if (rows_ * (kHighest - first_) / step_ > kMuch) all_lines_at_once();
     else
       all_lines();
     // Poles, slots and teeth of the input's shaft: whole orders beyond.
     for (double order = std::floor(kHighest) + 1.0; order <= kHighestWhole; order += 1.0)
       judge_alone(order);
-    const int tried = lines_;
+    tried_ += lines_;
+    if (best_.opposite != opposite || best_.with_load != with_load) return;
     // Between the lines: over the whole run a wave of the nearest one falls out of step.
     for (double off = 0.5 * step_; !wrapped_ && best_.order <= kHighest && off * turns_ > 1e-3; off *= 0.5) {
       const double middle = best_.order;
       judge_alone(middle - off);
       judge_alone(middle + off);
     }
-    // Every line tried could have been the highest.
-    const double single = std::pow(std::max(0.0, 1.0 - highest_ / sum_), 0.5 * (rows_ - 3.0));
-    best_.p_value = std::min(1.0, single * tried);
-    return best_;
   }
 
- private:
   void judge(double order, double c, double s, double cc, double cs) {
     ++lines_;
-    const double ss = rows_ - cc, determinant = cc * ss - cs * cs;
-    if (!(determinant > 1e-3 * rows_ * rows_)) return;
+    const double ss = weights_ - cc, determinant = cc * ss - cs * cs;
+    if (!(determinant > 1e-3 * weights_ * weights_)) return;
     const double power = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
     if (power <= highest_) return;
     highest_ = power;
-    best_.order = order;
+    best_ = {.order = order, .opposite = opposite_, .with_load = with_load_};
   }
 
   void judge_alone(double order) {
@@ -73,8 +96,8 @@ class Spectrum {
       const double x = std::cos(order * angle_[i]), y = std::sin(order * angle_[i]);
       c += size_[i] * x;
       s += size_[i] * y;
-      cc += x * x;
-      cs += x * y;
+      cc += square_[i] * x * x;
+      cs += square_[i] * x * y;
     }
     judge(order, c, s, cc, cs);
   }
@@ -92,8 +115,8 @@ class Spectrum {
         const double x = phase[i].real(), y = phase[i].imag();
         c += size_[i] * x;
         s += size_[i] * y;
-        cc += x * x;
-        cs += x * y;
+        cc += square_[i] * x * x;
+        cs += square_[i] * x * y;
         const double u = turn[i].real(), v = turn[i].imag();
         phase[i] = {x * u - y * v, x * v + y * u};
       }
@@ -105,20 +128,21 @@ class Spectrum {
     const int lines = static_cast<int>((kHighest - first_) / step_) + 1;
     const std::vector<Complex> of_size = line_sums(angle_, size_, first_, step_, lines);
     // The sums of squares are waves of twice the order.
-    const std::vector<double> one(angle_.size(), 1.0);
-    const std::vector<Complex> of_one = line_sums(angle_, one, 2.0 * first_, 2.0 * step_, lines);
+    const std::vector<Complex> of_one = line_sums(angle_, square_, 2.0 * first_, 2.0 * step_, lines);
     for (int k = 0; k < lines; ++k) {
       const auto at = static_cast<std::size_t>(k);
       judge(first_ + step_ * k, of_size[at].real(), of_size[at].imag(),
-            0.5 * (rows_ + of_one[at].real()), 0.5 * of_one[at].imag());
+            0.5 * (weights_ + of_one[at].real()), 0.5 * of_one[at].imag());
     }
   }
 
   const double turns_;
   const bool wrapped_;
-  std::vector<double> angle_, size_;
-  double sum_ = 0.0, rows_ = 0.0, step_ = 1.0, first_ = 1.0, highest_ = 0.0;
-  int lines_ = 0;
+  std::vector<double> angle_, left_, load_, size_, square_;
+  std::vector<bool> forward_;
+  double sum_ = 0.0, rows_ = 0.0, weights_ = 0.0, step_ = 1.0, first_ = 1.0, highest_ = 0.0;
+  bool both_ = false, opposite_ = false, with_load_ = false;
+  int lines_ = 0, tried_ = 0;
   LikeliestOrder best_;
 };
 

@@ -10,10 +10,13 @@
 // Waves over the input's angle in what a model leaves of a bench.
 namespace trueflank::loop {
 
-/// The highest line of the spectrum over the input's angle [per turn], of the training rows.
+/// The highest line of the spectra over the input's angle [per turn], of the training rows: alike or
+/// opposite in the directions, the same at every load or in proportion to it.
 struct LikeliestOrder {
   double order = kNaN;   ///< per input turn; NaN: no angles
-  double p_value = 1.0;  ///< of so high a line anywhere in the spectrum of noise
+  double p_value = 1.0;  ///< of so high a line anywhere in the spectra of noise
+  bool opposite = false;   ///< the two directions opposite, as what a sensor reads
+  bool with_load = false;  ///< in proportion to the load
 };
 [[nodiscard]] LikeliestOrder likeliest_order(const DriveContext& context,
                                              const Eigen::VectorXd& left);

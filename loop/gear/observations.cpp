@@ -9,6 +9,7 @@
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/outliers.h"
+#include "trueflank/loop/gear/trace_zeros.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {
@@ -87,12 +88,12 @@ class TableBuilder {
     BadLines bad(data.file);
     ForeignRows foreign;
     const std::size_t before = table.rows.size();
-    std::map<std::array<int, 4>, int> traces;
     for (const InspectionRow& row : data.rows) {
-      const std::string wrong = add_inspection_row(data, row, source, traces);
+      const std::string wrong = add_inspection_row(data, row, source);
       if (!wrong.empty()) bad.add(row.line, wrong);
       foreign.judge(row.line, foreign_row(row));
     }
+    table.traces = zeros_.count();
     if (foreign.refuses(data.rows.size(), data.file, errors)) return;
     if (table.rows.size() == before) {
       errors.push_back(bad.error("no row of the file fits this gear"));
@@ -275,8 +276,8 @@ class TableBuilder {
     return {};
   }
 
-  std::string add_inspection_row(const InspectionData& data, const InspectionRow& row, int source,
-                                 std::map<std::array<int, 4>, int>& traces) {
+  std::string add_inspection_row(const InspectionData& data, const InspectionRow& row,
+                                 int source) {
     if (std::string wrong = foreign_row(row); !wrong.empty()) return wrong;
     const double middle_roll = geometry_.roll_at_radius_mm(geometry_.reference_radius_mm());
     double roll = std::isnan(row.diameter_mm) ? middle_roll
@@ -289,20 +290,25 @@ class TableBuilder {
       return "diameter " + number_text(row.diameter_mm) + " mm is not on the involute";
     if (std::abs(geometry_.face_coordinate(z)) > 1.02)
       return "z " + number_text(z) + " mm is not on the face";
-    if (row.record == RecordKind::kRadial) return add_radial(data, row, source, traces, z);
+    if (row.record == RecordKind::kRadial) return add_radial(data, row, source, z);
     constexpr std::array kKinds{ObservationKind::kProfile, ObservationKind::kHelix,
                                 ObservationKind::kIndex};
     const int side = flank_side(row.flank, geometry_.gear().kind);
-    // A trace has its own zero; all index values of a flank share theirs.
     const bool index = row.record == RecordKind::kIndex;
-    const std::array<int, 4> key{static_cast<int>(row.record), index ? 0 : row.tooth, side, source};
-    const int trace = zero_of(data, key, traces);
-    // Along the circle the flank goes further than along its normal, by 1 / (cos(alpha_y)
-    // cos(beta_b)).
-    const double share = row.along_circle ? side * geometry_.base_radius_mm() /
-                                                std::hypot(geometry_.base_radius_mm(), roll) *
-                                                std::cos(geometry_.base_helix_rad())
-                                          : 1.0;
+    const TraceZeros::Record record{static_cast<int>(row.record), index ? 0 : row.tooth, side,
+                                    source};
+    const bool profile = row.record == RecordKind::kProfile;
+    const double diameter = 2.0 * std::hypot(geometry_.base_radius_mm(), roll);
+    const int trace = data.common_zero ? -1
+                      : index          ? zeros_.of(record)
+                                       : zeros_.of_trace(record, profile ? roll : z,
+                                                         profile ? z : diameter);
+    // Along the circle the flank goes further than along its normal, by 1 / (cos(alpha_y) cos(beta_b)).
+    const double share = row.along_circle
+                             ? side * geometry_.base_radius_mm() /
+                                   std::hypot(geometry_.base_radius_mm(), roll) *
+                                   std::cos(geometry_.base_helix_rad())
+                             : 1.0;
     Observation& added = add_row(kKinds[static_cast<int>(row.record)], share * row.deviation_um,
                                  row.sigma_um, source);
     added.trace = trace;
@@ -310,24 +316,18 @@ class TableBuilder {
     return {};
   }
 
-  int zero_of(const InspectionData& data, const std::array<int, 4>& key,
-              std::map<std::array<int, 4>, int>& traces) {
-    if (data.common_zero) return -1;
-    const auto [found, is_new] = traces.emplace(key, table.traces);
-    if (is_new) ++table.traces;
-    return found->second;
-  }
-
   /// Ball in the gap after a tooth: it is pushed out by the mean of both flanks over sin(a_M).
   std::string add_radial(const InspectionData& data, const InspectionRow& row, int source,
-                         std::map<std::array<int, 4>, int>& traces, double z) {
+                         double z) {
     double ball = data.ball_diameter_mm;
     if (!(ball > 0.0)) ball = recommended_pin_diameter_mm(geometry_.gear());
     const auto contact = geometry_.ball_contact(ball);
     if (std::isnan(contact.roll_mm))
       return "a ball of " + number_text(ball) + " mm touches no flank of this gear";
-    const int trace = zero_of(data, {static_cast<int>(row.record), 0, 0, source}, traces);
-    Observation& added = add_row(ObservationKind::kRadial, row.deviation_um, row.sigma_um, source);
+    const int trace =
+        data.common_zero ? -1 : zeros_.of({static_cast<int>(row.record), 0, 0, source});
+    Observation& added =
+        add_row(ObservationKind::kRadial, row.deviation_um, row.sigma_um, source);
     added.trace = trace;
     const double weight =
         0.5 / (std::sin(contact.centre_angle_rad) * std::cos(geometry_.base_helix_rad()));
@@ -405,6 +405,7 @@ class TableBuilder {
   const FlankGeometry& geometry_;
   ObservationOptions options_;
   std::size_t index_values_ = 0, sizes_ = 0;
+  TraceZeros zeros_;
 };
 
 }  // namespace

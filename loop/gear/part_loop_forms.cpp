@@ -132,6 +132,7 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   tell_parts_beside_forms();
+  tell_means_of_odd_forms();
   tell_imitations();
   tell_waves_of_a_form();
   tell_level_of_forms();

@@ -31,9 +31,25 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
   return *findings;
 }
 
-/// Forms that the data as they are show, so that a sector or a step stands beside the waves that
-/// would otherwise imitate it: candidates like all others.
+/// Waves over the generating rotation that the candidates do not have are taken up at once: beside
+/// the candidates alone many others imitate them. Forms that the data as they are show, so that a
+/// sector or a step stands beside the waves that would otherwise imitate it: candidates like all
+/// others.
 void PartLoop::nominate() {
+  constexpr int kMostWaves = 6;
+  for (int round = 0; round < kMostWaves; ++round) {
+    const auto& findings = remainder_of(options_.given, RemainderOf::kTraining);
+    const auto wave = std::find_if(findings.begin(), findings.end(), [](const auto& finding) {
+      return finding.effect && finding.effect->family->tells_order_along_profile;
+    });
+    if (wave == findings.end()) break;
+    const Effect& seen = *wave->effect;
+    const bool possible = can_have(options_.makings, *seen.family);
+    const Effect as_form{find_form(seen.family->form_word), seen.flank, seen.shape};
+    RemainderFinding taken = *wave;
+    if (!possible) taken.effect = as_form;
+    take_up(taken);
+  }
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
@@ -143,8 +159,11 @@ bool PartLoop::take_up_remainder() {
     const std::vector<RemainderFinding> findings = remainder_of(effects, which);
     for (RemainderFinding finding : findings) {
       if (!finding.effect || finding.local != local) continue;
-      // what a name says is told by its name
-      if (!local)
+      // what a name says is told by its name, if the way of making can have it
+      const EffectFamily& family = *finding.effect->family;
+      if (family.named && !can_have(options_.makings, family))
+        finding.effect->family = find_form(family.form_word);
+      else if (!local && !family.named)
         if (const std::optional<Effect> name = name_like(finding, effects)) finding.effect = *name;
       if (known(*finding.effect) || !is_told_apart(*finding.effect, effects)) continue;
       take_up(finding);

@@ -11,9 +11,12 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/ring_scan.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
 #include "trueflank/loop/gear/local/flank_waves.h"
+#include "trueflank/loop/gear/local/reading_steps.h"
+#include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -24,7 +27,7 @@ constexpr double kLevel = 0.004;
 constexpr int kCells = 960, kMostPlaces = 120, kFewestPlaces = 12, kScanCourses = 8,
               kFewestTeeth = 8;
 
-bool is_trace(ObservationKind kind) {
+bool is_of_trace(ObservationKind kind) {
   return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
 }
 
@@ -164,6 +167,7 @@ class RemainderSearch {
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
+    look_over_rotation();
     look_around();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kLevel; });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
@@ -242,8 +246,9 @@ class RemainderSearch {
     for_each_piece(courses.size(), [&](std::size_t k) { gather_course(rows, k, courses[k]); });
     for (auto& [source, scan] : of_source)
       for (Courses* all : {scan.profile, scan.face}) all->count_cells();
+    const ReadingSteps steps(table_, row_um_);
     rows.for_each(courses.size(), [&](std::size_t i) {
-      if (is_used(i)) gather_other(i);
+      if (is_used(i)) gather_other(i, row_um_[i] + steps.spread_um(table_, i));
     });
   }
 
@@ -289,12 +294,11 @@ class RemainderSearch {
     Courses::add_to_cell(to.face, 0.5 * (v + 1.0), um);
   }
 
-  void gather_other(std::size_t i) {
+  void gather_other(std::size_t i, double um) {
     const Observation& row = table_.rows[i];
     const Place& place = table_.place(row);
-    const double um = row_um_[i];
     add_moments(row, place, um);
-    if (!is_trace(row.kind)) return;
+    if (!is_of_trace(row.kind)) return;
     const bool helix = row.kind == ObservationKind::kHelix;
     courses_[{row.source, row.kind, helix}].add(
         place.side > 0 ? 1 : 0, row.trace >= 0 ? row.trace : place.tooth, place.tooth,
@@ -463,6 +467,25 @@ class RemainderSearch {
                        "tooth to tooth",
                        apart->spread_um),
                apart->spread_um);
+  }
+
+  /// Waves over the generating rotation that are no candidates: of one flank, or of higher orders.
+  void look_over_rotation() {
+    std::vector<bool> used(table_.rows.size());
+    for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
+    const RotationWave wave = likeliest_rotation_wave(geometry_, table_, row_um_, used);
+    if (wave.order == 0 || wave.p_value > kLevel ||
+        (wave.side == 0 && wave.order <= gear_effects::most_ghost_order(geometry_)))
+      return;
+    const FlankChoice flank =
+        wave.side == 0 ? FlankChoice::kBoth : flank_choice(geometry_, wave.side > 0 ? 1 : 0);
+    for (const EffectFamily& family : effect_library())
+      if (family.id == "ghost_order" && family.of_traces_only == wave.backwards)
+        found_.push_back({.p_value = wave.p_value,
+                          .text = family.description + " (order " + std::to_string(wave.order) +
+                                  printed("), %.3g um", wave.amplitude_um),
+                          .amount_um = wave.amplitude_um,
+                          .effect = Effect{&family, flank, {double(wave.order)}}});
   }
 
   /// Height, slope and bow of every tooth, in a ring: both flanks together, or the one measured.

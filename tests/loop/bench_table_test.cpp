@@ -221,29 +221,45 @@ TEST(BenchFile, ASingleGearHasNoBench) {
   EXPECT_EQ(model.error().key, "gearbox.kind");
 }
 
+/// Every reading in steps of twice the noise: all rows of a set point share the rounding of what drives.
+std::string coarse_bench(const HiddenDrive& drive, std::uint64_t seed) {
+  BenchPlan plan;
+  plan.noise_driving = 0.0;
+  plan.repeats = 8;
+  plan.seed = seed;
+  std::string text, line;
+  std::istringstream lines(bench_file(paper_train(), drive, plan));
+  std::getline(lines, line);
+  text = line + "\n";
+  while (std::getline(lines, line)) {
+    char direction[20], row[120];
+    double rpm = 0, in = 0, out = 0;
+    std::sscanf(line.c_str(), "%19[^,],%lf,%lf,%lf", direction, &rpm, &in, &out);
+    std::snprintf(row, sizeof row, "%s,%.9g,%.9g,%.9g\n", direction, rpm,
+                  0.001 * std::round(in / 0.001), 0.1 * std::round(out / 0.1));
+    text += row;
+  }
+  return text;
+}
+
 TEST(CoarseReadings, OfSetTorquesAreNoLoss) {
-  // Every reading in steps of twice the noise: all rows of a set point share the rounding of what drives.
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    BenchPlan plan;
-    plan.noise_driving = 0.0;
-    plan.repeats = 8;
-    plan.seed = seed;
-    std::string text, line;
-    std::istringstream lines(bench_file(paper_train(), {}, plan));
-    std::getline(lines, line);
-    text = line + "\n";
-    while (std::getline(lines, line)) {
-      char direction[20], row[120];
-      double rpm = 0, in = 0, out = 0;
-      std::sscanf(line.c_str(), "%19[^,],%lf,%lf,%lf", direction, &rpm, &in, &out);
-      std::snprintf(row, sizeof row, "%s,%.9g,%.9g,%.9g\n", direction, rpm,
-                    0.001 * std::round(in / 0.001), 0.1 * std::round(out / 0.1));
-      text += row;
-    }
-    const auto closed = close_bench_text(text);
+    const auto closed = close_bench_text(coarse_bench({}, seed));
     ASSERT_TRUE(closed);
     EXPECT_EQ(closed->result.verdict, loop::Verdict::kNoEffect)
         << seed << ": " << closed->result.structure_left;
+  }
+}
+
+TEST(CoarseReadings, DoNotTurnAFrictionIntoACourseOverTheLoad) {
+  HiddenDrive drive;
+  drive.friction = [](auto&, int) { return 0.14; };
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const auto closed = close_bench_text(coarse_bench(drive, seed));
+    ASSERT_TRUE(closed);
+    ASSERT_EQ(closed->result.effects.size(), 1U);
+    EXPECT_EQ(closed->result.effects[0].id, "friction_coefficient")
+        << seed << ": " << closed->result.effects[0].description;
   }
 }
 

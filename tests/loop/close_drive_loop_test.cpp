@@ -216,6 +216,35 @@ TEST(DriveLoop, FlanksThatWearOverTheRunAreToldByTheirFriction) {
   EXPECT_NEAR(parameter(closed->result.effects.front(), "drift")->value, 0.04, 0.006);
 }
 
+TEST(DriveLoop, ASensorAskewOnItsShaftReadsInAWaveAndIsNoFriction) {
+  HiddenDrive drive;
+  drive.output_reading = [](double nm, const BenchMoment& m) {
+    return nm * (1.0 + 0.02 * std::cos(2.0 * M_PI * m.input_turns / paper_train().ratio() - 0.7));
+  };
+  BenchPlan plan = turning();
+  plan.turns_between = 13.7;
+  const auto closed = close_hidden(drive, plan);
+  ASSERT_TRUE(closed);
+  const loop::FoundEffect* wave = found(closed->result, "torque_wave");
+  ASSERT_NE(wave, nullptr) << told(closed->result);
+  EXPECT_EQ(closed->result.effects.size(), 1U) << told(closed->result);
+  EXPECT_EQ(wave->side, "output");
+  EXPECT_NEAR(parameter(*wave, "order")->value, 1.0 / paper_train().ratio(), 1e-6);
+  EXPECT_EQ(parameter(*wave, "with_load")->value, 1.0);
+}
+
+TEST(DriveLoop, AnOilThatWasChangedIsAJumpAtItsRowAndNoDrift) {
+  HiddenDrive drive;
+  drive.friction = [](const BenchMoment& m, int) { return m.input_turns > 3800.0 ? 0.16 : 0.1; };
+  const auto closed = close_hidden(drive, {});
+  ASSERT_TRUE(closed);
+  EXPECT_NE(closed->result.verdict, Verdict::kNoEffect);
+  for (const auto& effect : closed->result.effects) EXPECT_NE(effect.id, "friction_drift");
+  ASSERT_FALSE(closed->result.effects.empty());
+  EXPECT_NE(told(closed->result).find("jumps in the course of the run at line"), std::string::npos)
+      << told(closed->result);
+}
+
 TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
   const HiddenDrive drive = losing([](auto&) { return 0.004; });
   BenchPlan one_load;

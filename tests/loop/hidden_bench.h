@@ -34,6 +34,8 @@ struct HiddenDrive {
   std::function<double(const BenchMoment&)> loss_nm = [](auto&) { return 0.0; };
   double output_reads = 1.0;   ///< factor of the output's sensor
   double input_zero_nm = 0.0, output_zero_nm = 0.0;
+  /// What the output's sensor reads of a torque at a moment.
+  std::function<double(double, const BenchMoment&)> output_reading = [](double nm, auto&) { return nm; };
 };
 
 struct BenchPlan {
@@ -152,7 +154,7 @@ inline std::string bench_file(const PaperTrain& train, const HiddenDrive& drive,
     const double noisy_driving = m.driving_nm + plan.noise_driving * full * normal(random) * 0.2;
     double in = m.forward ? noisy_driving : noisy_driven, out = m.forward ? noisy_driven : noisy_driving;
     in += drive.input_zero_nm;
-    out = drive.output_reads * out + drive.output_zero_nm;
+    out = drive.output_reads * drive.output_reading(out, m) + drive.output_zero_nm;
     char line[200];
     std::snprintf(line, sizeof line, "%s,%.2f,%.6f,%.5f", m.forward ? "forward" : "backward", m.rpm, in, out);
     text += line;

@@ -35,6 +35,43 @@ loop::MeasuredData spans(int count, double teeth) {
   return data;
 }
 
+TEST(Observations, ATraceMeasuredAgainHasAZeroOfItsOwn) {
+  loop::MeasuredData data;
+  data.inspections.emplace_back();
+  for (const double height : {2.0, 6.0})  // a topography: traces at two heights share their zero
+    for (int again = 0; again < 2; ++again)
+      for (int i = 0; i < 20; ++i) {
+        loop::InspectionRow row;
+        row.record = loop::RecordKind::kProfile;
+        row.tooth = 3;
+        row.diameter_mm = 2.0 * spur(24).reference() - 1.0 + 0.1 * i;
+        row.z_mm = height;
+        row.deviation_um = 40.0 * again;
+        data.inspections.back().rows.push_back(row);
+      }
+  const auto table = observed(data);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->traces, 2);
+  ASSERT_EQ(table->rows.size(), 80U);
+  for (std::size_t i = 0; i < 80; ++i)
+    EXPECT_EQ(table->rows[i].trace, static_cast<int>(i / 20 % 2)) << i;
+}
+
+TEST(Observations, ValuesInNoOrderAreOneTrace) {
+  loop::MeasuredData data;
+  data.inspections.emplace_back();
+  for (int i = 0; i < 60; ++i) {
+    loop::InspectionRow row;
+    row.record = loop::RecordKind::kHelix;
+    row.tooth = 3;
+    row.z_mm = 0.5 + 7.0 * ((i * 23) % 60) / 60.0;
+    data.inspections.back().rows.push_back(row);
+  }
+  const auto table = observed(data);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->traces, 1);
+}
+
 TEST(Observations, RepeatedSingleValuesAreRefusedBeforeTheyFillTheMemory) {
   EXPECT_TRUE(observed(index_values(20'000)));
   const auto index = observed(index_values(20'001));

@@ -111,6 +111,34 @@ TEST(OddForms, AGhostOrderFinerThanThePatchesIsOneOrderHoweverTheTeethAreCounted
   }
 }
 
+TEST(OddForms, AGhostOrderAboveThreeATooth) {
+  const MadeGear gear = spur(31);
+  for (const double way : {-1.0, 1.0}) {
+    const auto ghost = [way](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      return 3.0 * std::cos(131.0 * (2.0 * M_PI * (s.tooth - 1) / g.teeth + way * s.side * turned));
+    };
+    const auto result = close(gear, inspection_of(gear, {grown(ghost)}, sheet_of_all(7)));
+    ASSERT_NE(named(result), nullptr) << way << ": " << list(result);
+    EXPECT_EQ(named(result)->id, "ghost_order") << list(result);
+    EXPECT_EQ(parameter(*named(result), "order").value, 131.0);
+    EXPECT_EQ(named(result)->correctable, way < 0.0);
+  }
+}
+
+TEST(OddForms, AProfileThatIsCutOtherwiseAboveAHeightIsNoTwist) {
+  const MadeGear gear = spur(19);
+  const auto cut = [](auto&, const FlankSpot& s, auto&) { return s.v > 0.1 ? 30.0 * s.u : 0.0; };
+  ScanOptions options;
+  options.points = 5000;
+  options.noise_um = 3.0;
+  options.seed = 3;
+  const auto result = close(gear, scan_of(gear, {grown(cut)}, options), true);
+  EXPECT_NE(result.verdict, loop::Verdict::kNoEffect);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+}
+
 TEST(OddForms, AWaveInOneDirectionOfSpaceIsNoListOfPitchWaves) {
   // A printer's belt: orders 2, 4, 6 ... of the gear, none of them a cause.
   const MadeGear gear = spur(41);
@@ -175,6 +203,20 @@ TEST(OddForms, ACrowningKeepsItsNameBesideASector) {
   options.noise_um = 4.0;
   const auto result = close(gear, scan_of(gear, {grown(both)}, options), true);
   EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
+}
+
+TEST(OddForms, ReadingsInStepsLargerThanTheNoiseHaveNoSpots) {
+  const MadeGear gear = spur(24);
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    InspectionOptions options = sheet_of_all(seed);
+    options.points = 100;
+    options.teeth = {1, 4, 7, 10, 13, 16, 19, 22};
+    auto data = inspection_of(gear, {}, options);
+    for (auto& row : data.rows) row.deviation_um = 2.4 * std::round(row.deviation_um / 2.4);
+    alarms += close(gear, data).verdict != loop::Verdict::kNoEffect;
+  }
+  EXPECT_LE(alarms, 4);  // nine where the steps were taken for values like any others
 }
 
 TEST(OddForms, AToothScannedWorseThanTheOthersHasNoSpots) {

@@ -36,6 +36,12 @@ inline ResultAll<loop::DriveLoop> close_hidden(const HiddenDrive& drive, const B
   return close_bench_text(bench_file(paper_train(), drive, plan));
 }
 
+inline std::string told(const loop::LoopResult& result) {
+  std::string text;
+  for (const loop::FoundEffect& effect : result.effects)
+    text += effect.id + ": " + effect.description + "\n";
+  return text + result.structure_left;
+}
 inline const loop::FoundEffect* found(const loop::LoopResult& result, const std::string& id) {
   for (const loop::FoundEffect& effect : result.effects)
     if (effect.id == id) return &effect;

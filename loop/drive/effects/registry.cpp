@@ -25,6 +25,8 @@ const std::vector<DriveFamily>& drive_library() {
         torque_scale(),
         input_torque_offset(),
         output_torque_offset(),
+        input_torque_wave(),
+        output_torque_wave(),
         direction_dependent_drag(),
         input_torque_drift(),
         output_torque_drift(),
@@ -34,6 +36,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_course(),
         unnamed_step(),
         unnamed_hump(),
+        unnamed_change(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -29,6 +29,8 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily torque_scale();
 [[nodiscard]] DriveFamily input_torque_offset();
 [[nodiscard]] DriveFamily output_torque_offset();
+[[nodiscard]] DriveFamily input_torque_wave();
+[[nodiscard]] DriveFamily output_torque_wave();
 [[nodiscard]] DriveFamily direction_dependent_drag();
 [[nodiscard]] DriveFamily input_torque_drift();
 [[nodiscard]] DriveFamily output_torque_drift();
@@ -42,6 +44,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_course();
 [[nodiscard]] DriveFamily unnamed_step();
 [[nodiscard]] DriveFamily unnamed_hump();
+[[nodiscard]] DriveFamily unnamed_change();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

@@ -53,7 +53,9 @@ DriveFamily unnamed_form() {
   f.columns = [](const DriveShape& shape) { return shape[3] != 0.0 ? 2 : 1; };
   f.shapes = smooth_shapes;
   f.order = [](const DriveShape& shape) { return shape[3]; };
-  f.shape_of_wave = [](double order) { return DriveShape{0.0, 0.0, 0.0, order, 0.0}; };
+  f.shape_of_wave = [](double order, bool opposite) {
+    return DriveShape{0.0, 0.0, 0.0, order, opposite ? 1.0 : 0.0};
+  };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
     double value = -context.lever(p);
     if (shape[0] > 0.0) value *= legendre(static_cast<int>(shape[0]), context.load_coordinate(p));

@@ -6,6 +6,11 @@
 
 namespace trueflank::loop::gear_effects {
 
+int most_ghost_order(const FlankGeometry& geometry) {
+  constexpr int kEachTooth = 3, kMost = 400;  // above the second there are more candidates than data
+  return std::min(kEachTooth * geometry.teeth(), kMost);
+}
+
 EffectFamily ghost_order() {
   EffectFamily f;
   f.id = "ghost_order";
@@ -19,9 +24,9 @@ EffectFamily ghost_order() {
   f.form = ParameterForm::kWave;
   f.preference = 1;
   f.shapes = [](const FlankGeometry& g) {
-    // Once or twice per turn a wave is eccentricity or a stretch; above a few per tooth it is finer than
-    // the patches, and above the second number there are more candidates than data.
-    return whole_numbers(3, std::min(3 * g.teeth(), 400));
+    // Once or twice per turn a wave is eccentricity or a stretch; higher ones than these are finer than the
+    // patches and found in the traces themselves (local/rotation_waves.h).
+    return whole_numbers(3, most_ghost_order(g));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
@@ -37,7 +42,8 @@ EffectFamily ghost_order() {
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     constexpr double kNear = 24.0, kFirst = 3.0;
-    const double most = std::min(3 * g.teeth(), 400);
+    // A shape from the traces, above the candidates, stays among its like.
+    const double most = shape[0] > most_ghost_order(g) ? shape[0] + kNear : most_ghost_order(g);
     for (double order = std::max(kFirst, shape[0] - kNear);
          order <= std::min(most, shape[0] + kNear); order += 1.0)
       if (order != shape[0]) shapes.push_back({order});

@@ -36,6 +36,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily pitch_wave();
 [[nodiscard]] EffectFamily lobing();
 [[nodiscard]] EffectFamily ghost_order();
+/// The highest order among the candidates.
+[[nodiscard]] int most_ghost_order(const FlankGeometry& geometry);
 [[nodiscard]] EffectFamily ghost_order_counted_backwards();
 [[nodiscard]] EffectFamily single_tooth();
 /// @}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/reading_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace trueflank::loop {
+namespace {
+
+bool is_in_trace(const Observation& row) {
+  return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+}
+
+std::pair<int, int> kind_and_source(const Observation& row) {
+  return {static_cast<int>(row.kind), row.source};
+}
+
+/// The step in which values were read: of fine ones next to nothing.
+double step_of_readings(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double same = 1e-6 * (values.back() - values.front());
+  double step = values.back() - values.front();
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (values[k] - values[k - 1] > same) step = std::min(step, values[k] - values[k - 1]);
+  return step;
+}
+
+/// A number of 0 to 1 for each row, as if at random: its number's bits, mixed.
+double row_share(std::uint64_t row) {
+  std::uint64_t bits = (row + 1) * 0x9e3779b97f4a7c15;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+  return static_cast<double>((bits ^ (bits >> 31)) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+ReadingSteps::ReadingSteps(const Observations& table, const std::vector<float>& row_um) {
+  constexpr double kCoarse = 1.0;  // step over the scatter of what is left
+  struct Values {
+    std::vector<double> read;
+    double square = 0.0;
+  };
+  std::map<std::pair<int, int>, Values> of;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    if (!is_in_trace(row)) continue;
+    Values& values = of[kind_and_source(row)];
+    values.read.push_back(row.deviation_um);
+    values.square += double{row_um[i]} * row_um[i];
+  }
+  for (auto& [key, values] : of) {
+    const double scatter = std::sqrt(values.square / static_cast<double>(values.read.size()));
+    const double step = step_of_readings(std::move(values.read));
+    if (step > kCoarse * scatter) step_um_[key] = step;
+  }
+}
+
+double ReadingSteps::spread_um(const Observations& table, std::size_t row) const {
+  const Observation& one = table.rows[row];
+  if (step_um_.empty() || !is_in_trace(one)) return 0.0;
+  const auto found = step_um_.find(kind_and_source(one));
+  if (found == step_um_.end()) return 0.0;
+  return found->second * (row_share(row) - 0.5);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/rotation_waves.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <set>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr int kMostRotationOrder = 1000;
+/// On fewer teeth waves of other orders look the same.
+constexpr double kFewestProfiledTeeth = 8.0, kLeastShareOfTeeth = 0.6;
+
+/// Its values stand at these rotations: that of the tooth, and what the profile adds to it.
+struct ProfileTrace {
+  int side = 1;
+  double middle_rad = 0.0;
+  std::vector<double> along_rad, um;
+};
+
+struct ProfileTraces {
+  std::map<int, ProfileTrace> of;  ///< by tooth and side, or by the trace
+  std::set<int> teeth;
+};
+
+ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
+                       const std::vector<float>& row_um, const std::vector<bool>& used) {
+  ProfileTraces traces;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    if (!used[i] || row.kind != ObservationKind::kProfile) continue;
+    const Place& place = table.place(row);
+    const int flank = -2 * place.tooth - (place.side > 0 ? 1 : 0);
+    ProfileTrace& trace = traces.of[row.trace >= 0 ? row.trace : flank];
+    trace.side = place.side;
+    trace.middle_rad = place.centre_rad + geometry.twist_rad(place.z_mm);
+    trace.along_rad.push_back(-geometry.sense() * place.side * place.roll_mm /
+                              geometry.base_radius_mm());
+    trace.um.push_back(row_um[i]);
+    traces.teeth.insert(place.tooth);
+  }
+  return traces;
+}
+
+/// Takes level, slope and bow from a trace: lower orders show as these.
+void take_slow_part(ProfileTrace& trace) {
+  const auto n = static_cast<Eigen::Index>(trace.um.size());
+  if (n < 4) return;
+  const Eigen::Map<const Eigen::ArrayXd> at(trace.along_rad.data(), n);
+  Eigen::Map<Eigen::VectorXd> um(trace.um.data(), n);
+  const Eigen::ArrayXd x = (at - at.mean()) / std::max(1e-12, at.maxCoeff() - at.minCoeff());
+  Eigen::MatrixXd powers(n, 3);
+  powers << Eigen::VectorXd::Ones(n), x.matrix(), x.square().matrix();
+  um -= powers * (powers.transpose() * powers).ldlt().solve(powers.transpose() * um);
+}
+
+double middle_of(std::vector<double>& values) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// First and last order: of one and a half waves on a usual trace, of four values a wave.
+std::pair<int, int> orders_of(const ProfileTraces& traces) {
+  constexpr double kFewestWaves = 1.5, kFewestValues = 4.0;
+  std::vector<double> first, last;
+  for (const auto& [key, trace] : traces.of) {
+    const auto [low, high] = std::minmax_element(trace.along_rad.begin(), trace.along_rad.end());
+    if (!(*high > *low)) continue;
+    const double whole = kTwoPi / (*high - *low);
+    first.push_back(kFewestWaves * whole);
+    last.push_back(static_cast<double>(trace.um.size()) / kFewestValues * whole);
+  }
+  if (first.empty()) return {1, 0};
+  return {static_cast<int>(std::ceil(middle_of(first))),
+          static_cast<int>(std::min<double>(kMostRotationOrder, middle_of(last)))};
+}
+
+using OrderSums = std::vector<std::complex<double>>;
+
+/// OrderSums of the values of one side's traces against every order from the least on.
+OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most, bool backwards) {
+  OrderSums sums(static_cast<std::size_t>(most - least + 1));
+  for (const auto& [key, trace] : traces.of)
+    for (std::size_t i = 0; trace.side == side && i < trace.um.size(); ++i) {
+      const double rotation = trace.middle_rad + (backwards ? -1.0 : 1.0) * trace.along_rad[i];
+      const std::complex<double> step = std::polar(1.0, rotation);
+      std::complex<double> wave = std::polar(1.0, least * rotation) * trace.um[i];
+      for (std::complex<double>& sum : sums) {
+        sum += wave;
+        wave *= step;
+      }
+    }
+  return sums;
+}
+
+/// The order that stands out most among as many as the gear has teeth; p value of one order alone.
+RotationWave likeliest(const OrderSums& sums, int least, int teeth) {
+  constexpr int kFewestBeside = 6;
+  const int most = least + static_cast<int>(sums.size()) - 1;
+  const auto power_of = [&](int order) {
+    return std::norm(sums[static_cast<std::size_t>(order - least)]);
+  };
+  RotationWave best;
+  for (int n = least; n <= most; ++n) {
+    if (n % teeth == 0) continue;  // the same on every tooth: a form of the flank
+    const int from = std::clamp(n - teeth / 2, least, std::max(least, most - teeth + 1));
+    double beside = 0.0;
+    int count = 0;
+    for (int other = from; other <= std::min(most, from + teeth - 1); ++other) {
+      if (other == n || other % teeth == 0) continue;
+      beside += power_of(other);
+      ++count;
+    }
+    if (count < kFewestBeside || !(beside > 0.0)) continue;
+    const double p = std::pow(1.0 + power_of(n) / beside, -count);
+    if (p < best.p_value) best = {.order = n, .p_value = p};
+  }
+  return best;
+}
+
+}  // namespace
+
+RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observations& table,
+                                     const std::vector<float>& row_um,
+                                     const std::vector<bool>& used) {
+  constexpr double kTogether = 0.9;
+  ProfileTraces traces = gathered(geometry, table, row_um, used);
+  const auto teeth = static_cast<double>(traces.teeth.size());
+  if (teeth < std::max(kFewestProfiledTeeth, kLeastShareOfTeeth * geometry.teeth())) return {};
+  const auto [least, most] = orders_of(traces);
+  if (most <= least) return {};
+  std::map<int, double> values;
+  for (auto& [key, trace] : traces.of) {
+    take_slow_part(trace);
+    values[trace.side] += static_cast<double>(trace.um.size());
+  }
+  RotationWave best;
+  for (const bool backwards : {false, true}) {
+    std::map<int, OrderSums> sums;
+    for (const auto& [side, count] : values)
+      sums[side] = order_sums(traces, side, least, most, backwards);
+    for (const auto& [side, of_side] : sums) {
+      RotationWave wave = likeliest(of_side, least, geometry.teeth());
+      if (!(wave.p_value < best.p_value)) continue;
+      const auto at = static_cast<std::size_t>(wave.order - least);
+      wave.side = side;
+      wave.backwards = backwards;
+      wave.amplitude_um = 2.0 * std::abs(of_side[at]) / values[side];
+      if (sums.size() == 2) {
+        const auto &left = sums[1][at], &right = sums[-1][at];
+        const double apart = std::norm(left) / values[1] + std::norm(right) / values[-1];
+        if (std::norm(left + right) / (values[1] + values[-1]) > kTogether * apart) wave.side = 0;
+      }
+      best = wave;
+    }
+  }
+  best.p_value = std::min(1.0, best.p_value * 4.0 * (most - least + 1));
+  return best;
+}
+
+}  // namespace trueflank::loop

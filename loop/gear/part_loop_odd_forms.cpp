@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names that are the mean of an odd form around the gear, or its twist: they are told as forms.
+#include <Eigen/Core>
+#include <cmath>
+#include <set>
+
+#include "trueflank/loop/gear/part_loop.h"
+
+namespace trueflank::loop {
+
+namespace {
+
+constexpr int kGridSide = 5;
+
+/// What an effect does on a grid over the flanks: a column a tooth; left flank first, then right
+/// one, height by height from root to tip.
+using FlankField = Eigen::MatrixXd;
+
+FlankField field_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect) {
+  const Effect& one = fit.effects()[effect];
+  const int first = fit.first_column(static_cast<int>(effect));
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  FlankField field(2 * kGridSide * kGridSide, geometry.teeth());
+  double columns[8];
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
+    Eigen::Index at = 0;
+    for (const int side : {1, -1})
+      for (int v = 0; v < kGridSide; ++v)
+        for (int u = 0; u < kGridSide; ++u, ++at) {
+          const double roll = low + (u + 0.5) / kGridSide * (high - low);
+          const double z = (v + 0.5) / kGridSide * geometry.face_width_mm();
+          one.evaluate(geometry, geometry.on_flank(tooth, side, roll, z), columns);
+          double sum = 0.0;
+          for (int k = 0; k < one.columns(); ++k) sum += fit.coefficients()[first + k] * columns[k];
+          field(at, tooth - 1) = sum;
+        }
+  }
+  return field;
+}
+
+/// What of a field is the same on all teeth, without the parts that are a course over the profile
+/// or over the face alone: a twist, and all else that needs both.
+Eigen::VectorXd crossed_part(const FlankField& field) {
+  Eigen::VectorXd crossed = field.rowwise().mean();
+  for (const Eigen::Index flank : {0, 1}) {
+    Eigen::Map<Eigen::MatrixXd> over(crossed.data() + flank * kGridSide * kGridSide, kGridSide,
+                                     kGridSide);
+    const Eigen::VectorXd profile = over.rowwise().mean();
+    over.colwise() -= profile;
+    const Eigen::RowVectorXd face = over.colwise().mean();
+    over.rowwise() -= face;
+  }
+  return crossed;
+}
+
+/// True for what bends or leans the flanks of every tooth alike, and does not only lift them.
+bool shapes_every_tooth(const FlankField& field) {
+  constexpr double kMostly = 0.5, kAlike = 1e-6;
+  const Eigen::VectorXd mean = field.rowwise().mean();
+  if ((field.colwise() - mean).squaredNorm() > kAlike * field.squaredNorm()) return false;
+  double lifts = 0.0;
+  for (const Eigen::Index flank : {0, 1}) {
+    const double level = mean.segment(flank * kGridSide * kGridSide, kGridSide * kGridSide).mean();
+    lifts += kGridSide * kGridSide * level * level;
+  }
+  return lifts < kMostly * mean.squaredNorm();
+}
+
+/// Forms without a name that differ from tooth to tooth, and the waves that they are made of.
+struct AroundTheGear {
+  FlankField sum;
+  std::set<double> orders;
+  bool is_no_wave = false;  ///< a sector, a drift, a comb
+  [[nodiscard]] bool is_odd() const { return is_no_wave || orders.size() >= 2; }
+};
+
+/// How far forms around the gear change from tooth to tooth along what a name does: 1 as far as
+/// that itself.
+double change_along(const FlankField& forms, const Eigen::VectorXd& name) {
+  const Eigen::VectorXd share = forms.transpose() * name / name.squaredNorm();
+  return std::sqrt((share.array() - share.mean()).square().mean());
+}
+
+}  // namespace
+
+/// An odd form around the gear has a mean of its own: what leans or bends all flanks by less than
+/// such a form changes it from tooth to tooth is that mean. And what twists the flanks beside forms
+/// that bend over both, profile and face, is a part of these.
+void PartLoop::tell_means_of_odd_forms() {
+  constexpr double kChanges = 0.5, kShare = 0.3, kCounts = 0.1;
+  const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
+  const auto asked = [&](std::size_t e) {
+    return form_instead(e) != nullptr && !effects_[e].family->local && effects_[e].columns() == 1 &&
+           effects_[e].order() == 0.0;
+  };
+  bool any_form = false, any_name = false;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    any_form = any_form || is_form(effects_[e]);
+    any_name = any_name || asked(e);
+  }
+  if (!any_form || !any_name) return;
+  const auto fit = fit_of(effects_);
+  AroundTheGear around{.sum = FlankField::Zero(2 * kGridSide * kGridSide, geometry_.teeth()),
+                       .orders = {}};
+  Eigen::VectorXd crossed = Eigen::VectorXd::Zero(2 * kGridSide * kGridSide);
+  std::vector<std::pair<std::size_t, FlankField>> names;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    FlankField field = field_of(geometry_, *fit, e);
+    if (is_form(effects_[e])) {
+      crossed += crossed_part(field);
+      const FlankField off = field.colwise() - field.rowwise().mean();
+      around.sum += off;
+    } else if (asked(e) && shapes_every_tooth(field)) {
+      names.emplace_back(e, std::move(field));
+    }
+  }
+  for (const auto& [e, field] : names) {
+    const Eigen::VectorXd name = field.col(0);
+    around.orders.clear();
+    around.is_no_wave = false;
+    for (std::size_t other = 0; other < effects_.size(); ++other) {
+      if (!is_form(effects_[other])) continue;
+      if (change_along(field_of(geometry_, *fit, other), name) < kCounts) continue;
+      if (effects_[other].order() > 0.0)
+        around.orders.insert(effects_[other].order());
+      else
+        around.is_no_wave = true;
+    }
+    const double twist = crossed_part(field).norm();
+    const bool is_twist = twist * twist > 0.5 * name.squaredNorm();
+    if ((around.is_odd() && change_along(around.sum, name) > kChanges) ||
+        (is_twist && crossed.norm() > kShare * twist))
+      effects_[e].family = form_instead(e);
+  }
+}
+
+}  // namespace trueflank::loop
