@@ -40,10 +40,10 @@ RequirementsSection top() {
 
 const std::vector<RequirementsSection>& requirements_sections() {
   static const std::vector<RequirementsSection> kSections{
-      requirements::top(),    requirements::gearbox(),  requirements::rack(),
-      requirements::ratio(),  requirements::teeth(),    requirements::shift(),
-      requirements::limits(), requirements::strength(), requirements::motor(),
-      requirements::search(), requirements::losses()};
+      requirements::top(),    requirements::gearbox(), requirements::rack(),
+      requirements::cutter(), requirements::ratio(),   requirements::teeth(),
+      requirements::shift(),  requirements::limits(),  requirements::strength(),
+      requirements::motor(),  requirements::search(),  requirements::losses()};
   return kSections;
 }
 

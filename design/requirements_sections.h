@@ -26,6 +26,7 @@ using V = KeyValue;
 // requirements_train_keys.cpp: what is searched, and within which teeth.
 [[nodiscard]] RequirementsSection gearbox();
 [[nodiscard]] RequirementsSection rack();
+[[nodiscard]] RequirementsSection cutter();
 [[nodiscard]] RequirementsSection ratio();
 [[nodiscard]] RequirementsSection teeth();
 [[nodiscard]] RequirementsSection shift();

@@ -96,6 +96,14 @@ RequirementsSection gearbox() {
          .by_default = "1",
          .meaning = "of layer 1, of all gears where there is one layer"},
         [](R& r, const V& v) { return r.module_mm = number(v), std::string(); }},
+       {{.name = "helix_angle_deg",
+         .unit = "deg",
+         .lower = -45,
+         .upper = 45,
+         .by_default = "0",
+         .meaning = "of every gear, right-hand positive on the sun or pinion; modules are then "
+                    "normal modules"},
+        [](R& r, const V& v) { return r.helix_angle_rad = rad_from_deg(number(v)), std::string(); }},
        {{.name = "outer_diameter_mm",
          .unit = "mm",
          .lower = 1,
@@ -164,6 +172,33 @@ RequirementsSection rack() {
             [](R& r, const V& v) { return r.rack.dedendum = number(v), std::string(); }},
            {{.name = "root_radius", .unit = "module", .lower = 0, .upper = 2, .by_default = "0.38"},
             [](R& r, const V& v) { return r.rack.root_radius = number(v), std::string(); }}}};
+}
+
+namespace {
+
+ShaperCutter& cutter_of(R& r) { return r.cutter ? *r.cutter : r.cutter.emplace(); }
+
+}  // namespace
+
+RequirementsSection cutter() {
+  return {"cutter",
+          {{{.name = "teeth",
+             .type = KeyType::kWhole,
+             .lower = 5,
+             .upper = 500,
+             .by_default = "25",
+             .meaning = "of the pinion cutter that shapes every ring; without a table [cutter] the "
+                        "rings' roots are fillets"},
+            [](R& r, const V& v) { return cutter_of(r).teeth = whole(v), std::string(); }},
+           {{.name = "shift", .unit = "module", .lower = -10, .upper = 10, .by_default = "0"},
+            [](R& r, const V& v) { return cutter_of(r).shift = number(v), std::string(); }},
+           {{.name = "tip_radius",
+             .unit = "module",
+             .lower = 0,
+             .upper = 3,
+             .by_default = "0",
+             .meaning = "rounding of the cutter's tip corner"},
+            [](R& r, const V& v) { return cutter_of(r).tip_radius = number(v), std::string(); }}}};
 }
 
 RequirementsSection ratio() {

@@ -11,9 +11,6 @@
 namespace trueflank {
 namespace {
 
-double transverse_pressure_angle(const MeshTeeth& mesh) {
-  return std::atan(std::tan(mesh.pressure_angle_rad) / std::cos(mesh.helix_angle_rad));
-}
 /// z1 + z2 or z2 - z1.
 double tooth_sum(const MeshTeeth& mesh) {
   return mesh.internal ? mesh.teeth2 - mesh.teeth1 : mesh.teeth1 + mesh.teeth2;
@@ -21,13 +18,17 @@ double tooth_sum(const MeshTeeth& mesh) {
 
 }  // namespace
 
+double transverse_pressure_angle_rad(const MeshTeeth& mesh) {
+  return std::atan(std::tan(mesh.pressure_angle_rad) / std::cos(mesh.helix_angle_rad));
+}
+
 double reference_centre_distance_mm(const MeshTeeth& mesh) {
   return 0.5 * tooth_sum(mesh) * mesh.normal_module_mm / std::cos(mesh.helix_angle_rad);
 }
 
 Result<double> working_pressure_angle_rad(const MeshTeeth& mesh, double centre_distance_mm) {
   const double cosine = reference_centre_distance_mm(mesh) *
-                        std::cos(transverse_pressure_angle(mesh)) / centre_distance_mm;
+                        std::cos(transverse_pressure_angle_rad(mesh)) / centre_distance_mm;
   if (!(cosine > 0.0 && cosine < 1.0))
     return fail({.code = ErrorCode::kInfeasible,
                  .message = "teeth " + std::to_string(mesh.teeth1) + " and " +
@@ -36,7 +37,7 @@ Result<double> working_pressure_angle_rad(const MeshTeeth& mesh, double centre_d
                  .key = "gearbox.centre_distance_mm",
                  .value = trimmed_number(centre_distance_mm),
                  .remedy = "above " + trimmed_number(reference_centre_distance_mm(mesh) *
-                                                     std::cos(transverse_pressure_angle(mesh))) +
+                                                     std::cos(transverse_pressure_angle_rad(mesh))) +
                            " mm (unshifted: " +
                            trimmed_number(reference_centre_distance_mm(mesh)) + " mm)"});
   return std::acos(cosine);
@@ -45,11 +46,11 @@ Result<double> working_pressure_angle_rad(const MeshTeeth& mesh, double centre_d
 double shift_sum(const MeshTeeth& mesh, double working_pressure_angle_rad) {
   return tooth_sum(mesh) / (2.0 * std::tan(mesh.pressure_angle_rad)) *
          (involute_function(working_pressure_angle_rad) -
-          involute_function(transverse_pressure_angle(mesh)));
+          involute_function(transverse_pressure_angle_rad(mesh)));
 }
 
 Result<double> zero_backlash_centre_distance_mm(const MeshTeeth& mesh, double shift_sum) {
-  const double alpha = transverse_pressure_angle(mesh);
+  const double alpha = transverse_pressure_angle_rad(mesh);
   const double inv = involute_function(alpha) +
                      2.0 * std::tan(mesh.pressure_angle_rad) * shift_sum / tooth_sum(mesh);
   if (!(tooth_sum(mesh) > 0.0) || !(inv > 0.0))

@@ -29,6 +29,7 @@ struct MeshTeeth {
   double helix_angle_rad = 0.0;
   double pressure_angle_rad = 0.0;  ///< normal
 };
+[[nodiscard]] double transverse_pressure_angle_rad(const MeshTeeth& mesh);
 /// Centre distance of the unshifted pair.
 [[nodiscard]] double reference_centre_distance_mm(const MeshTeeth& mesh);
 /// Working transverse pressure angle at a centre distance. Errors: kInfeasible where the base

@@ -122,6 +122,7 @@ void certify(const SearchRequirements& r, FoundDesign& found) {
   const SearchObjective objective = r.objectives.front();
   const bool forward = objective == SearchObjective::kForward;
   if (r.objectives.size() > 1 || (!forward && objective != SearchObjective::kBackward)) return;
+  if (r.helix_angle_rad != 0.0 || r.cutter) return;  // the intervals are those of hobbed spur teeth
   const DriveDirection direction = forward ? DriveDirection::kForward : DriveDirection::kBackward;
   double bound = 1.0, ratio = signed_ratio(found.set);
   if (found.stages) {

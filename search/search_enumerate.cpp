@@ -39,6 +39,7 @@ class CentreDistances {
             .teeth2 = internal ? tooth_sum + 1 : tooth_sum - 1,
             .internal = internal,
             .normal_module_mm = module,
+            .helix_angle_rad = std::abs(r.helix_angle_rad),
             .pressure_angle_rad = r.rack.pressure_angle_rad};
   }
 
@@ -53,7 +54,9 @@ class CentreDistances {
     const auto a_high = zero_backlash_centre_distance_mm(teeth, high);
     const auto a_low = zero_backlash_centre_distance_mm(teeth, low);
     // a sum so small that the base circles meet first: the distance where they do
-    const double least = reference_centre_distance_mm(teeth) * std::cos(r_.rack.pressure_angle_rad);
+    const double least = reference_centre_distance_mm(teeth) *
+                         std::cos(r_.helix_angle_rad == 0.0 ? r_.rack.pressure_angle_rad
+                                                            : transverse_pressure_angle_rad(teeth));
     DistanceRange result;
     if (a_high) result = {a_low ? *a_low : least * (1.0 + 1e-12), *a_high};
     return cache_[key] = result;
@@ -97,12 +100,13 @@ DistanceRange layer_interval(const SearchRequirements& r, CentreDistances& dista
 
 /// A bound on the tip radius of a planet of layer 1 that no choice of shifts goes below.
 double least_planet1_tip(const SearchRequirements& r, int z_s, int z_p, const DistanceRange& a) {
-  if (z_s == 0) return 0.5 * z_p + r.rack.addendum + r.shift_min;
-  const double y = a.low - 0.5 * (z_s + z_p);  // tip shortening at the least distance
-  return 0.5 * z_p + r.rack.addendum + std::min(r.shift_min, y - r.shift_max);
+  const double stretch = 1.0 / std::cos(r.helix_angle_rad);
+  if (z_s == 0) return 0.5 * z_p * stretch + r.rack.addendum + r.shift_min;
+  const double y = a.low - 0.5 * (z_s + z_p) * stretch;  // tip shortening at the least distance
+  return 0.5 * z_p * stretch + r.rack.addendum + std::min(r.shift_min, y - r.shift_max);
 }
 double least_planet2_tip(const SearchRequirements& r, int z_p2, double module) {
-  return module * (0.5 * z_p2 + r.rack.addendum + r.shift_min);
+  return module * (0.5 * z_p2 / std::cos(r.helix_angle_rad) + r.rack.addendum + r.shift_min);
 }
 
 bool neighbours_collide(const SearchRequirements& r, const ToothSet& set, double greatest_distance,
@@ -220,8 +224,9 @@ class Enumerator {
 
   void layer2(ToothSet set, const DistanceRange& layer1) {
     long long with_distance = 0;
-    const int centre =
-        static_cast<int>(std::lround((layer1.low + layer1.high) / set.layer2_module_ratio));
+    const int centre = static_cast<int>(std::lround((layer1.low + layer1.high) *
+                                                    std::cos(r_.helix_angle_rad) /
+                                                    set.layer2_module_ratio));
     const auto try_difference = [&](int difference) {
       if (difference < 1) return false;
       const DistanceRange a =

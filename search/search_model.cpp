@@ -37,7 +37,16 @@ class Margins {
 };
 
 Gear gear_of(const SearchRequirements& r, GearKind kind, int teeth, double shift) {
-  Gear gear{.kind = kind, .teeth = teeth, .normal_module_mm = 1.0, .rack = r.rack, .shift = shift};
+  Gear gear{.kind = kind,
+            .teeth = teeth,
+            .normal_module_mm = 1.0,
+            .helix_angle_rad = std::abs(r.helix_angle_rad),
+            .rack = r.rack,
+            .shift = shift};
+  if (kind == GearKind::kInternal && r.cutter) {
+    gear.ring_root = RingRoot::kShaper;
+    gear.cutter = r.cutter;
+  }
   gear.tip_radius_mm = nominal_tip_radius_mm(gear);
   return gear;
 }
@@ -51,7 +60,8 @@ struct MeshView {
   ContactPath path;
 };
 
-MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
+/// The face width is in modules, as all lengths.
+MeshView view_of(const Gear& gear1, const Gear& gear2, double a, double face_width) {
   const bool internal = gear2.kind == GearKind::kInternal;
   const double r_b1 = base_radius_mm(gear1), r_b2 = base_radius_mm(gear2);
   const double sum = internal ? r_b2 - r_b1 : r_b1 + r_b2;
@@ -61,6 +71,7 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
   const double start = internal ? tip2 - span : span - tip2;
   const double base_pitch = kTwoPi * r_b1 / gear1.teeth;
   const double end = roll_length_mm(gear1.tip_radius_mm, r_b1);
+  const double base_helix = base_helix_angle_rad(gear1);
   return {.approach = (pitch_point - start) / base_pitch,
           .recess = (end - pitch_point) / base_pitch,
           .span = span,
@@ -70,7 +81,9 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a) {
                    .pitch_point_mm = pitch_point,
                    .start_mm = start,
                    .end_mm = end,
-                   .base_pitch_mm = base_pitch}};
+                   .base_pitch_mm = base_pitch,
+                   .overlap_ratio = face_width * std::tan(base_helix) / base_pitch,
+                   .base_helix_angle_rad = base_helix}};
 }
 
 /// Roll length at which a gear's involute begins where the rack's straight flank cuts it; below 0:
@@ -80,7 +93,10 @@ double involute_start_mm(const SearchRequirements& r, const Gear& gear) {
                cosine = std::cos(r.rack.pressure_angle_rad);
   const double full_round = (0.25 * kPi - r.rack.dedendum * sine / cosine) * cosine / (1.0 - sine);
   const double rounding = std::clamp(r.rack.root_radius, 0.0, std::max(0.0, full_round));
-  return 0.5 * gear.teeth * sine - (r.rack.dedendum - rounding * (1.0 - sine) - gear.shift) / sine;
+  // heights are those of the normal section, the involute that of the transverse one
+  const double transverse = std::sin(transverse_pressure_angle_rad(gear));
+  return reference_radius_mm(gear) * transverse -
+         (r.rack.dedendum - rounding * (1.0 - sine) - gear.shift) / transverse;
 }
 
 /// Neither undercut nor a fillet shortens the path between the tips on the involute of a gear of
@@ -179,6 +195,7 @@ void SearchModel::set_up_layers() {
                      .teeth2 = z2,
                      .internal = internal,
                      .normal_module_mm = 1.0,
+                     .helix_angle_rad = std::abs(requirements_->helix_angle_rad),
                      .pressure_angle_rad = requirements_->rack.pressure_angle_rad};
   };
   for (const SearchLayer& gears : train().layers) {
@@ -332,10 +349,10 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   if (own.ring) ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
   if (own.sun) {
     sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
-    const double y = a - 0.5 * (own.sun + own.planet);
-    sun->tip_radius_mm = 0.5 * own.sun + r.rack.addendum + y - x_p;
-    planet.tip_radius_mm =
-        std::min(planet.tip_radius_mm, 0.5 * own.planet + r.rack.addendum + y - x_s);
+    const double y = a - reference_radius(own.sun + own.planet);
+    sun->tip_radius_mm = reference_radius(own.sun) + r.rack.addendum + y - x_p;
+    planet.tip_radius_mm = std::min(planet.tip_radius_mm,
+                                    reference_radius(own.planet) + r.rack.addendum + y - x_s);
   }
   margins.add(spacing_margin(r, set_.planets, a, planet.tip_radius_mm, least_module_mm));
   const double backlash = backlash_of(r, least_module_mm);
@@ -352,8 +369,9 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   }
   if (margins.stop()) return done();
 
-  const MeshView outer = sun ? view_of(*sun, planet, a) : MeshView{};
-  const MeshView inner = ring ? view_of(planet, *ring, a) : MeshView{};
+  const double width = r.face_width_mm / least_module_mm;
+  const MeshView outer = sun ? view_of(*sun, planet, a, width) : MeshView{};
+  const MeshView inner = ring ? view_of(planet, *ring, a, width) : MeshView{};
   if (sun) add_contact_ratio_margins(r, outer, margins);
   if (ring) add_contact_ratio_margins(r, inner, margins);
   if (sun) {
@@ -369,7 +387,7 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   const bool known =
       formula || ((!sun || (surely_whole(r, *sun, outer.path.start_mm) &&
                             surely_whole(r, planet, outer.span - outer.path.end_mm))) &&
-                  (!ring || surely_whole(r, planet, inner.path.start_mm)));
+                  (!ring || (!r.cutter && surely_whole(r, planet, inner.path.start_mm))));
   const auto loss = [&](const MeshTeeth& mesh, const MeshView& view) {
     if (formula) return formula_loss(mesh, view.approach, view.recess);
     return path_loss(!known && profiles == Profiles::kLeftOut ? best_part(view) : view.path);
@@ -386,7 +404,7 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
     constexpr double kSame_mm = 1e-10;
     if (!formula && (line.effective_start_mm > view.path.start_mm + kSame_mm ||
                      line.effective_end_mm < view.path.end_mm - kSame_mm))
-      mesh_loss = path_loss(contact_path(pair, r.face_width_mm));
+      mesh_loss = path_loss(contact_path(pair, width));
   };
   if (sun) {
     const auto profile = ToothProfile::make(*sun);
@@ -451,12 +469,14 @@ double SearchModel::outer_diameter(const FreeShifts& free) const {
                  a = free.centre_distance / own.module;
     if (own.ring) {
       const double x_r = x[static_cast<std::size_t>(own.ring_at)];
-      largest = std::max(largest, own.module * (own.ring + 2.0 * (r.rack.dedendum + x_r + r.rim)));
+      largest = std::max(largest, 2.0 * own.module * (reference_radius(own.ring) + r.rack.dedendum +
+                                                      x_r + r.rim));
     } else {
       const double x_s = x[static_cast<std::size_t>(own.sun_at)],
-                   y = a - 0.5 * (own.sun + own.planet);
-      const double planet_tip = 0.5 * own.planet + r.rack.addendum + std::min(x_p, y - x_s);
-      const double sun_tip = 0.5 * own.sun + r.rack.addendum + y - x_p;
+                   y = a - reference_radius(own.sun + own.planet);
+      const double planet_tip =
+          reference_radius(own.planet) + r.rack.addendum + std::min(x_p, y - x_s);
+      const double sun_tip = reference_radius(own.sun) + r.rack.addendum + y - x_p;
       largest = std::max(largest, own.module * (train().has_planets() ? 2.0 * (a + planet_tip)
                                                                       : a + planet_tip + sun_tip));
     }
@@ -470,13 +490,20 @@ double SearchModel::greatest_outer_diameter() const {
   double largest = 0.0;
   for (const Layer& own : layers_) {
     const double a = set_.centre_distance_max / own.module;
-    const auto tip = [&](int teeth) { return 0.5 * teeth + r.rack.addendum + r.shift_max; };
-    const double outer = own.ring ? own.ring + 2.0 * (r.rack.dedendum + r.shift_max + r.rim)
+    const auto tip = [&](int teeth) {
+      return reference_radius(teeth) + r.rack.addendum + r.shift_max;
+    };
+    const double outer = own.ring ? 2.0 * (reference_radius(own.ring) + r.rack.dedendum +
+                                           r.shift_max + r.rim)
                          : train().has_planets() ? 2.0 * (a + tip(own.planet))
                                                  : a + tip(own.planet) + tip(own.sun);
     largest = std::max(largest, own.module * outer);
   }
   return largest;
+}
+
+double SearchModel::reference_radius(int teeth) const {
+  return 0.5 * teeth / std::cos(requirements_->helix_angle_rad);
 }
 
 double SearchModel::module_mm(const FreeShifts& free) const {
@@ -504,6 +531,7 @@ GearboxDesign SearchModel::design(const FreeShifts& free,
   design.backlash_mm = r.backlash_mm.value_or(kUsualBacklash * m1);
   design.tips = TipCircles::kStandard;  // the circles of this model
   design.rack = r.rack;
+  design.helix_angle_rad = r.helix_angle_rad;
   // a material of the requirements' own is in no design's table
   if (r.strength.material != kDefaultMaterial && MaterialTable().find(r.strength.material))
     design.material = r.strength.material;
@@ -521,7 +549,12 @@ GearboxDesign SearchModel::design(const FreeShifts& free,
     if (module != m1) gear.module_mm = module;
     if (ring)
       gear.outer_diameter_mm =
-          module * (gear.teeth + 2.0 * (r.rack.dedendum + *gear.shift + r.rim));
+          2.0 * module *
+          (reference_radius(gear.teeth) + r.rack.dedendum + *gear.shift + r.rim);
+    if (ring && r.cutter) {
+      gear.root = RingRoot::kShaper;
+      gear.cutter = r.cutter;
+    }
     design.gears.push_back(gear);
   }
   return design;

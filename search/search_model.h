@@ -130,6 +130,8 @@ class SearchModel {
   void set_up_layers();
   void set_up_balance();
   [[nodiscard]] double greatest_outer_diameter() const;
+  /// Of a gear, or of gears together, in normal modules.
+  [[nodiscard]] double reference_radius(int teeth) const;
   /// External torque on the output per unit of torque at the input: the negative ratio where
   /// nothing is lost.
   [[nodiscard]] double output_torque(const std::array<double, 3>& torque_ratios) const;

@@ -147,6 +147,30 @@ void check_figures(const SearchRequirements& r, Errors& errors) {
             "one of both; limits.outer_diameter_max_mm holds a growing module");
 }
 
+/// What the teeth's form asks for.
+void check_teeth(const SearchRequirements& r, Errors& errors) {
+  if (r.helix_angle_rad != 0.0 && r.loss_model == LossModel::kContactRatios)
+    errors.push_back({.code = ErrorCode::kInconsistent,
+                      .message = "the formula by contact ratios is one of spur teeth",
+                      .key = "search.loss_model",
+                      .value = "contact_ratios",
+                      .remedy = "path_integral, or no gearbox.helix_angle_deg"});
+  if (!r.cutter) return;
+  for (const SearchTrain* train : searched_trains(r))
+    for (const TrainPlace place : train->places()) {
+      if (place != TrainPlace::kRing1 && place != TrainPlace::kRing2) continue;
+      const ToothRange range = tooth_range(r, *train, place);
+      if (range.max > r.cutter->teeth) continue;
+      errors.push_back({.code = ErrorCode::kInconsistent,
+                        .message = "no ring of up to " + std::to_string(range.max) +
+                                   " teeth can be shaped by it",
+                        .key = "cutter.teeth",
+                        .value = std::to_string(r.cutter->teeth),
+                        .remedy = "fewer teeth than the rings have, or no [cutter]"});
+      return;
+    }
+}
+
 /// Stages in series are optimised each by itself, so the whole is ranked by what they add up to.
 void check_stages(const SearchRequirements& r, Errors& errors) {
   const auto& trains = searched_trains(r);
@@ -172,6 +196,7 @@ void check_stages(const SearchRequirements& r, Errors& errors) {
 Errors validate(const SearchRequirements& r) {
   Errors errors;
   check_figures(r, errors);
+  check_teeth(r, errors);
   require(r.ratio_min > 1.0, "ratio.min", r.ratio_min, "a reducer's ratio is above 1",
           "input speed over output speed, above 1", errors);
   require(r.ratio_max >= r.ratio_min, "ratio.max", r.ratio_max, "the ratio range is empty",
@@ -230,6 +255,12 @@ std::string fingerprint(const SearchRequirements& r) {
   text.add("addendum", r.rack.addendum);
   text.add("dedendum", r.rack.dedendum);
   text.add("root_radius", r.rack.root_radius);
+  if (r.helix_angle_rad != 0.0) text.add("helix_angle_rad", r.helix_angle_rad);
+  if (r.cutter) {
+    text.add("cutter", r.cutter->teeth);
+    text.add("cutter", r.cutter->shift);
+    text.add("cutter", r.cutter->tip_radius);
+  }
   text.add("module_mm", r.module_mm);
   text.add("outer_diameter_mm", r.outer_diameter_mm.value_or(kNaN));
   text.add("rim", r.rim);

@@ -7,7 +7,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/base/units.h"
-#include "trueflank/geometry/basic_rack.h"
+#include "trueflank/geometry/gear.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/gearbox_design.h"
 #include "trueflank/train/strength.h"
@@ -101,8 +101,10 @@ struct SearchRequirements {
   std::optional<double> face_width_max_mm, module_max_mm;
   std::optional<double> backlash_mm;  ///< of every mesh of the designs; omitted: kUsualBacklash
   BasicRack rack;
+  double helix_angle_rad = 0.0;         ///< of every gear, right hand positive on the first one
+  std::optional<ShaperCutter> cutter;   ///< that shapes every ring; omitted: their roots are fillets
 
-  /// Module of layer 1; with an outer diameter the module follows from it instead.
+  /// Normal module of layer 1; with an outer diameter the module follows from it instead.
   double module_mm = 1.0;
   std::optional<double> outer_diameter_mm;
   double rim = 2.5;  ///< of a ring outside its root circle, coefficient of its module

@@ -17,11 +17,6 @@ constexpr std::array<double, 8> kNode{-0.9602898564975363, -0.7966664774136267,
 constexpr std::array<double, 8> kWeight{0.1012285362903763, 0.2223810344533745, 0.3137066458778873,
                                         0.3626837833783620, 0.3626837833783620, 0.3137066458778873,
                                         0.2223810344533745, 0.1012285362903763};
-/// Slices of the face and moments of the cycle of a helical mesh, without a common factor so that
-/// their sum runs finely through the cycle: 1e-4 of the loss (tested).
-constexpr int kHelicalSlices = 199;
-constexpr int kHelicalMoments = 64;
-
 /// Stiffness of a tooth pair along its path, relative to mid contact: a parabola that falls to 0.7
 /// at the ends; the fall of single stiffness usual in mesh stiffness models (docs/efficiency.md).
 constexpr double kStiffnessAtEnds = 0.7;
@@ -69,6 +64,92 @@ std::vector<double> cycle_breaks(const ContactPath& path) {
   return breaks;
 }
 
+/// Torques summed up over the face of a helical mesh: along it the teeth stand at every moment of a
+/// stretch of the cycle. Between two breaks the torques are polynomials of third degree, so their
+/// integrals are exact.
+class FaceTorques {
+ public:
+  FaceTorques(const ContactPath& path, double friction, LoadSharing sharing)
+      : breaks_(cycle_breaks(path)) {
+    for (std::size_t i = 0; i + 1 < breaks_.size(); ++i) {
+      Piece piece{.begin = breaks_[i], .width = breaks_[i + 1] - breaks_[i], .before = whole_};
+      std::array<Torques, 4> at;
+      for (std::size_t k = 0; piece.width > 0.0 && k < at.size(); ++k)
+        add_pairs(path, friction, sharing, piece.begin + piece.width * kPlaces[k], at[k]);
+      for (std::size_t k = 0; k < at.size(); ++k)
+        piece.values[k] = {at[k].torque1, at[k].torque2, at[k].load};
+      pieces_.push_back(piece);
+      whole_ = integral(piece, 1.0);
+    }
+  }
+
+  /// Over a face that begins at a moment of the cycle and reaches `overlap` base pitches on.
+  [[nodiscard]] Torques over(double begin, double overlap) const {
+    const double turns = std::floor(overlap), end = begin + overlap - turns;
+    Sums sums = end < 1.0 ? up_to(end) : up_to(end - 1.0);
+    const Sums at_begin = up_to(begin);
+    for (std::size_t q = 0; q < sums.size(); ++q)
+      sums[q] += (turns + (end < 1.0 ? 0.0 : 1.0)) * whole_[q] - at_begin[q];
+    // what rounding leaves where no teeth touch is no load
+    const bool touches = sums[2] > kNothing * whole_[2];
+    return touches ? Torques{sums[0], sums[1], sums[2]} : Torques{};
+  }
+
+  /// Where the torques over a face change their polynomials, with 0 and 1.
+  [[nodiscard]] std::vector<double> breaks(double overlap) const {
+    std::vector<double> all = breaks_;
+    for (const double at : breaks_) {
+      const double shifted = at - overlap;
+      all.push_back(shifted - std::floor(shifted));
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  using Sums = std::array<double, 3>;  ///< of torque 1, torque 2, load
+  struct Piece {
+    double begin = 0.0, width = 0.0;
+    Sums before{};                  ///< integrals from the cycle's beginning
+    std::array<Sums, 4> values{};   ///< at kPlaces
+  };
+  /// Of a piece, from 0 to 1: inside, as a pair enters or leaves at its ends.
+  static constexpr std::array<double, 4> kPlaces{0.125, 0.375, 0.625, 0.875};
+  static constexpr double kNothing = 1e-12;
+
+  /// To a share of a piece: the integral of the polynomial through its four values.
+  static Sums integral(const Piece& piece, double share) {
+    Sums sums = piece.before;
+    const double t = share;
+    for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+      // product of (t - p_j), j other than k, as a polynomial
+      std::array<double, 4> c{1.0, 0.0, 0.0, 0.0};
+      double scale = 1.0;
+      for (std::size_t j = 0; j < kPlaces.size(); ++j) {
+        if (j == k) continue;
+        for (std::size_t d = 3; d > 0; --d) c[d] = c[d - 1] - kPlaces[j] * c[d];
+        c[0] *= -kPlaces[j];
+        scale *= kPlaces[k] - kPlaces[j];
+      }
+      const double area =
+          t * (c[0] + t * (c[1] / 2.0 + t * (c[2] / 3.0 + t * c[3] / 4.0))) / scale * piece.width;
+      for (std::size_t q = 0; q < sums.size(); ++q) sums[q] += area * piece.values[k][q];
+    }
+    return sums;
+  }
+
+  [[nodiscard]] Sums up_to(double moment) const {
+    std::size_t i = 0;
+    while (i + 1 < pieces_.size() && pieces_[i + 1].begin <= moment) ++i;
+    const Piece& piece = pieces_[i];
+    return piece.width > 0.0 ? integral(piece, (moment - piece.begin) / piece.width) : piece.before;
+  }
+
+  std::vector<double> breaks_;
+  std::vector<Piece> pieces_;
+  Sums whole_{};
+};
+
 struct TorqueRatio {
   double mean = 0.0;
   bool blocked = false;      ///< at some moment no torque comes out
@@ -86,27 +167,23 @@ TorqueRatio mean_torque_ratio(const ContactPath& path, double friction, LoadShar
     result.blocked = result.blocked || !(driven > 0.0);
     return driving / driven;
   };
-  double& mean = result.mean;
-  if (path.overlap_ratio == 0.0) {
-    const std::vector<double> breaks = cycle_breaks(path);
+  const auto mean_over = [&](const std::vector<double>& breaks, const auto& torques_at) {
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const double half = 0.5 * (breaks[i + 1] - breaks[i]);
-      for (std::size_t g = 0; half > 0.0 && g < kNode.size(); ++g) {
-        Torques t;
-        add_pairs(path, friction, sharing, breaks[i] + half * (1.0 + kNode[g]), t);
-        mean += half * kWeight[g] * ratio_of(t);
-      }
+      for (std::size_t g = 0; half > 0.0 && g < kNode.size(); ++g)
+        result.mean += half * kWeight[g] * ratio_of(torques_at(breaks[i] + half * (1.0 + kNode[g])));
     }
-  } else {
-    for (int moment = 0; moment < kHelicalMoments; ++moment) {
+  };
+  if (path.overlap_ratio == 0.0) {
+    mean_over(cycle_breaks(path), [&](double moment) {
       Torques t;
-      for (int slice = 0; slice < kHelicalSlices; ++slice) {
-        const double at = (moment + 0.5) / kHelicalMoments +
-                          (slice + 0.5) / kHelicalSlices * path.overlap_ratio;
-        add_pairs(path, friction, sharing, at - std::floor(at), t);
-      }
-      mean += ratio_of(t) / kHelicalMoments;
-    }
+      add_pairs(path, friction, sharing, moment, t);
+      return t;
+    });
+  } else {
+    const FaceTorques face(path, friction, sharing);
+    mean_over(face.breaks(path.overlap_ratio),
+              [&](double moment) { return face.over(moment, path.overlap_ratio); });
   }
   return result;
 }

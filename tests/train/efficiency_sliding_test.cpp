@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "trueflank/train/efficiency.h"
 
@@ -48,7 +49,7 @@ TEST(EfficiencySliding, DiffersFromTheFormulaWherePitchPointHasNoSingleContact) 
   const double expected = friction * kTwoPi * (1 / 20. + 1 / 50.) * mean;
   const SlidingEfficiency s =
       sliding_efficiency(path_of(false, e1, e2), friction, LoadSharing::kEqual);
-  EXPECT_NEAR((1 - s.gear1_driving) / expected, 1.0, 1e-4);
+  EXPECT_NEAR((1 - s.gear1_driving) / expected, 1.0, 1e-6);
   EXPECT_GT(std::abs(formula_loss(false, e1, e2, friction) / expected - 1.0), 0.02);
 }
 
@@ -90,7 +91,43 @@ TEST(EfficiencySliding, AWholeNumberOfOverlapsAveragesThePath) {
   const double mean = (0.8 * 0.8 + 0.6 * 0.6) / 2 / 1.4;
   const double expected = friction / std::cos(0.2) * kTwoPi * (1 / 20. + 1 / 50.) * mean;
   const SlidingEfficiency s = sliding_efficiency(path, friction, LoadSharing::kEqual);
-  EXPECT_NEAR((1 - s.gear1_driving) / expected, 1.0, 1e-4);
+  EXPECT_NEAR((1 - s.gear1_driving) / expected, 1.0, 1e-6);
+}
+
+TEST(EfficiencySliding, HelicalTeethAreEveryMomentTheSumOverTheFace) {
+  // prefix sums over a fine grid of the cycle; overlaps are whole numbers of its steps
+  constexpr int kSteps = 100000;
+  for (const double overlap : {0.03, 0.37, 0.71, 1.0, 1.6, 2.25})
+    for (const bool internal : {false, true}) {
+      ContactPath path = path_of(internal, 0.55, 0.72);
+      path.overlap_ratio = overlap;
+      path.base_helix_angle_rad = 0.3;
+      const double friction = 0.12, transverse = friction / std::cos(0.3);
+      const double middle = 0.5 * (path.start_mm + path.end_mm),
+                   half = 0.5 * (path.end_mm - path.start_mm);
+      std::vector<double> sums1{0.0}, sums2{0.0};
+      for (int i = 0; i < 4 * kSteps; ++i) {
+        double t1 = 0.0, t2 = 0.0;
+        for (double roll = path.start_mm + (i % kSteps + 0.5) / kSteps; roll <= path.end_mm;
+             roll += 1.0) {
+          const double s = roll - path.pitch_point_mm, mu = s < 0.0 ? -transverse : transverse;
+          const double stiff = 1.0 - 0.3 * (roll - middle) * (roll - middle) / (half * half);
+          t1 += stiff * (path.base_radius1_mm + mu * roll);
+          t2 += stiff * (path.base_radius2_mm +
+                         mu * (path.pitch_point_mm * path.base_radius2_mm / path.base_radius1_mm +
+                               (internal ? s : -s)));
+        }
+        sums1.push_back(sums1.back() + t1);
+        sums2.push_back(sums2.back() + t2);
+      }
+      const auto across = static_cast<std::size_t>(std::lround(overlap * kSteps));
+      double mean = 0.0;
+      for (std::size_t i = 0; i < kSteps; ++i)
+        mean += (sums1[i + across] - sums1[i]) / (sums2[i + across] - sums2[i]) / kSteps;
+      EXPECT_NEAR(sliding_efficiency(path, friction, LoadSharing::kCompliant).gear1_driving,
+                  path.base_radius1_mm / path.base_radius2_mm / mean, 1e-7)
+          << overlap << (internal ? " internal" : "");
+    }
 }
 
 TEST(EfficiencySliding, ExtremeFrictionBlocksAndInterruptedContactIsNotComputed) {
