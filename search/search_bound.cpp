@@ -231,6 +231,8 @@ class Bound {
 
 double efficiency_bound(const SearchRequirements& requirements, const ToothSet& set,
                         DriveDirection direction, BoundBy by, double enough) {
+  // A shaped ring's fillet may shorten the path by more than the grid is loosened by.
+  if (requirements.cutter) return 1.0;
   return Bound(requirements, set, direction).run(by, enough);
 }
 

@@ -34,8 +34,8 @@ class ForeignRows {
     if (count_++ == 0) first_ = {line, why};
   }
   [[nodiscard]] bool refuses(std::size_t rows, const std::string& file, Errors& errors) const {
-    constexpr std::size_t kFewest = 10;  // one in so many may be a slip
-    if (count_ * kFewest <= rows) return false;
+    constexpr std::size_t kOneSlipIn = 10;  // one in so many may be a slip
+    if (count_ * kOneSlipIn <= rows) return false;
     errors.push_back({.code = ErrorCode::kOutOfRange,
                       .message = std::to_string(count_) + " of " + std::to_string(rows) +
                                  " rows cannot belong to this gear: " + first_.second,

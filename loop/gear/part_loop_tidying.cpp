@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/random_error.h"

@@ -40,7 +40,7 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
     const int flank = -2 * place.tooth - (place.side > 0 ? 1 : 0);
     ProfileTrace& trace = traces.of[row.trace >= 0 ? row.trace : flank];
     trace.side = place.side;
-    trace.middle_rad = place.centre_rad + geometry.twist_rad(place.z_mm);
+    trace.middle_rad = geometry.centre_rad(place.tooth) + geometry.twist_rad(place.z_mm);
     trace.along_rad.push_back(-geometry.sense() * place.side * place.roll_mm /
                               geometry.base_radius_mm());
     trace.um.push_back(row_um[i]);
