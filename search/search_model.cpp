@@ -14,6 +14,10 @@
 namespace trueflank {
 namespace {
 
+/// Clearances that differ by less are the same; what is exactly kept is kept by a hair, more than
+/// the reserve that a climb keeps from its limits.
+constexpr double kSameClearance = 1e-9, kHair = 2e-7;
+
 /// Writes margins in order and knows when to stop.
 class Margins {
  public:
@@ -346,13 +350,14 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   const double a = a1 / own.module, least_module_mm = least_module_mm_ * own.module;
   Gear planet = gear_of(r, GearKind::kExternal, own.planet, x_p);
   std::optional<Gear> sun, ring;
+  double shortened_tip = kNaN;  ///< of the planet, by its mesh with the sun
   if (own.ring) ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
   if (own.sun) {
     sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
     const double y = a - reference_radius(own.sun + own.planet);
     sun->tip_radius_mm = reference_radius(own.sun) + r.rack.addendum + y - x_p;
-    planet.tip_radius_mm = std::min(planet.tip_radius_mm,
-                                    reference_radius(own.planet) + r.rack.addendum + y - x_s);
+    shortened_tip = reference_radius(own.planet) + r.rack.addendum + y - x_s;
+    planet.tip_radius_mm = std::min(planet.tip_radius_mm, shortened_tip);
   }
   margins.add(spacing_margin(r, set_.planets, a, planet.tip_radius_mm, least_module_mm));
   const double backlash = backlash_of(r, least_module_mm);
@@ -375,8 +380,12 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   if (sun) add_contact_ratio_margins(r, outer, margins);
   if (ring) add_contact_ratio_margins(r, inner, margins);
   if (sun) {
-    margins.add(a - sun->tip_radius_mm - root_radius(planet) - r.tip_clearance);
-    margins.add(a - planet.tip_radius_mm - root_radius(*sun) - r.tip_clearance);
+    // The tip circles leave exactly dedendum less addendum: where that is asked for, rounding must
+    // not decide.
+    const bool exact = std::abs(r.rack.dedendum - r.rack.addendum - r.tip_clearance) < kSameClearance;
+    margins.add(exact ? kHair : a - sun->tip_radius_mm - root_radius(planet) - r.tip_clearance);
+    margins.add((exact ? std::max(0.0, shortened_tip - planet.tip_radius_mm) + kHair
+                       : a - planet.tip_radius_mm - root_radius(*sun) - r.tip_clearance));
   }
   if (ring) {
     add_internal_clearances(r, planet, *ring, a, margins);

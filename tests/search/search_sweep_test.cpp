@@ -214,6 +214,30 @@ TEST(SearchSweep, WithoutClearanceTipsStandAtTheirFilletsToTheLast) {
   EXPECT_GE(result.peaks[0].merit, 0.7969102 - 1e-5);
 }
 
+TEST(SearchSweep, AClearanceThatTheTipCirclesKeepExactlyIsNotBrokenByRounding) {
+  // tips of sun and planet1 are shortened so that dedendum less addendum is left, at every distance
+  SearchRequirements r = paper_requirements(-1.0, 1.0);
+  r.tip_clearance = r.rack.dedendum - r.rack.addendum;
+  const ToothSet set = set_of(r, 12, 39, 90, 32, 81);
+  const SearchModel model(r, set);
+  int looked_at = 0;
+  for (int i = 0; i <= 40; ++i)
+    for (int k = 0; k <= 40; ++k) {
+      const double a = std::lerp(set.centre_distance_min, set.centre_distance_max, i / 40.0);
+      const auto range = model.shift_range(0, a);
+      const LayerEvaluation e = model.layer1(a, std::lerp(range[0], range[1], k / 40.0));
+      for (std::size_t l = 0; l < set.train->layer1_limits; ++l) {
+        const LimitEntry& limit = set.train->limits[l];
+        if (limit.limit != Limit::kTipClearance || limit.where != "sun-planet1") continue;
+        if (e.margins[l] < -1.0) continue;  // not computed
+        ++looked_at;
+        EXPECT_GE(e.margins[l], 0.0);
+        EXPECT_LT(e.margins[l], 1.0);
+      }
+    }
+  EXPECT_GT(looked_at, 500);
+}
+
 TEST(SearchSweep, WithoutAFeasiblePointTheNearestIsTold) {
   SearchRequirements r = paper_requirements(-0.7, 0.7);
   r.contact_ratio_min = 1.9;
