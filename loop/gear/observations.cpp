@@ -8,8 +8,8 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
-#include "trueflank/loop/gear/outliers.h"
-#include "trueflank/loop/gear/trace_zeros.h"
+#include "trueflank/loop/gear/table/outliers.h"
+#include "trueflank/loop/gear/table/trace_zeros.h"
 #include "trueflank/loop/measured/text_table.h"
 
 namespace trueflank::loop {

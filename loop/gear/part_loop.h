@@ -12,7 +12,7 @@
 #include "trueflank/loop/gear/local/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/remainder.h"
-#include "trueflank/loop/gear/shared_table.h"
+#include "trueflank/loop/gear/table/shared_table.h"
 
 namespace trueflank::loop {
 

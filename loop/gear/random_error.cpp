@@ -10,7 +10,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
-#include "trueflank/loop/gear/rows_by_class.h"
+#include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
-#include "trueflank/loop/gear/shared_table.h"
+#include "trueflank/loop/gear/table/shared_table.h"
 
 namespace trueflank::loop {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "trueflank/base/threads.h"
-#include "trueflank/loop/gear/rows_by_class.h"
+#include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {

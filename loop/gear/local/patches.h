@@ -11,6 +11,9 @@
 
 namespace trueflank::loop {
 
+/// Folds of the cross-validation, and the one of tips, roots and sizes.
+inline constexpr int kFolds = 8, kAnchorFold = kFolds + 1;
+
 struct WeightedPlace {
   Place place;
   double weight = 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/trace_zeros.h"
+#include "trueflank/loop/gear/table/trace_zeros.h"
 
 #include <algorithm>
 #include <cmath>

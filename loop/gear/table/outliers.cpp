@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/outliers.h"
+#include "trueflank/loop/gear/table/outliers.h"
 
 #include <algorithm>
 #include <cmath>
