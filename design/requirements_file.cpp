@@ -31,6 +31,7 @@ class RequirementsReader {
     for (const RequirementsSection& section : requirements_sections()) tables.push_back(section.name);
     for (const RequirementsSection& section : requirements_sections()) {
       const TomlTable* table = section.name.empty() ? &root_ : table_of(root_, section.name);
+      if (table && section.begun) section.begun(r);
       read_keys(section.name, table, section.keys, r, section.name.empty() ? tables : kNoTables);
     }
     read_materials(r.strength.materials);

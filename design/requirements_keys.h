@@ -20,6 +20,8 @@ struct RequirementsKey {
 struct RequirementsSection {
   std::string name;  ///< empty: top of the file
   std::vector<RequirementsKey<SearchRequirements>> keys;
+  /// Called where the file has the table, before its keys; null: the table alone says nothing.
+  void (*begun)(SearchRequirements&) = nullptr;
 };
 
 /// The sections in their order.

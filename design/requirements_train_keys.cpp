@@ -174,12 +174,6 @@ RequirementsSection rack() {
             [](R& r, const V& v) { return r.rack.root_radius = number(v), std::string(); }}}};
 }
 
-namespace {
-
-ShaperCutter& cutter_of(R& r) { return r.cutter ? *r.cutter : r.cutter.emplace(); }
-
-}  // namespace
-
 RequirementsSection cutter() {
   return {"cutter",
           {{{.name = "teeth",
@@ -189,16 +183,17 @@ RequirementsSection cutter() {
              .by_default = "25",
              .meaning = "of the pinion cutter that shapes every ring; without a table [cutter] the "
                         "rings' roots are fillets"},
-            [](R& r, const V& v) { return cutter_of(r).teeth = whole(v), std::string(); }},
+            [](R& r, const V& v) { return r.cutter->teeth = whole(v), std::string(); }},
            {{.name = "shift", .unit = "module", .lower = -10, .upper = 10, .by_default = "0"},
-            [](R& r, const V& v) { return cutter_of(r).shift = number(v), std::string(); }},
+            [](R& r, const V& v) { return r.cutter->shift = number(v), std::string(); }},
            {{.name = "tip_radius",
              .unit = "module",
              .lower = 0,
              .upper = 3,
              .by_default = "0",
              .meaning = "rounding of the cutter's tip corner"},
-            [](R& r, const V& v) { return cutter_of(r).tip_radius = number(v), std::string(); }}}};
+            [](R& r, const V& v) { return r.cutter->tip_radius = number(v), std::string(); }}},
+          [](R& r) { r.cutter.emplace(); }};
 }
 
 RequirementsSection ratio() {

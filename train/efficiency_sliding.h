@@ -36,8 +36,9 @@ struct SlidingEfficiency {
 /// normal and friction forces at every contact, not its first order in the friction coefficient.
 /// NaN where the path is shorter than a base pitch (contact is interrupted); 0 where friction blocks
 /// the mesh.
-/// Accuracy: 1e-10 (Gauss rule between the places where tooth pairs enter, leave and cross the pitch
-/// point; along the face of helical teeth the integrals are exact); tested against a brute-force sum.
+/// Accuracy: spur 1e-10 (Gauss rule between the places where tooth pairs enter, leave and cross the
+/// pitch point); helical 1e-7 as tested (the integrals along the face are exact, the sum they are
+/// compared with is not); tested against a brute-force sum.
 [[nodiscard]] SlidingEfficiency sliding_efficiency(const ContactPath& path, double friction,
                                                    LoadSharing sharing);
 

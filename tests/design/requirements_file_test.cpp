@@ -165,6 +165,16 @@ TEST(RequirementsFile, FiguresWithoutWhatTheyNeedAreErrors) {
   EXPECT_EQ(errors_of(kSmall + "[search]\nobjectives = \"forward: -1\"\n")[0].key, "search.objectives");
 }
 
+TEST(RequirementsFile, ATableOfTheCutterAloneIsOneWithTheUsualCutter) {
+  const std::string rest = "[ratio]\nmin = 6\nmax = 7\n";
+  const std::string begin = "format = 1\n[gearbox]\nkind = \"simple\"\n";
+  EXPECT_FALSE(read_requirements_text(begin + rest, "r.toml")->cutter);
+  EXPECT_EQ(read_requirements_text(begin + "[cutter]\n" + rest, "r.toml")->cutter, ShaperCutter{});
+  const auto shaped =
+      read_requirements_text(begin + "[cutter]\nteeth = 18\nshift = 0.1\ntip_radius = 0.2\n" + rest, "r.toml");
+  EXPECT_EQ(shaped->cutter, (ShaperCutter{.teeth = 18, .shift = 0.1, .tip_radius = 0.2}));
+}
+
 TEST(RequirementsFile, EveryKeyHasItsPlaceInTheListOfTables) {
   const auto tables = requirements_tables();
   EXPECT_EQ(tables.size(), 13u);
