@@ -6,6 +6,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -29,18 +30,6 @@ MatrixXd cosines(Index m) {
                 std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
                          static_cast<double>(m));
   return c;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double spread_of(std::vector<double> values) {
-  for (double& value : values) value = std::abs(value);
-  return 1.4826 * median(std::move(values));
 }
 
 class CourseScan {
@@ -77,7 +66,7 @@ class CourseScan {
   void clip() {
     std::vector<double> all;
     for (const MatrixXd& set : sets_) all.insert(all.end(), set.data(), set.data() + set.size());
-    const double limit = kClip * spread_of(std::move(all));
+    const double limit = kClip * robust_sigma(std::move(all));
     for (const MatrixXd& set : sets_) {
       clipped_.push_back(set.cwiseMax(-limit).cwiseMin(limit));
       mean_.push_back(set.cols() > 0 ? VectorXd(set.rowwise().mean()) : VectorXd::Zero(m_));
@@ -259,10 +248,10 @@ class CourseScan {
     for (Index c = 0; c < set.cols(); ++c) {
       const VectorXd bends =
           set.col(c).head(m_ - 2) - 2.0 * set.col(c).segment(1, m_ - 2) + set.col(c).tail(m_ - 2);
-      scatters.push_back(spread_of({bends.data(), bends.data() + bends.size()}));
+      scatters.push_back(robust_sigma(std::vector(bends.data(), bends.data() + bends.size())));
       loud[c] = scatters.back();
     }
-    const double usual = median(std::move(scatters));
+    const double usual = median(scatters);
     if (!(usual > 0.0)) return VectorXd::Ones(set.cols());
     loud /= usual;
     return (loud.array() > kByChance).select(loud, 1.0);
@@ -295,13 +284,13 @@ class CourseScan {
         all.insert(all.end(), sums.data(), sums.data() + sums.size());
         spreads.push_back(static_cast<double>(sums.cols()) * apart_each < kEnough
                               ? 0.0
-                              : spread_of({sums.data(), sums.data() + sums.size()}));
+                              : robust_sigma(std::vector(sums.data(), sums.data() + sums.size())));
         windows.push_back(std::move(sums));
       }
       // Too few windows apart from each other tell no spread.
       if (courses_ * apart_each < kEnough) break;
       tests += static_cast<double>(all.size());
-      const double of_all = spread_of(std::move(all));
+      const double of_all = robust_sigma(std::move(all));
       for (int s = 0; s < static_cast<int>(windows.size()) && of_all > 0.0; ++s) {
         const double own = spreads[static_cast<std::size_t>(s)], spread = own > 0.0 ? own : of_all;
         Index row = 0, column = 0;

@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_table.h"
 #include "trueflank/loop/drive/bench_visits.h"
 
@@ -137,24 +138,19 @@ void join_equal_readings(BenchTable& table) {
     sigma[way].push_back(p.sigma_nm);
   }
   if (driven[0].empty() || driven[1].empty()) return;
-  const auto middle = [](std::vector<double> values) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-  };
   int units = 0;
   for (const bool forward : {true, false}) {
     const std::size_t way = forward ? 1 : 0;
     // What drives here is driven in the other direction.
     const double step = step_of(driven[1 - way]);
-    const double rounding_nm = step / std::sqrt(12.0) * middle(sensitivity[way]);
+    const double rounding_nm = step / std::sqrt(12.0) * median(sensitivity[way]);
     std::map<long long, std::vector<BenchPoint*>> readings;
     for (BenchPoint& p : table.points)
       if (p.forward == forward)
         readings[step > 0.0 ? std::llround(p.driving_nm / step) : 0].push_back(&p);
     const double rows =
         static_cast<double>(driven[way].size()) / static_cast<double>(readings.size());
-    const double of_mean_nm = middle(sigma[way]) / std::sqrt(rows);
+    const double of_mean_nm = median(sigma[way]) / std::sqrt(rows);
     if (!(step > 0.0) || rows < 2.0 ||
         !(rounding_nm * rounding_nm > kCoarse * of_mean_nm * of_mean_nm))
       continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_table.h"
 
 // Data that cannot be what they say: signs, units, sides.
@@ -16,13 +17,6 @@ constexpr double kNearZero = 0.05;
 constexpr double kMostSlips = 0.1;
 /// An apparent efficiency beyond these is no loss but another unit.
 constexpr double kUnitHigh = 30.0, kUnitLow = 0.003;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kNaN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string text(double value) { return printed("%.4g", value); }
 
@@ -46,7 +40,7 @@ Apparent apparent_efficiencies(const DriveModel& model, const BenchData& data, i
       driving.push_back(forward ? row.input_nm : row.output_nm);
   driving.erase(std::remove_if(driving.begin(), driving.end(), [](double t) { return !(t > 0.0); }),
                 driving.end());
-  const double enough = 0.5 * median(driving);
+  const double enough = driving.empty() ? kNaN : 0.5 * median(driving);
   Apparent result;
   for (const BenchRow& row : data.rows) {
     if (row.file != file || row.forward != forward) continue;
@@ -147,7 +141,7 @@ Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& s
       const Apparent a = apparent_efficiencies(model, data, file, forward);
       if (a.rows.empty()) continue;
       ++judged;
-      const double middle = median(a.efficiency);
+      const double middle = median(std::vector(a.efficiency));
       const double l = std::log(middle);
       if (model.ratio > 3.0 && std::abs(l + (forward ? turn : -turn)) < std::log(2.5)) {
         ++columns_swapped;

@@ -12,6 +12,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -79,9 +80,7 @@ class Asking {
     std::vector<double> sizes;
     for (const double s : size) sizes.push_back(std::abs(s));
     if (sizes.empty()) return;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                     sizes.end());
-    const double most = 4.0 * sizes[sizes.size() / 2];
+    const double most = 4.0 * median(sizes);
     if (most > 0.0) size_ = size_.cwiseMax(-most).cwiseMin(most);
   }
 
@@ -246,10 +245,7 @@ class Asking {
     if (2 * off.size() < rows.size()) return kNaN;
     // By the middle and by the upper end: coarse readings are often equal.
     const auto at = [&](double share, double of_normal) {
-      const auto place =
-          off.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(off.size()));
-      std::nth_element(off.begin(), place, off.end());
-      return *place / of_normal;
+      return nth_smallest(off, static_cast<std::size_t>(share * static_cast<double>(off.size()))) / of_normal;
     };
     return std::max(at(0.5, 0.6745), at(0.7, 1.0364));
   }

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_visits.h"
 
 namespace trueflank::loop {
@@ -22,13 +23,6 @@ constexpr double kOutlier = 6.0;
 constexpr double kMostOutliers = 0.03;
 /// So many of them at one set point are no chance.
 constexpr int kComesAgain = 3;
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Huber regression of one direction's driven torque on powers of load, speed, temperature.
 double fit_direction(const std::vector<BenchPoint>& points, bool forward,
@@ -66,7 +60,7 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
     left = y - x * gram.ldlt().solve(x.transpose() * w.asDiagonal() * y);
     std::vector<double> size(n);
     for (Eigen::Index r = 0; r < n; ++r) size[r] = std::abs(left[r]);
-    sigma = 1.4826 * median_of(size) *
+    sigma = kSigmaOfMedianSize * median(size) *
             std::sqrt(static_cast<double>(n) / std::max<double>(1.0, static_cast<double>(n - columns)));
     for (Eigen::Index r = 0; r < n; ++r)
       w[r] = std::abs(left[r]) > 2.0 * sigma ? 2.0 * sigma / std::abs(left[r]) : 1.0;

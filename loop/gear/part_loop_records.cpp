@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -151,14 +152,6 @@ void PartLoop::hold_to_single_values() {
 
 namespace {
 
-double usual_size(std::vector<double> values) {
-  constexpr double kOfNormal = 1.4826;
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return kOfNormal * *middle;
-}
-
 /// The size of one tooth's single values, if nothing but they shows its height; NaN otherwise.
 double height_of_single_values(const Observations& table, const Effect& tooth,
                                const FlankGeometry& geometry, const std::vector<float>& row_um) {
@@ -196,7 +189,7 @@ void PartLoop::drop_teeth_within_the_tails() {
       if (patches_.patch_of_row[i] >= 0)
         (is_one_a_tooth(table_->rows[i]) ? single : along)
             .push_back(std::abs(static_cast<double>(after_um[i])));
-    const double usual_along = usual_size(along), usual_single = usual_size(single);
+    const double usual_along = robust_sigma(along), usual_single = robust_sigma(single);
     if (!(usual_along > 0.0) || !(usual_single > 0.0)) continue;
     const double out = height / usual_single * usual_along;
     const auto further = static_cast<double>(

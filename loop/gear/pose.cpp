@@ -9,6 +9,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -18,10 +19,7 @@ using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 double quantile(std::vector<double> values, double share) {
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(
-                                        share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
+  return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
 /// Every n-th point, so that at most about `most` remain: the same points every time.
@@ -255,7 +253,7 @@ class PoseSearch {
       right -= w * row.distance * row.gradient;
     }
     normal.diagonal() += Vector5::Constant(1e-9 * normal.trace());
-    const double scale = 1.4826 * quantile(sizes, 0.5);
+    const double scale = kSigmaOfMedianSize * quantile(sizes, 0.5);
     width = std::clamp(6.0 * scale, 2e-3, width);
     return normal.ldlt().solve(right);
   }

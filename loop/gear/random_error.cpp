@@ -10,6 +10,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -17,12 +18,6 @@ namespace {
 
 /// Medians of chi-square with one degree of freedom, and of large ones near their mean.
 constexpr double kMedianOfSquare = 0.4549;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Mean of chi-square over its median, for so many degrees of freedom (Wilson and Hilferty).
 double mean_over_median(double degrees) {

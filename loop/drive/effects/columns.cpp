@@ -87,17 +87,6 @@ DriveFamily without_a_name() {
   return f;
 }
 
-double legendre(int degree, double x) {
-  if (degree == 0) return 1.0;
-  double before = 1.0, now = x;
-  for (int k = 1; k < degree; ++k) {
-    const double next = ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0);
-    before = now;
-    now = next;
-  }
-  return now;
-}
-
 double coordinate(const DriveContext& context, const BenchPoint& p, double over) {
   return over == 0.0   ? context.load_coordinate(p)
          : over == 1.0 ? context.speed_coordinate(p)

@@ -46,8 +46,6 @@ inline constexpr double kMostFriction = 0.4;
 [[nodiscard]] std::vector<TermKey> drive_term_keys();
 /// Facts that all of them share.
 [[nodiscard]] DriveFamily without_a_name();
-/// Orthogonal on -1 ... 1.
-[[nodiscard]] double legendre(int degree, double x);
 /// -1 ... 1 over load, speed or temperature (over = 0, 1, 2).
 [[nodiscard]] double coordinate(const DriveContext& context, const BenchPoint& p, double over);
 [[nodiscard]] const char* name_of_quantity(double over);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "trueflank/base/legendre.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -8,18 +9,6 @@
 // on the two flanks. It describes and is given no cause.
 namespace trueflank::loop::gear_effects {
 namespace {
-
-/// Orthogonal on -1 ... 1.
-double legendre(int degree, double x) {
-  double before = 1.0, now = x;
-  if (degree == 0) return 1.0;
-  for (int k = 1; k < degree; ++k) {
-    const double next = ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0);
-    before = now;
-    now = next;
-  }
-  return now;
-}
 
 constexpr int kMostProfileDegree = 4, kMostFaceDegree = 4;
 

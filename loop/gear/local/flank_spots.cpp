@@ -7,6 +7,7 @@
 #include <map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -15,14 +16,6 @@ namespace {
 constexpr double kClip = 3.5;
 constexpr int kMostCells = 20, kFewestCells = 4;
 constexpr std::size_t kFewestPoints = 40, kMostSpots = 3;
-
-double spread_of(std::vector<float> values) {
-  if (values.empty()) return 0.0;
-  for (float& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * static_cast<double>(*middle);
-}
 
 std::size_t side_index(int side) { return side > 0 ? 1 : 0; }
 
@@ -66,7 +59,7 @@ class SpotSearch {
       um.reserve(points / 2);
       for (std::size_t flank = side; flank < flanks; flank += 2)
         rows.for_each(flank, [&](std::size_t i) { um.push_back(row_um[i]); });
-      limits[side] = kClip * spread_of(std::move(um));
+      limits[side] = kClip * robust_sigma(std::move(um));
     });
     std::vector<Field*> fields(flanks, nullptr);
     for (std::size_t flank = 0; flank < flanks; ++flank)
@@ -93,7 +86,7 @@ class SpotSearch {
         last_um = row_um[i];
         any = true;
       });
-      field.loud = spread_of(std::move(steps));
+      field.loud = robust_sigma(std::move(steps));
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
     });
     tell_loud_flanks();
@@ -130,7 +123,7 @@ class SpotSearch {
     constexpr double kByChance = 1.5;
     std::vector<float> scatters;
     for (const auto& [key, field] : fields_) scatters.push_back(static_cast<float>(field.loud));
-    const double usual = spread_of(std::move(scatters)) / 1.4826;
+    const double usual = robust_sigma(std::move(scatters)) / kSigmaOfMedianSize;
     for (auto& [key, field] : fields_)
       field.loud = usual > 0.0 && field.loud > kByChance * usual ? field.loud / usual : 1.0;
   }
@@ -176,8 +169,8 @@ class SpotSearch {
       of_side[side_index(key.second)].push_back(static_cast<float>(score));
     });
     const auto tests = static_cast<double>(of_side[0].size() + of_side[1].size());
-    const std::array<double, 2> spreads{spread_of(std::move(of_side[0])),
-                                        spread_of(std::move(of_side[1]))};
+    const std::array<double, 2> spreads{robust_sigma(std::move(of_side[0])),
+                                        robust_sigma(std::move(of_side[1]))};
     const double mm_u = (geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm()) / cells_;
     const double mm_v = geometry_.face_width_mm() / cells_;
     each([&](const auto& key, const Field& field, int u, int v, double count, double score) {

@@ -12,6 +12,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -205,9 +206,7 @@ class Spectrum {
       found.largest = power[static_cast<std::size_t>(n)];
       found.order = 2 * n > teeth_ ? n - teeth_ : n;
     }
-    const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
-    std::nth_element(power.begin(), middle, power.end());
-    found.median = *middle;
+    found.median = median(power);
     return found;
   }
 
@@ -319,11 +318,6 @@ class Spectrum {
 
   /// Heights of the flanks against the longest waves within them, whichever way these are larger.
   std::optional<TeethApart> apart() const {
-    const auto median = [](std::vector<double> values) {
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      return *middle;
-    };
     double level = 0.0;
     for (const auto& waves : {std::array<std::array<int, 2>, 2>{{{0, 2}, {0, 4}}},
                               std::array<std::array<int, 2>, 2>{{{2, 0}, {4, 0}}}}) {

@@ -6,18 +6,13 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
 
 /// Fewer points than this say nothing of a land; so many of one tooth say where its own is.
 constexpr std::size_t kFewest = 20, kOfOneTooth = 5;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -72,9 +67,8 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
     tip_mm_[k] = of_tooth[k].size() >= kOfOneTooth ? median(of_tooth[k]) : whole;
     for (const double radius : of_tooth[k]) scatter.push_back(std::abs(radius - tip_mm_[k]));
   }
-  constexpr double kSigmaOfMedian = 1.4826;
   guard_mm_ =
-      std::min(3.0 * kSigmaOfMedian * median(scatter), 0.1 * geometry.gear().normal_module_mm);
+      std::min(3.0 * kSigmaOfMedianSize * median(scatter), 0.1 * geometry.gear().normal_module_mm);
 }
 
 bool MeasuredLands::covers(const Place& place, const std::array<double, 3>& point) const {

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -40,19 +41,13 @@ std::vector<int> shuffled(int n) {
   return order;
 }
 
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 /// Variance from squares of a centred normal variable: by the median, or the mean of few.
 double robust_variance(std::vector<double>& squares) {
   if (squares.size() < 8)
     return squares.empty() ? 0.0
                            : std::accumulate(squares.begin(), squares.end(), 0.0) /
                                  static_cast<double>(squares.size());
-  return median_of(squares) / 0.4549;
+  return median(squares) / 0.4549;
 }
 
 class PatchMaker {

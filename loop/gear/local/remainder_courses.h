@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/observations.h"
 
 namespace trueflank::loop {
@@ -74,9 +75,7 @@ struct Courses {
     for (const auto& flank : of_flank)
       for (const auto& [course, list] : flank) counts.push_back(list.size());
     if (counts.empty()) return 0;
-    std::nth_element(counts.begin(),
-                     counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
-    return static_cast<int>(std::min<std::size_t>(counts[counts.size() / 2], kMostPlaces));
+    return static_cast<int>(std::min<std::size_t>(median(counts), kMostPlaces));
   }
 
   /// One flank's courses as columns over the places; gaps are bridged, courses with many left out.

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -61,12 +62,6 @@ void take_slow_part(ProfileTrace& trace) {
   um -= powers * (powers.transpose() * powers).ldlt().solve(powers.transpose() * um);
 }
 
-double middle_of(std::vector<double>& values) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// First and last order: of one and a half waves on a usual trace, of four values a wave.
 std::pair<int, int> orders_of(const ProfileTraces& traces) {
   constexpr double kFewestWaves = 1.5, kFewestValues = 4.0;
@@ -79,8 +74,8 @@ std::pair<int, int> orders_of(const ProfileTraces& traces) {
     last.push_back(static_cast<double>(trace.um.size()) / kFewestValues * whole);
   }
   if (first.empty()) return {1, 0};
-  return {static_cast<int>(std::ceil(middle_of(first))),
-          static_cast<int>(std::min<double>(kMostRotationOrder, middle_of(last)))};
+  return {static_cast<int>(std::ceil(median(first))),
+          static_cast<int>(std::min<double>(kMostRotationOrder, median(last)))};
 }
 
 using OrderSums = std::vector<std::complex<double>>;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -17,12 +18,6 @@ constexpr std::size_t kFewInPatch = 5;
 using PatchKey = std::array<int, 5>;
 using RowNumbers = std::vector<std::uint32_t>;
 using PatchRows = std::map<PatchKey, RowNumbers>;
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 PatchKey patch_key(const FlankGeometry& geometry, const Observation& row, const Place& place) {
   constexpr int kMostSources = 1 << 24;  // more files than anybody gives, so that kinds stay apart
@@ -146,9 +141,9 @@ Level level_of(const Observations& table, const RowNumbers& patch) {
   std::vector<double> values;
   values.reserve(patch.size());
   for (const std::uint32_t i : patch) values.push_back(table.rows[i].deviation_um);
-  const double centre = median_of(values);
+  const double centre = median(values);
   for (double& value : values) value = std::abs(value - centre);
-  return {centre, 1.4826 * median_of(values)};
+  return {centre, kSigmaOfMedianSize * median(values)};
 }
 
 /// The outliers of one patch; `of_kind_um` is the usual spread of its kind.
@@ -210,7 +205,7 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
   for (std::size_t k = 0; k < judged.size(); ++k)
     spreads[judged[k]->first[0]].push_back(levels[k].spread_um);
   std::map<int, double> spread_of;
-  for (auto& [kind, list] : spreads) spread_of[kind] = median_of(list);
+  for (auto& [kind, list] : spreads) spread_of[kind] = median(list);
   std::vector<RowNumbers> found(judged.size());
   for_each_patch([&](std::size_t k) {
     found[k] =
