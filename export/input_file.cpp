@@ -26,6 +26,32 @@ std::optional<std::size_t> InputFile::regular_size() const {
   return static_cast<std::size_t>(status_.st_size);
 }
 
+namespace {
+
+/// Bytes of a file that have been written, looked for until there are more than `most`; leaves the place to read from
+/// wherever it is. The size where the file system does not tell.
+off_t written_bytes(int descriptor, off_t size, off_t most) {
+  off_t written = 0;
+  for (off_t at = 0; at < size && written <= most;) {
+    const off_t data = ::lseek(descriptor, at, SEEK_DATA);
+    if (data < 0 && errno == ENXIO) break;  // nothing from `at` on
+    at = data < 0 ? data : ::lseek(descriptor, data, SEEK_HOLE);
+    if (at < 0) return size;
+    written += at - data;
+  }
+  return written;
+}
+
+}  // namespace
+
+bool InputFile::is_hollow() const {
+  constexpr off_t kLarge = 16 << 20, kShare = 1000;
+  if (!regular_size() || status_.st_size < kLarge) return false;
+  const off_t most = status_.st_size / kShare;
+  const off_t written = written_bytes(descriptor_, status_.st_size, most);
+  return ::lseek(descriptor_, 0, SEEK_SET) == 0 && written <= most;
+}
+
 std::size_t InputFile::read(char* into, std::size_t room) {
   while (error_number_ == 0) {
     const ssize_t got = ::read(descriptor_, into, room);
@@ -58,6 +84,13 @@ Error too_large(const std::filesystem::path& path, std::size_t most_bytes, bool 
           .file = path.string()};
 }
 
+Error hollow(const std::filesystem::path& path) {
+  return {.code = ErrorCode::kSyntax,
+          .message = "the file has its size but next to nothing has been written into it; the rest reads as zeros",
+          .remedy = "the whole file (a copy or a download may not have ended)",
+          .file = path.string()};
+}
+
 /// To the end of what has no size: its pieces are put together once, each given back as it is.
 Result<std::string> read_without_size(InputFile& file, const std::filesystem::path& path,
                                       std::size_t most_bytes) {
@@ -86,6 +119,7 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t mos
   const auto size = file.regular_size();
   if (!size) return read_without_size(file, path, most_bytes);
   if (*size > most_bytes) return fail(too_large(path, most_bytes, true));
+  if (file.is_hollow()) return fail(hollow(path));
   // One byte more than the size: the read that finds the end needs no second round.
   std::string content(*size + 1, '\0');
   std::size_t filled = 0;

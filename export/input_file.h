@@ -24,6 +24,9 @@ class InputFile {
   [[nodiscard]] int error_number() const { return error_number_; }
   /// Bytes; nothing for pipes and devices.
   [[nodiscard]] std::optional<std::size_t> regular_size() const;
+  /// Whether a large file holds next to nothing: a thousandth of it or less has been written, the rest was only
+  /// reserved and reads as zeros. False where the file system does not tell.
+  [[nodiscard]] bool is_hollow() const;
   /// Whether it is a device that gives characters, like a terminal.
   [[nodiscard]] bool is_device() const { return error_number_ == 0 && S_ISCHR(status_.st_mode); }
   /// What comes next, at least one byte; returns its size, 0 at the end and after an error.
@@ -41,8 +44,8 @@ class InputFile {
 constexpr std::size_t kMostBytesOfFile = 0xfffffffe, kMostBytesOfPipe = 256U << 20,
                       kMostBytesOfDevice = 1U << 20;
 
-/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder); kUnsupported beyond
-/// most_bytes, and for pipes and devices beyond kMostBytesOfPipe and kMostBytesOfDevice. Memory: at
+/// A whole file. Errors: kFileNotFound, kPermission, kDisk (also for a folder); kSyntax for one that is hollow;
+/// kUnsupported beyond most_bytes, and for pipes and devices beyond kMostBytesOfPipe and kMostBytesOfDevice. Memory: at
 /// most what is read and a megabyte.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path,
                                             std::size_t most_bytes = kMostBytesOfFile);

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/export/sample_scene.h"
+#include "trueflank/export/atomic_file.h"
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_reader.h"
 #include "trueflank/export/zip_archive.h"
@@ -240,6 +241,24 @@ TEST(MeshBombs, WhatNeverEndsIsReadToABound) {
     }
   });
   EXPECT_LT(taken_s, kAtOnce_s);
+}
+
+TEST(MeshBombs, AFileThatOnlyReservedItsSizeIsRefusedBeforeItIsRead) {
+  const test::ScratchFolder folder;
+  const auto path = folder.path() / "reserved.stl";
+  ASSERT_TRUE(write_file(path, "solid part\n"));
+  std::filesystem::resize_file(path, std::uintmax_t{4} << 30);  // 4 GB, of which one block is on the disk
+  const double taken_s = seconds_of([&] {
+    const auto content = read_file(path, std::size_t{8} << 30);
+    ASSERT_FALSE(content);
+    EXPECT_EQ(content.error().code, ErrorCode::kSyntax);
+    EXPECT_EQ(content.error().file, path.string());
+    EXPECT_FALSE(visit_facets(path, [](const Facet&) {}));
+  });
+  EXPECT_LT(taken_s, kAtOnce_s);
+  const std::string zeros(std::size_t{17} << 20, '\0');  // written: as good as any
+  ASSERT_TRUE(write_file(path, zeros));
+  EXPECT_EQ(read_file(path), zeros);
 }
 
 TEST(MeshBombs, WhatComesOutOfAPipeInManyPiecesIsReadWhole) {
