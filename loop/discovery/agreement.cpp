@@ -16,6 +16,7 @@ namespace trueflank::loop {
 namespace {
 
 constexpr std::size_t kFewest = 4, kMost = 24;
+static_assert(4 * kMost == kMostWholesAsked);
 /// Share of a group's information that must lie in whole traces, and below which a trace holds none
 /// of it.
 constexpr double kInWholes = 0.9, kNone = 1e-3;
@@ -51,12 +52,14 @@ std::pair<double, double> left_of_chain(Eigen::Index n, double rho) {
 /// Variance that slow candidates meet in a trace, by what traces scatter about their own courses
 /// and by how that hangs together from one value to the next; 0 where there are no traces of enough
 /// values.
-double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& statistics,
-                      const std::map<int, std::vector<int>>& wholes) {
+double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& statistics) {
+  std::map<int, std::vector<int>> wholes;  // with a zero of their own
+  for (const int i : statistics.used())
+    if (problem.whole[i] >= 0 && problem.zero[i] >= 0) wholes[problem.whole[i]].push_back(i);
   double squares = 0.0, products = 0.0, values = 0.0, pairs = 0.0, traces = 0.0;
   for (const auto& [whole, rows] : wholes) {
     const auto n = static_cast<Eigen::Index>(rows.size());
-    if (problem.zero[rows.front()] < 0 || n < kFewestValues) continue;
+    if (n < kFewestValues) continue;
     const Eigen::MatrixXd q = courses(n);
     Eigen::VectorXd left = problem.weight(rows).cwiseSqrt().cwiseProduct(statistics.value()(rows));
     left -= q * (q.transpose() * left);
@@ -125,11 +128,10 @@ double p_of(const Agreement& sum, int fitted, double within) {
   return f_tail(explained / columns / variance, columns, below + own);
 }
 
-/// The values of one whole, what is fitted to them and what that leaves.
-struct WholeRows {
-  std::vector<int> rows;
-  Eigen::MatrixXd fitted;  ///< M x values
-  Eigen::VectorXd weight, weighted_left;
+/// A whole, and the Gram matrix of what is fitted over it.
+struct FittedWhole {
+  const BlockStatistics::Whole& sums;
+  Eigen::MatrixXd fitted;  ///< M x M
 };
 
 struct Asked {
@@ -145,31 +147,71 @@ bool lives_in_too_many(const Agreement& sum, int columns) {
   return sum.degrees > static_cast<int>(kMost) * columns;
 }
 
+/// What one whole says of the columns of a panel, less what of them is absorbed.
+class PanelOfWhole {
+ public:
+  PanelOfWhole(const Asked& asked, std::size_t panel)
+      : asked_(asked),
+        number_(panel),
+        panel_(asked.statistics.panels()[panel]),
+        absorbed_(static_cast<std::size_t>(asked.model.absorbed.rows()), PanelRow{}) {
+    for (std::size_t k = 0; k < absorbed_.size(); ++k)
+      for (int c = 0; c < panel_.columns; ++c)
+        absorbed_[k][c] =
+            asked.model.absorbed(static_cast<Eigen::Index>(k), panel_.first_column + c);
+    int widest = 1;
+    for (int g = panel_.first_group; g < panel_.first_group + panel_.groups; ++g)
+      widest = std::max(widest, asked.problem.groups[g].columns);
+    products.resize(static_cast<std::size_t>(widest));
+  }
+
+  /// (c - A'f)(c - A'f)' = cc' - (cf')A - A'(fc' - ff'A), summed over the whole.
+  void look_at(const FittedWhole& whole) {
+    const auto columns = static_cast<std::size_t>(panel_.columns);
+    const auto all = static_cast<std::size_t>(asked_.statistics.candidates().cols());
+    for (std::size_t d = 0; d < products.size(); ++d) {
+      products[d] = {};
+      std::copy_n(whole.sums.products.data() + d * all + panel_.first_column, columns,
+                  products[d].begin());
+    }
+    scores = {};
+    for (const int unit : whole.sums.units)
+      for (std::size_t c = 0; c < columns; ++c)
+        scores[c] +=
+            asked_.model.unit_scores(panel_.first_column + static_cast<Eigen::Index>(c), unit);
+    for (std::size_t k = 0; k < absorbed_.size(); ++k) {
+      PanelRow cross{};
+      for (const int unit : whole.sums.units) {
+        const PanelRow& of_unit =
+            asked_.statistics.unit_candidates(asked_.model.columns[k], number_, unit);
+        for (std::size_t j = 0; j < kPanelColumns; ++j) cross[j] += of_unit[j];
+      }
+      subtract_products(products, cross, absorbed_[k]);
+      subtract_rows(cross, whole.fitted.col(static_cast<Eigen::Index>(k)).data(), absorbed_.data(),
+                    absorbed_.size());
+      subtract_products(products, absorbed_[k], cross);
+    }
+  }
+
+  std::vector<PanelRow> products;  ///< of columns that stand 0, 1, ... apart
+  PanelRow scores{};
+
+ private:
+  const Asked& asked_;
+  std::size_t number_;
+  const PanelColumns& panel_;
+  Panel absorbed_;
+};
+
 /// What every whole says of the groups of a panel, until all of them live in too many.
-void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const PanelColumns& panel,
+void add_wholes(const std::vector<FittedWhole>& wholes, const Asked& asked, std::size_t number,
                 std::vector<Agreement>& sums) {
   const std::vector<CandidateGroup>& groups = asked.problem.groups;
+  const PanelColumns& panel = asked.statistics.panels()[number];
   if (groups[panel.first_group].local_family >= 0) return;
-  const Eigen::Index m = asked.model.absorbed.rows();
-  Panel absorbed(static_cast<std::size_t>(m), PanelRow{}), beside;
-  for (Eigen::Index k = 0; k < m; ++k)
-    for (int c = 0; c < panel.columns; ++c)
-      absorbed[k][c] = asked.model.absorbed(k, panel.first_column + c);
-  int most = 1;
-  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
-    most = std::max(most, groups[g].columns);
-  for (const WholeRows& whole : wholes) {
-    std::vector<PanelRow> products(static_cast<std::size_t>(most), PanelRow{});
-    PanelRow scores{};
-    beside.assign(whole.rows.size(), PanelRow{});
-    for (std::size_t r = 0; r < whole.rows.size(); ++r) {
-      const float* row =
-          asked.statistics.candidates().row(whole.rows[r]).data() + panel.first_column;
-      std::copy_n(row, panel.columns, beside[r].begin());
-      subtract_rows(beside[r], whole.fitted.col(r).data(), absorbed.data(), absorbed.size());
-      add_products(products, whole.weight[r], beside[r]);
-    }
-    add_rows(scores, whole.weighted_left.data(), beside.data(), beside.size());
+  PanelOfWhole beside(asked, number);
+  for (const FittedWhole& whole : wholes) {
+    beside.look_at(whole);
     bool any = false;
     for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
       if (!asked.observable[g] || lives_in_too_many(sums[g], groups[g].columns)) continue;
@@ -178,8 +220,8 @@ void add_wholes(const std::vector<WholeRows>& wholes, const Asked& asked, const 
       GroupMatrix gram(own, own);
       GroupVector score(own);
       for (int k = 0; k < own; ++k) {
-        score[k] = scores[at + k];
-        for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
+        score[k] = beside.scores[at + k];
+        for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = beside.products[k - l][at + l];
       }
       add_whole(sums[g], gram, score,
                 asked.projected[g].trace() / static_cast<double>(wholes.size()));
@@ -194,10 +236,8 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
                                         const BlockStatistics& statistics, const FittedModel& model,
                                         const std::vector<Eigen::MatrixXd>& projected,
                                         const std::vector<bool>& observable) {
-  std::map<int, std::vector<int>> wholes;
-  for (const int i : statistics.used())
-    if (!problem.whole.empty() && problem.whole[i] >= 0) wholes[problem.whole[i]].push_back(i);
-  if (wholes.size() < kFewest || wholes.size() > 4 * kMost) return {};
+  const auto& wholes = statistics.wholes();
+  if (wholes.size() < kFewest || wholes.size() > kMostWholesAsked) return {};
   const std::size_t groups = problem.groups.size();
   std::vector<Agreement> sums(groups);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -205,12 +245,13 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     sums[g].gram = GroupMatrix::Zero(columns, columns);
     sums[g].score = GroupVector::Zero(columns);
   }
-  std::vector<WholeRows> values;
-  for (const auto& [whole, rows] : wholes) {
-    const Eigen::MatrixXd fitted = statistics.model()(rows, model.columns);
-    WholeRows one{rows, fitted.transpose(), problem.weight(rows), {}};
-    one.weighted_left = one.weight.cwiseProduct(statistics.value()(rows) - fitted * model.fitted);
-    values.push_back(std::move(one));
+  std::vector<FittedWhole> fitted;
+  for (const auto& [number, whole] : wholes) {
+    const auto m = static_cast<Eigen::Index>(model.columns.size());
+    FittedWhole one{whole, Eigen::MatrixXd::Zero(m, m)};
+    for (const int unit : whole.units)
+      one.fitted += statistics.unit(unit).model_model(model.columns, model.columns);
+    fitted.push_back(std::move(one));
   }
   // Groups do not ask each other: the same sums on any number of processors.
   constexpr std::size_t kPanelsOfWork = 4;
@@ -218,9 +259,9 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
   for_each_piece((panels.size() + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
     const std::size_t from = piece * kPanelsOfWork;
     for (std::size_t p = from; p < std::min(panels.size(), from + kPanelsOfWork); ++p)
-      add_wholes(values, {problem, statistics, model, projected, observable}, panels[p], sums);
+      add_wholes(fitted, {problem, statistics, model, projected, observable}, p, sums);
   });
-  const double within = scatter_within(problem, statistics, wholes);
+  const double within = scatter_within(problem, statistics);
   std::vector<double> single(groups, 1.0);
   for (std::size_t g = 0; g < groups; ++g) {
     const int columns = problem.groups[g].columns;

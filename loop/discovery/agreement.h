@@ -12,6 +12,7 @@ struct FittedModel {
   const std::vector<int>& columns;   ///< of the model, M of them
   const Eigen::MatrixXd& absorbed;   ///< M x P: each candidate's coefficients on them
   const Eigen::VectorXd& fitted;     ///< M: the value's
+  const Eigen::MatrixXd& unit_scores;  ///< P x units: of candidates less what is absorbed, in each unit
 };
 
 /// Whether few traces or flanks agree on a group: p of an F test, uncorrected, for each group; 1 where
@@ -20,6 +21,7 @@ struct FittedModel {
 /// that scatter is helped by what they show about their own courses, as much as four more traces would: a
 /// slope of three traces alone has two degrees of freedom.
 /// What a trace says of a group is taken to be normal; errors within it may hang together.
+/// Asks the sums over units and wholes alone, no value again.
 /// Requires: `projected`, the groups' Gram matrices beside what is fitted.
 /// Accuracy: false alarms in tests/loop/few_traces_test.cpp; docs/decisions/0134-few-traces.md.
 [[nodiscard]] std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,

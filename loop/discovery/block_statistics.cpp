@@ -33,6 +33,7 @@ BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
            std::pair(problem.unit[b], problem.fold[b]);
   });
   centre_on_zeros();
+  find_wholes();
   unit_sums_.resize(units_);
   fold_sums_.resize(folds_ + 1);
   sum_candidates();
@@ -64,6 +65,22 @@ void BlockStatistics::centre_on_zeros() {
       centred_.row(i) -= mean;
     }
   }
+}
+
+void BlockStatistics::find_wholes() {
+  if (problem_.whole.empty()) return;
+  int before = -1;
+  for (const int i : order_) {  // unit after unit
+    if (problem_.unit[i] == before) continue;
+    before = problem_.unit[i];
+    if (problem_.whole[i] >= 0) wholes_[problem_.whole[i]].units.push_back(before);
+  }
+  int widest = 1;
+  for (const CandidateGroup& group : problem_.groups) widest = std::max(widest, group.columns);
+  if (wholes_.size() > kMostWholesAsked) return;
+  for (auto& [number, whole] : wholes_)
+    whole.products.assign(
+        static_cast<std::size_t>(widest) * static_cast<std::size_t>(candidates().cols()), 0.0);
 }
 
 void BlockStatistics::sum_candidates() {
@@ -102,17 +119,16 @@ class ColumnProducts {
   ColumnProducts(int folds, int columns, int apart)
       : columns_(static_cast<std::size_t>(columns)),
         apart_(static_cast<std::size_t>(apart)),
-        sums_(static_cast<std::size_t>(folds + 1),
-              std::vector<double>((2 * apart_ - 1) * columns_, 0.0)),
+        sums_(static_cast<std::size_t>(folds + 1), std::vector<double>(apart_ * columns_, 0.0)),
+        part_(apart_ * columns_, 0.0),
         row_(columns_),
         weighted_(columns_) {}
 
-  /// Adds a row's products to its fold, and `factor` times the row to two sums of rows.
-  void add(const float* row, int fold, double weight, double factor, double* sum,
-           double* other_sum) {
+  /// Adds a row's products to those of its part, and `factor` times the row to two sums of rows.
+  void add(const float* row, double weight, double factor, double* sum, double* other_sum) {
     double* const x = row_.data();
     double* const wx = weighted_.data();
-    double* const products = sums_[static_cast<std::size_t>(fold)].data();
+    double* const products = part_.data();
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
       for (std::size_t j = 0; j < columns_; ++j) {
         x[j] = row[j];
@@ -120,30 +136,42 @@ class ColumnProducts {
       }
       for (std::size_t j = 0; j < columns_; ++j) sum[j] += factor * x[j];
       for (std::size_t j = 0; j < columns_; ++j) other_sum[j] += factor * x[j];
-      for (std::size_t j = 0; j < columns_; ++j) products[j] += wx[j] * x[j];
-      for (std::size_t d = 1; d < apart_; ++d) {
-        double* const after = products + (2 * d - 1) * columns_;
-        double* const before = after + columns_;
-        for (std::size_t j = 0; j < columns_ - d; ++j) after[j] += wx[j] * x[j + d];
-        for (std::size_t j = 0; j < columns_ - d; ++j) before[j] += wx[j + d] * x[j];
+      for (std::size_t d = 0; d < apart_; ++d) {
+        double* const beside = products + d * columns_;
+        for (std::size_t j = 0; j < columns_ - d; ++j) beside[j] += wx[j] * x[j + d];
       }
     });
   }
-  /// Of column a, weighted, with column b.
+  /// The part ends: its products belong to a fold, and to a whole whose rows of columns stand
+  /// `stride` apart; nullptr: to none.
+  void close_part(int fold, double* whole, std::size_t stride) {
+    std::vector<double>& of_fold = sums_[static_cast<std::size_t>(fold)];
+    for (std::size_t k = 0; k < part_.size(); ++k) of_fold[k] += part_[k];
+    for (std::size_t d = 0; whole != nullptr && d < apart_; ++d)
+      for (std::size_t j = 0; j < columns_; ++j) whole[d * stride + j] += part_[d * columns_ + j];
+    std::fill(part_.begin(), part_.end(), 0.0);
+  }
+  /// Of column a with column b.
   [[nodiscard]] double sum(int fold, int a, int b) const {
-    const auto d = static_cast<std::size_t>(std::abs(b - a));
-    const std::size_t row = b == a ? 0 : b > a ? 2 * d - 1 : 2 * d;
     return sums_[static_cast<std::size_t>(fold)]
-                [row * columns_ + static_cast<std::size_t>(std::min(a, b))];
+                [static_cast<std::size_t>(std::abs(b - a)) * columns_ +
+                 static_cast<std::size_t>(std::min(a, b))];
   }
 
  private:
   std::size_t columns_, apart_;
   std::vector<std::vector<double>> sums_;
-  std::vector<double> row_, weighted_;
+  std::vector<double> part_, row_, weighted_;
 };
 
 }  // namespace
+
+/// Of the whole that a value belongs to, from a column on; nullptr where they are not summed.
+double* BlockStatistics::products_of_whole(int value, int first_column) {
+  const auto found = problem_.whole.empty() ? wholes_.end() : wholes_.find(problem_.whole[value]);
+  if (found == wholes_.end() || found->second.products.empty()) return nullptr;
+  return found->second.products.data() + first_column;
+}
 
 /// Sums of the columns of some groups, which stand beside each other.
 void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
@@ -156,12 +184,17 @@ void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
   for (std::size_t g = from; g < to; ++g) widest = std::max(widest, groups[g].columns);
   std::map<std::pair<int, int>, Eigen::VectorXd> trace_parts;
   ColumnProducts products(folds_, columns, widest);
-  for (const int i : order_) {
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    const int i = order_[r];
     const double w = problem_.weight[i], wy = w * value_[i];
     const int unit = problem_.unit[i], fold = problem_.fold[i];
     const float* row = candidates.row(i).data() + first;
-    products.add(row, fold, w, wy, unit_sums_[unit].candidate_value.data() + first,
+    products.add(row, w, wy, unit_sums_[unit].candidate_value.data() + first,
                  fold_sums_[fold].candidate_value.data() + first);
+    if (r + 1 == order_.size() || problem_.unit[order_[r + 1]] != unit ||
+        problem_.fold[order_[r + 1]] != fold)
+      products.close_part(fold, products_of_whole(i, first),
+                          static_cast<std::size_t>(candidates.cols()));
     if (problem_.zero[i] < 0) continue;
     Eigen::VectorXd& sum = trace_parts[{problem_.zero[i], unit}];
     if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);

@@ -9,6 +9,9 @@
 
 namespace trueflank::loop {
 
+/// So few whole traces or flanks are asked whether they agree (agreement.h).
+constexpr std::size_t kMostWholesAsked = 96;
+
 /// Normal equations of a discovery problem, kept per unit and per fold so that no step of the
 /// selection has to walk the values again. Model columns are the nuisance columns and every group
 /// that was ever added.
@@ -55,6 +58,15 @@ class BlockStatistics {
     return unit_candidates_[static_cast<std::size_t>(
         model_column)][panel * static_cast<std::size_t>(units_) + static_cast<std::size_t>(unit)];
   }
+  /// One whole trace or flank: its units, and of the candidates' columns the weighted products of
+  /// those that stand 0, 1, ... apart (at d * columns + the first of the two). Summed for as many
+  /// wholes as agreement.h asks of.
+  struct Whole {
+    std::vector<int> units;
+    std::vector<double> products;
+  };
+  /// By their numbers, where values of one unit are of one whole.
+  [[nodiscard]] const std::map<int, Whole>& wholes() const { return wholes_; }
   /// Gram matrix of a group, over a fold (1 ...) or over all (0).
   [[nodiscard]] const Eigen::MatrixXd& group_gram(int group, int fold) const {
     return group_grams_[fold][group];
@@ -64,6 +76,8 @@ class BlockStatistics {
 
  private:
   void centre_on_zeros();
+  void find_wholes();
+  double* products_of_whole(int value, int first_column);
   void sum_candidates();
   void sum_groups(std::size_t from, std::size_t to, const std::map<int, double>& trace_weight);
   void add_model_sums(int first);
@@ -83,6 +97,7 @@ class BlockStatistics {
   std::vector<std::vector<PanelRow>>
       unit_candidates_;  ///< of model columns: panel after panel, in it the units
   Sums all_;
+  std::map<int, Whole> wholes_;
   std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
   std::vector<Eigen::MatrixXd> zero_loss_;
 };

@@ -55,6 +55,16 @@ void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& ro
   });
 }
 
+void subtract_products(std::vector<PanelRow>& sums, const PanelRow& row, const PanelRow& other) {
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t apart = 0; apart < sums.size(); ++apart) {
+      double* const sum = sums[apart].data();
+      const double* const beside = other.data() + apart;
+      for (std::size_t j = 0; j < kPanelColumns - apart; ++j) sum[j] -= row[j] * beside[j];
+    }
+  });
+}
+
 std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups) {
   std::vector<PanelColumns> panels;
   for (std::size_t g = 0; g < groups.size(); ++g) {

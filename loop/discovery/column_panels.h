@@ -37,6 +37,8 @@ void add_rows(PanelRow& row, const double* factors, const PanelRow* others, std:
 void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count);
 /// sums[d][j] += factor * row[j] * row[j + d]: products of columns that stand d apart.
 void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& row);
+/// sums[d][j] -= row[j] * other[j + d].
+void subtract_products(std::vector<PanelRow>& sums, const PanelRow& row, const PanelRow& other);
 /// @}
 
 /// The inverse of a positive semidefinite matrix P^T L D L^T P, for panels.

@@ -240,7 +240,7 @@ void StructureTest::test_by_flips(int flips) {
 /// The groups that live in few whole traces or flanks, by how much these agree.
 void StructureTest::test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned) {
   const std::vector<double> single = agreement_of_wholes(
-      problem_, statistics_, {columns, absorbed_, fitted_}, projected_, observable_);
+      problem_, statistics_, {columns, absorbed_, fitted_, unit_scores_}, projected_, observable_);
   if (single.empty()) return;
   double tested = 0.0;
   // Two tests are made of one question: each has half of the level.

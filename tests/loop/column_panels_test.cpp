@@ -5,7 +5,9 @@
 
 #include <random>
 
+#include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/cross_validation.h"
+#include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::loop {
 namespace {
@@ -112,6 +114,94 @@ TEST(CrossValidation, OfAGroupMoreIsAFitToTheOtherFolds) {
       EXPECT_NEAR(errors[i][fold - 1], error_by_hand(problem, problem.groups[groups[i]], fold),
                   2e-4)
           << "group " << groups[i] << ", fold " << fold;
+}
+
+/// Fifteen wholes of six values each, cut into so many units; one value of each whole is locked.
+DiscoveryProblem problem_of_wholes(int units_of_a_whole) {
+  DiscoveryProblem problem = random_problem(3);
+  for (int i = 0; i < static_cast<int>(problem.value.size()); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    problem.whole.push_back(i % 15);
+    problem.unit[at] = (i % 15) * units_of_a_whole + (i / 15) % units_of_a_whole;
+    problem.fold[at] = (i / 15) % 5;
+  }
+  return problem;
+}
+
+/// A problem seen from the values that are not locked, by sums over each of them.
+struct SeenByHand {
+  explicit SeenByHand(const DiscoveryProblem& of) : problem(of), statistics(of) {
+    const std::vector<int>& used = statistics.used();
+    const Eigen::MatrixXd f = problem.nuisance(used, Eigen::all);
+    const Eigen::MatrixXd c = problem.candidates(used, Eigen::all).cast<double>();
+    const Eigen::VectorXd w = problem.weight(used), y = problem.value(used);
+    const Eigen::MatrixXd inverse = (f.transpose() * w.asDiagonal() * f).inverse();
+    absorbed = inverse * (f.transpose() * w.asDiagonal() * c);
+    fitted = inverse * (f.transpose() * w.asDiagonal() * y);
+    beside = c - f * absorbed;
+    left = y - f * fitted;
+    weight = w;
+    unit_scores = Eigen::MatrixXd::Zero(c.cols(), statistics.units());
+    for (std::size_t r = 0; r < used.size(); ++r) {
+      const auto row = static_cast<Eigen::Index>(r);
+      unit_scores.col(problem.unit[static_cast<std::size_t>(used[r])]) +=
+          w[row] * left[row] * beside.row(row).transpose();
+    }
+    for (const CandidateGroup& group : problem.groups) {
+      const auto own = beside.middleCols(group.first_column, group.columns);
+      projected.emplace_back(own.transpose() * w.asDiagonal() * own);
+    }
+  }
+  [[nodiscard]] std::vector<double> agreement() const {
+    const std::vector<int> columns{0, 1, 2, 3, 4};
+    return agreement_of_wholes(problem, statistics, {columns, absorbed, fitted, unit_scores},
+                               projected, std::vector<bool>(problem.groups.size(), true));
+  }
+
+  const DiscoveryProblem& problem;
+  BlockStatistics statistics;
+  Eigen::MatrixXd absorbed, beside, unit_scores;
+  Eigen::VectorXd fitted, left, weight;
+  std::vector<Eigen::MatrixXd> projected;
+};
+
+TEST(Agreement, OfWholesIsAnFTestOfWhatEachSaysByItself) {
+  const DiscoveryProblem problem = problem_of_wholes(1);
+  const SeenByHand seen(problem);
+  const std::vector<double> p = seen.agreement();
+  ASSERT_EQ(p.size(), problem.groups.size());
+  for (std::size_t g = 0; g < 20; g += 3) {  // of one column
+    double gram = 0.0, score = 0.0, total = 0.0;
+    for (int whole = 0; whole < 15; ++whole) {
+      double own = 0.0, along = 0.0;
+      for (std::size_t r = 0; r < seen.statistics.used().size(); ++r) {
+        const auto row = static_cast<Eigen::Index>(r);
+        if (seen.statistics.used()[r] % 15 != whole) continue;
+        const double x = seen.beside(row, problem.groups[g].first_column);
+        own += seen.weight[row] * x * x;
+        along += seen.weight[row] * x * seen.left[row];
+      }
+      gram += own;
+      score += along;
+      total += along * along / own;
+    }
+    const double explained = score * score / gram;
+    constexpr double kDegrees = 15.0 - 1.0 - 5.0;
+    EXPECT_NEAR(p[g], f_tail(explained / ((total - explained) / kDegrees), 1.0, kDegrees), 1e-9)
+        << "group " << g;
+  }
+}
+
+TEST(Agreement, OfWholesIsTheSameHoweverTheyAreCutIntoUnits) {
+  const DiscoveryProblem whole = problem_of_wholes(1), cut = problem_of_wholes(2);
+  const std::vector<double> p = SeenByHand(whole).agreement(), of_cut = SeenByHand(cut).agreement();
+  ASSERT_EQ(p.size(), of_cut.size());
+  int asked = 0;
+  for (std::size_t g = 0; g < p.size(); ++g) {
+    EXPECT_NEAR(p[g], of_cut[g], 1e-9) << "group " << g;
+    asked += p[g] < 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(asked, 30);
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ EffectFamily ghost_order() {
     if (p.surface != Surface::kFlank) return;
     const double rotation =
         g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) - g.sense() * p.side * p.roll_mm / g.base_radius_mm();
-    c[0] = std::cos(shape[0] * rotation);
-    c[1] = std::sin(shape[0] * rotation);
+    const double angle = shape[0] * rotation;  // one argument: one call for both
+    c[0] = std::cos(angle);
+    c[1] = std::sin(angle);
   };
   f.is_fine = [](const FlankGeometry& g, const EffectShape& shape) {
     return shape[0] > 2.0 * g.teeth();
@@ -76,8 +77,9 @@ EffectFamily ghost_order_counted_backwards() {
     if (p.surface != Surface::kFlank) return;
     const double rotation =
         g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) + g.sense() * p.side * p.roll_mm / g.base_radius_mm();
-    c[0] = std::cos(shape[0] * rotation);
-    c[1] = std::sin(shape[0] * rotation);
+    const double angle = shape[0] * rotation;  // one argument: one call for both
+    c[0] = std::cos(angle);
+    c[1] = std::sin(angle);
   };
   return f;
 }

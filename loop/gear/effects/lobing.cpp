@@ -27,8 +27,9 @@ EffectFamily lobing() {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
     const double radial = normal_part(g, p, p.polar_direction[0], p.polar_direction[1]);
-    c[0] = radial * std::cos(shape[0] * p.polar_rad);
-    c[1] = radial * std::sin(shape[0] * p.polar_rad);
+    const double angle = shape[0] * p.polar_rad;  // one argument: one call for both
+    c[0] = radial * std::cos(angle);
+    c[1] = radial * std::sin(angle);
   };
   f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape& shape,
                          const double* b) -> Point3 {

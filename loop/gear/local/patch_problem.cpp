@@ -56,29 +56,84 @@ std::vector<std::size_t> by_tooth(const Patches& patches) {
   return order;
 }
 
-/// Writes the columns of one effect over some patches: its mean over each of them.
-void write_columns(const FlankGeometry& geometry, const Patches& patches,
-                   std::span<const std::size_t> members, const Effect& effect,
-                   const CandidateGroup& group, DiscoveryProblem& problem) {
-  const bool fine = effect.family->is_fine && effect.family->is_fine(geometry, effect.shape);
-  double one[8], sum[8];
-  for (const std::size_t i : members) {
-    const Patches::Patch& patch = patches.patches[i];
-    std::fill_n(sum, group.columns, 0.0);
-    const auto add = [&](const Place& place, double weight) {
-      effect.evaluate(geometry, place, one);
-      for (int k = 0; k < group.columns; ++k) sum[k] += weight * one[k];
-    };
-    if (fine && !patch.sample.empty())
-      for (const Place& place : patch.sample)
-        add(place, 1.0 / static_cast<double>(patch.sample.size()));
-    else
-      for (const WeightedPlace& place : patch.places) add(place.place, place.weight);
-    for (int k = 0; k < group.columns; ++k)
-      problem.candidates(static_cast<Eigen::Index>(i), group.first_column + k) =
-          static_cast<float>(sum[k]);
+/// The columns of some effects over a few patches. They are written side by side in a small block
+/// of their own and go to the matrix a row at a time: its rows lie kilobytes apart, so that a
+/// column written straight into it would miss the cache with every value.
+class ColumnBlock {
+ public:
+  ColumnBlock(const FlankGeometry& geometry, const Patches& patches,
+              const std::vector<Effect>& effects, std::span<const std::size_t> asked,
+              DiscoveryProblem& problem)
+      : geometry_(geometry),
+        patches_(patches),
+        effects_(effects),
+        asked_(asked),
+        problem_(problem) {
+    for (const std::size_t g : asked_) {
+      const CandidateGroup& group = problem.groups[g];
+      if (!runs_.empty() && runs_.back().column + runs_.back().columns == group.first_column)
+        runs_.back().columns += group.columns;
+      else
+        runs_.push_back({group.first_column, group.columns});
+      width_ += static_cast<std::size_t>(group.columns);
+    }
+    values_.resize(width_ * kPatchesAtOnce);
   }
-}
+
+  void write(std::span<const std::size_t> members) {
+    std::size_t column = 0;
+    for (const std::size_t g : asked_) {
+      write_effect(members, effects_[g], column);
+      column += static_cast<std::size_t>(problem_.groups[g].columns);
+    }
+    const float* from = values_.data();
+    for (const std::size_t i : members)
+      for (const Run& run : runs_) {
+        std::copy_n(from, run.columns,
+                    problem_.candidates.row(static_cast<Eigen::Index>(i)).data() + run.column);
+        from += run.columns;
+      }
+  }
+
+ private:
+  /// Columns that stand beside each other in the matrix, too.
+  struct Run {
+    int column = 0, columns = 0;
+  };
+
+  /// The mean of an effect's columns over each patch.
+  void write_effect(std::span<const std::size_t> members, const Effect& effect,
+                    std::size_t column) {
+    const int columns = effect.columns();
+    const bool fine = effect.family->is_fine && effect.family->is_fine(geometry_, effect.shape);
+    double one[8], sum[8];
+    float* to = values_.data() + column;
+    for (const std::size_t i : members) {
+      const Patches::Patch& patch = patches_.patches[i];
+      std::fill_n(sum, columns, 0.0);
+      const auto add = [&](const Place& place, double weight) {
+        effect.evaluate(geometry_, place, one);
+        for (int k = 0; k < columns; ++k) sum[k] += weight * one[k];
+      };
+      if (fine && !patch.sample.empty())
+        for (const Place& place : patch.sample)
+          add(place, 1.0 / static_cast<double>(patch.sample.size()));
+      else
+        for (const WeightedPlace& place : patch.places) add(place.place, place.weight);
+      for (int k = 0; k < columns; ++k) to[k] = static_cast<float>(sum[k]);
+      to += width_;
+    }
+  }
+
+  const FlankGeometry& geometry_;
+  const Patches& patches_;
+  const std::vector<Effect>& effects_;
+  std::span<const std::size_t> asked_;
+  DiscoveryProblem& problem_;
+  std::vector<Run> runs_;
+  std::size_t width_ = 0;
+  std::vector<float> values_;
+};
 
 /// Groups of the effects, in order.
 std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<Effect>& effects) {
@@ -165,14 +220,11 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
   std::vector<io::QueuedJob> jobs;
   for (std::size_t first = 0; first < changed.size(); first += kCandidatesOfWork)
     jobs.push_back({[&, first] {
-                      const std::size_t end = std::min(changed.size(), first + kCandidatesOfWork);
-                      for (std::size_t p = 0; p < order.size(); p += kPatchesAtOnce) {
-                        const std::span members(order.data() + p,
-                                                std::min(kPatchesAtOnce, order.size() - p));
-                        for (std::size_t i = first; i < end; ++i)
-                          write_columns(geometry, patches, members, effects[changed[i]],
-                                        problem.groups[changed[i]], problem);
-                      }
+                      const std::span asked(changed.data() + first,
+                                            std::min(kCandidatesOfWork, changed.size() - first));
+                      ColumnBlock block(geometry, patches, effects, asked, problem);
+                      for (std::size_t p = 0; p < order.size(); p += kPatchesAtOnce)
+                        block.write({order.data() + p, std::min(kPatchesAtOnce, order.size() - p)});
                       return true;
                     },
                     {}});
