@@ -107,15 +107,19 @@ struct OutlineHalves {
   }
 };
 
-/// Outline of the teeth of a gear whose middles lie within an angle from +x.
+/// Outline of the teeth of a gear whose middles lie within an angle from +x, but for those that lie
+/// below the line of centres as a whole: only the upper half is looked at.
 std::vector<Edge> outline_near_mesh(const OutlineHalves& halves, int teeth, double rotation_rad,
                                     double reach_rad, const Point2& centre_mm) {
   std::vector<Edge> edges;
   const double pitch = kTwoPi / teeth;
-  const int first = static_cast<int>(std::ceil((-reach_rad - rotation_rad) / pitch));
+  const double lowest_rad = std::max(-reach_rad, -pitch);
+  const int first = static_cast<int>(std::ceil((lowest_rad - rotation_rad) / pitch));
   const int last = static_cast<int>(std::floor((reach_rad - rotation_rad) / pitch));
   const HalfToothPolyline& half = halves.half;
   const HalfToothPolyline& other = halves.clockwise ? *halves.clockwise : half;
+  edges.reserve(static_cast<std::size_t>(std::max(0, last - first + 1)) *
+                (half.points.size() + other.points.size()));
   for (int k = first; k <= last; ++k) {
     const Point2 axis = unit_vector(rotation_rad + pitch * k), across = perpendicular(axis);
     const auto placed = [&](double x, double y) -> Point2 {

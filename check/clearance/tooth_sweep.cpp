@@ -168,6 +168,34 @@ std::size_t columns_without(double above_mm, double first_mm, double growth_mm) 
   return static_cast<std::size_t>(std::clamp(std::floor(k * (1.0 - 1e-9)), 0.0, 1e6));
 }
 
+/// Which samples are looked at in which column: most columns are of use to few of them.
+class DueSamples {
+ public:
+  /// All in the first column.
+  DueSamples(std::size_t samples, std::size_t columns)
+      : first_(columns, kNone), after_(samples, kNone) {
+    for (std::size_t i = samples; i-- > 0;) put_off(i, 0);
+  }
+  /// Beyond the last column: not again.
+  void put_off(std::size_t sample, std::size_t column) {
+    if (column >= first_.size()) return;
+    after_[sample] = first_[column];
+    first_[column] = sample;
+  }
+  /// In the order of the samples; until the next call.
+  [[nodiscard]] const std::vector<std::size_t>& in(std::size_t column) {
+    due_.clear();
+    for (std::size_t i = first_[column]; i != kNone; i = after_[i]) due_.push_back(i);
+    std::sort(due_.begin(), due_.end());
+    return due_;
+  }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> first_, after_;  // of each column; of each sample within its column
+  std::vector<std::size_t> due_;
+};
+
 /// The order of places: by clearance, and among equals by how near the line of centres they are, by
 /// the mover's piece and place on it: not by a last bit that other compilers and processors round
 /// otherwise.
@@ -209,23 +237,23 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
   // A distance falls by no more than its point moves: columns within which it cannot come down to
   // what is looked for are passed over, with a value that is surely too high.
-  std::vector<std::size_t> next_column(samples.size(), 0);
-  for (std::size_t j = 0; j < columns;
-       j = std::max(j + 1, *std::min_element(next_column.begin(), next_column.end()))) {
+  DueSamples due_samples(samples.size(), columns);
+  for (std::size_t j = 0; j < columns; ++j) {
+    const std::vector<std::size_t>& due = due_samples.in(j);
+    if (due.empty()) continue;
     const double angle = -reach + step * static_cast<double>(j);
     const Position at = position_at(angle);
     const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (j < next_column[i]) continue;
+    for (const std::size_t i : due) {
       double& value = grid[i * columns + j];
       const Point2& p = samples[i].point;
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
       const double from_pitch_point = norm_of(x + axis_ - pitch_radius, y);
       const auto pass_over = [&](double distance_mm) {
-        next_column[i] =
-            j + 1 +
+        const std::size_t passed =
             columns_without(distance_mm - (lowest + kRefineBand * m),
                             step * turning * from_pitch_point, step * step * turning * p.norm());
+        due_samples.put_off(i, j + 1 + passed);
       };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
       const double beyond = mate_outward * (norm_of(x, y) - mate_tip);
