@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/geometry/bezier_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank {
 namespace {
@@ -70,7 +70,7 @@ PlaneSpline interpolate(const Curve& curve, int degree, std::vector<double> knot
   Eigen::MatrixX2d points(count, 2);
   for (int i = 0; i < count; ++i)
     points.row(i) = curve_point(curve, basis.places()[static_cast<std::size_t>(i)]).transpose();
-  const Eigen::MatrixX2d poles = basis.collocation().partialPivLu().solve(points);
+  const Eigen::MatrixX2d poles = SquareSolver(basis.collocation()).solve_columns(points);
   for (int i = 0; i < count; ++i) s.poles.emplace_back(poles.row(i).transpose());
   s.poles.front() = curve_point(curve, 0.0);
   s.poles.back() = curve_point(curve, 1.0);

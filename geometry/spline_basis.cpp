@@ -6,6 +6,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank {
 namespace {
@@ -23,7 +24,7 @@ std::vector<double> interpolation_errors(const LineBundle& lines, const SplineBa
     if (i == 0) values.resize(basis.count(), row.size());
     values.row(static_cast<Eigen::Index>(i)) = row;
   }
-  const Eigen::MatrixXd poles = basis.collocation().partialPivLu().solve(values);
+  const Eigen::MatrixXd poles = SquareSolver(basis.collocation()).solve_columns(values);
   std::vector<double> errors;
   for (std::size_t i = 0; i + 1 < basis.knots().size(); ++i) {
     const double from = basis.knots()[i], to = basis.knots()[i + 1];

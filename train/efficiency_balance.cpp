@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/train/efficiency_balance.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank {
 namespace {
@@ -82,9 +82,7 @@ std::optional<Eigen::VectorXd> mesh_torques(const Topology& topology, const Eige
   if (equations.rows() != count) return std::nullopt;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   right(count - 1) = -driving_torque;
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
-  if (!lu.isInvertible()) return std::nullopt;
-  return lu.solve(right);
+  return solution_if_regular(equations, right);
 }
 
 /// One train and one direction, with what all assignments share.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/agreement.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/distributions.h"
 
@@ -32,8 +31,7 @@ Eigen::MatrixXd courses(Eigen::Index n) {
   for (Eigen::Index i = 0; i < n; ++i)
     for (int k = 0; k < kCourse; ++k)
       powers(i, k) = std::pow(2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0, k);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(powers);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(n, kCourse);
+  return orthonormal_columns(powers);
 }
 
 /// What is left of errors that hang together by rho from one to the next, once a course of n is
@@ -118,8 +116,8 @@ double p_of(const Agreement& sum, int fitted, double within) {
   const auto columns = static_cast<int>(sum.score.size());
   const int below = sum.degrees - columns - fitted;
   if (below < 1 || (below < 2 && !(within > 0.0))) return 1.0;
-  const Eigen::LDLT<Eigen::MatrixXd> gram{Eigen::MatrixXd(sum.gram)};
-  if (gram.info() != Eigen::Success || !gram.isPositive()) return 1.0;
+  const SymmetricSolver gram{Eigen::MatrixXd(sum.gram)};
+  if (!gram.is_positive()) return 1.0;
   const Eigen::VectorXd score = sum.score;
   const double explained = score.dot(gram.solve(score));
   const double left = std::max(sum.total - explained, 1e-12 * sum.total);

@@ -79,16 +79,16 @@ std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups) {
   return panels;
 }
 
-PanelSolver::PanelSolver(const Eigen::LDLT<Eigen::MatrixXd>& ldlt)
-    : rows_(static_cast<std::size_t>(ldlt.rows())),
-      lower_(ldlt.matrixLDLT().transpose()),
-      upper_(ldlt.matrixLDLT()) {
+PanelSolver::PanelSolver(const SymmetricSolver& solver)
+    : rows_(static_cast<std::size_t>(solver.factors().rows())),
+      lower_(solver.factors().transpose()),
+      upper_(solver.factors()) {
   std::iota(rows_.begin(), rows_.end(), std::size_t{0});
-  const auto& swaps = ldlt.transpositionsP().indices();
-  for (Eigen::Index i = 0; i < ldlt.rows(); ++i) {
+  const auto& swaps = solver.swaps();
+  for (Eigen::Index i = 0; i < solver.factors().rows(); ++i) {
     std::swap(rows_[static_cast<std::size_t>(i)], rows_[static_cast<std::size_t>(swaps[i])]);
     // as in Eigen's own solver
-    const double pivot = ldlt.vectorD()[i];
+    const double pivot = solver.factors()(i, i);
     inverse_pivots_.push_back(std::abs(pivot) > std::numeric_limits<double>::min() ? 1.0 / pivot
                                                                                    : 0.0);
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/discovery.h"
 
 // Solving for many columns at once: the same sums for each of a panel of columns, which the
@@ -45,7 +45,7 @@ void subtract_products(std::vector<PanelRow>& sums, const PanelRow& row, const P
 class PanelSolver {
  public:
   PanelSolver() = default;
-  explicit PanelSolver(const Eigen::LDLT<Eigen::MatrixXd>& ldlt);
+  explicit PanelSolver(const SymmetricSolver& solver);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   /// The row of the matrix that stands at a place of a panel: a row of P.

@@ -7,6 +7,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/threads.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -32,7 +33,7 @@ CrossValidation::CrossValidation(const DiscoveryProblem& problem, const BlockSta
     Eigen::MatrixXd train = all - f.test_gram;
     // A column that lives only in this fold cannot be learnt from the others.
     train.diagonal() += 1e-10 * all.diagonal() + Eigen::VectorXd::Constant(train.rows(), 1e-30);
-    const Eigen::LDLT<Eigen::MatrixXd> solver(train);
+    const SymmetricSolver solver(train);
     f.train_value = statistics_.all().model_value(columns_) - f.test_value;
     f.base = solver.solve(f.train_value);
     f.test_base = f.test_gram * f.base;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/discovery.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/cross_validation.h"
 #include "trueflank/loop/discovery/structure_test.h"
@@ -284,7 +283,7 @@ class Selection {
     Eigen::MatrixXd gram = all.model_model(columns, columns);
     gram.diagonal() *= 1.0 + 1e-12;
     const Eigen::VectorXd right = all.model_value(columns);
-    return all.value_value - right.dot(gram.ldlt().solve(right));
+    return all.value_value - right.dot(symmetric_solution(gram, right));
   }
 
   /// With one observation a unit and fold as the effective number: values of a unit hang together.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/structure_test.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
 
@@ -73,7 +72,7 @@ void StructureTest::project(const std::vector<int>& columns) {
   Eigen::MatrixXd gram = all.model_model(columns, columns);
   gram.diagonal() *= 1.0 + 1e-12;
   gram.diagonal().array() += 1e-30;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(gram);
+  const SymmetricSolver solver(gram);
   Eigen::MatrixXd cross(m, p);
   for (Eigen::Index k = 0; k < m; ++k)
     cross.row(k) =
@@ -82,7 +81,7 @@ void StructureTest::project(const std::vector<int>& columns) {
   absorbed_ = Eigen::MatrixXd::Zero(m, p);
   fitted_ = Eigen::VectorXd::Zero(m);
   if (m > 0) {
-    const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(m, m));
+    const Eigen::MatrixXd inverse = solver.solve_columns(Eigen::MatrixXd::Identity(m, m));
     absorbed_ = inverse * cross;
     fitted_ = inverse * all.model_value(columns);
   }
@@ -184,7 +183,7 @@ void StructureTest::judge_what_can_be_seen() {
       else if (!(flipped_[g](k, k) > 0.05 * projected_[g](k, k)))
         testable_[g] = false;
     }
-    if (observable_[g] && projected_[g].determinant() <= 1e-6 * projected_[g].diagonal().prod())
+    if (observable_[g] && determinant_of(projected_[g]) <= 1e-6 * projected_[g].diagonal().prod())
       observable_[g] = testable_[g] = false;
   }
 }
@@ -203,15 +202,15 @@ void StructureTest::test_by_flips(int flips) {
     const CandidateGroup& group = problem_.groups[g];
     if (!testable_[g] || asked_at_[g] < 0) continue;
     const auto seq = Eigen::seqN(group.first_column, group.columns);
-    const Eigen::LDLT<Eigen::MatrixXd> under_flips(flipped_[g]);
-    if (under_flips.info() != Eigen::Success || !under_flips.isPositive()) continue;
+    const SymmetricSolver under_flips(flipped_[g]);
+    if (!under_flips.is_positive()) continue;
     const Eigen::MatrixXd s =
         scores(Eigen::seqN(asked_at_[g], group.columns), Eigen::all).cast<double>();
     const Eigen::MatrixXd inverse =
-        under_flips.solve(Eigen::MatrixXd::Identity(group.columns, group.columns));
+        under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
     statistic = s.cwiseProduct(inverse * s).colwise().sum().transpose();
     const Eigen::VectorXd o = observed(seq);
-    const double t = o.dot(projected_[g].ldlt().solve(o));
+    const double t = o.dot(symmetric_solution(projected_[g], o));
     // The group's own scale: correlation within units widens low modes more than high ones.
     const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
     if (!(scale > 0.0)) continue;

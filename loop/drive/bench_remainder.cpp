@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/bench_remainder.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
@@ -375,7 +375,7 @@ class Asking {
         x(i, k) = load * std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
                                   static_cast<double>(n));
     }
-    values -= x * x.colPivHouseholderQr().solve(values);
+    values -= x * least_squares(x, values);
   }
 
   /// Mean of what is left, as torque at the input, of the cells in which it is lowest and highest.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/bench_table.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/drive/bench_visits.h"
 
@@ -57,7 +57,7 @@ double fit_direction(const std::vector<BenchPoint>& points, bool forward,
   for (int round = 0; round < 12; ++round) {
     Eigen::MatrixXd gram = x.transpose() * w.asDiagonal() * x;
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
-    left = y - x * gram.ldlt().solve(x.transpose() * w.asDiagonal() * y);
+    left = y - x * symmetric_solution(gram, x.transpose() * w.asDiagonal() * y);
     std::vector<double> size(n);
     for (Eigen::Index r = 0; r < n; ++r) size[r] = std::abs(left[r]);
     sigma = kSigmaOfMedianSize * median(size) *

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/close_drive_loop.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
@@ -296,7 +296,8 @@ class Loop {
         const int first = fit.first_column(static_cast<int>(e)), columns = outcome.effects[e].columns();
         const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
         const double square =
-            b.dot(covariance.block(first, first, columns, columns).ldlt().solve(b)) / columns;
+            b.dot(symmetric_solution(covariance.block(first, first, columns, columns), b)) /
+            columns;
         if (square >= least_square) continue;
         least_square = square;
         least = e;

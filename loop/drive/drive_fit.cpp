@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/drive_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -16,7 +17,7 @@ Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd&
       gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd unit = scale.asDiagonal() * gram * scale.asDiagonal();
   unit.diagonal().array() += 1e-12;
-  return scale.asDiagonal() * unit.ldlt().solve(scale.asDiagonal() * right);
+  return scale.asDiagonal() * symmetric_solution(unit, scale.asDiagonal() * right);
 }
 
 /// Units as the engine flips them: of very many those of a fold are counted round, so that neighbours

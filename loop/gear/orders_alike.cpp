@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/orders_alike.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 
@@ -84,7 +84,7 @@ std::vector<int> orders_alike(const FlankGeometry& geometry, const Observations&
   for (int order = 1; order <= kMostOrder && 2 * order <= geometry.teeth(); ++order) {
     if (order == static_cast<int>(own)) continue;
     const Eigen::MatrixXd other = waves(order);
-    const Eigen::VectorXd left = seen - other * other.completeOrthogonalDecomposition().solve(seen);
+    const Eigen::VectorXd left = seen - other * least_squares(other, seen);
     if (left.norm() < kAlike * seen.norm()) alike.push_back(order);
   }
   return alike;

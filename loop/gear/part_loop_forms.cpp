@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names that are parts of one form: they are told as a form, without a cause.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <set>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/part_loop.h"
 
 namespace trueflank::loop {
@@ -62,7 +62,8 @@ Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
   Eigen::MatrixXd powers(kPlaces, kDegrees + 1);
   for (int i = 0; i < kPlaces; ++i)
     for (int d = 0; d <= kDegrees; ++d) powers(i, d) = std::pow(2.0 * i / (kPlaces - 1) - 1.0, d);
-  const Eigen::MatrixXd fit = (powers.transpose() * powers).ldlt().solve(powers.transpose());
+  const Eigen::MatrixXd fit =
+      SymmetricSolver(powers.transpose() * powers).solve_columns(powers.transpose());
   Eigen::VectorXd slow(course.size());
   slow << powers * (fit * course.head(kPlaces)), powers * (fit * course.tail(kPlaces));
   return slow;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is taken out of the answer, or put together, once the effects are chosen.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -50,7 +50,7 @@ void PartLoop::drop_what_mends_a_shape() {
       const int first = fit.first_column(static_cast<int>(e)), columns = effects_[e].columns();
       const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
       const Eigen::MatrixXd spread = covariance.block(first, first, columns, columns);
-      const double square = b.dot(spread.ldlt().solve(b)) / columns;
+      const double square = b.dot(symmetric_solution(spread, b)) / columns;
       if (square >= least_square) continue;
       least_square = square;
       least = e;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/plain_rms.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 
@@ -29,7 +30,7 @@ double least_plain_rms_um(const FlankGeometry& geometry, const Observations& tab
                                                static_cast<Eigen::Index>(values.size()) / columns);
   const Eigen::MatrixXd fitted = rows.topRows(columns - 1).transpose();
   const Eigen::VectorXd value = rows.row(columns - 1).transpose();
-  const Eigen::VectorXd best = fitted.colPivHouseholderQr().solve(value);
+  const Eigen::VectorXd best = least_squares(fitted, value);
   return (value - fitted * best).norm() / std::sqrt(static_cast<double>(table.rows.size()));
 }
 

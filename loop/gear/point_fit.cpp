@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/point_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "trueflank/export/parallel_jobs.h"
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 
@@ -265,7 +265,7 @@ Eigen::VectorXd PointFit::solution(const Eigen::MatrixXd& gram,
   normal.diagonal() *= 1.0 + 1e-12;
   normal.diagonal().array() += 1e-30;
   const Eigen::VectorXd right = gram(columns, columns_);
-  const Eigen::VectorXd solved = normal.ldlt().solve(right);
+  const Eigen::VectorXd solved = symmetric_solution(normal, right);
   for (std::size_t i = 0; i < columns.size(); ++i)
     result[columns[i]] = solved[static_cast<Eigen::Index>(i)];
   return result;
@@ -311,7 +311,7 @@ double PointFit::rms_with_um(const Eigen::VectorXd& effect_coefficients) const {
     normal.diagonal().array() += 1e-30;
     const Eigen::VectorXd right = all_.col(columns_).head(pose) -
                                   all_.block(0, pose, pose, columns_ - pose) * effect_coefficients;
-    b.head(pose) = normal.ldlt().solve(right);
+    b.head(pose) = symmetric_solution(normal, right);
   }
   return observations_ > 0 ? std::sqrt(std::max(0.0, square_error(plain_all_, b)) / observations_)
                            : kNaN;
@@ -343,7 +343,8 @@ void PointFit::solve() {
   Eigen::MatrixXd normal = all_.topLeftCorner(p, p);
   normal.diagonal() *= 1.0 + 1e-12;
   normal.diagonal().array() += 1e-30;
-  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd inverse =
+      SymmetricSolver(normal).solve_columns(Eigen::MatrixXd::Identity(p, p));
   std::set<int> local;
   for (int k = 0; k < p; ++k) {
     if (normal(k, k) > 1e-20) retained_[k] = 1.0 / (inverse(k, k) * normal(k, k));
@@ -378,7 +379,7 @@ void PointFit::solve() {
         safe(k, k) = 1.0;
         score[k] = 0.0;
       }
-    const Eigen::VectorXd change = safe.ldlt().solve(score);
+    const Eigen::VectorXd change = symmetric_solution(safe, score);
     sum += change * change.transpose();
     used += 1.0;
   }

@@ -63,9 +63,14 @@ Eigen::Matrix3d principal_directions(const Points& points) {
   return directions;
 }
 
+/// Eigen::Quaterniond::FromTwoVectors without its case of opposite directions, which takes a
+/// singular value decomposition that compiles for seconds.
 Eigen::Matrix3d turn_onto_z(Eigen::Vector3d axis) {
   if (axis.z() < 0.0) axis = -axis;
-  return Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d from = axis.normalized();
+  const double s = std::sqrt((1.0 + from.z()) * 2.0), inverse = 1.0 / s;
+  return Eigen::Quaterniond(s * 0.5, from.y() * inverse, -from.x() * inverse, 0.0)
+      .toRotationMatrix();
 }
 
 class PoseSearch {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/random_error.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
@@ -276,7 +276,7 @@ class ScannedFlanks {
     });
     gram.diagonal().array() += 1e-9 * n;
     const Eigen::VectorXd score = right;
-    const double left = squares - score.dot(Eigen::LDLT<Eigen::MatrixXd>(gram).solve(score));
+    const double left = squares - score.dot(symmetric_solution(gram, score));
     return std::max(0.0, left) / std::max(1.0, n - kForms);
   }
 

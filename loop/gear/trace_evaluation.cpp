@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/trace_evaluation.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -29,7 +30,7 @@ Eigen::VectorXd polynomial(const std::vector<TracePoint>& trace, double middle, 
     for (int k = 0; k <= degree; ++k, power *= (p.at_mm - middle) / half) columns(i, k) = power;
     values[i] = weight * p.deviation_um;
   }
-  return columns.colPivHouseholderQr().solve(values);
+  return least_squares(columns, values);
 }
 
 }  // namespace

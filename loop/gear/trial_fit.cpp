@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/trial_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
 
-Eigen::LDLT<Eigen::MatrixXd> decomposed(Eigen::MatrixXd normal) {
+SymmetricSolver decomposed(Eigen::MatrixXd normal) {
   normal.diagonal() *= 1.0 + 1e-12;
   normal.diagonal().array() += 1e-30;
-  return normal.ldlt();
+  return SymmetricSolver(normal);
 }
 
 /// Of normal equations whose last row and column are the value's.
@@ -25,7 +26,7 @@ TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::I
   const auto solver = decomposed(gram.topLeftCorner(n, n));
   TrialFit::Trial result{square_of(gram, solver.solve(gram.col(n).head(n))), 1.0};
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n).middleCols(first, columns);
-  const Eigen::MatrixXd inverse = solver.solve(unit);
+  const Eigen::MatrixXd inverse = solver.solve_columns(unit);
   for (Eigen::Index k = 0; k < columns; ++k) {
     const double own = gram(first + k, first + k);
     result.retained =

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/geometry/spline_basis.h"
 #include "trueflank/solid/brep/brep.h"
 
@@ -15,18 +16,18 @@ namespace trueflank {
 class SplineInterpolation {
  public:
   explicit SplineInterpolation(SplineBasis basis)
-      : basis_(std::move(basis)), lu_(basis_.collocation().partialPivLu()) {}
+      : basis_(std::move(basis)), collocation_(basis_.collocation()) {}
 
   [[nodiscard]] const SplineBasis& basis() const { return basis_; }
   [[nodiscard]] int count() const { return basis_.count(); }
   /// Values at basis().places(), one a row, to poles.
   [[nodiscard]] Eigen::MatrixXd poles(const Eigen::MatrixXd& values) const {
-    return lu_.solve(values);
+    return collocation_.solve_columns(values);
   }
 
  private:
   SplineBasis basis_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  SquareSolver collocation_;
 };
 
 /// Poles of the curve through the points at the basis' places.

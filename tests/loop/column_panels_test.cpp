@@ -65,9 +65,9 @@ TEST(ColumnPanels, AreSolvedAsOneColumnAfterTheOther) {
   const auto any = [&] { return normal(random); };
   constexpr Eigen::Index kSize = 9;
   const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(kSize, kSize, any);
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(root * root.transpose());
+  const SymmetricSolver symmetric(root * root.transpose());
   const Eigen::MatrixXd right = Eigen::MatrixXd::NullaryExpr(kSize, kPanelColumns, any);
-  const PanelSolver solver(ldlt);
+  const PanelSolver solver(symmetric);
   Panel panel(kSize);
   for (std::size_t k = 0; k < kSize; ++k)
     for (std::size_t j = 0; j < kPanelColumns; ++j)
@@ -75,7 +75,7 @@ TEST(ColumnPanels, AreSolvedAsOneColumnAfterTheOther) {
           right(static_cast<Eigen::Index>(solver.row_at(k)), static_cast<Eigen::Index>(j));
   solver.solve_lower(panel);
   solver.solve_upper(panel);
-  const Eigen::MatrixXd expected = ldlt.solve(right);
+  const Eigen::MatrixXd expected = symmetric.solve_columns(right);
   for (std::size_t k = 0; k < kSize; ++k)
     for (std::size_t j = 0; j < kPanelColumns; ++j)
       EXPECT_NEAR(

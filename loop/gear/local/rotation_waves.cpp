@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/local/rotation_waves.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -59,7 +59,7 @@ void take_slow_part(ProfileTrace& trace) {
   const Eigen::ArrayXd x = (at - at.mean()) / std::max(1e-12, at.maxCoeff() - at.minCoeff());
   Eigen::MatrixXd powers(n, 3);
   powers << Eigen::VectorXd::Ones(n), x.matrix(), x.square().matrix();
-  um -= powers * (powers.transpose() * powers).ldlt().solve(powers.transpose() * um);
+  um -= powers * symmetric_solution(powers.transpose() * powers, powers.transpose() * um);
 }
 
 /// First and last order: of one and a half waves on a usual trace, of four values a wave.
