@@ -10,7 +10,7 @@
 
 #include "trueflank/base/result.h"
 #include "trueflank/export/mesh_reader.h"
-#include "trueflank/export/packed_text.h"
+#include "trueflank/export/packed/packed_text.h"
 
 // Files of one gearbox hold the same packed meshes: the part's own 3MF file and that of the
 // assembly. Reading one of these files back, the second need not unpack and parse what the first

@@ -11,7 +11,7 @@
 #include "trueflank/export/known_meshes.h"
 #include "trueflank/export/mesh_parsers.h"
 #include "trueflank/export/xml_scanner.h"
-#include "trueflank/export/zip_archive.h"
+#include "trueflank/export/packed/zip_archive.h"
 
 namespace trueflank::io {
 namespace {

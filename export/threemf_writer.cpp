@@ -10,7 +10,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/number_text.h"
 #include "trueflank/export/xml_text.h"
-#include "trueflank/export/zip_archive.h"
+#include "trueflank/export/packed/zip_archive.h"
 
 namespace trueflank::io {
 namespace {

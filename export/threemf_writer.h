@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/packed_text.h"
+#include "trueflank/export/packed/packed_text.h"
 #include "trueflank/export/scene.h"
 
 namespace trueflank::io {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/export/deflate.h"
+#include "trueflank/export/packed/deflate.h"
 
 namespace trueflank::io {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "tests/export/sample_scene.h"
 #include "trueflank/export/atomic_file.h"
-#include "trueflank/export/deflate.h"
+#include "trueflank/export/packed/deflate.h"
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/threemf_writer.h"
 

@@ -16,7 +16,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_reader.h"
-#include "trueflank/export/zip_archive.h"
+#include "trueflank/export/packed/zip_archive.h"
 
 namespace trueflank::io {
 namespace {

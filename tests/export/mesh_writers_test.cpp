@@ -21,7 +21,7 @@
 #include "trueflank/export/ply_writer.h"
 #include "trueflank/export/stl_writer.h"
 #include "trueflank/export/threemf_writer.h"
-#include "trueflank/export/zip_archive.h"
+#include "trueflank/export/packed/zip_archive.h"
 
 namespace trueflank::io {
 namespace {

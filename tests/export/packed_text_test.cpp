@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // libdeflate unpacks what our own packer packed.
-#include "trueflank/export/packed_text.h"
+#include "trueflank/export/packed/packed_text.h"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>

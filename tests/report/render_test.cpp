@@ -8,7 +8,7 @@
 #include <random>
 
 #include "trueflank/base/units.h"
-#include "trueflank/export/deflate.h"
+#include "trueflank/export/packed/deflate.h"
 #include "trueflank/report/render/png.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 

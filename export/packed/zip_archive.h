@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trueflank/base/result.h"
-#include "trueflank/export/packed_text.h"
+#include "trueflank/export/packed/packed_text.h"
 #include "trueflank/export/reading.h"
 
 // The container of 3MF files: PKZIP with deflated or stored entries; written below 4 GB, ZIP64 is read.

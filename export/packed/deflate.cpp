@@ -2,7 +2,7 @@
 //
 // Greedy LZ77 with a table of the last two places of each four bytes, then one Huffman code a block.
 // Integers only, nothing read that was not written: the bytes depend on the text alone.
-#include "trueflank/export/deflate.h"
+#include "trueflank/export/packed/deflate.h"
 
 #include <libdeflate.h>
 

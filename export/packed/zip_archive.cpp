@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/zip_archive.h"
+#include "trueflank/export/packed/zip_archive.h"
 
 #include <algorithm>
 #include <cstdint>

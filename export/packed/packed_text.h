@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "trueflank/export/deflate.h"
+#include "trueflank/export/packed/deflate.h"
 
 namespace trueflank::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/packed_text.h"
+#include "trueflank/export/packed/packed_text.h"
 
 #include "trueflank/base/contract.h"
 
