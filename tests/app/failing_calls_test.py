@@ -182,7 +182,7 @@ def main():
         "search": lambda d: ["search", OUTPUT / "short.toml", "-o", d, "--threads", 2],
     }
     kinds = {"certified": ("malloc",), "wished": ("thread", "rename", "open", "close", "write")}
-    if PLACES > 50:  # a second and more each; of a wish, memory is the search's
+    if BEYOND:  # a second and more each; of a wish, memory is the search's
         commands["certified"] = lambda d: ["search", OUTPUT / "certified.toml", "-o", d, "--threads", 2]
         commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 6]
     for name in COMMANDS or commands:

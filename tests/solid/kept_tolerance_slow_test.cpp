@@ -21,7 +21,7 @@ std::uint64_t asked(const char* variable, std::uint64_t otherwise) {
 TEST(KeptTolerance, ByEveryPartOfRandomDesigns) {
   test::expect_tolerance_kept(
       asked("TRUEFLANK_SEED", 20),
-      static_cast<int>(asked("TRUEFLANK_DESIGNS", test::survey_size(100, 500))));
+      static_cast<int>(asked("TRUEFLANK_DESIGNS", test::survey_size(50, 500))));
 }
 
 /// The other measure knows nothing of the program's own: it walks on the surface.
