@@ -11,14 +11,15 @@ function(trueflank_test_cost result slow said)
 endfunction()
 
 # The tests of one folder:
-#   trueflank_test(<name> [SLOW] [WHOLE] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
+#   trueflank_test(<name> [SLOW] [WHOLE] [OPTIMISED] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
 # SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
-# tests that share something dear. COST: the longest start first, so that no processor waits for them at the end; seconds
+# tests that share something dear. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
+# in a release, in two thirds of the time (docs/decisions/0250). COST: the longest start first, so that no processor waits for them at the end; seconds
 # on a quiet one, for SLOW 10 where nothing is said.
 function(trueflank_test name)
-  cmake_parse_arguments(arg "SLOW;WHOLE" "COST" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;WHOLE;OPTIMISED" "COST" "SOURCES;LIBRARIES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_test(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -33,6 +34,9 @@ function(trueflank_test name)
   target_link_libraries(${target} PRIVATE
     ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
+  if(NOT arg_OPTIMISED)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # tests name their own helpers alike
   # One label a test: gtest_discover_tests passes on no lists.
