@@ -8,6 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "blind"))
 import blind  # noqa: E402
+import trial  # noqa: E402
 
 SEED = int(os.environ.get("TRUEFLANK_BLIND_SEED", "1"))
 CAMPAIGN = "TRUEFLANK_CAMPAIGN" in os.environ  # three times as many: the gate tries every effect and form once
@@ -17,7 +18,7 @@ class BlindTrial(unittest.TestCase):
     def run_cases(self, kind, count):
         folder = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "blind"
         cases = [blind.Case(kind, i, SEED, "") for i in range(count)]
-        blind.run_all(cases, os.environ["TRUEFLANK_PROGRAM"], folder)
+        trial.run_all(cases, os.environ["TRUEFLANK_PROGRAM"], folder)
         wrong = [case.line() for case in cases if not case.right]
         print(f"seed {SEED}: {kind}: {count - len(wrong)} of {count} right")
         print("\n".join(wrong))

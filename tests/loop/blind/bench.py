@@ -6,16 +6,13 @@ Usage: bench.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list]
 An answer is right where: nothing hidden: no_effect. A hidden effect with a name: that name (or one the program
 says it cannot be told from), and no other. One without a name: seen, and no name given beside those allowed.
 The table also counts how often the 95 % intervals of the right effects held the truth."""
-import argparse
-import collections
-import concurrent.futures
 import json
 import math
-import pathlib
 import subprocess
-import sys
 
 import numpy
+
+import trial
 
 RUBBING = 0.06  # of the design
 
@@ -390,31 +387,10 @@ def found_text(answer):
 
 def campaign(kinds, case_of):
     """Benches of every kind through the program, what was wrong, and a table; ends with the exit code."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--each", type=int, default=2, help="benches a kind")
-    parser.add_argument("--only", default="")
-    parser.add_argument("--least", type=float, default=0.0, help="exit 1 below this share of right answers")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    o = parser.parse_args()
+    o = trial.words()
     cases = [case_of(i, o.seed, kind) for kind in kinds if o.only in kind.__name__ for i in range(o.each)]
-    program = str(pathlib.Path(o.program).resolve())
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for case in pool.map(lambda c: c.run(program, o.folder), cases):
-            if o.list or not case.right:
-                print(case.line(), flush=True)
-    table = collections.defaultdict(lambda: [0, 0, 0, 0])
-    for case in cases:
-        for key in (case.kind.__name__, "all"):
-            for i, add in enumerate((case.right, 1, *case.held())):
-                table[key][i] += add
-    print("\n| hidden | right | of | intervals that hold | of |\n| --- | --- | --- | --- | --- |")
-    for name in [*(k for k in table if k != "all"), "all"]:
-        print("| " + " | ".join(map(str, (name, *table[name]))) + " |")
-    right, count = table["all"][:2]
-    sys.exit(0 if right >= o.least * count else 1)
+    trial.campaign(cases, o, keys=lambda c: [c.kind.__name__], counts=lambda c: c.held(),
+                   columns="| hidden | right | of | intervals that hold | of |")
 
 
 if __name__ == "__main__":

@@ -6,11 +6,8 @@ An answer is right where: nothing hidden: no_effect. A named effect: its name (o
 tell from it, said so) and no other. A form without a name: seen, no name given, and the error on held-out
 data within 1.2 of the true noise or said to be more. A strange one (strange.py): as a form without a name, in data as
 people have them."""
-import argparse
 import collections
-import concurrent.futures
 import json
-import pathlib
 import subprocess
 import time
 
@@ -19,6 +16,7 @@ import numpy
 import hidden
 import made
 import strange
+import trial
 
 NOISES = ("white", "ar", "smooth", "heavy")
 
@@ -148,29 +146,13 @@ def tables(cases):
     return rows
 
 
-def run_all(cases, program, folder, each=lambda case: None):
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for case in pool.map(lambda c: c.run(program, folder), cases):
-            each(case)
-
-
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--nulls", type=int, default=40)
-    parser.add_argument("--named", type=int, default=22)
-    parser.add_argument("--unnamed", type=int, default=26)
-    parser.add_argument("--strange", type=int, default=0)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    o = parser.parse_args()
+    o = trial.words(each=0, nulls=(40, "without an effect"), named=(22, "with one that has a name"),
+                    unnamed=(26, "with a form without a name"), strange=(0, "of kinds the trial lacked"))
     counts = {"null": o.nulls, "named": o.named, "unnamed": o.unnamed, "strange": o.strange}
     cases = [Case(kind, i, o.seed, o.only) for kind, count in counts.items() for i in range(count)]
     cases = [case for case in cases if not case.skipped]
-    program = str(pathlib.Path(o.program).resolve())
-    run_all(cases, program, o.folder, lambda c: print(c.line(), flush=True) if o.list or not c.right else None)
+    trial.run_all(cases, o.program, o.folder, lambda c: print(c.line(), flush=True) if o.list or not c.right else None)
     print("\n| kind | hidden | right | of |\n| --- | --- | --- | --- |")
     for (kind, name), (right, count) in sorted(tables(cases).items()):
         print(f"| {kind} | {name} | {right} | {count} |")

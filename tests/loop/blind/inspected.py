@@ -3,14 +3,14 @@
 The filter is a convolution on a grid four times as fine, ends made up to one; lines are fitted with polyfit; places of
 profiles are roll lengths from the involute's own relation. Usage: inspected.py PROGRAM DIRECTORY [--seed N] [--gears N]
 Exit 1 where a figure differs by more than 0.05 um and 1 % of it."""
-import argparse
 import json
 import math
-import pathlib
 import subprocess
 import sys
 
 import numpy
+
+import trial
 
 FLANKS = ("left", "right")
 
@@ -118,13 +118,8 @@ class Sheet:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--gears", type=int, default=3)
-    o = parser.parse_args()
-    program, worst, wrong, asked = str(pathlib.Path(o.program).resolve()), 0.0, 0, 0
+    o = trial.words(each=0, gears=(3, "how many"))
+    program, worst, wrong, asked = o.program, 0.0, 0, 0
     for number in range(o.gears):
         sheet = Sheet(numpy.random.default_rng([o.seed, number]))
         where = o.folder / f"inspected-{number}"

@@ -5,16 +5,13 @@ library; the program is run as people run it.
 Usage: named_effects.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE]
 Right is an answer with the hidden name, or with one that names it among what these data cannot tell it from, and
 with no other effect."""
-import argparse
-import collections
-import concurrent.futures
 import json
 import math
-import pathlib
 import subprocess
-import sys
 
 import numpy
+
+import trial
 
 ALPHA = math.radians(20.0)
 
@@ -330,31 +327,10 @@ class Case:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--each", type=int, default=2, help="cases an effect")
-    parser.add_argument("--only", default="")
-    parser.add_argument("--least", type=float, default=0.0, help="exit 1 below this share of right names")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    o = parser.parse_args()
+    o = trial.words()
     cases = [Case(i, o.seed, kind) for kind in SEEN if o.only in kind.__name__ for i in range(o.each)]
-    program = str(pathlib.Path(o.program).resolve())
-    table = collections.defaultdict(lambda: [0, 0, 0, 0])
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for case in pool.map(lambda c: c.run(program, o.folder), cases):
-            if o.list or not case.right:
-                print(case.line(), flush=True)
-            for key in (case.kind.__name__, "all"):
-                held, asked = case.held()
-                for k, count in enumerate((case.right, 1, held, asked)):
-                    table[key][k] += count
-    print("\n| hidden | rightly named | of | intervals that hold | of |\n| --- | --- | --- | --- | --- |")
-    for name in [k for k in table if k != "all"] + ["all"]:
-        print("| " + " | ".join(map(str, (name, *table[name]))) + " |")
-    right, count = table["all"][:2]
-    sys.exit(0 if right >= o.least * count else 1)
+    trial.campaign(cases, o, keys=lambda c: [c.kind.__name__], counts=lambda c: c.held(),
+                   columns="| hidden | rightly named | of | intervals that hold | of |")
 
 
 if __name__ == "__main__":

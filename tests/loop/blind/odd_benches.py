@@ -13,7 +13,6 @@ or noise_nm is not 0.75 to 1.3 of it."""
 import collections
 import json
 import math
-import pathlib
 import subprocess
 
 import numpy

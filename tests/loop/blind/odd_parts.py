@@ -9,19 +9,16 @@ An answer is right where:
   unknown   seen; no name but those allowed; a held-out error within 1.2 of the true noise or said to be more
   never     the held-out error rises, or `noise_um` is off the true one by more than a third
 Where the form has a place (tooth, height, flank, wavelength) it is asked whether the answer says it (`place`)."""
-import argparse
-import collections
 import json
 import math
-import pathlib
 import subprocess
-import sys
 import time
 
 import numpy
 
 import blind
 import made
+import trial
 
 FLANK = {1: "left", -1: "right"}
 
@@ -430,32 +427,17 @@ class Case:
                 f"{a['structure_left']['description'][:160]} p {a['structure_left']['p_value']:.3g} | place {self.hidden.place} {self.seconds:.1f}s")
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--each", type=int, default=2)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    parser.add_argument("--least", type=float, default=0.0, help="the share that must be right; exit 1 below")
-    o = parser.parse_args()
-    cases = [Case(i, o.seed, kind, ways) for kind, ways in KINDS if o.only in kind.__name__ for i in range(o.each)]
-    program = str(pathlib.Path(o.program).resolve())
-    blind.run_all(cases, program, o.folder, lambda c: print(c.line(), flush=True) if o.list or not c.right or c.placed() is False else None)
-    rows = collections.defaultdict(lambda: [0, 0, 0, 0])
-    for case in cases:
-        for key in (case.kind.__name__, "all", "all " + case.hidden.how):
-            rows[key][0] += case.right
-            rows[key][1] += 1
-            rows[key][2] += case.placed() is True
-            rows[key][3] += case.placed() is not None
-    print("\n| hidden | right | of | place told | of |\n| --- | --- | --- | --- | --- |")
-    for name, (right, count, told, placed) in rows.items():
-        print(f"| {name} | {right} | {count} | {told} | {placed} |")
+def told_last(cases):
     held, asked = numpy.sum([case.intervals() for case in cases], axis=0)
     print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-    sys.exit(rows["all"][0] < o.least * rows["all"][1])
+
+
+def main():
+    o = trial.words()
+    cases = [Case(i, o.seed, kind, ways) for kind, ways in KINDS if o.only in kind.__name__ for i in range(o.each)]
+    trial.campaign(cases, o, keys=lambda c: (c.kind.__name__, "all " + c.hidden.how), worth_a_line=lambda c: c.placed() is False,
+                   counts=lambda c: (int(c.placed() is True), int(c.placed() is not None)),
+                   columns="| hidden | right | of | place told | of |", after=told_last)
 
 
 if __name__ == "__main__":

@@ -2,16 +2,15 @@
 """How often a form is seen (verdict not no_effect) and, where it has a name, named, over the number of traced teeth.
 Usage: power.py PROGRAM DIRECTORY [--seed N] [--draws N] [--sizes 3,5] [--teeth 3,4,...] [--only TEXT]
 Sizes are heights in multiples of the noise; profile and helix traces of 50 values on a gear of 100 teeth."""
-import argparse
 import concurrent.futures
 import json
 import math
-import pathlib
 import subprocess
 
 import numpy
 
 import made
+import trial
 
 TEETH = 100
 FORMS = {
@@ -57,16 +56,9 @@ def run(program, folder, seed, name, teeth, size, draw):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--draws", type=int, default=4)
-    parser.add_argument("--sizes", default="3,5")
-    parser.add_argument("--teeth", default="3,4,6,8,10,12,14,16,18,24,40,100")
-    parser.add_argument("--only", default="")
-    o = parser.parse_args()
-    counts, program = [int(t) for t in o.teeth.split(",")], str(pathlib.Path(o.program).resolve())
+    o = trial.words(each=0, draws=(4, "gears a cell"), sizes=("3,5", "heights over the noise"),
+                    teeth=("3,4,6,8,10,12,14,16,18,24,40,100", "numbers of traced teeth"))
+    counts, program = [int(t) for t in o.teeth.split(",")], o.program
     print("| form, height / noise | " + " | ".join(str(c) for c in counts) + " |\n|" + " --- |" * (len(counts) + 1))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for name in FORMS:

@@ -5,17 +5,14 @@ gears in static balance, moments taken about both axes contact by contact.
 Usage: rigs.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE]
 Right: nothing: no_effect. known: the name (or one said to be indistinguishable) and no other. unknown: seen, no name but
 those allowed. Never: `explained` or `no_effect` with more than 1.2 of the true error left."""
-import argparse
-import collections
-import concurrent.futures
 import json
 import math
-import pathlib
 import subprocess
-import sys
 import time
 
 import numpy
+
+import trial
 
 TAU = 2.0 * math.pi
 DESIGNED = 0.07
@@ -254,30 +251,9 @@ class Case:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--each", type=int, default=2)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    parser.add_argument("--least", type=float, default=0.0, help="the share that must be right; exit 1 below")
-    o = parser.parse_args()
-    program = str(pathlib.Path(o.program).resolve())
+    o = trial.words()
     cases = [Case(kind, i, o.seed) for kind in KINDS if o.only in kind.__name__ for i in range(o.each)]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for case in pool.map(lambda c: c.run(program, o.folder), cases):
-            if o.list or not case.right:
-                print(case.line(), flush=True)
-    rows = collections.defaultdict(lambda: [0, 0])
-    for case in cases:
-        for key in (case.name.split("-")[0], "all"):
-            rows[key][0] += case.right
-            rows[key][1] += 1
-    print("\n| hidden | right | of |\n| --- | --- | --- |")
-    for name, (right, count) in rows.items():
-        print(f"| {name} | {right} | {count} |")
-    sys.exit(rows["all"][0] < o.least * rows["all"][1])
+    trial.campaign(cases, o, keys=lambda c: [c.name.split("-")[0]])
 
 
 if __name__ == "__main__":

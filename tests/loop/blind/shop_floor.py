@@ -6,17 +6,14 @@ Usage: shop_floor.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--li
 Right: nothing: no_effect. known: every wanted name (or one said to be indistinguishable) and no other name, what is
 left no larger than 1.2 of the noise or said to be. unknown: seen, no name but those allowed. Never: a rising error
 on the hold-out; `explained` with a noise off by a third."""
-import argparse
-import collections
-import concurrent.futures
 import json
 import math
-import pathlib
 import subprocess
-import sys
 import time
 
 import numpy
+
+import trial
 
 TAU = 2.0 * math.pi
 
@@ -470,34 +467,16 @@ class Case:
                 f"{told} | {a['structure_left']['description'][:140]} p {a['structure_left']['p_value']:.2g} | {self.seconds:.1f}s")
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--each", type=int, default=1)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--list", action="store_true", help="every case, not only the wrong ones")
-    parser.add_argument("--least", type=float, default=0.0, help="the share that must be right; exit 1 below")
-    o = parser.parse_args()
-    program = str(pathlib.Path(o.program).resolve())
-    cases = [Case(at, i, o.seed) for at in range(len(KINDS)) for i in range(o.each)]
-    cases = [c for c in cases if o.only in c.name]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for case in pool.map(lambda c: c.run(program, o.folder), cases):
-            if o.list or not case.right:
-                print(case.line(), flush=True)
-    rows = collections.defaultdict(lambda: [0, 0])
-    for case in cases:
-        for key in (case.name.split("-")[0], "all " + case.made.how, "all"):
-            rows[key][0] += case.right
-            rows[key][1] += 1
-    print("\n| made | right | of |\n| --- | --- | --- |")
-    for name, (right, count) in rows.items():
-        print(f"| {name} | {right} | {count} |")
+def told_last(cases):
     held, asked = numpy.sum([c.held() for c in cases], axis=0)
     print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-    sys.exit(rows["all"][0] < o.least * rows["all"][1])
+
+
+def main():
+    o = trial.words(each=1)
+    cases = [Case(at, i, o.seed) for at in range(len(KINDS)) for i in range(o.each)]
+    trial.campaign([c for c in cases if o.only in c.name], o, keys=lambda c: (c.name.split("-")[0], "all " + c.made.how),
+                   columns="| made | right | of |", after=told_last)
 
 
 if __name__ == "__main__":
