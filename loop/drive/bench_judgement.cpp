@@ -17,6 +17,8 @@ constexpr double kNearZero = 0.05;
 constexpr double kMostSlips = 0.1;
 /// An apparent efficiency beyond these is no loss but another unit.
 constexpr double kUnitHigh = 30.0, kUnitLow = 0.003;
+/// From this ratio on interchanged columns are further off than any loss.
+constexpr double kLeastRatio = 1.6;
 
 std::string text(double value) { return printed("%.4g", value); }
 
@@ -24,8 +26,8 @@ struct Side {
   const char* column;
   double BenchRow::*torque;
 };
-constexpr std::array<Side, 2> kSides{{{"input_torque_nm", &BenchRow::input_nm},
-                                      {"output_torque_nm", &BenchRow::output_nm}}};
+constexpr std::array<Side, 2> kSides{
+    {{"input_torque_nm", &BenchRow::input_nm}, {"output_torque_nm", &BenchRow::output_nm}}};
 
 /// Rows of one direction of one file with torque enough to judge by.
 struct Apparent {
@@ -100,9 +102,10 @@ Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
         }
         if (minus > 0 && plus == 0) {
           for (BenchRow* row : rows) row->*side.torque = -(row->*side.torque);
-          notes.push_back(data.files[file] + ": " + side.column + " of all " +
-                          (forward ? "forward" : "backward") +
-                          " rows is negative: a sign convention of the sensor; magnitudes were taken");
+          notes.push_back(
+              data.files[file] + ": " + side.column + " of all " +
+              (forward ? "forward" : "backward") +
+              " rows is negative: a sign convention of the sensor; magnitudes were taken");
           continue;
         }
         if (minus == 0) continue;
@@ -117,17 +120,18 @@ Errors settle_signs(BenchData& data, std::vector<std::string>& notes) {
           leave_out_slips(odd, side, data, notes);
           continue;
         }
-        errors.push_back({.code = ErrorCode::kInconsistent,
-                          .message = std::string(side.column) + " changes its sign among the " +
-                                     (forward ? "forward" : "backward") + " rows (" +
-                                     std::to_string(std::min(minus, plus)) + " of " +
-                                     std::to_string(rows.size()) +
-                                     "): the power flows the other way there, or a sensor is swapped",
-                          .key = side.column,
-                          .value = text(odd.front()->*side.torque),
-                          .remedy = "magnitudes, each row under the direction in which its power flows",
-                          .file = data.files[file],
-                          .line = odd.front()->line});
+        errors.push_back(
+            {.code = ErrorCode::kInconsistent,
+             .message = std::string(side.column) + " changes its sign among the " +
+                        (forward ? "forward" : "backward") + " rows (" +
+                        std::to_string(std::min(minus, plus)) + " of " +
+                        std::to_string(rows.size()) +
+                        "): the power flows the other way there, or a sensor is swapped",
+             .key = side.column,
+             .value = text(odd.front()->*side.torque),
+             .remedy = "magnitudes, each row under the direction in which its power flows",
+             .file = data.files[file],
+             .line = odd.front()->line});
       }
   return errors;
 }
@@ -143,15 +147,16 @@ Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& s
       ++judged;
       const double middle = median(std::vector(a.efficiency));
       const double l = std::log(middle);
-      if (model.ratio > 3.0 && std::abs(l + (forward ? turn : -turn)) < std::log(2.5)) {
+      if (model.ratio > kLeastRatio &&
+          std::abs(l + (forward ? turn : -turn)) < std::min(std::log(2.5), 0.4 * turn)) {
         ++columns_swapped;
         continue;
       }
       if (middle > kUnitHigh || middle < kUnitLow) {
         errors.push_back(unit_error(
             data, *a.rows.front(),
-            "the torques differ by a factor of " + text(middle) +
-                " from what the ratio of " + text(model.ratio) +
+            "the torques differ by a factor of " + text(middle) + " from what the ratio of " +
+                text(model.ratio) +
                 " allows: one of the two columns is in another unit (mN m, N cm, kg cm?)"));
         continue;
       }
@@ -167,18 +172,21 @@ Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& s
       // Who is called driving is driven: the losses come out as gains, of about their size.
       const DriveEfficiency e = model.at(model.friction);
       const double other = forward ? e.backward : e.forward;
-      const bool above = std::all_of(a.efficiency.begin(), a.efficiency.end(),
-                                     [](double x) { return x > 1.0; });
+      const bool above =
+          std::all_of(a.efficiency.begin(), a.efficiency.end(), [](double x) { return x > 1.0; });
       if (above && std::abs(1.0 / middle - other) < 0.1) ++directions_above;
     }
-  if (judged > 0 && columns_swapped == judged) swapped = Impossible::kSwappedColumns;
+  if (judged > 0 && columns_swapped == judged)
+    swapped = Impossible::kSwappedColumns;
   else if (columns_swapped > 0)
-    errors.push_back({.code = ErrorCode::kInconsistent,
-                      .message = "in some files or directions input and output torque are interchanged",
-                      .key = "input_torque_nm, output_torque_nm",
-                      .remedy = "the sun side's torque under input_torque_nm, everywhere",
-                      .file = data.files.front()});
-  else if (judged > 1 && directions_above == judged) swapped = Impossible::kSwappedDirections;
+    errors.push_back(
+        {.code = ErrorCode::kInconsistent,
+         .message = "in some files or directions input and output torque are interchanged",
+         .key = "input_torque_nm, output_torque_nm",
+         .remedy = "the sun side's torque under input_torque_nm, everywhere",
+         .file = data.files.front()});
+  else if (judged > 1 && directions_above == judged)
+    swapped = Impossible::kSwappedDirections;
   return errors;
 }
 

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/bench_remainder.h"
+#include "trueflank/loop/drive/bench_visits.h"
 #include "trueflank/loop/drive/drive_fit.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
+#include "trueflank/loop/drive/spell_scan.h"
 #include "trueflank/loop/drive/wave_spectrum.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -20,11 +23,14 @@ struct Outcome {
   DiscoveryResult discovery;
   std::vector<DriveEffect> effects;
   Eigen::VectorXd fold_errors;
+  double square = 0.0,
+         rows = 1.0;  ///< of what it leaves of the training rows, in their noise's units
   [[nodiscard]] int size() const {
     int size = 0;
     for (const DriveEffect& effect : effects) {
       size += effect.columns();
-      for (const DriveShapeValue& value : effect.family->shape_values) size += value.continuous ? 1 : 0;
+      for (const DriveShapeValue& value : effect.family->shape_values)
+        size += value.continuous ? 1 : 0;
     }
     return size;
   }
@@ -39,19 +45,39 @@ struct Outcome {
   }
 };
 
-/// True where a loss of prediction is no more than two standard errors over the folds: one such error in
-/// six comes by chance, too often to give up a plain effect for a fancy one.
+/// True where a loss of prediction is no more than two standard errors over the folds: one such
+/// error in six comes by chance, too often to give up a plain effect for a fancy one.
 bool is_tie(const Eigen::VectorXd& loss) {
   const double n = static_cast<double>(loss.size()), sum = loss.sum(), mean = sum / n;
   const double variance = (loss.squaredNorm() - n * mean * mean) / (n - 1.0);
   return sum <= std::max(0.5, 2.0 * std::sqrt(std::max(0.0, n * variance)));
 }
 
+/// True where the one predicts as well as the other, or leaves no more than chance takes off by a
+/// figure more.
+bool predicts_as_well(const Outcome& one, const Outcome& other) {
+  constexpr double kAFigure = 6.6, kNoFigure = 4.0;  // chi-square
+  if (is_tie(one.fold_errors - other.fold_errors)) return true;
+  const double noise = other.square / std::max(1.0, other.rows - other.size());
+  const int figures = other.size() - one.size();
+  return one.square - other.square < noise * (figures > 0 ? kAFigure * figures : kNoFigure);
+}
+
+/// True where the fuller set takes off more than what chance lets the figures that it has more.
+bool earns_its_figures(const Outcome& fuller, const Outcome& plain) {
+  constexpr double kEach = 9.0;  // chi-square
+  const double noise = fuller.square / std::max(1.0, fuller.rows - fuller.size());
+  return plain.square - fuller.square > kEach * noise * std::max(1, fuller.size() - plain.size());
+}
+
 class Loop {
  public:
   Loop(const DriveModel& model, BenchTable table, const DriveLoopOptions& options)
-      : model_(model), options_(options), table_(std::move(table)),
-        curve_(model), mesh_slopes_(mesh_slopes(model)) {}
+      : model_(model),
+        options_(options),
+        table_(std::move(table)),
+        curve_(model),
+        mesh_slopes_(mesh_slopes(model)) {}
 
   DriveLoop close() {
     measure_residual();
@@ -60,6 +86,7 @@ class Loop {
     if (table_.impossible == Impossible::kEfficiencyAboveOne)
       ban([](const DriveEffect& e) { return e.family->is_loss; });
     Outcome outcome = settle();
+    for (int spells = 0; spells < 3 && propose_spell(outcome); ++spells) outcome = settle();
     for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
     if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
     drop_what_is_nothing(outcome);
@@ -68,7 +95,9 @@ class Loop {
   }
 
  private:
-  [[nodiscard]] DriveContext context() const { return {model_, curve_, table_, mesh_slopes_, state_}; }
+  [[nodiscard]] DriveContext context() const {
+    return {model_, curve_, table_, mesh_slopes_, state_};
+  }
 
   void measure_residual() {
     value_.resize(static_cast<Eigen::Index>(table_.points.size()));
@@ -77,7 +106,8 @@ class Loop {
           table_.points[i].driven_nm - predicted_nm(model_, curve_, table_.points[i]);
   }
 
-  /// Of what hangs together some is left when units were merged: a quarter of the level makes up for it.
+  /// Of what hangs together some is left when units were merged: a quarter of the level makes up
+  /// for it.
   [[nodiscard]] double share_of_level() const { return table_.drifts ? 0.25 : 1.0; }
 
   template <class Predicate>
@@ -99,8 +129,12 @@ class Loop {
     for (const ChosenGroup& chosen : outcome.discovery.chosen)
       outcome.effects.push_back(candidates_[chosen.group]);
     refine_drive_shapes(here, value_, FitRows::kTraining, outcome.effects);
-    outcome.fold_errors =
-        DriveFit(here, value_, outcome.effects, FitRows::kTraining).fold_errors();
+    const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+    outcome.fold_errors = fit.fold_errors();
+    outcome.square = fit.residual_square();
+    outcome.rows =
+        static_cast<double>(std::count_if(table_.points.begin(), table_.points.end(),
+                                          [](const BenchPoint& p) { return p.fold != 0; }));
     return outcome;
   }
 
@@ -155,8 +189,7 @@ class Loop {
 
   bool move_state(const Outcome& outcome) {
     const DriveContext here = context();
-    const DriveState next =
-        state_of(DriveFit(here, value_, outcome.effects, FitRows::kTraining));
+    const DriveState next = state_of(DriveFit(here, value_, outcome.effects, FitRows::kTraining));
     const auto far = [&](double DriveState::*value) {
       return std::abs(next.*value - state_.*value) > 2e-4;
     };
@@ -188,15 +221,45 @@ class Loop {
     return true;
   }
 
-  /// Tries the named effects in the order in which people would think of them: where the plainer ones
-  /// predict as well as what the engine chose among all, they are kept.
+  /// Where a part of the run, or of every turn of a shaft, differs from the rest more than noise
+  /// would: one candidate more. What goes round with the angle, or has no name, may only imitate it
+  /// and is left out while it is looked for; a spell that was chosen stays.
+  bool propose_spell(const Outcome& outcome) {
+    if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+    constexpr double kLevel = 0.001;  // searched beside the engine's own test
+    const DriveContext here = context();
+    const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+    std::vector<bool> left_out;
+    for (const DriveEffect& effect : outcome.effects)
+      left_out.push_back(!effect.family->shape_of_spell &&
+                         (!effect.family->named || effect.order() > 0.0));
+    const Eigen::VectorXd left = value_ - fit.columns() * fit.without(left_out);
+    const LikeliestSpell of_turns = likeliest_spell_of_turns(here, left),
+                         of_run = likeliest_spell_of_run(here, left);
+    const LikeliestSpell& spell = of_turns.p_value <= of_run.p_value ? of_turns : of_run;
+    if (!(spell.p_value < kLevel)) return false;
+    const auto& library = drive_library();
+    const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
+      return static_cast<bool>(family.shape_of_spell);
+    });
+    const DriveShape shape =
+        host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length);
+    for (const DriveEffect& candidate : candidates_)
+      if (candidate.family == &*host && candidate.shape == shape) return false;
+    candidates_.push_back({&*host, shape});
+    banned_.push_back(false);
+    return true;
+  }
+
+  /// Tries the named effects in the order in which people would think of them: where the plainer
+  /// ones predict as well as what the engine chose among all, they are kept.
   Outcome plainest(Outcome outcome) {
     for (int most = 0; most <= 4; ++most) {
       std::vector<bool> banned = banned_;
       for (std::size_t g = 0; g < candidates_.size(); ++g)
         if (candidates_[g].family->preference > most) banned[g] = true;
       Outcome other = settled(banned);
-      if (other.effects.empty() || !is_tie(other.fold_errors - outcome.fold_errors)) continue;
+      if (other.effects.empty() || !predicts_as_well(other, outcome)) continue;
       if (other.size() > outcome.size()) continue;
       const auto rank = [](const Outcome& o) { return std::pair(o.size(), o.preference()); };
       if (rank(other) >= rank(outcome)) continue;
@@ -206,8 +269,8 @@ class Loop {
     return outcome;
   }
 
-  /// Leaves out one kind of effect after the other: where the rest finds a set that predicts as well, the
-  /// two cannot be told apart, and the simpler one is kept.
+  /// Leaves out one kind of effect after the other: where the rest finds a set that predicts as
+  /// well, the two cannot be told apart, and the simpler one is kept.
   Outcome simplest(Outcome outcome) {
     outcome = plainest(std::move(outcome));
     std::set<const DriveFamily*> tried;
@@ -223,7 +286,7 @@ class Loop {
       for (std::size_t g = 0; g < candidates_.size(); ++g)
         if (candidates_[g].family == next) banned[g] = true;
       Outcome other = settled(banned);
-      if (other.effects.empty() || !is_tie(other.fold_errors - outcome.fold_errors)) continue;
+      if (other.effects.empty() || !predicts_as_well(other, outcome)) continue;
       if (other.effects.size() > outcome.effects.size() + 1) continue;
       const auto rank = [](const Outcome& o) { return std::pair(o.size(), o.preference()); };
       const bool better = rank(other) < rank(outcome);
@@ -241,7 +304,7 @@ class Loop {
   /// The simplest, but for one that leaves structure of which the fuller set leaves none.
   Outcome simplest_that_is_enough(Outcome whole) {
     Outcome plain = simplest(whole);
-    if (!leaves_structure(plain)) return plain;
+    if (!earns_its_figures(whole, plain) || !leaves_structure(plain)) return plain;
     settle_state(whole);
     if (!leaves_structure(whole)) return whole;
     settle_state(plain);
@@ -283,7 +346,8 @@ class Loop {
     }
   }
 
-  /// Of several effects those that are nothing once all shapes are free: they only mended another's shape.
+  /// Of several effects those that are nothing once all shapes are free: they only mended another's
+  /// shape.
   void drop_what_is_nothing(Outcome& outcome) {
     constexpr double kStandsOut = 3.0;  // standard errors
     while (outcome.effects.size() > 1) {
@@ -293,7 +357,8 @@ class Loop {
       std::size_t least = outcome.effects.size();
       double least_square = kStandsOut * kStandsOut;
       for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
-        const int first = fit.first_column(static_cast<int>(e)), columns = outcome.effects[e].columns();
+        const int first = fit.first_column(static_cast<int>(e)),
+                  columns = outcome.effects[e].columns();
         const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
         const double square =
             b.dot(symmetric_solution(covariance.block(first, first, columns, columns), b)) /
@@ -307,13 +372,15 @@ class Loop {
     }
   }
 
-  /// The locked hold-out may say no: while its error would rise, the effect goes that harms it most.
+  /// The locked hold-out may say no: while its error would rise, the effect goes that harms it
+  /// most.
   void veto(Outcome& outcome) {
     while (!outcome.effects.empty()) {
       const DriveContext here = context();
       const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
       const auto error = [&](const std::vector<bool>& left_out) {
-        return drive_errors(here, value_, value_ - fit.columns() * fit.without(left_out)).held_out_rms;
+        return drive_errors(here, value_, value_ - fit.columns() * fit.without(left_out))
+            .held_out_rms;
       };
       std::vector<bool> left_out(outcome.effects.size(), false);
       const double none = error(std::vector<bool>(outcome.effects.size(), true));
@@ -351,8 +418,14 @@ class Loop {
   }
 
   DriveLoop report(const Outcome& outcome) {
-    DriveLoop done{.result = {}, .model = model_, .table = {}, .before_nm = {}, .after_nm = {},
-                   .effects = {}, .coefficients = {}, .state = {}};
+    DriveLoop done{.result = {},
+                   .model = model_,
+                   .table = {},
+                   .before_nm = {},
+                   .after_nm = {},
+                   .effects = {},
+                   .coefficients = {},
+                   .state = {}};
     const DriveContext held = context();
     const DriveFit training(held, value_, outcome.effects, FitRows::kTraining);
     const Eigen::VectorXd left_training = value_ - training.explained_nm();
@@ -377,15 +450,17 @@ class Loop {
     r.after = drive_errors(here, left, left_training);
     const double n = static_cast<double>(table_.points.size());
     const BenchRemainder remainder = ask_remainder(table_, model_.ratio, left);
-    r.noise = remainder.follows.empty() ? r.after.rms * std::sqrt(n / std::max(1.0, n - outcome.size()))
-                                        : remainder.noise_nm;
+    r.noise = remainder.follows.empty()
+                  ? r.after.rms * std::sqrt(n / std::max(1.0, n - outcome.size()))
+                  : remainder.noise_nm;
     r.structure_p_value = outcome.discovery.first_p_value;
     r.structure_left_p_value = outcome.discovery.p_left;
-    r.effects = describe_drive_effects(
-        {here, all, training, value_, remainder, outcome.discovery.chosen, candidates_, exchangeable_});
+    r.effects = describe_drive_effects({here, all, training, value_, remainder,
+                                        outcome.discovery.chosen, candidates_, exchangeable_});
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(table_, r.effects);
     judge(outcome, remainder, r);
+    if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, r);
     done.before_nm.assign(value_.data(), value_.data() + value_.size());
     done.after_nm.assign(left.data(), left.data() + left.size());
     done.effects = effects;
@@ -414,11 +489,14 @@ class Loop {
     const bool left = d.p_left <= kLeft && d.likest_left >= 0;
     if (outcome.effects.empty())
       // What the hold-out denied must be surer than what it was not asked about.
-      r.verdict = d.first_p_value <= share_of_level() * (vetoed_ ? kSureThoughDenied : kLeft) ? Verdict::kPartlyExplained : Verdict::kNoEffect;
+      r.verdict = d.first_p_value <= share_of_level() * (vetoed_ ? kSureThoughDenied : kLeft)
+                      ? Verdict::kPartlyExplained
+                      : Verdict::kNoEffect;
     else
       r.verdict = left ? Verdict::kPartlyExplained : Verdict::kExplained;
     if (left)
-      r.structure_left = "what is left looks most like " + words_for(model_, candidates_[d.likest_left]);
+      r.structure_left =
+          "what is left looks most like " + words_for(model_, candidates_[d.likest_left]);
     else
       r.structure_left = "nothing beyond the measurement's own noise was found";
     if (!remainder.follows.empty()) {
@@ -426,20 +504,53 @@ class Loop {
       r.structure_left_p_value = std::min(r.structure_left_p_value, remainder.p_value);
       r.structure_left = remainder.follows;
     }
+    if (r.verdict == Verdict::kExplained &&
+        r.after.held_out_rms > larger_than_noise(r.noise, r.held_out)) {
+      r.verdict = Verdict::kPartlyExplained;
+      r.structure_left = printed(
+          "on the rows held out from the fit %.2g times the noise is left: these effects fit the "
+          "rows they were "
+          "found in better than others",
+          r.after.held_out_rms / r.noise);
+    }
     judge_impossible(r);
+  }
+
+  /// A quarter above the noise, and as much more as the rms of so few rows may scatter.
+  [[nodiscard]] static double larger_than_noise(double noise, int rows) {
+    return noise * (1.25 + 3.0 / std::sqrt(2.0 * std::max(1, rows)));
+  }
+
+  /// Errors that hang together look like something slow: who reads "noise" is told so.
+  void say_what_neighbours_share(const Eigen::VectorXd& left, LoopResult& r) const {
+    constexpr double kMuch = 0.35;
+    constexpr Eigen::Index kFewest = 60;
+    if (left.size() < kFewest) return;
+    Eigen::VectorXd size = left;
+    for (Eigen::Index i = 0; i < size.size(); ++i)
+      size[i] /= table_.points[static_cast<std::size_t>(i)].sigma_nm;
+    const double shared = correlation_of_visits(size, set_points_of(table_.points));
+    if (shared > kMuch)
+      r.structure_left += printed(
+          "; neighbouring rows share %.0f %% of what is left: errors that hang together, or "
+          "something slow that "
+          "these columns do not hold (the same set points again, in another order, would tell)",
+          100.0 * shared);
   }
 
   void judge_impossible(LoopResult& r) const {
     if (table_.impossible == Impossible::kNothing) return;
     if (table_.impossible == Impossible::kEfficiencyAboveOne) {
       r.verdict = Verdict::kPartlyExplained;
-      r.structure_left = table_.impossible_text +
-                         "; a torque scale or an offset is in these data, and no friction was fitted "
-                         "to them";
+      r.structure_left =
+          table_.impossible_text +
+          "; a torque scale or an offset is in these data, and no friction was fitted "
+          "to them";
       r.notes.push_back(table_.impossible_text);
       return;
     }
-    r.notes.push_back(table_.impossible_text + "; the data were put right and judged so: correct the file");
+    r.notes.push_back(table_.impossible_text +
+                      "; the data were put right and judged so: correct the file");
     FoundEffect swapped;
     swapped.id = "swapped_side";
     swapped.description = table_.impossible_text;
@@ -485,7 +596,8 @@ DriveLoop close_drive_table(const DriveModel& model, BenchTable table,
   return Loop(model, std::move(table), options).close();
 }
 
-ResultAll<DriveLoop> close_drive_loop(const GearTrain& train, const std::vector<std::string>& files) {
+ResultAll<DriveLoop> close_drive_loop(const GearTrain& train,
+                                      const std::vector<std::string>& files) {
   auto model = drive_model(train);
   if (!model) return fail_all({model.error()});
   auto data = read_bench_files(files);

@@ -112,6 +112,8 @@ struct DriveFamily : EffectFacts {
   std::function<double(const DriveShape&)> order = {};
   /// The shape of a wave that the spectrum proposes, the directions opposite or not; empty: it takes none.
   std::function<DriveShape(double order, bool opposite)> shape_of_wave = {};
+  /// The shape of a part of the run (order 0) or of a turn, 0 ... 1, that a scan proposes; empty: it takes none.
+  std::function<DriveShape(double what, double order, double begin, double length)> shape_of_spell = {};
   /// @}
 
   /// @name How it is told

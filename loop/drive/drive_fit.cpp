@@ -13,16 +13,15 @@ namespace {
 /// Columns may differ by many powers of ten: solved with unit diagonal.
 Eigen::VectorXd solve_scaled(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right) {
   if (right.size() == 0) return right;
-  const Eigen::VectorXd scale =
-      gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd unit = scale.asDiagonal() * gram * scale.asDiagonal();
   unit.diagonal().array() += 1e-12;
   return scale.asDiagonal() * symmetric_solution(unit, scale.asDiagonal() * right);
 }
 
-/// Units as the engine flips them: of very many those of a fold are counted round, so that neighbours
-/// stay apart. Sums of independent symmetric errors are such errors again, and a thousand signs tell as
-/// much as all.
+/// Units as the engine flips them: of very many those of a fold are counted round, so that
+/// neighbours stay apart. Sums of independent symmetric errors are such errors again, and a
+/// thousand signs tell as much as all.
 int unit_to_flip(const BenchTable& table, const BenchPoint& p) {
   constexpr int kOfAFold = 160;
   if (table.units <= kOfAFold * (kBenchFolds + 1)) return p.unit;
@@ -42,7 +41,8 @@ DriveFit::DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
   for (const DriveEffect& effect : effects_) {
     shape_column_.emplace_back();
     for (std::size_t k = 0; k < effect.shape.size(); ++k)
-      shape_column_.back().push_back(effect.family->shape_values[k].continuous ? columns + shapes_++ : -1);
+      shape_column_.back().push_back(effect.family->shape_values[k].continuous ? columns + shapes_++
+                                                                               : -1);
   }
   columns_.resize(static_cast<Eigen::Index>(context_.table.points.size()), columns);
   fill_columns();
@@ -61,7 +61,8 @@ void DriveFit::fill_columns() {
   std::vector<double> values(16);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    weight_[row] = sees(static_cast<int>(i)) ? 1.0 / (points[i].sigma_nm * points[i].sigma_nm) : 0.0;
+    weight_[row] =
+        sees(static_cast<int>(i)) ? 1.0 / (points[i].sigma_nm * points[i].sigma_nm) : 0.0;
     for (std::size_t e = 0; e < effects_.size(); ++e) {
       effects_[e].family->evaluate(context_, points[i], effects_[e].shape, values.data());
       for (int k = 0; k < effects_[e].columns(); ++k)
@@ -78,7 +79,8 @@ Eigen::VectorXd DriveFit::explained_nm(int effect) const {
 Eigen::VectorXd DriveFit::without(const std::vector<bool>& left_out) const {
   std::vector<int> kept;
   for (std::size_t e = 0; e < effects_.size(); ++e)
-    for (int k = 0; k < effects_[e].columns() && !left_out[e]; ++k) kept.push_back(first_column_[e] + k);
+    for (int k = 0; k < effects_[e].columns() && !left_out[e]; ++k)
+      kept.push_back(first_column_[e] + k);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(columns_.cols());
   if (kept.empty()) return result;
   const Eigen::MatrixXd x = columns_(Eigen::all, kept);
@@ -116,8 +118,7 @@ Eigen::VectorXd DriveFit::fold_errors() const {
 /// Change of the explained torque per unit of every continuous shape value.
 Eigen::MatrixXd DriveFit::shape_slopes() const {
   const auto& points = context_.table.points;
-  Eigen::MatrixXd slopes =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), shapes_);
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), shapes_);
   std::vector<double> low(16), high(16);
   for (std::size_t e = 0; e < effects_.size(); ++e)
     for (std::size_t k = 0; k < effects_[e].shape.size(); ++k) {
@@ -166,16 +167,52 @@ double DriveFit::degrees() const {
   const auto& points = context_.table.points;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (sees(static_cast<int>(i))) units[points[i].unit] = 1;
-  return std::max(1.0, static_cast<double>(units.size()) -
-                           static_cast<double>(columns_.cols() + shapes_));
+  return std::max(
+      1.0, static_cast<double>(units.size()) - static_cast<double>(columns_.cols() + shapes_));
 }
+
+namespace {
+
+/// Both ends of a part of a run or a turn, by degrees and by tenths: the sum of squares falls there
+/// in steps, one for every row.
+void refine_ends(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
+                 std::vector<DriveEffect>& effects, std::size_t effect) {
+  constexpr std::size_t kBegin = 2, kLength = 3;
+  constexpr int kFar = 10;
+  DriveShape& shape = effects[effect].shape;
+  for (const double step : {1.0 / 360.0, 1.0 / 3600.0})
+    for (const bool begin : {true, false}) {
+      const DriveShape from = shape;
+      DriveShape best = from;
+      double least = 1e300;
+      // from where it is outwards: of ends that do the same the nearest
+      for (int k = 0; k <= 2 * kFar; ++k) {
+        const double by = step * (k % 2 == 0 ? k / 2 : -(k + 1) / 2);
+        shape = from;
+        if (begin) shape[kBegin] += by;
+        shape[kLength] += begin ? -by : by;
+        if (shape[kLength] < step || shape[kLength] > 1.0) continue;
+        const double square = DriveFit(context, value, effects, rows).residual_square();
+        if (square >= least * (1.0 - 1e-9)) continue;
+        least = square;
+        best = shape;
+      }
+      shape = best;
+    }
+}
+
+}  // namespace
 
 void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& value, FitRows rows,
                          std::vector<DriveEffect>& effects) {
   // One shape value after the other, by golden section about where it is: few, and never far.
   constexpr double kGolden = 0.3819660112501051;
   for (int round = 0; round < 3; ++round)
-    for (std::size_t e = 0; e < effects.size(); ++e)
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      if (effects[e].family->shape_of_spell) {
+        if (round == 0) refine_ends(context, value, rows, effects, e);
+        continue;
+      }
       for (std::size_t k = 0; k < effects[e].shape.size(); ++k) {
         const DriveShapeValue& value_of_shape = effects[e].family->shape_values[k];
         if (!value_of_shape.continuous) continue;
@@ -212,6 +249,7 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
         }
         effects[e].shape[k] = 0.5 * (low + high);
       }
+    }
 }
 
 DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorXd& value,
@@ -229,12 +267,12 @@ DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorX
     group.first_column = columns;
     group.columns = candidate.columns();
     group.preference = candidate.family->preference;
-    const bool shaped = std::any_of(candidate.family->shape_values.begin(),
-                                    candidate.family->shape_values.end(),
-                                    [](const DriveShapeValue& shape) { return shape.continuous; });
+    const bool shaped =
+        std::any_of(candidate.family->shape_values.begin(), candidate.family->shape_values.end(),
+                    [](const DriveShapeValue& shape) { return shape.continuous; });
     if (shaped)
-      group.kin = kin.emplace(std::pair(candidate.family, 0.0), static_cast<int>(kin.size()))
-                      .first->second;
+      group.kin =
+          kin.emplace(std::pair(candidate.family, 0.0), static_cast<int>(kin.size())).first->second;
     columns += group.columns;
     problem.groups.push_back(group);
   }
@@ -254,9 +292,9 @@ DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorX
   }
   // Columns of one size: the engine's small ridges are relative to none of ours.
   for (int c = 0; c < columns; ++c) {
-    const double size =
-        std::sqrt((problem.weight.array() * problem.candidates.col(c).cast<double>().array().square())
-                      .sum() / std::max<double>(1.0, static_cast<double>(n)));
+    const double size = std::sqrt(
+        (problem.weight.array() * problem.candidates.col(c).cast<double>().array().square()).sum() /
+        std::max<double>(1.0, static_cast<double>(n)));
     if (size > 0.0) problem.candidates.col(c) /= static_cast<float>(size);
   }
   return problem;

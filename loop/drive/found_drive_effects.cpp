@@ -17,7 +17,8 @@ namespace {
 /// Rows that carry less than this share of the largest load say little about efficiency.
 constexpr double kLoaded = 0.2;
 
-double rms_of(const DriveContext& context, const Eigen::VectorXd& left, bool held_out, bool points) {
+double rms_of(const DriveContext& context, const Eigen::VectorXd& left, bool held_out,
+              bool points) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < context.table.points.size(); ++i) {
     const BenchPoint& p = context.table.points[i];
@@ -47,14 +48,17 @@ class Describer {
         add_parameters(found_.back(), e);
         if (is_a_guess(found_.back()))
           take_the_name(found_.back(), e,
-                        "a loss at the input of which these data do not say whether it follows load, speed or "
+                        "a loss at the input of which these data do not say whether it follows "
+                        "load, speed or "
                         "neither");
         else if (may_be_a_bent_sensor(found_.back()))
           take_the_name(found_.back(), e,
-                        "a torque that bends over the load, in one direction alone: a loss, or a sensor or motor "
+                        "a torque that bends over the load, in one direction alone: a loss, or a "
+                        "sensor or motor "
                         "constant that is not straight");
         else if (leaves_too_much(e))
-          take_the_name(found_.back(), e, "a change of the torque beside which more of its size is left unexplained");
+          take_the_name(found_.back(), e,
+                        "a change of the torque beside which more of its size is left unexplained");
         members_.push_back({e});
         continue;
       }
@@ -90,8 +94,8 @@ class Describer {
     found.correctable = family.is_loss && family.named;
     if (family.detail) found.description += family.detail(s_.context.model, effect.shape);
     const auto add = [&](const std::string& id) {
-      if (id != found.id && std::find(found.confounded_with.begin(), found.confounded_with.end(), id) ==
-                                found.confounded_with.end())
+      if (id != found.id && std::find(found.confounded_with.begin(), found.confounded_with.end(),
+                                      id) == found.confounded_with.end())
         found.confounded_with.push_back(id);
     };
     for (const int group : chosen.confounded)
@@ -112,15 +116,16 @@ class Describer {
     return family.parameters.size() + family.shape_names.size();
   }
 
-  /// True where a loss bends over the load and one direction alone was run: a sensor that is bent, or a
-  /// motor's constant that falls, does the same.
+  /// True where a loss bends over the load and one direction alone was run: a sensor that is bent,
+  /// or a motor's constant that falls, does the same.
   [[nodiscard]] bool may_be_a_bent_sensor(const FoundEffect& found) const {
     const DriveFamily* family = find_drive_family(found.id);
     return family && family->bends_over_load &&
            (!s_.context.table.has(true) || !s_.context.table.has(false));
   }
 
-  /// True where a loss may as well follow the load, the speed or nothing: what it is was not measured.
+  /// True where a loss may as well follow the load, the speed or nothing: what it is was not
+  /// measured.
   [[nodiscard]] static bool is_a_guess(const FoundEffect& found) {
     constexpr std::size_t kTooMany = 3;
     std::set<std::string> follows;
@@ -138,8 +143,8 @@ class Describer {
     return follows.size() >= kTooMany;
   }
 
-  /// True where what is left holds structure of a good part of the effect's own size: a form that does not
-  /// follow the data is no ground for a name.
+  /// True where what is left holds structure of a good part of the effect's own size: a form that
+  /// does not follow the data is no ground for a name.
   [[nodiscard]] bool leaves_too_much(int e) const {
     constexpr double kPart = 0.25;
     const Eigen::VectorXd& structure = s_.remainder.structure_nm;
@@ -159,12 +164,14 @@ class Describer {
     const Eigen::VectorXd moved = s_.all.explained_nm(e);
     double sum = 0.0;
     for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
-      const double lost = moved[static_cast<Eigen::Index>(i)] / s_.context.lever(s_.context.table.points[i]);
+      const double lost =
+          moved[static_cast<Eigen::Index>(i)] / s_.context.lever(s_.context.table.points[i]);
       sum += lost * lost;
     }
     const Parameter& main = found.parameters.back();
     const double size = std::sqrt(sum / static_cast<double>(s_.context.table.points.size()));
-    const double share = main.value != 0.0 ? 0.5 * (main.high - main.low) / std::abs(main.value) : 0.0;
+    const double share =
+        main.value != 0.0 ? 0.5 * (main.high - main.low) / std::abs(main.value) : 0.0;
     Term term{.shape = {0.0, 0.0, 0.0, 0.0, 0.0}, .cos = size, .half_width = size * share};
     term.keys.emplace_back("like", found.id);
     term.text = why;
@@ -193,8 +200,8 @@ class Describer {
       found.parameters.push_back(parameter_of(family.shape_names[k], effect.shape[k], h));
     }
     if (family.form == ParameterForm::kWave) {
-      const auto [amplitude, phase] =
-          wave_parameters(family, b[column], b[column + 1], covariance_.block<2, 2>(column, column), t_);
+      const auto [amplitude, phase] = wave_parameters(family, b[column], b[column + 1],
+                                                      covariance_.block<2, 2>(column, column), t_);
       found.parameters.push_back(amplitude);
       found.parameters.push_back(phase);
       return;
@@ -202,7 +209,8 @@ class Describer {
     // A friction is given as the whole coefficient, not as its change.
     const double base = family.base ? family.base(s_.context) : 0.0;
     for (int k = 0; k < effect.columns(); ++k)
-      found.parameters.push_back(parameter_of(family.parameters[k], base + b[column + k], half(column + k)));
+      found.parameters.push_back(
+          parameter_of(family.parameters[k], base + b[column + k], half(column + k)));
     if (!family.references) return;
     for (const auto& [name, value] : family.references(s_.context))
       found.parameters.push_back(parameter_of(name, value, 0.0));
@@ -243,9 +251,10 @@ class Describer {
     std::vector<bool> left_out(s_.all.effects().size(), false);
     for (const int e : members) left_out[e] = true;
     const Eigen::VectorXd held = s_.value - s_.training.explained_nm();
-    const Eigen::VectorXd held_lost = s_.value - s_.training.columns() * s_.training.without(left_out);
-    found.held_out_gain = rms_of(s_.context, held_lost, true, false) -
-                          rms_of(s_.context, held, true, false);
+    const Eigen::VectorXd held_lost =
+        s_.value - s_.training.columns() * s_.training.without(left_out);
+    found.held_out_gain =
+        rms_of(s_.context, held_lost, true, false) - rms_of(s_.context, held, true, false);
     found.sure = sure_words(found.p_value, found.confounded_with);
     found.sentence = sentence(found, members);
   }
@@ -263,16 +272,45 @@ class Describer {
       const auto [name, unit] = name_and_unit(p.name);
       text += ": " + name + printed(" %.3g", p.value) + (unit.empty() ? "" : " " + unit);
     }
-    const double points = rms_of(s_.context, moved, false, true);
-    if (std::isfinite(points)) text += printed(", worth %.2g points of efficiency under load", points);
-    return text + (found.named ? first_action(found.correction)
-                               : std::string("; its cause is not known: find it before anything is designed on it"));
+    const DriveFamily& family = *s_.all.effects()[members.front()].family;
+    if (found.named && family.base)
+      text += printed(" instead of %.3g as designed", family.base(s_.context));
+    return text + consequence(family, moved) +
+           (found.named
+                ? first_action(found.correction)
+                : std::string(
+                      "; its cause is not known: find it before anything is designed on it"));
+  }
+
+  /// What it does to the efficiency, in points of it, where the drive is loaded.
+  [[nodiscard]] std::string consequence(const DriveFamily& family,
+                                        const Eigen::VectorXd& moved) const {
+    const double size = rms_of(s_.context, moved, false, true);
+    if (!std::isfinite(size)) return {};
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < s_.context.table.points.size(); ++i) {
+      const BenchPoint& p = s_.context.table.points[i];
+      if (p.load_nm < kLoaded * s_.context.table.most_load_nm) continue;
+      sum += moved[static_cast<Eigen::Index>(i)] * 100.0 /
+             (p.load_nm * (p.forward ? s_.context.model.ratio : 1.0));
+      count += 1.0;
+    }
+    // one that has no side to speak of comes and goes, or raises one direction and lowers the other
+    const bool up_and_down = std::abs(sum) < 0.7 * size * count;
+    if (!family.is_loss)
+      return printed(", which falsifies the efficiency by %.2g points under load", size);
+    if (up_and_down)
+      return printed(", which moves the efficiency by %.2g points up and down under load", size);
+    return printed(sum < 0.0 ? ", which costs %.2g points of efficiency under load"
+                             : ", which adds %.2g points of efficiency under load",
+                   size);
   }
 
   /// Every effect's share of what all explain together.
   void share_what_is_explained() {
     const auto square = [&](const std::vector<bool>& left_out) {
-      return rms_of(s_.context, s_.value - s_.all.columns() * s_.all.without(left_out), false, false);
+      return rms_of(s_.context, s_.value - s_.all.columns() * s_.all.without(left_out), false,
+                    false);
     };
     const std::size_t count = s_.all.effects().size();
     const double before = rms_of(s_.context, s_.value, false, false);
@@ -301,29 +339,51 @@ std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources) {
   return Describer(sources).run();
 }
 
-std::string words_for(const DriveModel& model, const DriveEffect& effect, const DriveContext* context) {
-  return effect.family->words ? effect.family->words(model, effect.shape, context) : effect.family->id;
+std::string words_for(const DriveModel& model, const DriveEffect& effect,
+                      const DriveContext* context) {
+  return effect.family->words ? effect.family->words(model, effect.shape, context)
+                              : effect.family->id;
 }
+
+namespace {
+
+/// The run that tells losses and readings apart where no effect knows a better one: of what this
+/// bench lacks.
+std::string what_the_bench_lacks(const BenchTable& table) {
+  std::string lacking;
+  const auto add = [&](bool lacks, const char* what) {
+    if (lacks) lacking += std::string(lacking.empty() ? "" : ", ") + what;
+  };
+  add(!table.has(true) || !table.has(false), "the other direction too");
+  add(table.levels[0] < 4, "more loads");
+  add(table.levels[1] < 4, "more speeds");
+  return lacking.empty() ? "the same set points several times more, in shuffled order" : lacking;
+}
+
+}  // namespace
 
 std::vector<std::string> runs_that_separate(const BenchTable& table,
                                             const std::vector<FoundEffect>& effects) {
   std::vector<std::string> runs;
   const auto say = [&](const std::string& sentence) { say_once(runs, sentence); };
   if (table.impossible == Impossible::kEfficiencyAboveOne)
-    say("before any loss is read from these data: a run without the gearbox (or with the roles of the two "
+    say("before any loss is read from these data: a run without the gearbox (or with the roles of "
+        "the two "
         "sides swapped), and each torque against a lever and weights, to separate torque_scale and "
         "torque_offset from friction");
   ToldApart told;
   for (const FoundEffect& found : effects)
     for (const std::string& other : found.confounded_with)
       told.add(found.id, other,
-               measurement_between(found.id, find_drive_family(found.id), other, find_drive_family(other),
-                                   "more loads, speeds, both directions and temperatures"));
+               measurement_between(found.id, find_drive_family(found.id), other,
+                                   find_drive_family(other), what_the_bench_lacks(table)));
   told.say(runs, "run");
   if (!table.has(true) || !table.has(false))
-    say("only one direction was run: the other separates torque scale and offset from friction and drag");
+    say("only one direction was run: the other separates torque scale and offset from friction and "
+        "drag");
   if (!(table.most_speed_rpm > 1.5 * table.least_speed_rpm))
-    say("the speed hardly changes: a speed sweep separates drag, viscous, bearing and Stribeck losses");
+    say("the speed hardly changes: a speed sweep separates drag, viscous, bearing and Stribeck "
+        "losses");
   if (!table.has_temperature)
     say("log temperature_c: without it the lubricant's thinning is not seen");
   if (!table.has_angle)

@@ -96,7 +96,8 @@ TEST(BenchRemainder, AFewRowsFarOffAreNotCalledNoise) {
 TEST(BenchRemainder, AFrictionThatChangesOverTheRunIsToldFromAZeroThatMoves) {
   const auto wear = [](const BenchPoint& p) { return 3.0 * (p.taken - 0.5) * (p.load_nm - 2.4); };
   const BenchRemainder found = Bench(6, 0.0, wear).ask();
-  EXPECT_NE(found.follows.find("over the run in proportion to the load"), std::string::npos) << found.follows;
+  EXPECT_NE(found.follows.find("over the run in proportion to the load"), std::string::npos)
+      << found.follows;
 }
 
 TEST(BenchRemainder, CoarseReadingsAreNotRowsFarOff) {
@@ -122,6 +123,21 @@ TEST(BenchRemainder, ErrorsThatHangTogetherAreMeasuredBesideWhatSetPointsShare) 
   }
   EXPECT_NEAR(white, 0.0, 0.1);
   EXPECT_NEAR(together, 0.5, 0.12);  // less what the slow course takes with it
+}
+
+TEST(BenchRemainder, WhatADriveRemembersOfTheSetPointBeforeIsSeen) {
+  double before = 0.0;
+  const Bench bench(5, 0.0, [&](const BenchPoint& p) {
+    const double remembered = before > 2000.0 ? -3.0 : 0.0;
+    before = p.speed_rpm;
+    return remembered;
+  });
+  const BenchRemainder left = bench.ask();
+  EXPECT_NE(left.follows.find("follows the speed of the set point before"), std::string::npos)
+      << left.follows;
+  const std::size_t after = left.follows.find("after ");
+  ASSERT_NE(after, std::string::npos) << left.follows;
+  EXPECT_NEAR(std::stod(left.follows.substr(after + 6)), 3000.0, 60.0) << left.follows;
 }
 
 }  // namespace

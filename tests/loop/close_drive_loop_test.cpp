@@ -233,6 +233,24 @@ TEST(DriveLoop, ASensorAskewOnItsShaftReadsInAWaveAndIsNoFriction) {
   EXPECT_EQ(parameter(*wave, "with_load")->value, 1.0);
 }
 
+TEST(DriveLoop, AChipInTheRingIsAPartOfEveryTurnAndNoRowOfWaves) {
+  HiddenDrive drive;  // over 0.1 of every turn of the input, from 0.4 on
+  drive.loss_nm = [](const BenchMoment& m) {
+    const double place = m.input_turns - std::floor(m.input_turns);
+    return place > 0.4 && place < 0.5 ? 0.006 : 0.0;
+  };
+  BenchPlan plan = turning();
+  plan.turns_between = 13.7;
+  const auto closed = close_hidden(drive, plan);
+  ASSERT_TRUE(closed);
+  const loop::FoundEffect* chip = found(closed->result, "unnamed");
+  ASSERT_NE(chip, nullptr) << told(closed->result);
+  EXPECT_EQ(closed->result.effects.size(), 1U) << told(closed->result);
+  EXPECT_NE(chip->description.find("over a part of every turn of the input: from 14"), std::string::npos)
+      << chip->description;
+  EXPECT_NEAR(parameter(*chip, "amplitude_nm")->value, 0.006, 0.0006);
+}
+
 TEST(DriveLoop, AnOilThatWasChangedIsAJumpAtItsRowAndNoDrift) {
   HiddenDrive drive;
   drive.friction = [](const BenchMoment& m, int) { return m.input_turns > 3800.0 ? 0.16 : 0.1; };

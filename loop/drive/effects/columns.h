@@ -42,6 +42,15 @@ inline constexpr double kMostFriction = 0.4;
 /// The one shape of an effect that grows over the run; none where any slope over so few set points looks like it.
 [[nodiscard]] std::vector<DriveShape> where_rows_follow_each_other(const DriveContext& context);
 
+/// What changes in the course of a run or over a part of a turn.
+enum What { kFlanks, kDrag, kOutputReads };
+/// Its change of the driven torque [N m] for 1 N m at the input; of the flanks at the largest load.
+[[nodiscard]] double changed_nm(const DriveContext& context, const BenchPoint& p, double what);
+/// 0 ... 1 over the run (order 0), or over the turn that comes so often per turn of the input.
+[[nodiscard]] double place_of_spell(const BenchPoint& p, double order);
+/// True where the rows are of one file, in the order in which they were taken, and not too few.
+[[nodiscard]] bool has_one_course(const DriveContext& context);
+
 /// How all terms of a drive's effects without a name are written.
 [[nodiscard]] std::vector<TermKey> drive_term_keys();
 /// Facts that all of them share.

@@ -37,6 +37,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_step(),
         unnamed_hump(),
         unnamed_change(),
+        unnamed_spell(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -9,8 +9,8 @@ namespace {
 DriveFamily drift(bool input) {
   DriveFamily f;
   f.id = "torque_drift";
-  f.description = input ? "the input's torque reads more and more over the run: this much at its end"
-                        : "the output's torque reads more and more over the run: this much at its end";
+  f.description = input ? "the input's torque drifts over the run: this much more at its end"
+                        : "the output's torque drifts over the run: this much more at its end";
   f.cause = "a sensor or its amplifier that warms up, a zero that creeps under load";
   f.correction = "warm the sensor up, zero it between set points; take the set points in shuffled order and the "
                  "first ones again at the end";
