@@ -94,7 +94,7 @@ std::size_t stride_of(const DriveLoop& closed) {
 }
 
 std::string set_point(const BenchPoint& p) {
-  return std::string(p.forward ? "forward " : "backward ") + printed_number(p.speed_rpm, "%.4g") +
+  return "line " + std::to_string(p.line) + ", " + (p.forward ? "forward " : "backward ") + printed_number(p.speed_rpm, "%.4g") +
          " rpm, " + printed_number(p.driving_nm, "%.4g") + " N m driving: ";
 }
 
@@ -113,6 +113,7 @@ std::vector<Quantity> quantities_of(const DriveLoop& closed) {
   if (closed.table.has_angle)
     list.push_back(
         {"input angle", "turns", [](const BenchPoint& p) { return p.angle_rad / kTwoPi; }});
+  list.push_back({"course of the run", "files, their rows in order", [](const BenchPoint& p) { return p.file + p.taken; }});
   return list;
 }
 

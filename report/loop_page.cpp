@@ -155,8 +155,13 @@ std::string figure_cards(const LoopResult& r) {
     return std::string("<div><dt>") + name + "</dt><dd>" + number(value, format) + "<small>" + small + "</small></dd></div>";
   };
   const std::string unit = std::string(r.unit.sign) + " rms";
-  return "<dl class='cards'>" + card("error before", r.before.rms, unit) + card("error after", r.after.rms, unit) +
-         card("held out, before", r.before.held_out_rms, unit) + card("held out, after", r.after.held_out_rms, unit) +
+  const auto with_points = [&](double points) {
+    return std::isfinite(points) ? unit + ", " + number(points, "%.2g") + " points of efficiency" : unit;
+  };
+  return "<dl class='cards'>" + card("error before", r.before.rms, with_points(r.before.rms_points)) +
+         card("error after", r.after.rms, with_points(r.after.rms_points)) +
+         card("held out, before", r.before.held_out_rms, with_points(r.before.held_out_rms_points)) +
+         card("held out, after", r.after.held_out_rms, with_points(r.after.held_out_rms_points)) +
          card("noise of the measurement", r.noise, r.unit.sign) +
          card("observations", r.observations, std::to_string(r.held_out) + " held out, " + std::to_string(r.outliers) + " outliers", "%.0f") +
          "</dl>";
@@ -170,6 +175,7 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   if (!e.parameters.empty()) {
     html += "<div class='scroll'><table><tr><th></th><th>value</th><th>95 % interval</th><th></th></tr>";
     for (const Parameter& p : e.parameters) {
+      if (!e.named && p.name == "order" && p.value == 0.0) continue;  // it is no wave
       const auto [name, unit] = name_and_unit(p.name);
       html += "<tr><td>" + escaped(name) + "</td><td>" + number(p.value, "%.4g") + "</td><td>" +
               (p.high > p.low ? number(p.low, "%.4g") + " … " + number(p.high, "%.4g") : "") + "</td><td>" + unit +
@@ -190,8 +196,27 @@ std::string effect_card(const FoundEffect& e, bool of_flanks) {
   return html + "</div>";
 }
 
+/// Ids of effects in a sentence as words; names of columns keep theirs.
+std::string with_words(std::string text, const LoopResult& r) {
+  const auto say = [&](const std::string& id) {
+    for (std::size_t at = 0; (at = text.find(id, at)) != std::string::npos;) text.replace(at, id.size(), words(id));
+  };
+  for (const FoundEffect& e : r.effects) {
+    if (e.id.find('_') != std::string::npos) say(e.id);
+    for (const std::string& other : e.confounded_with)
+      if (other.find('_') != std::string::npos) say(other);
+  }
+  return text;
+}
+
+std::string begun(std::string sentence) {
+  if (!sentence.empty() && sentence.front() >= 'a' && sentence.front() <= 'z')
+    sentence.front() = static_cast<char>(sentence.front() - 'a' + 'A');
+  return sentence;
+}
+
 std::string left_over(const LoopResult& r) {
-  std::string html = "<h2>What is left</h2><p>" + escaped(r.structure_left) +
+  std::string html = "<h2>What is left</h2><p>" + escaped(begun(r.structure_left)) +
                      (std::isnan(r.structure_left_p_value) ? "" : " (p = " + number(r.structure_left_p_value, "%.2g") + ")") + "</p>";
   const auto list = [&](const char* title, const std::vector<std::string>& items) {
     if (items.empty()) return;
@@ -204,7 +229,9 @@ std::string left_over(const LoopResult& r) {
     for (const std::string& item : items) html += "<li>" + escaped(item) + "</li>";
     html += "</ul>";
   };
-  list("Measure next:", r.measure_next);
+  std::vector<std::string> next;
+  for (const std::string& item : r.measure_next) next.push_back(with_words(item, r));
+  list("Measure next:", next);
   if (!r.not_observable.empty())
     html += "<p><b>These data cannot show:</b> " + escaped(words(joined(r.not_observable))) + "</p>";
   list("Notes:", r.notes);
