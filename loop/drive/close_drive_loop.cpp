@@ -523,19 +523,25 @@ class Loop {
 
   /// Errors that hang together look like something slow: who reads "noise" is told so.
   void say_what_neighbours_share(const Eigen::VectorXd& left, LoopResult& r) const {
-    constexpr double kMuch = 0.35;
+    constexpr double kMuch = 0.35, kHalf = 0.45;
     constexpr Eigen::Index kFewest = 60;
     if (left.size() < kFewest) return;
     Eigen::VectorXd size = left;
     for (Eigen::Index i = 0; i < size.size(); ++i)
       size[i] /= table_.points[static_cast<std::size_t>(i)].sigma_nm;
     const double shared = correlation_of_visits(size, set_points_of(table_.points));
-    if (shared > kMuch)
-      r.structure_left += printed(
-          "; neighbouring rows share %.0f %% of what is left: errors that hang together, or "
-          "something slow that "
-          "these columns do not hold (the same set points again, in another order, would tell)",
-          100.0 * shared);
+    if (!(shared > kMuch)) return;
+    const std::string text = printed(
+        "neighbouring rows share %.0f %% of what is left: errors that hang together, or something "
+        "slow that these "
+        "columns do not hold (the same set points again, in another order, would tell)",
+        100.0 * shared);
+    if (r.verdict == Verdict::kExplained && shared > kHalf) {
+      r.verdict = Verdict::kPartlyExplained;
+      r.structure_left = text;
+    } else {
+      r.structure_left += "; " + text;
+    }
   }
 
   void judge_impossible(LoopResult& r) const {

@@ -7,7 +7,7 @@ namespace trueflank::loop::drive_effects {
 DriveFamily drag_torque() {
   DriveFamily f;
   f.id = "drag_torque";
-  f.description = "a torque at the input that depends on neither load nor speed";
+  f.description = "a drag at the input, the same at every load and speed";
   f.cause = "preload of bearings, seals, teeth without backlash, grease";
   f.correction = "check preload, seals, backlash and filling";
   f.follows = "nothing";

@@ -7,7 +7,7 @@ namespace trueflank::loop::drive_effects {
 DriveFamily friction_coefficient() {
   DriveFamily f;
   f.id = "friction_coefficient";
-  f.description = "the tooth flanks' friction coefficient is another than designed with";
+  f.description = "the tooth flanks rub with another coefficient than designed";
   f.cause = "lubricant, finish, material of the flanks";
   f.correction = "design with this coefficient; change lubricant or finish";
   f.follows = "load";
