@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/loop/drive/calibrated_losses.h"
+#include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
 namespace {
@@ -61,7 +62,7 @@ class Calibration {
     if (closed_.table.has_temperature) taken_.losses.reference_c = closed_.table.mean_temperature_c;
   }
 
-  void leave(const std::string& what) { notes_.push_back("calibrated.toml does not carry " + what); }
+  void leave(const std::string& what) { say_once(notes_, "calibrated.toml does not carry " + what); }
 
   void take(const DriveEffect& effect, double b) {
     const DriveFamily& family = *effect.family;
