@@ -499,6 +499,10 @@ class Loop {
           "what is left looks most like " + words_for(model_, candidates_[d.likest_left]);
     else
       r.structure_left = "nothing beyond the measurement's own noise was found";
+    if (!left && outcome.effects.empty() && r.verdict == Verdict::kPartlyExplained)
+      r.structure_left =
+          "what the model leaves is more than noise makes by chance, but no effect and no form in "
+          "it predicts rows that it was not fitted to";
     if (!remainder.follows.empty()) {
       r.verdict = Verdict::kPartlyExplained;
       r.structure_left_p_value = std::min(r.structure_left_p_value, remainder.p_value);
