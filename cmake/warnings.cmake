@@ -11,5 +11,7 @@ target_compile_options(trueflank_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
+  # g++ looks for garbage from half a gigabyte on: the same object file, sooner (docs/decisions/0250).
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   # The same numbers on every processor: no fused multiply-add behind our back.
   -ffp-contract=off)
