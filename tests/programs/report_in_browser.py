@@ -143,19 +143,23 @@ class ReportInBrowser(unittest.TestCase):
             ReportInBrowser.showing = None
         return ended
 
-    def open(self, name, width=1200, height=900, mobile=False, scheme="light", motion="reduce"):
+    def open(self, name, width=1200, height=900, mobile=False, scheme="light", motion="reduce", fresh=False):
         folder = self.folders[name]
         with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
             report = json.load(file)
-        # loading is what takes time: a page as wanted is left open
+        # loading is what takes time: a page as wanted is left open, and one that is open takes another view
         wanted = (name, width, height, mobile, scheme, motion)
         if wanted == ReportInBrowser.showing:
             return report
+        loaded = ReportInBrowser.showing is not None and ReportInBrowser.showing[0] == name and not fresh
         ReportInBrowser.showing = wanted
-        self.browser.problems.clear()
-        self.browser.requests.clear()
         self.browser.size(width, height, 1, mobile)
         self.browser.media(prefers_color_scheme=scheme, prefers_reduced_motion=motion)
+        if loaded:
+            self.browser.run("new Promise(shown => requestAnimationFrame(() => requestAnimationFrame(shown)))")
+            return report
+        self.browser.problems.clear()
+        self.browser.requests.clear()
         self.browser.open(os.path.join(folder, "report.html"))
         if has_3d(folder):
             self.browser.wait("document.querySelector('#viewer').dataset.frames > 0")
@@ -437,7 +441,8 @@ class ReportInBrowser(unittest.TestCase):
 
     @on_each(mobile=True)
     def test_a_phone_shows_it_without_scrolling_sideways(self, name):
-        self.open(name, 360, 740, mobile=True)
+        # the two with most in them are loaded there; the others are open and become narrow
+        self.open(name, 360, 740, mobile=True, fresh=name in ("drive", "housed"))
         self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 360, name)
         self.shot(name + "_phone")
         small = self.browser.run(
@@ -454,7 +459,7 @@ class ReportInBrowser(unittest.TestCase):
         self.assertGreater(brightness[1], 600)
         self.shot("drive_dark")
 
-    @on("drive", last=True)
+    @on("drive")
     def test_it_prints_with_its_picture(self):
         self.open("drive")
         self.browser.run("window.dispatchEvent(new Event('beforeprint'))")
@@ -472,8 +477,7 @@ class ReportInBrowser(unittest.TestCase):
         try:
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 688)
         finally:
-            ReportInBrowser.showing = None
-            self.browser.media()
+            self.browser.media(prefers_color_scheme="light", prefers_reduced_motion="reduce")
             self.browser.size(1200, 900)
 
 
