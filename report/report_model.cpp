@@ -45,7 +45,7 @@ Json rows_json(const TrainGear& gear, double chord_error_mm) {
                              .twist = gear.twist,
                              .deviation = gear.deviation.empty() ? nullptr : &gear.deviation,
                              .edge_chamfer_mm = gear.edge_chamfer_mm};
-  const ToothingGrid grid(teeth, levels, chord_error_mm);
+  const ToothingGrid grid(teeth, levels, chord_error_mm, GridKind::kRows);
   Json rows = Json::array();
   for (const double z : grid.heights_mm()) {
     Json points = Json::array();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
 
 namespace trueflank {
 namespace {
@@ -19,6 +20,7 @@ struct Link {
   NetNode node;
   double along = 0.0;    ///< what both chains ascend in
   double support = 0.0;  ///< of a developable surface
+  NetPoint point = {};   ///< where the surface is known by points
 };
 using Chain = std::vector<Link>;
 
@@ -109,8 +111,8 @@ class Zip {
 class PatchBuilder {
  public:
   PatchBuilder(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
-               double turn_rad)
-      : edges_(edges), turn_(turn_rad) {
+               double turn_rad, const NetSurface* surface)
+      : edges_(edges), turn_(turn_rad), surface_(surface) {
     TRUEFLANK_EXPECTS(!edges.empty() && inner.size() == edges.size());
     result_.inner = std::move(inner);
   }
@@ -149,16 +151,30 @@ class PatchBuilder {
                : inner(node.column)[static_cast<std::size_t>(node.row - 1)];
   }
 
+  /// `column` lies between the edges `first` and before `last`.
+  [[nodiscard]] NetPoint point(const NetNode& node, int last) const {
+    if (surface_ == nullptr) return {};
+    const bool at_end = node.column == last;
+    return (*surface_)(at_end ? node.column - 1 : node.column, at_end, height(node));
+  }
+  /// Of the section's normal.
+  static double angle_of(const NetPoint& p) { return std::atan2(p.normal.y(), p.normal.x()); }
+  /// Of the middle of a chord, by the points and normals at its ends.
+  static double off_chord(const Link& a, const Link& b) {
+    return (b.point.normal - a.point.normal).dot(b.point.at - a.point.at) / 8.0;
+  }
+
   /// Between two columns.
   void add_band(int i) {
     const NetEdge& e = edge(i);
     const auto chain = [&](int column) {
       Chain links;
       for (int row = 0; row <= last_row(column); ++row)
-        links.push_back({{column, row}, height({column, row}), 0.0});
+        links.push_back({{column, row}, height({column, row}), 0.0, point({column, row}, i + 1)});
       return links;
     };
     const auto off = [&](const Link& a, const Link& b) {
+      if (surface_ != nullptr) return off_chord(a, b);
       const double ds = e.length_mm * (b.node.column - a.node.column);
       const double turn = turn_ * (b.along - a.along);
       return e.cosine / 8.0 *
@@ -177,8 +193,16 @@ class PatchBuilder {
   void add_strips(int from, int to) {
     double angle = 0.0;
     Chain lower, upper, at_from, at_to;
+    double first = 0.0, upwards = turn_;
+    if (surface_ != nullptr) {
+      first = angle_of(point({from, 0}, to));
+      upwards = std::remainder(angle_of(point({from, last_row(from)}, to)) - first, kTwoPi);
+    }
     const auto link = [&](int column, int row, double support) {
-      return Link{{column, row}, angle + turn_ * height({column, row}), support};
+      const NetPoint on = point({column, row}, to);
+      const double at = surface_ != nullptr ? std::remainder(angle_of(on) - first, kTwoPi)
+                                            : angle + turn_ * height({column, row});
+      return Link{{column, row}, at, support, on};
     };
     for (int i = from; i <= to; ++i) {
       const double support = i < to ? edge(i).support_from_mm : edge(i - 1).support_to_mm;
@@ -189,7 +213,8 @@ class PatchBuilder {
           (i == from ? at_from : at_to).push_back(link(i, row, support));
       if (i < to) angle += edge(i).turn_rad;
     }
-    const bool along = angle * turn_ > 0.0;
+    if (surface_ != nullptr) angle = lower.back().along;
+    const bool along = angle * upwards > 0.0;
     const auto reversed = [](Chain chain) {
       std::reverse(chain.begin(), chain.end());
       return chain;
@@ -213,6 +238,8 @@ class PatchBuilder {
              (b.along - a.along);
     };
     const auto error = [&](const Link& a, const Link& b, const Link& c) {
+      if (surface_ != nullptr)
+        return triangle_error(off_chord(a, b), off_chord(b, c), off_chord(c, a));
       return std::max({off(a, b), off(b, c), off(c, a)});
     };
     result_.facets.push_back({left[0].node, right[1].node, left[1].node});
@@ -225,6 +252,7 @@ class PatchBuilder {
 
   const std::vector<NetEdge>& edges_;
   double turn_ = 0.0;
+  const NetSurface* surface_ = nullptr;
   NetPatch result_;
 };
 
@@ -241,7 +269,12 @@ double triangle_error(double a, double b, double c) {
 
 NetPatch net_patch(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
                    double turn_rad) {
-  return PatchBuilder(edges, std::move(inner), turn_rad).build();
+  return PatchBuilder(edges, std::move(inner), turn_rad, nullptr).build();
+}
+
+NetPatch net_patch(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
+                   double turn_rad, const NetSurface& surface) {
+  return PatchBuilder(edges, std::move(inner), turn_rad, &surface).build();
 }
 
 }  // namespace trueflank

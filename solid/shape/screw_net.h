@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <vector>
 
 // The facets of twisted teeth: which vertices of a screw surface are joined. Lengths along the
@@ -28,6 +30,13 @@ struct NetNode {
   int column = 0, row = 0;
 };
 
+/// A point of a surface and its normal there, of length 1.
+struct NetPoint {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::UnitZ();
+};
+/// The surface of an edge at its beginning or end, at a height (share of the patch).
+using NetSurface = std::function<NetPoint(int edge, bool at_end, double height)>;
+
 /// One tooth between two heights, from the beginning of a region on.
 struct NetPatch {
   std::vector<std::vector<double>>
@@ -43,6 +52,12 @@ struct NetPatch {
 /// number of columns.
 [[nodiscard]] NetPatch net_patch(const std::vector<NetEdge>& edges,
                                  std::vector<std::vector<double>> inner, double turn_rad);
+/// The same where the surface is no screw: errors are taken from its points and normals (a chord
+/// departs by an eighth of the way along it that the normal makes between its ends). What is
+/// marked as developable is a strip as above, though it need be so only nearly.
+[[nodiscard]] NetPatch net_patch(const std::vector<NetEdge>& edges,
+                                 std::vector<std::vector<double>> inner, double turn_rad,
+                                 const NetSurface& surface);
 
 /// Distance of a paraboloid from the triangle through its points, from its (signed) distances at
 /// the middles of the edges. On saddles and cylinders the largest of these; on a dome the height

@@ -19,13 +19,16 @@ constexpr int kFewParts = 8;
 /// Facets are cut for this share of the tolerance: their error is taken from the middles of edges,
 /// right to a percent.
 constexpr double kAim = 0.985;
-/// Rounds of adding columns and rows. Each brings an error to its goal in one step where it is smooth.
+/// Rounds of adding columns and rows. Each brings an error to its goal in one step where it is
+/// smooth.
 constexpr int kRounds = 8;
 /// Teeth looked at while columns and rows are found, where all differ; facets are cut on all.
 constexpr int kSomeTeeth = 6;
-/// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no end.
+/// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no
+/// end.
 constexpr double kShortest = 3.0;
-/// An edge whose parameter runs so unevenly that its middle is this share of it away from the chord's.
+/// An edge whose parameter runs so unevenly that its middle is this share of it away from the
+/// chord's.
 constexpr double kUneven = 0.02;
 /// A break nearer to a vertex than this share of the tolerance is that vertex.
 constexpr double kSameVertex = 0.25;
@@ -40,8 +43,9 @@ double off_chord(const Point3& from, const Point3& to, const Point3& on_surface,
   return (away - along * (away.dot(along) / length2)).norm();
 }
 
-/// Parameter at which a curve passes the middle of its chord. The middle of the parameters is far from it
-/// where an involute starts on its base circle: its way grows with the square of the roll angle.
+/// Parameter at which a curve passes the middle of its chord. The middle of the parameters is far
+/// from it where an involute starts on its base circle: its way grows with the square of the roll
+/// angle.
 double middle_of_chord(const Curve& curve, double from, double to) {
   const Point2 a = point_at(curve, from), chord = point_at(curve, to) - a;
   const double half = 0.5 * chord.squaredNorm();
@@ -55,20 +59,21 @@ double middle_of_chord(const Curve& curve, double from, double to) {
 
 std::vector<double> sorted_heights(std::vector<double> heights) {
   std::sort(heights.begin(), heights.end());
-  heights.erase(std::unique(heights.begin(), heights.end(),
-                            [](double a, double b) { return b - a < 1e-9; }),
-                heights.end());
+  heights.erase(
+      std::unique(heights.begin(), heights.end(), [](double a, double b) { return b - a < 1e-9; }),
+      heights.end());
   return heights;
 }
 
 int parts_for(double error_mm, double tolerance_mm, int most = kFewParts) {
-  return std::clamp(static_cast<int>(std::ceil(std::sqrt(error_mm / tolerance_mm) - 1e-3)), 2, most);
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(error_mm / tolerance_mm) - 1e-3)), 2,
+                    most);
 }
 
 }  // namespace
 
 ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm,
-                           double tolerance_mm)
+                           double tolerance_mm, GridKind kind)
     : outline_(outline), toothing_(outline.toothing()), levels_mm_(std::move(levels_mm)) {
   TRUEFLANK_EXPECTS(tolerance_mm > 0.0 && !levels_mm_.empty());
   teeth_ = toothing_.profile->gear().teeth;
@@ -78,8 +83,13 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr &&
                   !(deviates && toothing_.deviation->varies_along_face);
   const double aim = kAim * tolerance_mm;
-  if (plain_) lay_plain(aim);
-  else lay_modified(tolerance_mm, aim);
+  if (plain_)
+    lay_plain(aim);
+  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || !teeth_alike_ || moved ||
+           toothing_.bed != nullptr || !try_surface_net(aim)) {
+    edges_.clear();
+    lay_modified(tolerance_mm, aim);
+  }
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
 }
 
@@ -182,8 +192,7 @@ void ToothingGrid::place_columns() {
     return Place{side, edges_[edge].piece, 0.5 * (edges_[edge].from + edges_[edge].to)};
   };
   for (std::size_t i = m; i > 0; --i) add(place(i, -1), middle(i - 1, -1), i - 1);
-  if (!vertex_at_tooth_middle_)
-    add(place(0, -1), {1, 0, pieces.front().curve.begin}, 0);
+  if (!vertex_at_tooth_middle_) add(place(0, -1), {1, 0, pieces.front().curve.begin}, 0);
   for (std::size_t i = 0; i < m; ++i) add(place(i, 1), middle(i, 1), i);
   if (!vertex_at_gap_middle_)
     add(place(m, 1), {1, pieces.size() - 1, pieces.back().curve.end}, m - 1);
@@ -208,7 +217,9 @@ bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tol
         (point_at(curve, e.to) - point_at(curve, e.from)).norm() < kShortest * tolerance_mm;
     const int parts =
         error_mm[i] > tolerance_mm && !is_short ? parts_for(error_mm[i], tolerance_mm) : 1;
-    const auto part_end = [&](int k) { return k == parts ? e.to : e.from + (e.to - e.from) * k / parts; };
+    const auto part_end = [&](int k) {
+      return k == parts ? e.to : e.from + (e.to - e.from) * k / parts;
+    };
     for (int k = 0; k < parts; ++k) split.push_back({e.piece, part_end(k), part_end(k + 1)});
   }
   const bool added = split.size() > edges_.size();
@@ -235,8 +246,8 @@ void ToothingGrid::refine_columns(double tolerance_mm) {
             const Point3 to = vector_of(at({side, e.piece, e.to}, tooth, z));
             for (const double share : {0.25, 0.5, 0.75}) {
               const Place inside{side, e.piece, std::lerp(e.from, e.to, share)};
-              error[i] = std::max(error[i],
-                                  off_chord(from, to, vector_of(at(inside, tooth, z)), share));
+              error[i] =
+                  std::max(error[i], off_chord(from, to, vector_of(at(inside, tooth, z)), share));
             }
           }
     if (!split_columns(error, tolerance_mm)) return;
@@ -318,7 +329,8 @@ ToothingGrid::ToothRow ToothingGrid::tooth_row(int tooth, double z_mm) const {
   row.points.push_back(at(points_.front(), (tooth + 1) % teeth_, z_mm));
   for (std::size_t i = 0; i < middles_.size(); ++i) {
     row.middles.push_back(at(middles_[i], tooth, z_mm));
-    row.chord_middles.push_back(is_even(i) ? row.middles.back() : at(chord_middles_[i], tooth, z_mm));
+    row.chord_middles.push_back(is_even(i) ? row.middles.back()
+                                           : at(chord_middles_[i], tooth, z_mm));
   }
   return row;
 }
@@ -359,8 +371,10 @@ double ToothingGrid::cut(double tolerance_mm) {
         const Point &ad = middle.points[i], &bc = middle.points[i + 1];
         double rising = 0.0, falling = 0.0;
         const auto look_at = [&](const Point& ab, const Point& cd, const Point& across) {
-          rising = std::max({rising, error_of(a, b, c, ab, bc, across), error_of(a, c, d, across, cd, ad)});
-          falling = std::max({falling, error_of(a, b, d, ab, across, ad), error_of(b, c, d, bc, cd, across)});
+          rising = std::max(
+              {rising, error_of(a, b, c, ab, bc, across), error_of(a, c, d, across, cd, ad)});
+          falling = std::max(
+              {falling, error_of(a, b, d, ab, across, ad), error_of(b, c, d, bc, cd, across)});
         };
         const Point &ab = lower.middles[i], &cd = upper.middles[i];
         look_at(ab, cd, middle.middles[i]);
@@ -371,8 +385,10 @@ double ToothingGrid::cut(double tolerance_mm) {
         largest = std::max(largest, error);
         if (error <= tolerance_mm) continue;
         // charge it to the longer of the two ways across the quadrilateral
-        const double along = std::max(off_chord(a, b, vector_of(ab), 0.5), off_chord(d, c, vector_of(cd), 0.5));
-        const double up = std::max(off_chord(a, d, vector_of(ad), 0.5), off_chord(b, c, vector_of(bc), 0.5));
+        const double along =
+            std::max(off_chord(a, b, vector_of(ab), 0.5), off_chord(d, c, vector_of(cd), 0.5));
+        const double up =
+            std::max(off_chord(a, d, vector_of(ad), 0.5), off_chord(b, c, vector_of(bc), 0.5));
         double& charged = along > up ? column_error_mm_[edge_of_[i]] : layer_error_mm_[j];
         charged = std::max(charged, error);
       }

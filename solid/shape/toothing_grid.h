@@ -11,10 +11,14 @@
 
 namespace trueflank {
 
+/// What a grid may be: whatever has the fewest facets, or rows and columns in any case.
+enum class GridKind { kFewest, kRows };
+
 /// The vertices of a toothing's mesh: columns (the same places of the profile in every row) and
 /// rows at heights, chosen so that every facet between them keeps a tolerance. Every vertex is a
 /// surface_point().
-/// How: the section's own chords give the columns, the curvature of the screw the rows; where a
+/// Nets where teeth are alike and not displaced: columns with vertices of their own, see patches().
+/// Else: the section's own chords give the columns, the curvature of the screw the rows; where a
 /// deviation or displacement bends the surface more, columns and rows are added until the triangles
 /// keep the tolerance. Each quadrilateral is cut along the diagonal that lies nearer to the
 /// surface: on an involute flank along the straight generator of the helicoid. Joints of profile
@@ -25,7 +29,8 @@ class ToothingGrid {
   /// `levels_mm`: heights in the gear's frame, ascending; each becomes a row. One level alone makes
   /// a section without facets.
   /// Requires: tolerance_mm > 0, a level.
-  ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm, double tolerance_mm);
+  ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm, double tolerance_mm,
+               GridKind kind = GridKind::kFewest);
 
   [[nodiscard]] int teeth() const { return teeth_; }
   [[nodiscard]] int points_per_tooth() const { return static_cast<int>(points_.size()); }
@@ -34,10 +39,10 @@ class ToothingGrid {
   /// All teeth at a height (gear's frame): points of the part's frame, tooth by tooth as in
   /// SectionPolygon.
   [[nodiscard]] std::vector<std::array<double, 3>> row(double z_mm) const;
-  /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its lower
-  /// left to its upper right corner (seen from the axis' outside, the axis upwards).
+  /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its
+  /// lower left to its upper right corner (seen from the axis' outside, the axis upwards).
   [[nodiscard]] bool rises(std::size_t layer, int tooth, int point) const;
-  /// Plain twisted teeth are nets instead: patches between heights_mm(), inner vertices on each column
+  /// Most teeth are nets instead: patches between heights_mm(), inner vertices on each column
   /// where its own curvature asks for them. Empty where rows and columns are what there is.
   [[nodiscard]] const std::vector<NetPatch>& patches() const { return patches_; }
   /// The inner vertices of a patch, tooth by tooth, column by column, upwards; the part's frame.
@@ -55,6 +60,7 @@ class ToothingGrid {
   struct HalfEdge {
     std::size_t piece = 0;
     double from = 0.0, to = 0.0;
+    bool starts_strip = false;  ///< of a modified net: its first column has vertices between breaks
   };
   /// A place on a tooth, whichever tooth.
   struct Place {
@@ -66,7 +72,8 @@ class ToothingGrid {
   static constexpr std::size_t kSamples = 32;
   /// What the facets aim at, by piece and sample.
   using Aims = std::vector<std::array<double, kSamples>>;
-  /// Points of one tooth at a height, the next tooth's first one last, and the middles of its edges.
+  /// Points of one tooth at a height, the next tooth's first one last, and the middles of its
+  /// edges.
   struct ToothRow {
     std::vector<Point> points, middles, chord_middles;
   };
@@ -79,17 +86,25 @@ class ToothingGrid {
     return chord_middles_[middle].parameter == middles_[middle].parameter;
   }
   void lay_plain(double aim_mm);
+  class SurfaceNet;
+  /// A net of modified teeth. False where the tolerance is not kept.
+  bool try_surface_net(double tolerance_mm);
+  /// Finer aims where facets were off by more; false where none was.
+  static bool tighten(Aims& aims_mm, const Aims& error_mm, double tolerance_mm);
   /// Where rows and columns share the tolerance, as it takes the fewest facets.
   void lay_modified(double tolerance_mm, double aim_mm);
-  /// What rows may have of the tolerance, so that the longest layer is cut into whole parts and fewer facets
-  /// than `fewest` (points by rows) are promised. Leaves columns that must be laid again.
+  /// What rows may have of the tolerance, so that the longest layer is cut into whole parts and
+  /// fewer facets than `fewest` (points by rows) are promised. Leaves columns that must be laid
+  /// again.
   [[nodiscard]] std::vector<double> shares_of_rows(double aim_mm, const std::vector<bool>& crowded,
                                                    std::size_t fewest);
-  /// Rows have an error of their own, columns of crowded pieces the rest; 0: all the whole tolerance.
+  /// Rows have an error of their own, columns of crowded pieces the rest; 0: all the whole
+  /// tolerance.
   void lay_columns(double aim_mm, double rows_mm, const std::vector<bool>& crowded);
   void lay_rows(double aim_mm, double rows_mm);
   void crowd_columns(const std::vector<bool>& crowded, double tolerance_mm);
-  /// Cuts, and adds where that does not keep the tolerance; returns the pieces that needed more columns.
+  /// Cuts, and adds where that does not keep the tolerance; returns the pieces that needed more
+  /// columns.
   std::vector<bool> cut_in_rounds(double aim_mm);
   void start_columns(double tolerance_mm);
   void add_roll_breaks(double tolerance_mm);
@@ -129,16 +144,16 @@ class ToothingGrid {
   FlankBreaks breaks_;
   Place first_, last_;  ///< of the half tooth
   bool vertex_at_tooth_middle_ = true, vertex_at_gap_middle_ = true;
-  std::vector<Place> points_, middles_;   ///< of a whole tooth; middle i follows point i
-  std::vector<Place> chord_middles_;      ///< at the chord's middle where the parameter runs unevenly
-  std::vector<std::size_t> edge_of_;      ///< half edge of middle i
+  std::vector<Place> points_, middles_;  ///< of a whole tooth; middle i follows point i
+  std::vector<Place> chord_middles_;  ///< at the chord's middle where the parameter runs unevenly
+  std::vector<std::size_t> edge_of_;  ///< half edge of middle i
   std::vector<std::vector<bool>> rises_;  ///< by layer; one tooth where they are alike
   std::vector<double> column_error_mm_, layer_error_mm_;  ///< charged by cut()
   double section_error_mm_ = 0.0, facet_error_mm_ = 0.0;
 };
 
-/// The toothing's section at a height in the gear's frame, its deviation included, not turned by the
-/// twist.
+/// The toothing's section at a height in the gear's frame, its deviation included, not turned by
+/// the twist.
 [[nodiscard]] OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm,
                                           double tolerance_mm);
 

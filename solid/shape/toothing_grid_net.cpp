@@ -384,6 +384,17 @@ void ToothingGrid::measure_net(const NetPatch& net, const std::vector<NetEdge>& 
   }
 }
 
+bool ToothingGrid::tighten(Aims& aims_mm, const Aims& error_mm, double tolerance_mm) {
+  bool tightened = false;
+  for (std::size_t piece = 0; piece < aims_mm.size(); ++piece)
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      if (error_mm[piece][k] <= tolerance_mm) continue;
+      tightened = true;
+      aims_mm[piece][k] *= std::clamp(0.99 * tolerance_mm / error_mm[piece][k], 0.8, 0.98);
+    }
+  return tightened;
+}
+
 void ToothingGrid::try_net(double tolerance_mm) {
   const std::vector<HalfEdge> chords = edges_;
   double widest = 0.0;
@@ -405,14 +416,7 @@ void ToothingGrid::try_net(double tolerance_mm) {
                                    : net_patch(edges, inner_rows(edges, steps, turn), turn));
       if (!as_before) measure_net(patches_.back(), edges, k, errors);
     }
-    bool kept = true;
-    for (std::size_t piece = 0; piece < aims.size(); ++piece)
-      for (std::size_t k = 0; k < kSamples; ++k) {
-        if (errors[piece][k] <= tolerance_mm) continue;
-        kept = false;
-        aims[piece][k] *= std::clamp(0.99 * tolerance_mm / errors[piece][k], 0.8, 0.98);
-      }
-    if (kept) {
+    if (!tighten(aims, errors, tolerance_mm)) {
       heights_mm_ = breaks_mm_;
       facet_error_mm_ = tolerance_mm / kSafety;
       return;
@@ -431,7 +435,7 @@ std::vector<std::array<double, 3>> ToothingGrid::inner_points(std::size_t patch)
     for (const double share : patches_[patch].inner[i]) {
       const Place& p = points_[i];
       const double z = std::lerp(low, high, share);
-      const Point2 turned = rotated(section_point(toothing_, {0, p.side, p.piece, p.parameter}, z),
+      const Point2 turned = rotated(section_point(toothing_, place_at(p, 0, z), z),
                                     outline_.rotation_rad + section_turn_rad(toothing_.twist, z));
       tooth.push_back({turned.x(), turned.y(), z + outline_.z_lower_mm});
     }

@@ -242,39 +242,5 @@ TEST(ToothingGrid, PlainTwistedTeethHaveFewFacetsMoreThanTheLeast) {
   EXPECT_LT(all, 1.3 * all_least);
 }
 
-TEST(ToothingGrid, CrownedFlanksHaveFewFacetsMoreThanTheLeast) {
-  constexpr double kWidth_mm = 10.0, kTolerance_mm = 1e-3;
-  const Gear gear = test::external_gear(30, 0.0);
-  const auto profile = ToothProfile::make(gear);
-  ASSERT_TRUE(profile);
-  const auto points = [&](const FlankDeviation* deviation) {
-    const ToothedOutline outline{.profile = &*profile, .twist = {.face_width_mm = kWidth_mm}, .deviation = deviation};
-    const ToothingGrid grid(outline, {0.0, kWidth_mm}, kTolerance_mm);
-    EXPECT_LE(grid.chord_error_mm(), kTolerance_mm);
-    return std::pair(grid.points_per_tooth(), static_cast<int>(grid.heights_mm().size()) - 1);
-  };
-  int chords = 0;
-  for (const auto& edge : tessellate(*profile, kTolerance_mm).edges)
-    chords += profile->pieces()[static_cast<std::size_t>(edge.piece)].kind == PieceKind::kInvolute;
-  const int plain = points(nullptr).first;
-  const double r_b = base_radius_mm(gear);
-  const auto roll = [&](double radius) { return std::sqrt(radius * radius - r_b * r_b); };
-  for (const double crowning_mm : {0.002, 0.005, 0.01, 0.02, 0.04}) {
-    const FlankDeviation crowning{.deviation_mm = [&](int, Flank, double, double z) {
-                                    return -crowning_mm * std::pow(2.0 * z / kWidth_mm - 1.0, 2);
-                                  },
-                                  .varies_along_face = true};
-    const auto [columns, layers] = points(&crowning);
-    const double facets = 2.0 * layers * (0.5 * (columns - plain) + chords);
-    // the integral of the root of Gaussian curvature, 1 / roll across and 8 a / b^2 along, over 2.598 tolerances
-    const double along = std::sqrt(8.0 * crowning_mm) / kWidth_mm;
-    const double across = 2.0 / 3.0 / r_b * (std::pow(roll(profile->tip_radius_mm()), 1.5) -
-                                             std::pow(roll(profile->root_form_radius_mm()), 1.5));
-    const double least = along * kWidth_mm * across / (2.598 * kTolerance_mm);
-    EXPECT_LT(facets, 1.95 * least) << crowning_mm;
-    EXPECT_GT(facets, least) << crowning_mm;
-  }
-}
-
 }  // namespace
 }  // namespace trueflank
