@@ -20,6 +20,9 @@ constexpr double kLayersOfBentFace = 3.2;
 /// Columns that are added where the flank is bent along the profile, too.
 constexpr double kColumnsOfBentFlank = 1.3;
 
+/// Nets of modified teeth have so much of the facets of rows and columns.
+constexpr double kShareOfNets = 0.6;
+
 /// Largest turn of a chord about the axis that keeps the tolerance.
 double widest_turn_rad(double radius_mm, double tolerance_mm) {
   return 2.0 * std::acos(1.0 - std::min(1.0, tolerance_mm / radius_mm));
@@ -90,7 +93,9 @@ double facets_of_teeth(const ToothedOutline& outline, double height_mm, double t
         rows + kLayersOfBentFace * layers_of_bent_face(toothing, height_mm, tolerance_mm) +
         (outline.edge_chamfer_mm > 0.0 ? 2.0 : 0.0) + (outline.bed != nullptr ? 1.0 : 0.0);
     const double columns = (flank * (bent ? kColumnsOfBentFlank : 1.0)) + others;
-    return half_teeth * 2.0 * columns * layers + caps;
+    const bool net = toothing.displacement == nullptr && outline.bed == nullptr &&
+                     !(toothing.has_deviation() && toothing.deviation->varies_by_tooth);
+    return half_teeth * 2.0 * columns * layers * (net ? kShareOfNets : 1.0) + caps;
   }
   const double patches = outline.twist.herringbone ? 2.0 : 1.0;
   const double columns =
