@@ -2,6 +2,7 @@
 #include "trueflank/solid/shape/screw_net.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,9 @@ namespace {
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Vertices farther apart along the chains than so many of their widest steps are never joined.
 constexpr double kReach = 1.5;
+
+/// A corner whose angle lies farther out than this share of a strip's is where it ends.
+constexpr double kBeyond = 0.05;
 
 /// A vertex on one of two chains, with its place along them.
 struct Link {
@@ -188,6 +192,27 @@ class PatchBuilder {
     Zip(left, right, error).add_to(result_.facets);
   }
 
+  /// The two ways round a strip's border from its corner of least angle to that of the largest,
+  /// where these are not opposite (in chamfers strips are trapezia). Else leaves the chains as they
+  /// are.
+  static void split_at_ends(const Chain& loop, const std::array<std::size_t, 4>& corners,
+                            Chain& left, Chain& right) {
+    const auto lower = [&](std::size_t a, std::size_t b) { return loop[a].along < loop[b].along; };
+    const auto [first, last] = std::minmax_element(corners.begin(), corners.end(), lower);
+    const double sense = left.back().along < left.front().along ? -1.0 : 1.0;
+    const double start = sense > 0.0 ? left.front().along : left.back().along,
+                 end = sense > 0.0 ? left.back().along : left.front().along;
+    const double range = loop[*last].along - loop[*first].along;
+    if (start - loop[*first].along <= kBeyond * range && loop[*last].along - end <= kBeyond * range)
+      return;
+    const std::size_t n = loop.size(), ahead = (*last + n - *first) % n;
+    if (ahead < 2 || n - ahead < 2) return;  // no vertices on one of the ways
+    Chain forwards, backwards;
+    for (std::size_t k = 0; k <= ahead; ++k) forwards.push_back(loop[(*first + k) % n]);
+    for (std::size_t k = 0; k <= n - ahead; ++k) backwards.push_back(loop[(*first + n - k) % n]);
+    right = forwards, left = backwards;
+  }
+
   /// Columns `from` to `to` of a developable surface. Both ways round its border the angle of the
   /// normal ascends (or descends), from one corner to the opposite one.
   void add_strips(int from, int to) {
@@ -229,6 +254,14 @@ class PatchBuilder {
                        : joined(reversed(lower), at_from, {upper.front()});
     Chain right = along ? joined(lower, at_to, {upper.back()})
                         : joined({lower.back()}, at_to, reversed(upper));
+    if (surface_ != nullptr) {
+      Chain loop = joined(lower, at_to, reversed(upper));
+      const std::array<std::size_t, 4> corners{0, lower.size() - 1, lower.size() + at_to.size(),
+                                               loop.size() - 1};
+      const Chain back = reversed(at_from);
+      loop.insert(loop.end(), back.begin(), back.end());
+      split_at_ends(loop, corners, left, right);
+    }
     const double sense = left.back().along < left.front().along ? -1.0 : 1.0;
     for (Chain* chain : {&left, &right})
       for (Link& l : *chain) l.along *= sense;

@@ -167,5 +167,10 @@ TEST(ModifiedFacets, OfTeethWithModificationsOfEveryKindAreFewMoreThanTheLeast) 
   expect_few(Kind::kMixed, 1.5, 1.4);
 }
 
+/// Not few yet, but fewer than rows and columns have (3.6 and 4.9 times the least on these gears).
+TEST(ModifiedFacets, OfChamferedTeethAreFewerThanRowsAndColumnsHave) {
+  expect_few(Kind::kChamfered, 3.4, 4.0);
+}
+
 }  // namespace
 }  // namespace trueflank
