@@ -51,19 +51,47 @@ struct OfSide {
   OfTraces profile, helix;
 };
 
-using Traces = std::map<std::pair<int, int>, std::vector<TracePoint>>;  // tooth, side
+/// Tooth, side, zero; and which of the traces that share a zero: at another height or diameter.
+using TraceKey = std::array<int, 4>;
+using Traces = std::map<TraceKey, std::vector<TracePoint>>;
+
+/// A value of a trace, and where the trace stands across its direction, -1 ... 1.
+struct PlacedValue {
+  double across = 0.0;
+  TracePoint point;
+};
+
+/// Traces of a flank that share a zero, apart: between them lies more than within one.
+std::vector<std::vector<TracePoint>> traces_apart(std::vector<PlacedValue> values) {
+  constexpr double kApart = 0.05;
+  std::stable_sort(values.begin(), values.end(),
+                   [](const auto& a, const auto& b) { return a.across < b.across; });
+  std::vector<std::vector<TracePoint>> traces;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i == 0 || values[i].across - values[i - 1].across > kApart) traces.emplace_back();
+    traces.back().push_back(values[i].point);
+  }
+  return traces;
+}
 
 /// Traces of one kind of record, or of the scan's mean traces where there are none.
 Traces traces_of(const GearLoop& closed, const ResidualGrid& grid, bool profile) {
   const FlankGeometry& g = closed.geometry;
   const ObservationKind kind = profile ? ObservationKind::kProfile : ObservationKind::kHelix;
   Traces traces;
+  std::map<std::array<int, 3>, std::vector<PlacedValue>> measured;
   for (std::size_t i = 0; i < closed.table.rows.size(); ++i) {
     const Observation& row = closed.table.rows[i];
     if (row.kind != kind) continue;
     const Place& place = closed.table.place(row);
-    traces[{place.tooth, place.side > 0 ? 1 : 0}].push_back(
-        {profile ? place.roll_mm : place.z_mm, closed.before_um[i]});
+    measured[{place.tooth, place.side > 0 ? 1 : 0, row.trace}].push_back(
+        {profile ? g.face_coordinate(place.z_mm) : g.profile_coordinate(place.roll_mm),
+         {profile ? place.roll_mm : place.z_mm, closed.before_um[i]}});
+  }
+  for (auto& [key, values] : measured) {
+    int number = 0;
+    for (auto& trace : traces_apart(std::move(values)))
+      traces[{key[0], key[1], key[2], number++}] = std::move(trace);
   }
   if (traces.empty()) {
     const double start = profile ? g.root_form_roll_mm() : 0.0;
@@ -73,7 +101,7 @@ Traces traces_of(const GearLoop& closed, const ResidualGrid& grid, bool profile)
         const auto& parts = profile ? grid.teeth[k][side].profile : grid.teeth[k][side].helix;
         for (int i = 0; i < kParts; ++i)
           if (!std::isnan(parts[i]))
-            traces[{static_cast<int>(k) + 1, side}].push_back({start + length * (i + 0.5) / kParts, parts[i]});
+            traces[{static_cast<int>(k) + 1, side, 0, 0}].push_back({start + length * (i + 0.5) / kParts, parts[i]});
       }
   }
   for (auto& [flank, trace] : traces)
@@ -106,7 +134,7 @@ void add_traces(const GearLoop& closed, const ResidualGrid& grid, bool profile, 
     if (profile && g.sense() < 0.0) turn_round(trace);
     const EvaluationRange range = range_of(g, trace, profile);
     const auto filtered = gaussian_filtered(trace, cut_off_mm(range.to_mm - range.from_mm));
-    OfSide& side = sides[static_cast<std::size_t>(flank.second)];
+    OfSide& side = sides[static_cast<std::size_t>(flank[1])];
     (profile ? side.profile : side.helix).add(evaluate_trace(filtered, range));
   }
 }

@@ -33,26 +33,41 @@ Eigen::VectorXd polynomial(const std::vector<TracePoint>& trace, double middle, 
   return least_squares(columns, values);
 }
 
+/// Mean under a Gaussian of unit scale about 0.
+struct WeightedMean {
+  double sum = 0.0, weight = 0.0;
+
+  /// A course that runs straight from one value to the next: its integral, however long it is.
+  void add_line(double from, double to, double value_from, double value_to) {
+    if (!(to > from)) return;
+    const double root = std::sqrt(kPi);
+    const double own = 0.5 * (std::erf(root * to) - std::erf(root * from));
+    const double moment =
+        (std::exp(-kPi * from * from) - std::exp(-kPi * to * to)) / (2.0 * kPi);
+    sum += value_from * own + (value_to - value_from) * (moment - from * own) / (to - from);
+    weight += own;
+  }
+};
+
 }  // namespace
 
 double cut_off_mm(double length_mm) { return std::max(0.25, length_mm / 30.0); }
 
 std::vector<TracePoint> gaussian_filtered(const std::vector<TracePoint>& trace, double cut_off_mm) {
   const double scale = std::sqrt(std::log(2.0) / kPi) * cut_off_mm;
-  constexpr double kReach = 1.5;  // of the scale: beyond it a weight is below 1e-3
+  constexpr double kReach = 2.0;  // of the scale: beyond it lies less than 1e-6 of the weight
   std::vector<TracePoint> filtered = trace;
   std::size_t first = 0;
   for (std::size_t i = 0; i < trace.size(); ++i) {
-    while (trace[i].at_mm - trace[first].at_mm > kReach * scale) ++first;
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t k = first; k < trace.size(); ++k) {
-      const double x = (trace[k].at_mm - trace[i].at_mm) / scale;
-      if (x > kReach) break;
-      const double weight = share_of(trace, k) * std::exp(-kPi * x * x);
-      sum += weight * trace[k].deviation_um;
-      weights += weight;
+    while (first + 1 < i && trace[i].at_mm - trace[first + 1].at_mm > kReach * scale) ++first;
+    WeightedMean mean;
+    for (std::size_t k = first; k + 1 < trace.size(); ++k) {
+      const double from = (trace[k].at_mm - trace[i].at_mm) / scale;
+      if (from > kReach) break;
+      mean.add_line(from, (trace[k + 1].at_mm - trace[i].at_mm) / scale, trace[k].deviation_um,
+                    trace[k + 1].deviation_um);
     }
-    if (weights > 0.0) filtered[i].deviation_um = sum / weights;
+    if (mean.weight > 0.0) filtered[i].deviation_um = mean.sum / mean.weight;
   }
   return filtered;
 }

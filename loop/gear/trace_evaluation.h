@@ -32,6 +32,8 @@ struct TraceFigures {
 [[nodiscard]] double cut_off_mm(double length_mm);
 
 /// Gaussian mean line, phase-correct, half transmission at the cut-off; weights at the ends are made up to one.
+/// Between two values the course is straight, so that uneven places, near the base circle as far apart as the
+/// weight is wide, are averaged over their length and not by their number.
 /// Source: ISO 16610-21: exp(-pi (x / (a cut-off))^2), a = sqrt(ln 2 / pi).
 [[nodiscard]] std::vector<TracePoint> gaussian_filtered(const std::vector<TracePoint>& trace,
                                                         double cut_off_mm);
