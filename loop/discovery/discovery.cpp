@@ -99,7 +99,10 @@ class Selection {
       tested_ = active();
       if (result_.observable.empty()) result_.observable = test.observable();
       const bool first = chosen_.empty();
-      if (first) result_.first_p_value = std::min(test.p_value(), test.local_p_value());
+      if (first) {
+        result_.first_common_p_value = test.p_value();
+        result_.first_p_value = std::min(test.p_value(), test.local_p_value());
+      }
       result_.p_left = test.p_value();
       result_.likest_left = test.likest();
       if (static_cast<int>(chosen_.size()) >= options_.most_effects) return;

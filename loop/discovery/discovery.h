@@ -60,6 +60,7 @@ struct ChosenGroup {
 
 struct DiscoveryResult {
   double first_p_value = 1.0;  ///< of any structure at all
+  double first_common_p_value = 1.0;  ///< of structure that does not live in one unit
   std::vector<ChosenGroup> chosen;
   double p_left = 1.0;         ///< of structure beyond the chosen effects
   int likest_left = -1;        ///< group most like what is left

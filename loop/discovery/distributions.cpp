@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/discovery/distributions.h"
 
+#include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <functional>
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/scalar_root.h"
@@ -55,6 +57,19 @@ double f_tail(double f, double degrees, double degrees_below) {
   if (!(f > 0.0)) return 1.0;
   return boost::math::ibeta(0.5 * degrees_below, 0.5 * degrees,
                             degrees_below / (degrees_below + degrees * f), Quiet());
+}
+
+double gap_beyond_tail_p_value(double largest, std::vector<double> others) {
+  constexpr std::size_t kFewest = 4, kEnough = 8, kShare = 3;
+  if (others.size() < kFewest) return 1.0;
+  std::sort(others.begin(), others.end(), std::greater<>());
+  const std::size_t count = std::min(others.size(), std::max(kEnough, others.size() / kShare));
+  double sum = 0.0;
+  for (std::size_t i = 1; i < count; ++i)
+    sum += static_cast<double>(i + 1) * (others[i - 1] - others[i]);
+  const auto gaps = static_cast<double>(count - 1);
+  if (!(largest > others.front())) return 1.0;
+  return sum > 0.0 ? f_tail((largest - others.front()) * gaps / sum, 2.0, 2.0 * gaps) : 0.0;
 }
 
 }  // namespace trueflank::loop

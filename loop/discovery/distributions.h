@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 // Tails of the distributions the loop judges by.
 namespace trueflank::loop {
 
@@ -13,5 +15,10 @@ namespace trueflank::loop {
 
 /// P(F with these degrees of freedom > f). Accuracy: 1e-10.
 [[nodiscard]] double f_tail(double f, double degrees, double degrees_below);
+/// How likely chance alone sets the largest of sizes so far beyond the others, where the tail of such sizes falls
+/// no slower than an exponential: its gap against the gaps among the largest others, which are then all
+/// exponential once each is multiplied by its rank (Renyi). No assumption of how wide or how normal errors are.
+/// Requires: at least 4 others; with fewer it says 1.
+[[nodiscard]] double gap_beyond_tail_p_value(double largest, std::vector<double> others);
 
 }  // namespace trueflank::loop

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/plain_rms.h"
@@ -174,12 +175,21 @@ void PartLoop::ban_what_cannot_be_seen() {
       return std::fmod(effect.order() * (tooth - *traced_teeth.begin()), z) == 0.0;
     });
   };
+  // Less than half a wave over the profile is a slope of it, and so is a whole one where the teeth
+  // between were not traced: on traces with zeros of their own no machine's order can be read from
+  // that.
+  const double fewest = gear_effects::lowest_order_with(
+      traced < geometry_.teeth() ? 1.0 : 0.5, geometry_);
+  const auto is_a_slope = [&](const Effect& effect) {
+    return effect.family->tells_order_along_profile && !scanned &&
+           (!whole_ring || traced < geometry_.teeth()) && effect.order() < fewest;
+  };
   const bool crossed = scanned || most_u > least_u + kSeveral || most_v > least_v + kSeveral;
   for (std::size_t g = 0; g < candidates_.size(); ++g) {
     const NeedsToBeSeen needs = candidates_[g].needs();
     if ((needs.along_profile && !along_profile) || (needs.along_face && !along_face) ||
         (needs.several_heights && !(highest > lowest + kSeveral)) || (needs.crossed && !crossed) ||
-        aliases(candidates_[g]) || is_alike_on_all(candidates_[g]))
+        aliases(candidates_[g]) || is_alike_on_all(candidates_[g]) || is_a_slope(candidates_[g]))
       banned_[g] = true;
   }
 }
@@ -231,7 +241,7 @@ void PartLoop::select() {
   problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
   if (is_rounding()) {
     discovery_.chosen.clear();
-    discovery_.first_p_value = discovery_.p_left = 1.0;
+    discovery_.first_p_value = discovery_.first_common_p_value = discovery_.p_left = 1.0;
   }
   effects_ = options_.given;
   for (const ChosenGroup& chosen : discovery_.chosen) effects_.push_back(candidates_[chosen.group]);
@@ -474,7 +484,16 @@ bool PartLoop::structure_is_left() const {
   if (neighbours_share() || !remainder_.empty()) return true;
   // What the hold-out denied must be surer than what it was not asked about.
   const double sure = vetoed_ ? kSureThoughDenied : kLeftOfNothing;
-  if (effects_.empty()) return discovery_.first_p_value <= sure / options_.tables;
+  if (effects_.empty()) {
+    // A tooth of single values was chosen, or taken back as one of their tails: it is not asked again.
+    const bool single = std::none_of(
+        table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
+          return row.kind != ObservationKind::kIndex && row.kind != ObservationKind::kRadial &&
+                 row.kind != ObservationKind::kSize;
+        });
+    const double p = single ? discovery_.first_common_p_value : discovery_.first_p_value;
+    return p <= sure / options_.tables;
+  }
   return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
 }
 

@@ -93,6 +93,7 @@ class PartLoop {
   void join_flanks();
   void tell_parts_of_a_form();
   void tell_parts_beside_forms();
+  void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
   void tell_imitations();
   void tell_level_of_forms();

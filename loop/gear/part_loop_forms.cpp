@@ -133,6 +133,7 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   tell_parts_beside_forms();
+  tell_parts_of_a_sector();
   tell_means_of_odd_forms();
   tell_imitations();
   tell_waves_of_a_form();
@@ -181,6 +182,41 @@ void PartLoop::tell_parts_beside_forms() {
       }
     }
     if (part) effects_[e].family = form;
+  }
+}
+
+/// Beside teeth that are made otherwise from one on (a tool that broke) a slope or bow of all teeth
+/// in the direction in which these differ, smaller than what they differ by, is what the form of
+/// the sector leaves.
+void PartLoop::tell_parts_of_a_sector() {
+  constexpr double kShare = 0.5;
+  const auto is_sector = [](const Effect& e) {
+    const std::vector<std::string>& names = e.family->shape_names;
+    return e.is_term() && names.size() > 1 && names[0] == "first_tooth" && names[1] == "teeth";
+  };
+  if (std::none_of(effects_.begin(), effects_.end(), is_sector)) return;
+  const auto fit = fit_of(effects_);
+  std::array<double, 2> around_um{};  // of what differs around the gear, over profile and face
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const bool sector = is_sector(effect);
+    if (!effect.is_term() || !(sector || is_wave_around(effect))) continue;
+    const NeedsToBeSeen needs = effect.needs();
+    const double size_um = fit->effect_size_um(static_cast<int>(e));
+    if (sector ? effect.shape[2] > 0.0 : needs.along_profile)
+      around_um[0] = std::hypot(around_um[0], size_um);
+    if (sector ? effect.shape[3] > 0.0 : needs.along_face)
+      around_um[1] = std::hypot(around_um[1], size_um);
+  }
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr || effects_[e].family->local || is_wave_around(effects_[e])) continue;
+    for (const bool face : {false, true})
+      if (course_of(geometry_, *fit, e, face).norm() > 0.0 &&
+          kShare * fit->effect_size_um(static_cast<int>(e)) < around_um[face ? 1 : 0]) {
+        effects_[e].family = form;
+        break;
+      }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -152,6 +153,36 @@ void PartLoop::hold_to_single_values() {
 
 namespace {
 
+/// How likely the tails of the teeth's own scores reach as far as one of them does by chance.
+double chance_of_tooth(const Observations& table, const Effect& tooth,
+                       const FlankGeometry& geometry, const std::vector<float>& row_um) {
+  std::vector<double> sizes;
+  double own = 0.0;
+  Effect each = tooth;
+  for (int k = 1; k <= geometry.teeth(); ++k) {
+    each.shape[0] = k;
+    double product = 0.0, square = 0.0, column = 0.0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const Observation& row = table.rows[i];
+      if (!is_one_a_tooth(row)) continue;
+      double of_row = 0.0;
+      for (std::uint32_t p = 0; p < row.places; ++p) {
+        each.evaluate(geometry, table.places[row.first_place + p], &column);
+        of_row += row.weight * column;
+      }
+      product += of_row * row_um[i];
+      square += of_row * of_row;
+    }
+    if (!(square > 0.0)) continue;
+    const double size = std::abs(product) / std::sqrt(square);
+    if (k == static_cast<int>(tooth.shape[0]))
+      own = size;
+    else
+      sizes.push_back(size);
+  }
+  return gap_beyond_tail_p_value(own, std::move(sizes));
+}
+
 /// The size of one tooth's single values, if nothing but they shows its height; NaN otherwise.
 double height_of_single_values(const Observations& table, const Effect& tooth,
                                const FlankGeometry& geometry, const std::vector<float>& row_um) {
@@ -171,8 +202,9 @@ double height_of_single_values(const Observations& table, const Effect& tooth,
 
 }  // namespace
 
-/// What a single value says of its tooth is no more than the errors of such values: where values
-/// along the traces are as far out now and then, it is one of those.
+/// What a single value says of its tooth is no more than the errors of such values: where other
+/// teeth reach nearly as far, or values along the traces are as far out now and then, it is one of
+/// those.
 void PartLoop::drop_teeth_within_the_tails() {
   constexpr double kByChance = 0.01;
   if (std::none_of(table_->rows.begin(), table_->rows.end(), is_one_a_tooth)) return;
@@ -184,6 +216,10 @@ void PartLoop::drop_teeth_within_the_tails() {
     PointFit(geometry_, table_, patches_, without).residuals(before_um, after_um);
     const double height = height_of_single_values(table_, effects_[e], geometry_, after_um);
     if (!(height > 0.0)) continue;
+    if (chance_of_tooth(table_, effects_[e], geometry_, after_um) > kByChance) {
+      remove_effect(e);
+      continue;
+    }
     std::vector<double> along, single;
     for (std::size_t i = 0; i < table_->rows.size(); ++i)
       if (patches_.patch_of_row[i] >= 0)

@@ -254,12 +254,27 @@ bool PartLoop::ban_what_forms_explain() {
   return any;
 }
 
+namespace {
+
+/// A place on one flank (a burr) without which far more is left than chance takes out.
+bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
+  constexpr double kBeyondDoubt = 100.0;  // chi-square: ten standard errors
+  const EffectFamily& family = *fit.effects()[effect].family;
+  if (!family.flank_only || family.named || !family.nearby) return false;
+  std::vector<bool> with(fit.effects().size(), true);
+  with[effect] = false;
+  return fit.residual_square(with) - fit.residual_square() > kBeyondDoubt;
+}
+
+}  // namespace
+
 /// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
 /// one that harms most first. A weak effect that is true may cost a little there by its own error;
 /// and of what stands on one tooth the hold-out knows nothing: these go only where the error would
-/// rise.
+/// rise, and what stands there beyond doubt only where it would rise by more than its ends do in
+/// the fold beside it.
 void PartLoop::veto() {
-  constexpr double kClearly = 0.98;
+  constexpr double kClearly = 0.98, kEnds = 9e-5;
   const std::size_t told = options_.given.size() - given_p_values_.size();
   while (effects_.size() > told) {
     const auto fit = fit_of(effects_);
@@ -268,11 +283,12 @@ void PartLoop::veto() {
     const double full = fit->errors(with).held_out_rms_um;
     // Together they may harm where none does alone.
     const double none = plain_fit()->errors({}).held_out_rms_um;
-    const bool rises = full > none;
+    const bool rises = full > none, rises_clearly = full > (1.0 + kEnds) * none;
     double least = rises ? 1e300 : kClearly * full;
     std::size_t worst = effects_.size();
     for (std::size_t e = told; e < effects_.size(); ++e) {
       if (effects_[e].family->local && !rises) continue;
+      if (!rises_clearly && is_spot_beyond_doubt(*fit, e)) continue;
       with[e] = false;
       const double error = fit->errors(with).held_out_rms_um;
       with[e] = true;

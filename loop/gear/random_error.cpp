@@ -11,6 +11,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -355,6 +356,17 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
   return values > 0.0 ? sum / values : plain;
 }
 
+/// The same of values that were spread over their steps: medians of what stands on a few levels say
+/// little.
+double variance_of_readings(const Class& of, Gathered& data, const ReadingSteps& steps,
+                            bool nothing_left) {
+  const double plain = data.squares / data.count, added = steps.wide_variance(of.kind, of.source);
+  if (!(added > 0.0)) return variance_of(of.kind, data, nothing_left);
+  data.squares += data.count * added;
+  const double variance = variance_of(of.kind, data, nothing_left) - added;
+  return variance > 0.0 ? variance : plain;
+}
+
 /// Takes a value of a trace, or one of a tooth, to those of its kind.
 void add_to(Gathered& data, const FlankGeometry& geometry, const Observation& row,
             const Place& place, double um) {
@@ -386,6 +398,7 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
         patch.kind != ObservationKind::kScanBore && patch.kind != ObservationKind::kSize)
       class_of[p] = &classes[{patch.source, patch.kind}];
   }
+  const ReadingSteps steps(table, row_um);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const int patch = patches.patch_of_row[i];
     if (patch < 0 || class_of[static_cast<std::size_t>(patch)] == nullptr) continue;
@@ -394,7 +407,8 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     data.squares += um * um;
     data.count += 1.0;
     if (patches.patches[static_cast<std::size_t>(patch)].kind != ObservationKind::kScanFlank)
-      add_to(data, geometry, table.rows[i], table.place(table.rows[i]), um);
+      add_to(data, geometry, table.rows[i], table.place(table.rows[i]),
+             um + steps.wide_spread_um(table, i));
   }
   std::map<ObservationKind, KindError> errors;
   for (auto& [key, data] : classes) {
@@ -404,7 +418,7 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     const double variance = key.kind == ObservationKind::kScanFlank
                                 ? variance_of_scan({geometry, table, patches, row_um, key.source},
                                                    data.squares / data.count, nothing_left)
-                                : variance_of(key.kind, data, nothing_left);
+                                : variance_of_readings(key, data, steps, nothing_left);
     error.random_square += data.count * variance;
   }
   return errors;

@@ -132,7 +132,10 @@ class RemainderSearch {
       for (Courses* all : {scan.profile, scan.face}) all->count_cells();
     const ReadingSteps steps(table_, row_um_);
     rows.for_each(courses.size(), [&](std::size_t i) {
-      if (is_used(i)) gather_other(i, row_um_[i] + steps.spread_um(table_, i));
+      if (!is_used(i)) return;
+      gather_other(i, row_um_[i] + steps.spread_um(table_, i));
+      if (const double wide = steps.wide_spread_um(table_, i); wide != 0.0)
+        add_to_courses(i, row_um_[i] + wide, coarse_courses_);
     });
   }
 
@@ -180,13 +183,17 @@ class RemainderSearch {
 
   void gather_other(std::size_t i, double um) {
     const Observation& row = table_.rows[i];
+    add_moments(row, table_.place(row), um);
+    if (is_of_trace(row.kind)) add_to_courses(i, um, courses_);
+  }
+
+  void add_to_courses(std::size_t i, double um, std::map<CourseKey, Courses>& courses) {
+    const Observation& row = table_.rows[i];
     const Place& place = table_.place(row);
-    add_moments(row, place, um);
-    if (!is_of_trace(row.kind)) return;
     const bool helix = row.kind == ObservationKind::kHelix;
-    courses_[{row.source, row.kind, helix}].add(
-        place.side > 0 ? 1 : 0, row.trace >= 0 ? row.trace : place.tooth, place.tooth,
-        helix ? place.z_mm : place.roll_mm, um);
+    courses[{row.source, row.kind, helix}].add(place.side > 0 ? 1 : 0,
+                                               row.trace >= 0 ? row.trace : place.tooth,
+                                               place.tooth, helix ? place.z_mm : place.roll_mm, um);
   }
 
   static std::array<double, 5> forms_at(double u, double v) {
@@ -215,32 +222,58 @@ class RemainderSearch {
     }
   }
 
+  /// One flank's courses as columns, of the flanks that have any.
+  struct CourseSets {
+    std::array<std::vector<int>, 2> members;
+    std::vector<Eigen::MatrixXd> sets;
+    std::vector<int> side_of;
+  };
+  static CourseSets sets_of(const Courses& courses, int places) {
+    CourseSets result;
+    for (const int side : {1, 0}) {
+      Eigen::MatrixXd set =
+          courses.matrix(side, places, result.members[static_cast<std::size_t>(side)]);
+      if (set.cols() == 0) continue;
+      result.sets.push_back(std::move(set));
+      result.side_of.push_back(side);
+    }
+    return result;
+  }
+
+  /// What runs along the courses. Of values read coarsely single traces are judged spread more
+  /// widely.
+  [[nodiscard]] std::vector<CourseFinding> findings_along(const CourseKey& key,
+                                                          const CourseSets& of, int places) const {
+    std::vector<CourseFinding> found = scan_courses(of.sets);
+    const auto coarse = coarse_courses_.find(key);
+    if (coarse == coarse_courses_.end()) return found;
+    const auto is_spot = [](const CourseFinding& f) {
+      return f.kind == CourseFinding::Kind::kSpot;
+    };
+    std::erase_if(found, is_spot);
+    for (const CourseFinding& spread : scan_courses(sets_of(coarse->second, places).sets))
+      if (is_spot(spread)) found.push_back(spread);
+    return found;
+  }
+
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
     if (places < kFewestPlaces || !(courses.high > courses.low)) return;
-    std::array<std::vector<int>, 2> members;
-    std::vector<Eigen::MatrixXd> sets;
-    std::vector<int> side_of;
-    for (const int side : {1, 0}) {
-      Eigen::MatrixXd set = courses.matrix(side, places, members[static_cast<std::size_t>(side)]);
-      if (set.cols() == 0) continue;
-      sets.push_back(std::move(set));
-      side_of.push_back(side);
-    }
-    if (sets.empty()) return;
+    const CourseSets all = sets_of(courses, places);
+    if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
-    for (const CourseFinding& found : scan_courses(sets)) {
+    for (const CourseFinding& found : findings_along(key, all, places)) {
       if (found.kind == CourseFinding::Kind::kSpot) {
         if (scan || which_ != RemainderOf::kAll) continue;
-        const int side = side_of[static_cast<std::size_t>(found.set)];
+        const int side = all.side_of[static_cast<std::size_t>(found.set)];
         const int course =
-            members[static_cast<std::size_t>(side)][static_cast<std::size_t>(found.course)];
+            all.members[static_cast<std::size_t>(side)][static_cast<std::size_t>(found.course)];
         add_spot_of_trace(key, courses, places, found, side,
                           courses.tooth_of[static_cast<std::size_t>(side)].at(course));
       } else {
         add_course(key, courses, places, found,
-                   found.set < 0 ? -1 : side_of[static_cast<std::size_t>(found.set)]);
+                   found.set < 0 ? -1 : all.side_of[static_cast<std::size_t>(found.set)]);
       }
     }
   }
@@ -315,8 +348,10 @@ class RemainderSearch {
                  half = 0.5 * courses.length(found.width, places);
     const double middle = 0.5 * geometry_.face_width_mm();
     EffectShape shape =
-        key.face ? EffectShape{double(tooth), 2.0 * geometry_.reference_radius_mm(), at, 0.0, half}
-                 : EffectShape{double(tooth), place_mm(false, at), middle, half, 0.0};
+        key.face
+            ? EffectShape{double(tooth), 2.0 * geometry_.reference_radius_mm(), at, 0.0, 2.0 * half}
+            : EffectShape{double(tooth), place_mm(false, at), middle,
+                          2.0 * half * gear_effects::along_profile(geometry_, at), 0.0};
     add("unnamed_spot", flank_choice(geometry_, side), std::move(shape), found.p_value,
         found.amount, true);
   }
@@ -325,8 +360,9 @@ class RemainderSearch {
     ++looks_;
     for (const FlankSpot& spot : spots)
       add("unnamed_spot", flank_choice(geometry_, spot.side > 0 ? 1 : 0),
-          {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm, spot.half_profile_mm,
-           spot.half_face_mm},
+          {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm,
+           2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
+           2.0 * spot.half_face_mm},
           spot.p_value, spot.amount_um, true);
   }
 
@@ -527,6 +563,7 @@ class RemainderSearch {
   const std::vector<float>& row_um_;
   RemainderOf which_;
   std::map<CourseKey, Courses> courses_;
+  std::map<CourseKey, Courses> coarse_courses_;  ///< of values read coarsely, spread widely
   std::map<std::pair<int, int>, std::vector<Moments>> moments_;  ///< of kind and source
   int looks_ = 0;
   std::vector<RemainderFinding> found_;

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "trueflank/base/units.h"
 
@@ -87,6 +89,34 @@ TEST(Distributions, ChiSquareKeepsItsLogarithm) {
   EXPECT_NEAR(minus_log_chi_square_tail(12.0, 2), 6.0, 1e-12);
   EXPECT_NEAR(minus_log_chi_square_tail(9.0, 1), -std::log(std::erfc(std::sqrt(4.5))), 1e-12);
   EXPECT_NEAR(minus_log_chi_square_tail(1e6, 2), 5e5, 1e-6);
+}
+
+// Of sizes with an exponential tail the p value is even between 0 and 1, however many they are.
+TEST(Distributions, TheLargestOfAnExponentialTailIsAnAccidentAsOftenAsItSays) {
+  std::mt19937_64 random(7);
+  std::exponential_distribution<double> size(3.0);
+  for (const std::size_t count : {12U, 60U}) {
+    constexpr int kTrials = 4000;
+    int below = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::vector<double> sizes(count);
+      for (double& one : sizes) one = size(random);
+      std::swap(*std::max_element(sizes.begin(), sizes.end()), sizes.back());
+      const double largest = sizes.back();
+      sizes.pop_back();
+      below += gap_beyond_tail_p_value(largest, sizes) < 0.05 ? 1 : 0;
+    }
+    EXPECT_NEAR(below, 0.05 * kTrials, 4.0 * std::sqrt(0.05 * 0.95 * kTrials)) << count;
+  }
+}
+
+TEST(Distributions, OneSizeFarBeyondTheOthersIsNone) {
+  std::vector<double> others;
+  for (int i = 0; i < 30; ++i) others.push_back(0.1 * i);
+  EXPECT_EQ(gap_beyond_tail_p_value(2.8, others), 1.0);
+  EXPECT_GT(gap_beyond_tail_p_value(3.2, others), 0.2);
+  EXPECT_LT(gap_beyond_tail_p_value(15.0, others), 1e-4);
+  EXPECT_EQ(gap_beyond_tail_p_value(15.0, {1.0, 2.0, 3.0}), 1.0);  // too few to say
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "tests/loop/made_gears.h"
@@ -157,6 +158,32 @@ TEST(FewTraces, AlarmsAreRareWhereNothingIsHidden) {
     }
   // At 5 % six or more come once in seventy such tests.
   EXPECT_LE(alarms, 5);
+}
+
+TEST(FewTraces, ASlopeThatComesAndGoesIsNoMachinesOrder) {
+  const MadeGear gear = spur(90);
+  const auto slope = [](auto&, const FlankSpot& s, auto&) {
+    return 9.0 * s.u * std::cos(4.0 * 2.0 * M_PI * (s.tooth - 1) / 90.0 - 1.0);
+  };
+  for (const int teeth : {6, 8}) {
+    const auto result = close(gear, inspection_of(gear, {grown(slope)}, sheet(gear, teeth, 5)));
+    EXPECT_EQ(find(result, "ghost_order"), nullptr) << teeth << ": " << list(result);
+    EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << teeth;
+  }
+}
+
+/// Traces whose values were read in steps of 2.5 times their noise.
+TEST(FewTraces, CoarseReadingsSeldomAlarm) {
+  const MadeGear gear = spur(24);
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    loop::InspectionData data = inspection_of(gear, {}, sheet(gear, 7, seed));
+    for (loop::InspectionRow& row : data.rows) row.deviation_um = std::round(row.deviation_um);
+    std::erase_if(data.rows,
+                  [](const auto& row) { return row.record == loop::RecordKind::kIndex; });
+    alarms += close(gear, data).verdict != loop::Verdict::kNoEffect ? 1 : 0;
+  }
+  EXPECT_LE(alarms, 2);
 }
 
 }  // namespace

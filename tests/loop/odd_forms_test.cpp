@@ -234,5 +234,38 @@ TEST(OddForms, AToothScannedWorseThanTheOthersHasNoSpots) {
   }
 }
 
+// A flank of 10 mm by 2 mm: what is round in millimetres is not in shares of it.
+TEST(OddForms, ABurrStandsWhereItIsAndIsAsWideAsItIs) {
+  const MadeGear gear = spur(24);
+  const double roll_from = roll_of_radius(gear, gear.root_form_mm),
+               roll_to = roll_of_radius(gear, gear.tip_mm);
+  const auto burr = [&](auto&, const FlankSpot& s, auto&) {
+    if (s.tooth != 14 || s.side < 0) return 0.0;
+    const double over = 0.5 * (s.u - 0.2) * (roll_to - roll_from),
+                 up = 0.5 * (s.v + 0.4) * gear.face_mm;
+    return 90.0 * std::max(0.0, 1.0 - (over * over + up * up) / (0.9 * 0.9));
+  };
+  ScanOptions options;
+  options.points = 20000;
+  options.noise_um = 3.0;
+  const auto result = close(gear, scan_of(gear, {grown(burr)}, options), true);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  ASSERT_FALSE(result.effects[0].terms.empty()) << list(result);
+  const loop::Term& spot = result.effects[0].terms.front();
+  const auto key = [&](const std::string& name) {
+    for (const auto& [own, value] : spot.keys)
+      if (own == name)
+        return std::holds_alternative<int>(value) ? double(std::get<int>(value))
+                                                  : std::get<double>(value);
+    return kNaN;
+  };
+  EXPECT_EQ(key("tooth"), 14.0) << list(result);
+  EXPECT_NEAR(key("height_mm"), 0.3 * gear.face_mm, 0.3) << list(result);
+  const double roll = roll_from + 0.6 * (roll_to - roll_from);
+  EXPECT_NEAR(key("diameter_mm"), 2.0 * std::hypot(gear.base(), roll), 0.4) << list(result);
+  EXPECT_NEAR(key("width_face_mm"), 1.2, 0.6) << list(result);  // of 1.8 mm at its foot
+  EXPECT_NEAR(spot.cos, 80.0, 25.0) << list(result);
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "tests/loop/made_gears.h"
 
@@ -48,6 +49,36 @@ TEST(SingleValues, RecordsThatAgreeSayNothingOfAContradiction) {
   EXPECT_NEAR(amplitude.value, 8.0, 0.3);
   EXPECT_LT(amplitude.high - amplitude.low, 1.0);
   EXPECT_TRUE(result.notes.empty());
+}
+
+/// An index whose errors have tails far longer than normal ones.
+loop::InspectionData wild_index(const MadeGear& gear, unsigned seed, double tooth_um) {
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = 0.0;
+  loop::InspectionData data = inspection_of(gear, {}, options);
+  std::mt19937_64 random(seed);
+  std::exponential_distribution<double> size(1.4);
+  for (loop::InspectionRow& row : data.rows) {
+    row.deviation_um += (random() % 2 == 0 ? 1.0 : -1.0) * size(random);
+    if (row.tooth == 9) row.deviation_um += tooth_um;
+  }
+  return data;
+}
+
+TEST(SingleValues, ErrorsWithLongTailsAreSeldomATooth) {
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+    alarms += close(spur(30), wild_index(spur(30), seed, 0.0)).verdict != loop::Verdict::kNoEffect
+                  ? 1
+                  : 0;
+  EXPECT_LE(alarms, 4);
+}
+
+TEST(SingleValues, AToothFarBeyondLongTailsIsOneEffect) {
+  const auto result = close(spur(30), wild_index(spur(30), 3, 12.0));
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_EQ(result.effects[0].id, "single_tooth") << list(result);
 }
 
 }  // namespace

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
 namespace trueflank::loop::gear_effects {
 
 int most_ghost_order(const FlankGeometry& geometry) {
-  constexpr int kEachTooth = 3, kMost = 400;  // above the second there are more candidates than data
+  constexpr int kEachTooth = 3,
+                kMost = 400;  // above the second there are more candidates than data
   return std::min(kEachTooth * geometry.teeth(), kMost);
+}
+
+double lowest_order_with(double waves, const FlankGeometry& geometry) {
+  const double turned =
+      (geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()) / geometry.base_radius_mm();
+  return std::ceil(waves * kTwoPi / std::abs(turned));
 }
 
 EffectFamily ghost_order() {
@@ -24,8 +33,8 @@ EffectFamily ghost_order() {
   f.form = ParameterForm::kWave;
   f.preference = 1;
   f.shapes = [](const FlankGeometry& g) {
-    // Once or twice per turn a wave is eccentricity or a stretch; higher ones than these are finer than the
-    // patches and found in the traces themselves (local/rotation_waves.h).
+    // Once or twice per turn a wave is eccentricity or a stretch; higher ones than these are finer
+    // than the patches and found in the traces themselves (local/rotation_waves.h).
     return whole_numbers(3, most_ghost_order(g));
   };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
@@ -42,10 +51,14 @@ EffectFamily ghost_order() {
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
-    constexpr double kNear = 24.0, kFirst = 3.0;
+    constexpr double kNear = 24.0;
+    // A wave over the profile does not become a slope of it.
+    double first = 3.0;
+    for (const double waves : {0.5, 1.0})
+      if (shape[0] >= lowest_order_with(waves, g)) first = lowest_order_with(waves, g);
     // A shape from the traces, above the candidates, stays among its like.
     const double most = shape[0] > most_ghost_order(g) ? shape[0] + kNear : most_ghost_order(g);
-    for (double order = std::max(kFirst, shape[0] - kNear);
+    for (double order = std::max(first, shape[0] - kNear);
          order <= std::min(most, shape[0] + kNear); order += 1.0)
       if (order != shape[0]) shapes.push_back({order});
     return shapes;
@@ -68,7 +81,8 @@ EffectFamily ghost_order() {
 EffectFamily ghost_order_counted_backwards() {
   EffectFamily f = ghost_order();
   f.description +=
-      "; its lines run as if the teeth of these data were counted clockwise, or the flanks named from the "
+      "; its lines run as if the teeth of these data were counted clockwise, or the flanks named "
+      "from the "
       "other face";
   f.correctable = Correctable::kNoCause;
   f.of_traces_only = true;

@@ -38,6 +38,10 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily ghost_order();
 /// The highest order among the candidates.
 [[nodiscard]] int most_ghost_order(const FlankGeometry& geometry);
+/// The lowest order of which so many waves lie over the profile: of half a wave it shows a slope.
+[[nodiscard]] double lowest_order_with(double waves, const FlankGeometry& geometry);
+/// Length along the profile for a length of roll there, near a place of that roll [mm a mm].
+[[nodiscard]] double along_profile(const FlankGeometry& geometry, double roll_mm);
 [[nodiscard]] EffectFamily ghost_order_counted_backwards();
 [[nodiscard]] EffectFamily single_tooth();
 /// @}

@@ -43,6 +43,33 @@ std::vector<EffectShape> places_beside(const FlankGeometry& g, const EffectShape
   return shapes;
 }
 
+/// The width of a spot over the profile, along the flank, as a length of roll.
+double roll_of_width(const FlankGeometry& g, const EffectShape& shape) {
+  return shape[3] / along_profile(g, g.roll_at_radius_mm(0.5 * shape[1]));
+}
+
+/// A spot moved a little, or wider or narrower, where it has a place.
+std::vector<EffectShape> spots_beside(const FlankGeometry& g, const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  const auto add = [&](std::size_t k, double value) {
+    shapes.push_back(shape);
+    shapes.back()[k] = value;
+  };
+  const double roll = stands_at(g, 0.0, shape[1]);
+  const auto [low, high] = std::minmax({g.root_form_roll_mm(), g.tip_form_roll_mm()});
+  for (const double share : {-0.25, -0.1, -0.04, 0.04, 0.1, 0.25}) {
+    if (shape[3] > 0.0)
+      add(1,
+          2.0 * g.on_flank(1, 1, std::clamp(roll + share * roll_of_width(g, shape), low, high), 0.0)
+                    .radius_mm);
+    if (shape[4] > 0.0) add(2, std::clamp(shape[2] + share * shape[4], 0.0, g.face_width_mm()));
+  }
+  for (const std::size_t k : {3U, 4U})
+    for (const double times : {0.7, 0.88, 1.14, 1.43})
+      if (shape[k] > 0.0) add(k, times * shape[k]);
+  return shapes;
+}
+
 const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 TermKey number(const std::string& name) { return {name, TermKey::Kind::kNumber}; }
 
@@ -80,6 +107,12 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
 
 double bell(double off, double width) { return std::exp(-off * off / (width * width)); }
 
+/// Flat at its place and nothing beyond twice the width: of a burr, which ends.
+double plateau(double off, double width) {
+  const double square = off * off / (width * width);
+  return std::exp(-square * square);
+}
+
 /// 1 on teeth of the sector.
 double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
   const int z = g.teeth(), from = static_cast<int>(shape[0]);
@@ -87,6 +120,12 @@ double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
 }
 
 }  // namespace
+
+double along_profile(const FlankGeometry& geometry, double roll_mm) {
+  constexpr double kFromBase =
+      0.02;  // the involute begins at the base circle with no length a roll
+  return std::max(kFromBase, roll_mm / geometry.base_radius_mm());
+}
 
 EffectFamily unnamed_step() {
   EffectFamily f =
@@ -177,9 +216,12 @@ EffectFamily unnamed_marks() {
   f.words = [](const EffectShape& shape, FlankChoice) {
     return printed("waves across the flanks, %.3g over the profile and %.3g over the face",
                    std::abs(shape[0]), std::abs(shape[1])) +
-           (shape[0] * shape[1] < 0.0 ? ", rising towards the tip" : shape[0] * shape[1] > 0.0 ? ", falling towards the tip" : "") +
+           (shape[0] * shape[1] < 0.0   ? ", rising towards the tip"
+            : shape[0] * shape[1] > 0.0 ? ", falling towards the tip"
+                                        : "") +
            (shape[2] == 0.0 ? std::string(", the same on every tooth")
-                            : printed(", that march from tooth to tooth: %g periods a turn", std::abs(shape[2])));
+                            : printed(", that march from tooth to tooth: %g periods a turn",
+                                      std::abs(shape[2])));
   };
   return f;
 }
@@ -329,9 +371,12 @@ EffectFamily unnamed_spot() {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank || p.tooth != static_cast<int>(shape[0])) return;
     // A width of 0: over all of it.
-    c[0] = (shape[3] > 0.0 ? bell(p.roll_mm - stands_at(g, 0.0, shape[1]), shape[3]) : 1.0) *
-           (shape[4] > 0.0 ? bell(p.z_mm - shape[2], shape[4]) : 1.0);
+    c[0] = (shape[3] > 0.0
+                ? plateau(p.roll_mm - stands_at(g, 0.0, shape[1]), 0.5 * roll_of_width(g, shape))
+                : 1.0) *
+           (shape[4] > 0.0 ? plateau(p.z_mm - shape[2], 0.5 * shape[4]) : 1.0);
   };
+  f.nearby = spots_beside;
   f.term_keys = {{"tooth"},
                  number("diameter_mm"),
                  number("height_mm"),
@@ -342,8 +387,8 @@ EffectFamily unnamed_spot() {
            printed(" flank of tooth %.0f", shape[0]) +
            (shape[3] > 0.0 ? printed(", at a diameter of %.5g mm", shape[1]) : "") +
            (shape[4] > 0.0 ? printed(", at a height of %.3g mm", shape[2]) : "") +
-           (shape[3] > 0.0 ? printed(", %.2g mm wide over the profile", 2.0 * shape[3]) : "") +
-           (shape[4] > 0.0 ? printed(", %.2g mm over the face", 2.0 * shape[4]) : "");
+           (shape[3] > 0.0 ? printed(", %.2g mm wide over the profile", shape[3]) : "") +
+           (shape[4] > 0.0 ? printed(", %.2g mm over the face", shape[4]) : "");
   };
   return f;
 }

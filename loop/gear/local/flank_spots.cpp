@@ -94,22 +94,15 @@ class SpotSearch {
 
   std::vector<FlankSpot> run() {
     if (fields_.empty()) return {};
-    std::map<std::pair<int, int>, FlankSpot> best;
+    std::map<std::pair<int, int>, OfFlank> best;
     double tests = 0.0;
-    std::vector<Window> windows;
-    for (int size = std::max(1, cells_ / 10); size <= cells_ / 2;
-         size = std::max(size + 1, size * 3 / 2)) {
-      windows.push_back({size, size});
-      if (size <= cells_ / 4) {
-        windows.push_back({0, size});
-        windows.push_back({size, 0});
-      }
-    }
-    for (const Window& window : windows) tests += judge(window, best);
+    for (const Window& window : windows()) tests += judge(window, best);
     std::vector<FlankSpot> spots;
-    for (auto& [key, spot] : best) {
-      spot.p_value *= tests;
-      if (spot.p_value < 1.0) spots.push_back(spot);
+    for (auto& [key, found] : best) {
+      const double p = tests * found.likest.p_value;
+      if (p >= 1.0) continue;
+      spots.push_back(found.square > 0.0 ? found.fullest : found.likest);
+      spots.back().p_value = p;
     }
     std::sort(spots.begin(), spots.end(),
               [](const auto& a, const auto& b) { return a.p_value < b.p_value; });
@@ -118,6 +111,36 @@ class SpotSearch {
   }
 
  private:
+  /// What is found on a flank: the window that is the likest no accident, by values that are cut
+  /// off lest a wild one counts; and of those beyond doubt the one that takes out most, by the
+  /// values as they are: where a burr stands.
+  struct OfFlank {
+    FlankSpot likest, fullest;
+    double square = 0.0;
+  };
+
+  /// Cells are as many over the profile as over the face, what stands on a flank is as often round
+  /// in millimetres: small windows of all proportions.
+  [[nodiscard]] std::vector<Window> windows() const {
+    std::vector<Window> all;
+    std::vector<int> sizes;
+    for (int size = std::max(1, cells_ / 10); size <= cells_ / 2;
+         size = std::max(size + 1, size * 3 / 2))
+      sizes.push_back(size);
+    for (const int size : sizes) {
+      all.push_back({size, size});
+      if (size > cells_ / 4) continue;
+      all.push_back({0, size});
+      all.push_back({size, 0});
+      for (const int other : sizes)
+        if (other > size) {
+          all.push_back({other, size});
+          all.push_back({size, other});
+        }
+    }
+    return all;
+  }
+
   /// A flank that scatters more than the usual one from point to point is measured against itself.
   void tell_loud_flanks() {
     constexpr double kByChance = 1.5;
@@ -150,10 +173,10 @@ class SpotSearch {
   }
 
   /// How many windows of this size there are.
-  double judge(const Window& window, std::map<std::pair<int, int>, FlankSpot>& best) const {
+  double judge(const Window& window, std::map<std::pair<int, int>, OfFlank>& best) const {
     const int du = window.profile > 0 ? window.profile : cells_,
               dv = window.face > 0 ? window.face : cells_;
-    constexpr double kFewestInWindow = 4.0;
+    constexpr double kFewestInWindow = 4.0, kBeyondDoubt = 1e-8;
     std::array<std::vector<float>, 2> of_side;
     const auto each = [&](auto visit) {
       for (const auto& [key, field] : fields_)
@@ -177,16 +200,22 @@ class SpotSearch {
       const double spread = spreads[side_index(key.second)];
       if (!(spread > 0.0)) return;
       const double p = std::erfc(std::abs(score) / spread / std::sqrt(2.0));
-      FlankSpot& spot = best[key];
-      if (!(p < spot.p_value)) return;
-      spot = {p,
-              key.first,
-              key.second,
-              geometry_.root_form_roll_mm() + (u + 0.5 * du) * mm_u,
-              (v + 0.5 * dv) * mm_v,
-              window.profile > 0 ? 0.5 * du * mm_u : 0.0,
-              window.face > 0 ? 0.5 * dv * mm_v : 0.0,
-              within(field.plain, u, v, du, dv) / count};
+      OfFlank& found = best[key];
+      const double sum = within(field.plain, u, v, du, dv), square = sum * sum / count;
+      const bool fuller = p < kBeyondDoubt && square > found.square;
+      if (!(p < found.likest.p_value) && !fuller) return;
+      const FlankSpot spot{p,
+                           key.first,
+                           key.second,
+                           geometry_.root_form_roll_mm() + (u + 0.5 * du) * mm_u,
+                           (v + 0.5 * dv) * mm_v,
+                           window.profile > 0 ? 0.5 * du * mm_u : 0.0,
+                           window.face > 0 ? 0.5 * dv * mm_v : 0.0,
+                           sum / count};
+      if (p < found.likest.p_value) found.likest = spot;
+      if (!fuller) return;
+      found.fullest = spot;
+      found.square = square;
     });
     return tests;
   }

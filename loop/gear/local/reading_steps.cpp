@@ -8,6 +8,9 @@
 namespace trueflank::loop {
 namespace {
 
+/// Even shares that make up a nearly normal one; their variance is a half.
+constexpr int kShares = 6;
+
 bool is_in_trace(const Observation& row) {
   return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
 }
@@ -57,12 +60,30 @@ ReadingSteps::ReadingSteps(const Observations& table, const std::vector<float>& 
   }
 }
 
-double ReadingSteps::spread_um(const Observations& table, std::size_t row) const {
+double ReadingSteps::step_um(const Observations& table, std::size_t row) const {
   const Observation& one = table.rows[row];
   if (step_um_.empty() || !is_in_trace(one)) return 0.0;
   const auto found = step_um_.find(kind_and_source(one));
-  if (found == step_um_.end()) return 0.0;
-  return found->second * (row_share(row) - 0.5);
+  return found == step_um_.end() ? 0.0 : found->second;
+}
+
+double ReadingSteps::spread_um(const Observations& table, std::size_t row) const {
+  const double step = step_um(table, row);
+  return step > 0.0 ? step * (row_share(row) - 0.5) : 0.0;
+}
+
+double ReadingSteps::wide_spread_um(const Observations& table, std::size_t row) const {
+  const double step = step_um(table, row);
+  if (!(step > 0.0)) return 0.0;
+  double sum = 0.0;
+  for (int k = 0; k < kShares; ++k)
+    sum += row_share(kShares * static_cast<std::uint64_t>(row) + k) - 0.5;
+  return step * sum;
+}
+
+double ReadingSteps::wide_variance(ObservationKind kind, int source) const {
+  const auto found = step_um_.find({static_cast<int>(kind), source});
+  return found == step_um_.end() ? 0.0 : found->second * found->second * kShares / 12.0;
 }
 
 }  // namespace trueflank::loop
