@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trueflank {
 
@@ -36,6 +37,18 @@ template <class Function>
     if (std::abs(high - low) <= 4e-16 * (std::abs(low) + std::abs(high))) break;
   }
   return 0.5 * (low + high);
+}
+
+/// Both sides of the place where a property ends that holds at `with` and not at `without`, by so many halvings of the
+/// stretch between them: first where it still holds.
+template <class Property>
+[[nodiscard]] std::pair<double, double> sides_of_change(const Property& holds, double with,
+                                                        double without, int halvings) {
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (with + without);
+    (holds(middle) ? with : without) = middle;
+  }
+  return {with, without};
 }
 
 }  // namespace trueflank

@@ -9,6 +9,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
 #include "trueflank/geometry/profile_builder.h"
+#include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
 namespace {
@@ -128,12 +129,12 @@ Status ProfileBuilder::round_tip() {
     return std::min(centre_angle(radius) * r_a, flank_left);
   };
   if (!(room(rho) >= 0.0)) {
-    double low = 0.0, high = rho;
-    for (int i = 0; i < 60; ++i) (room(0.5 * (low + high)) >= 0.0 ? low : high) = 0.5 * (low + high);
+    const double most =
+        sides_of_change([&](double radius) { return room(radius) >= 0.0; }, 0.0, rho, 60).first;
     return fail(no_tooth(kKey, rho,
                          "no room for this rounding on a tip land of " +
                          trimmed_number(2.0 * r_a * tooth_half_angle_rad(g(), r_a)) + " mm",
-                         "at most " + trimmed_number(low)));
+                         "at most " + trimmed_number(most)));
   }
   const double roll = contact_roll(rho), angle = centre_angle(rho);
   p_.tip_form_radius_mm_ = radius_at(roll);

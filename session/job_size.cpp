@@ -6,6 +6,7 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/scalar_root.h"
 #include "trueflank/solid/mesh/mesh_estimate.h"
 
 namespace trueflank {
@@ -54,12 +55,10 @@ double tolerance_that_would_do_um(const PartShapes& shapes,
     return !is_too_large(job_size(shapes, formats, part, tolerance));
   };
   if (!does(kCoarsest_mm)) return 0.0;
-  double fine = std::log(tolerance_mm), coarse = std::log(kCoarsest_mm);
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (fine + coarse);
-    (does(std::exp(middle)) ? coarse : fine) = middle;
-  }
-  const double tolerance_um = um_from_mm(std::exp(coarse));
+  const double finest = sides_of_change([&](double tolerance) { return does(std::exp(tolerance)); },
+                                        std::log(kCoarsest_mm), std::log(tolerance_mm), 40)
+                            .first;
+  const double tolerance_um = um_from_mm(std::exp(finest));
   const double digit = std::pow(10.0, std::floor(std::log10(tolerance_um)) - 1.0);
   return std::ceil(tolerance_um / digit - 1e-9) * digit;
 }

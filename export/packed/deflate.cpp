@@ -367,6 +367,7 @@ void append_block(std::string& bytes, std::string_view text) {
   // an empty stored block ends on a byte, and so do we
   out.put(0, 3);
   out.put(0, -(out.open_bits()) & 7U);
+  out.flush();  // with the next 32 they may be 64, more than may be shifted
   out.put(0xFFFF0000U, 32);
   out.flush();
   bytes.resize(out.end() - bytes.data());

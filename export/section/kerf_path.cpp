@@ -105,11 +105,7 @@ class PathBuilder {
   }
   /// The last open place between an open and a closed one.
   [[nodiscard]] double edge_of(const Element& e, double inside, double outside) const {
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      (open(e, middle) ? inside : outside) = middle;
-    }
-    return inside;
+    return sides_of_change([&](double u) { return open(e, u); }, inside, outside, 50).first;
   }
 
   void find_stretches() {

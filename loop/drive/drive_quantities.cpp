@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/geometry/scalar_root.h"
 #include "trueflank/loop/drive/close_drive_loop.h"
 
 // Two efficiencies and a starting torque: too few to single out an effect, enough to say what each would
@@ -19,14 +20,12 @@ std::optional<double> root_of(const Function& f, double low, double high) {
   constexpr int kSteps = 80;
   double before = low, at_before = f(low);
   for (int i = 1; i <= kSteps; ++i) {
-    double here = low + (high - low) * i / kSteps;
+    const double here = low + (high - low) * i / kSteps;
     const double at_here = f(here);
     if (!std::isnan(at_before) && !std::isnan(at_here) && at_before * at_here <= 0.0) {
-      for (int k = 0; k < 50; ++k) {
-        const double middle = 0.5 * (before + here);
-        (f(middle) * at_before > 0.0 ? before : here) = middle;
-      }
-      return 0.5 * (before + here);
+      const auto as_before = [&](double place) { return f(place) * at_before > 0.0; };
+      const auto [last, first] = sides_of_change(as_before, before, here, 50);
+      return 0.5 * (last + first);
     }
     before = here;
     at_before = at_here;

@@ -6,6 +6,7 @@
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/scalar_root.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank::io {
@@ -142,11 +143,9 @@ class View {
   }
 
   [[nodiscard]] double change(const Curve& curve, double from, double to, bool before) const {
-    for (int i = 0; i < 14; ++i) {
-      const double middle = 0.5 * (from + to);
-      (hidden(curve, at(curve, middle)) == before ? from : to) = middle;
-    }
-    return 0.5 * (from + to);
+    const auto as_before = [&](double place) { return hidden(curve, at(curve, place)) == before; };
+    const auto [last, first] = sides_of_change(as_before, from, to, 14);
+    return 0.5 * (last + first);
   }
 
   std::vector<Curve> curves_;

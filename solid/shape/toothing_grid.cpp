@@ -8,6 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
+#include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
 namespace {
@@ -49,11 +50,8 @@ double off_chord(const Point3& from, const Point3& to, const Point3& on_surface,
 double middle_of_chord(const Curve& curve, double from, double to) {
   const Point2 a = point_at(curve, from), chord = point_at(curve, to) - a;
   const double half = 0.5 * chord.squaredNorm();
-  double low = from, high = to;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((point_at(curve, middle) - a).dot(chord) < half ? low : high) = middle;
-  }
+  const auto before = [&](double place) { return (point_at(curve, place) - a).dot(chord) < half; };
+  const auto [low, high] = sides_of_change(before, from, to, 30);
   return 0.5 * (low + high);
 }
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/drive/drive_selection.h"
+
+#include <cmath>
+
+#include "trueflank/loop/drive/spell_scan.h"
+#include "trueflank/loop/drive/wave_spectrum.h"
+
+namespace trueflank::loop {
+
+DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
+                               const DriveLoopOptions& options)
+    : model_(model),
+      options_(options),
+      table_(std::move(table)),
+      curve_(model),
+      mesh_slopes_(mesh_slopes(model)) {}
+
+DriveOutcome DriveSelection::run() {
+  measure_residual();
+  candidates_ = drive_candidates(context());
+  banned_.assign(candidates_.size(), false);
+  if (table_.impossible == Impossible::kEfficiencyAboveOne)
+    ban([](const DriveEffect& e) { return e.family->is_loss; });
+  DriveOutcome outcome = settle();
+  for (int spells = 0; spells < 3 && propose_spell(outcome); ++spells) outcome = settle();
+  for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
+  if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
+  drop_what_is_nothing(outcome);
+  veto(outcome);
+  return outcome;
+}
+
+DriveContext DriveSelection::context() const {
+  return {model_, curve_, table_, mesh_slopes_, state_};
+}
+
+void DriveSelection::measure_residual() {
+  value_.resize(static_cast<Eigen::Index>(table_.points.size()));
+  for (std::size_t i = 0; i < table_.points.size(); ++i)
+    value_[static_cast<Eigen::Index>(i)] =
+        table_.points[i].driven_nm - predicted_nm(model_, curve_, table_.points[i]);
+}
+
+DriveOutcome DriveSelection::select(const std::vector<bool>& banned) const {
+  const DriveContext here = context();
+  DiscoveryOptions options;
+  options.banned = banned;
+  options.first_level = share_of_level() * options_.level;
+  options.next_level *= share_of_level();
+  DriveOutcome outcome;
+  outcome.discovery = discover(drive_problem(here, value_, candidates_), options);
+  for (const ChosenGroup& chosen : outcome.discovery.chosen)
+    outcome.effects.push_back(candidates_[chosen.group]);
+  refine_drive_shapes(here, value_, FitRows::kTraining, outcome.effects);
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  outcome.fold_errors = fit.fold_errors();
+  outcome.square = fit.residual_square();
+  outcome.rows = static_cast<double>(std::count_if(
+      table_.points.begin(), table_.points.end(), [](const BenchPoint& p) { return p.fold != 0; }));
+  return outcome;
+}
+
+DriveOutcome DriveSelection::settle() {
+  DriveOutcome outcome;
+  for (int round = 0; round < 6; ++round) {
+    outcome = select(banned_);
+    bool again = put_shapes_on_the_grid(outcome);
+    again = ban_wrong_signs(outcome) || again;
+    again = move_state(outcome) || again;
+    if (!again) break;
+  }
+  return outcome;
+}
+
+bool DriveSelection::put_shapes_on_the_grid(const DriveOutcome& outcome) {
+  bool moved = false;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    auto& grid = candidates_[outcome.discovery.chosen[e].group].shape;
+    for (std::size_t k = 0; k < grid.size(); ++k)
+      moved = moved || std::abs(grid[k] - outcome.effects[e].shape[k]) > 0.02 * std::abs(grid[k]);
+    grid = outcome.effects[e].shape;
+  }
+  return moved;
+}
+
+bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  bool any = false;
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveFamily* family = outcome.effects[e].family;
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    const bool wrong = (family->only_positive && !(b > 0.0)) ||
+                       (family->plausible && !family->plausible(model_, b));
+    if (wrong) any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
+  }
+  return any;
+}
+
+DriveState DriveSelection::state_of(const DriveFit& fit) {
+  DriveState state;
+  for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    const DriveEffect& effect = fit.effects()[e];
+    if (effect.family->into_state) effect.family->into_state(state, effect.shape, b);
+  }
+  return state;
+}
+
+bool DriveSelection::move_state(const DriveOutcome& outcome) {
+  const DriveContext here = context();
+  const DriveState next = state_of(DriveFit(here, value_, outcome.effects, FitRows::kTraining));
+  const auto far = [&](double DriveState::*value) {
+    return std::abs(next.*value - state_.*value) > 2e-4;
+  };
+  const bool moved = far(&DriveState::shift) || far(&DriveState::difference) ||
+                     far(&DriveState::load_value) || far(&DriveState::mixed_value) ||
+                     far(&DriveState::scale);
+  state_ = next;
+  return moved;
+}
+
+bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
+  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  const LikeliestOrder line = likeliest_order(here, value_ - fit.explained_nm());
+  constexpr double kLevel = 0.002;  // searched beside the engine's own test
+  if (!(line.p_value < kLevel)) return false;
+  for (const DriveEffect& candidate : candidates_)
+    if (const double order = candidate.order();
+        order > 0.0 && std::abs(order - line.order) < 0.5 / std::max(1.0, table_.turns))
+      return false;
+  const auto& library = drive_library();
+  const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
+    return static_cast<bool>(family.shape_of_wave);
+  });
+  candidates_.push_back({&*host, host->shape_of_wave(line.order, line.opposite)});
+  banned_.push_back(false);
+  return true;
+}
+
+bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
+  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  constexpr double kLevel = 0.001;  // searched beside the engine's own test
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  std::vector<bool> left_out;
+  for (const DriveEffect& effect : outcome.effects)
+    left_out.push_back(!effect.family->shape_of_spell &&
+                       (!effect.family->named || effect.order() > 0.0));
+  const Eigen::VectorXd left = value_ - fit.columns() * fit.without(left_out);
+  const LikeliestSpell of_turns = likeliest_spell_of_turns(here, left),
+                       of_run = likeliest_spell_of_run(here, left);
+  const LikeliestSpell& spell = of_turns.p_value <= of_run.p_value ? of_turns : of_run;
+  if (!(spell.p_value < kLevel)) return false;
+  const auto& library = drive_library();
+  const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
+    return static_cast<bool>(family.shape_of_spell);
+  });
+  const DriveShape shape = host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length);
+  for (const DriveEffect& candidate : candidates_)
+    if (candidate.family == &*host && candidate.shape == shape) return false;
+  candidates_.push_back({&*host, shape});
+  banned_.push_back(false);
+  return true;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/drive/close_drive_loop.h"
+#include "trueflank/loop/drive/drive_fit.h"
+
+namespace trueflank::loop {
+
+/// One outcome of the engine with its shapes refined on the training rows.
+struct DriveOutcome {
+  DiscoveryResult discovery;
+  std::vector<DriveEffect> effects;
+  Eigen::VectorXd fold_errors;
+  double square = 0.0,
+         rows = 1.0;  ///< of what it leaves of the training rows, in their noise's units
+  [[nodiscard]] int size() const {
+    int size = 0;
+    for (const DriveEffect& effect : effects) {
+      size += effect.columns();
+      for (const DriveShapeValue& value : effect.family->shape_values)
+        size += value.continuous ? 1 : 0;
+    }
+    return size;
+  }
+  [[nodiscard]] int preference() const {
+    int sum = 0;
+    for (const DriveEffect& effect : effects) sum += effect.family->preference;
+    return sum;
+  }
+  [[nodiscard]] bool has(const DriveFamily* family) const {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const DriveEffect& e) { return e.family == family; });
+  }
+};
+
+/// The choice of the effects of a drive: what the engine finds among all candidates, made simpler
+/// where less explains as well, and held to the rows that were locked away.
+class DriveSelection {
+ public:
+  DriveSelection(const DriveModel& model, BenchTable table, const DriveLoopOptions& options);
+
+  /// The effects that are left at the end.
+  DriveOutcome run();
+
+  [[nodiscard]] DriveContext context() const;
+  /// Of what hangs together some is left when units were merged: a quarter of the level makes up
+  /// for it.
+  [[nodiscard]] double share_of_level() const { return table_.drifts ? 0.25 : 1.0; }
+  /// Friction and scale of a fit become the place about which the model is linear.
+  [[nodiscard]] static DriveState state_of(const DriveFit& fit);
+  /// The place about which the model is linear.
+  void move_state_to(const DriveState& state) { state_ = state; }
+
+  [[nodiscard]] const DriveModel& model() const { return model_; }
+  [[nodiscard]] const BenchTable& table() const { return table_; }
+  [[nodiscard]] const DriveState& state() const { return state_; }
+  /// Measured less predicted driven torque of each row, newton metres.
+  [[nodiscard]] const Eigen::VectorXd& value_nm() const { return value_; }
+  [[nodiscard]] const std::vector<DriveEffect>& candidates() const { return candidates_; }
+  /// Effects that explain as much in place of one that was taken, by its id.
+  [[nodiscard]] const std::map<std::string, std::set<std::string>>& exchangeable() const {
+    return exchangeable_;
+  }
+  /// Effects were taken back.
+  [[nodiscard]] bool vetoed() const { return vetoed_; }
+  /// The table; nothing else is asked for afterwards.
+  [[nodiscard]] BenchTable take_table() { return std::move(table_); }
+
+ private:
+  void measure_residual();
+  template <class Predicate>
+  bool ban(const Predicate& which) {
+    bool any = false;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (!banned_[g] && which(candidates_[g])) banned_[g] = any = true;
+    return any;
+  }
+
+  [[nodiscard]] DriveOutcome select(const std::vector<bool>& banned) const;
+  /// Selection until shapes, friction and scale stand still and no effect has the wrong sign.
+  DriveOutcome settle();
+  bool put_shapes_on_the_grid(const DriveOutcome& outcome);
+  bool ban_wrong_signs(const DriveOutcome& outcome);
+  bool move_state(const DriveOutcome& outcome);
+  /// Where the spectrum of what is left has a line that noise would not make: one candidate more.
+  bool propose_wave(const DriveOutcome& outcome);
+  /// Where a part of the run, or of every turn of a shaft, differs from the rest more than noise
+  /// would: one candidate more. What goes round with the angle, or has no name, may only imitate it
+  /// and is left out while it is looked for; a spell that was chosen stays.
+  bool propose_spell(const DriveOutcome& outcome);
+  /// Tries the named effects in the order in which people would think of them: where the plainer
+  /// ones predict as well as what the engine chose among all, they are kept.
+  DriveOutcome plainest(DriveOutcome outcome);
+  /// Leaves out one kind of effect after the other: where the rest finds a set that predicts as
+  /// well, the two cannot be told apart, and the simpler one is kept.
+  DriveOutcome simplest(DriveOutcome outcome);
+  /// The simplest, but for one that leaves structure of which the fuller set leaves none.
+  DriveOutcome simplest_that_is_enough(DriveOutcome whole);
+  /// Asked of the training rows alone.
+  [[nodiscard]] bool leaves_structure(const DriveOutcome& outcome) const;
+  /// A selection among fewer candidates, about its own state; wrong signs are banned in it alone.
+  DriveOutcome settled(std::vector<bool> banned);
+  /// The state of an outcome that was settled about another one.
+  void settle_state(const DriveOutcome& outcome);
+  /// Of several effects those that are nothing once all shapes are free: they only mended another's
+  /// shape.
+  void drop_what_is_nothing(DriveOutcome& outcome);
+  /// The locked hold-out may say no: while its error would rise, the effect goes that harms it
+  /// most.
+  void veto(DriveOutcome& outcome);
+  void leave_out(DriveOutcome& outcome, std::size_t effect);
+  void remember(const DriveOutcome& kept, const DriveOutcome& other);
+
+  const DriveModel& model_;
+  const DriveLoopOptions& options_;
+  BenchTable table_;
+  const EfficiencyCurve curve_;
+  const std::vector<DriveEfficiency> mesh_slopes_;
+  DriveState state_;
+  Eigen::VectorXd value_;
+  std::vector<DriveEffect> candidates_;
+  std::vector<bool> banned_;
+  std::map<std::string, std::set<std::string>> exchangeable_;
+  bool vetoed_ = false;  ///< effects were taken back
+};
+
+}  // namespace trueflank::loop

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/drive/bench_remainder.h"
+#include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/found_drive_effects.h"
+
+// What was chosen made simpler, and what is nothing taken back.
+namespace trueflank::loop {
+namespace {
+
+/// True where a loss of prediction is no more than two standard errors over the folds: one such
+/// error in six comes by chance, too often to give up a plain effect for a fancy one.
+bool is_tie(const Eigen::VectorXd& loss) {
+  const double n = static_cast<double>(loss.size()), sum = loss.sum(), mean = sum / n;
+  const double variance = (loss.squaredNorm() - n * mean * mean) / (n - 1.0);
+  return sum <= std::max(0.5, 2.0 * std::sqrt(std::max(0.0, n * variance)));
+}
+
+/// True where the one predicts as well as the other, or leaves no more than chance takes off by a
+/// figure more.
+bool predicts_as_well(const DriveOutcome& one, const DriveOutcome& other) {
+  constexpr double kAFigure = 6.6, kNoFigure = 4.0;  // chi-square
+  if (is_tie(one.fold_errors - other.fold_errors)) return true;
+  const double noise = other.square / std::max(1.0, other.rows - other.size());
+  const int figures = other.size() - one.size();
+  return one.square - other.square < noise * (figures > 0 ? kAFigure * figures : kNoFigure);
+}
+
+/// True where the fuller set takes off more than what chance lets the figures that it has more.
+bool earns_its_figures(const DriveOutcome& fuller, const DriveOutcome& plain) {
+  constexpr double kEach = 9.0;  // chi-square
+  const double noise = fuller.square / std::max(1.0, fuller.rows - fuller.size());
+  return plain.square - fuller.square > kEach * noise * std::max(1, fuller.size() - plain.size());
+}
+
+}  // namespace
+
+DriveOutcome DriveSelection::plainest(DriveOutcome outcome) {
+  for (int most = 0; most <= 4; ++most) {
+    std::vector<bool> banned = banned_;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family->preference > most) banned[g] = true;
+    DriveOutcome other = settled(banned);
+    if (other.effects.empty() || !predicts_as_well(other, outcome)) continue;
+    if (other.size() > outcome.size()) continue;
+    const auto rank = [](const DriveOutcome& o) { return std::pair(o.size(), o.preference()); };
+    if (rank(other) >= rank(outcome)) continue;
+    remember(other, outcome);
+    return other;
+  }
+  return outcome;
+}
+
+DriveOutcome DriveSelection::simplest(DriveOutcome outcome) {
+  outcome = plainest(std::move(outcome));
+  std::set<const DriveFamily*> tried;
+  for (int round = 0; round < 8; ++round) {
+    const DriveFamily* next = nullptr;
+    for (const DriveEffect& effect : outcome.effects)
+      if (effect.family->named && !tried.contains(effect.family) &&
+          (next == nullptr || effect.family->preference > next->preference))
+        next = effect.family;
+    if (next == nullptr) break;
+    tried.insert(next);
+    std::vector<bool> banned = banned_;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family == next) banned[g] = true;
+    DriveOutcome other = settled(banned);
+    if (other.effects.empty() || !predicts_as_well(other, outcome)) continue;
+    if (other.effects.size() > outcome.effects.size() + 1) continue;
+    const auto rank = [](const DriveOutcome& o) { return std::pair(o.size(), o.preference()); };
+    const bool better = rank(other) < rank(outcome);
+    remember(better ? other : outcome, better ? outcome : other);
+    if (better) outcome = std::move(other);
+  }
+  // What was left out on the way may have brought a description in where a name does as well.
+  if (std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                  [](const DriveEffect& e) { return !e.family->named; }))
+    outcome = plainest(std::move(outcome));
+  settle_state(outcome);
+  return outcome;
+}
+
+DriveOutcome DriveSelection::simplest_that_is_enough(DriveOutcome whole) {
+  DriveOutcome plain = simplest(whole);
+  if (!earns_its_figures(whole, plain) || !leaves_structure(plain)) return plain;
+  settle_state(whole);
+  if (!leaves_structure(whole)) return whole;
+  settle_state(plain);
+  return plain;
+}
+
+bool DriveSelection::leaves_structure(const DriveOutcome& outcome) const {
+  const DriveContext here = context();
+  const Eigen::VectorXd left =
+      value_ - DriveFit(here, value_, outcome.effects, FitRows::kTraining).explained_nm();
+  BenchTable seen = table_;
+  seen.points.clear();
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < table_.points.size(); ++i) {
+    if (table_.points[i].fold == 0) continue;
+    seen.points.push_back(table_.points[i]);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::VectorXd left_of_seen = left(rows);
+  return !ask_remainder(seen, model_.ratio, left_of_seen).follows.empty();
+}
+
+DriveOutcome DriveSelection::settled(std::vector<bool> banned) {
+  const std::vector<bool> kept_banned = banned_;
+  const std::vector<DriveEffect> kept = candidates_;
+  const DriveState state = state_;
+  banned_ = std::move(banned);
+  DriveOutcome outcome = settle();
+  banned_ = kept_banned;
+  candidates_ = kept;
+  state_ = state;
+  return outcome;
+}
+
+void DriveSelection::settle_state(const DriveOutcome& outcome) {
+  for (int round = 0; round < 6 && move_state(outcome); ++round) {
+  }
+}
+
+void DriveSelection::drop_what_is_nothing(DriveOutcome& outcome) {
+  constexpr double kStandsOut = 3.0;  // standard errors
+  while (outcome.effects.size() > 1) {
+    const DriveContext here = context();
+    const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+    const Eigen::MatrixXd covariance = fit.covariance();
+    std::size_t least = outcome.effects.size();
+    double least_square = kStandsOut * kStandsOut;
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+      const int first = fit.first_column(static_cast<int>(e)),
+                columns = outcome.effects[e].columns();
+      const Eigen::VectorXd b = fit.coefficients().segment(first, columns);
+      const double square =
+          b.dot(symmetric_solution(covariance.block(first, first, columns, columns), b)) / columns;
+      if (square >= least_square) continue;
+      least_square = square;
+      least = e;
+    }
+    if (least == outcome.effects.size()) return;
+    leave_out(outcome, least);
+  }
+}
+
+void DriveSelection::veto(DriveOutcome& outcome) {
+  while (!outcome.effects.empty()) {
+    const DriveContext here = context();
+    const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+    const auto error = [&](const std::vector<bool>& left_out) {
+      return drive_errors(here, value_, value_ - fit.columns() * fit.without(left_out))
+          .held_out_rms;
+    };
+    std::vector<bool> left_out(outcome.effects.size(), false);
+    const double none = error(std::vector<bool>(outcome.effects.size(), true));
+    if (!(error(left_out) > none)) return;
+    std::size_t worst = 0;
+    double least = 1e300;
+    for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+      left_out[e] = true;
+      if (const double without = error(left_out); without < least) {
+        least = without;
+        worst = e;
+      }
+      left_out[e] = false;
+    }
+    leave_out(outcome, worst);
+    vetoed_ = true;
+  }
+}
+
+void DriveSelection::leave_out(DriveOutcome& outcome, std::size_t effect) {
+  const auto at = static_cast<std::ptrdiff_t>(effect);
+  outcome.effects.erase(outcome.effects.begin() + at);
+  outcome.discovery.chosen.erase(outcome.discovery.chosen.begin() + at);
+  refine_drive_shapes(context(), value_, FitRows::kTraining, outcome.effects);
+  settle_state(outcome);
+}
+
+void DriveSelection::remember(const DriveOutcome& kept, const DriveOutcome& other) {
+  for (const DriveEffect& mine : kept.effects) {
+    if (other.has(mine.family)) continue;
+    for (const DriveEffect& theirs : other.effects)
+      if (theirs.family->named && !kept.has(theirs.family))
+        exchangeable_[mine.family->id].insert(theirs.family->id);
+  }
+}
+
+}  // namespace trueflank::loop
