@@ -34,6 +34,8 @@ def run_all(cases, program, folder, tell=lambda case: None):
 def campaign(cases, o, *, keys, counts=lambda case: (), worth_a_line=lambda case: False, columns="| hidden | right | of |", after=lambda cases: None):
     """All cases with what was wrong, a table of how many are right, and the exit code. `keys`: the rows in which a
     case counts beside "all"; `counts`: figures added to those of its rows, under the further `columns`. `worth_a_line`: right, and yet told."""
+    if not cases:
+        sys.exit(f"no kind of case has `{o.only}` in its name")
     run_all(cases, o.program, o.folder, lambda c: print(c.line(), flush=True) if o.list or not c.right or worth_a_line(c) else None)
     rows = collections.defaultdict(list)
     for case in cases:
