@@ -9,6 +9,7 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
+#include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
 namespace {
@@ -205,6 +206,42 @@ class DeviationBuilder {
     return steepest;
   }
 
+  /// Least angle from the middle of a tooth to its flanks and fillets, at a height: that of the tip land or of a waist
+  /// that undercut left.
+  [[nodiscard]] double least_half_angle_rad(const Toothing& toothing, double z_mm) const {
+    constexpr int kSteps = 48;
+    double least = 1e300;
+    for (std::size_t piece = involute_piece(profile_); piece < profile_.pieces().size(); ++piece) {
+      const Curve& curve = profile_.pieces()[piece].curve;
+      for (const int side : {1, -1})
+        for (int i = 1; i <= kSteps; ++i) {  // not the tip, which has a check of its own
+          const ToothPlace place{.tooth = 0,
+                                 .side = side,
+                                 .piece = piece,
+                                 .parameter = std::lerp(curve.begin, curve.end, static_cast<double>(i) / kSteps)};
+          least = std::min(least, side * polar_angle_rad(section_point(toothing, place, z_mm)));
+        }
+    }
+    return least;
+  }
+
+  /// The chamfers of both flanks must not meet where undercut left the tooth thinnest.
+  void check_waist(const Toothing& toothing) {
+    if (m_.edge_chamfer_mm == 0.0) return;
+    const auto keeps_apart = [&](double chamfer_mm) {
+      Toothing chamfered = toothing;
+      chamfered.edge_chamfer_mm = chamfer_mm;
+      return least_half_angle_rad(chamfered, 0.0) > 0.0 &&
+             least_half_angle_rad(chamfered, face_.face_width_mm) > 0.0;
+    };
+    if (!keeps_apart(m_.edge_chamfer_mm)) {
+      const double most = sides_of_change(keeps_apart, 0.0, m_.edge_chamfer_mm, 20).first;
+      report("edge_chamfer_mm", m_.edge_chamfer_mm,
+             "meets that of the other flank at the end faces, where undercut left the tooth thinnest",
+             "less than " + trimmed_number(most));
+    }
+  }
+
   void check(const FlankDeviation& field) {
     if (!field.empty()) {
       if (const double slope = steepest_slope(field); slope > kSteepestSlope) {
@@ -266,7 +303,10 @@ class DeviationBuilder {
                  " mm, where the tooth has a land");
       return;
     }
-    if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) return;
+    if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) {
+      check_waist(toothing);
+      return;
+    }
     const std::string key = deepest_key("tip_relief_um");
     report(key, value_of(key),
            "the modifications remove " + trimmed_number(1e3 * r_a * (design - least)) +

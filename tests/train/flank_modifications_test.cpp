@@ -173,6 +173,27 @@ TEST(FlankModifications, AChamferEndsOnTheFlank) {
   EXPECT_EQ(refused.error().front().key, "gear.modifications.edge_chamfer_mm");
 }
 
+TEST(FlankModifications, AChamferLeavesTheWaistOfAnUndercutTooth) {
+  // six teeth, so undercut that they are thinnest below the flank; with crowning the chamfers met there
+  GearboxDesign design = single(GearKind::kExternal, {.crowning_um = 95.0});
+  design.gears[0].teeth = 6;
+  design.gears[0].shift = -0.4278;
+  design.module_mm = 5.37;
+  design.rack = {.pressure_angle_rad = rad_from_deg(15.74), .addendum = 1.084, .dedendum = 1.212, .root_radius = 0.028};
+  double most = 0.0;
+  for (const double chamfer : {0.3, 0.6, 0.7, 0.75, 0.8, 0.9, 1.0}) {
+    design.gears[0].modifications.edge_chamfer_mm = chamfer;
+    if (lay_out(design)) most = chamfer;
+    else break;
+  }
+  EXPECT_GE(most, 0.7);
+  EXPECT_LT(most, 0.9);
+  const auto refused = lay_out(design);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().front().key, "gear.modifications.edge_chamfer_mm");
+  EXPECT_NE(refused.error().front().message.find("thinnest"), std::string::npos);
+}
+
 TEST(FlankModifications, FlanksThatMeetInTheGapStayThere) {
   // a ring whose spaces close before its root circle has no root that could take up a difference
   GearboxDesign design = single(GearKind::kInternal, {});
