@@ -73,6 +73,20 @@ teeth = 24
 face_width_mm = 10.0
 bore_mm = 8.0
 """
+CROWNED = """format = 1
+name = "gear"
+[gearbox]
+kind = "gear"
+module_mm = 1.0
+helix_angle_deg = 20.0
+[gear]
+teeth = 24
+face_width_mm = 10.0
+[gear.modifications]
+crowning_um = 8.0
+tip_relief_um = 10.0
+tip_relief_start_diameter_mm = 26.6
+"""
 
 
 def scan(path, count):
@@ -107,6 +121,7 @@ def jobs(program, folder):
         return [program, "make", SOURCE / "examples" / example / "design.toml", "-o", folder / name,
                 "-q", "--formats", formats], folder / name
     (folder / "gear.toml").write_text(PAIR)
+    (folder / "crowned.toml").write_text(CROWNED)
     scan(folder / "scan.ply", 20000)
     ring = folder / "helical/ring"
     return {
@@ -115,6 +130,8 @@ def jobs(program, folder):
         "3k step": make("bilateral_drive", "stl,3mf,step", "3k_step"),
         "helical": make("helical_planetary", "stl,3mf", "helical"),
         "herringbone": make("herringbone_pair", "stl,3mf", "herringbone"),
+        "crowned gear": ([program, "make", folder / "crowned.toml", "-o", folder / "crowned", "-q", "--formats", "stl,3mf"],
+                         folder / "crowned"),
         "compare": ([program, "compare", f"{ring}.stl", f"{ring}.3mf"], None),
         "loop 20 000": ([program, "loop", folder / "gear.toml", folder / "scan.ply", "-o", folder / "loop"],
                         folder / "loop"),
