@@ -481,7 +481,7 @@ bool PartLoop::neighbours_share() const { return neighbours_.p_value <= 0.002 / 
 
 bool PartLoop::structure_is_left() const {
   constexpr double kLeft = 0.01, kLeftOfNothing = 0.01, kSureThoughDenied = 0.0015;
-  if (neighbours_share() || !remainder_.empty()) return true;
+  if (neighbours_share() || !remainder_.empty() || denied_spot_) return true;
   // What the hold-out denied must be surer than what it was not asked about.
   const double sure = vetoed_ ? kSureThoughDenied : kLeftOfNothing;
   if (effects_.empty()) {
@@ -506,6 +506,7 @@ std::string PartLoop::structure_left() const {
   if (neighbours_share())
     return words_for(neighbours_) + (remainder_.empty() ? "" : "; and " + remainder_.front().text);
   if (!remainder_.empty()) return remainder_.front().text;
+  if (denied_spot_) return words_for(*denied_spot_) + ", which the values held out do not bear out";
   if (!structure_is_left() || discovery_.likest_left < 0)
     return "nothing beyond the measurement's own noise was found";
   return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);

@@ -131,6 +131,7 @@ class PartLoop {
   std::vector<Effect> effects_;
   SharedByNeighbours neighbours_;
   bool vetoed_ = false;  ///< effects were taken back
+  std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
   std::vector<double> given_p_values_;
   /// Residuals and what was found in them, for one set of effects.
   struct Kept {

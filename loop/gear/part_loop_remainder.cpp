@@ -271,10 +271,9 @@ bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
 /// The locked hold-out may say no: an effect without which its error is smaller is taken back, the
 /// one that harms most first. A weak effect that is true may cost a little there by its own error;
 /// and of what stands on one tooth the hold-out knows nothing: these go only where the error would
-/// rise, and what stands there beyond doubt only where it would rise by more than its ends do in
-/// the fold beside it.
+/// rise. A place beyond doubt that goes so (its ends lie in the fold beside it) is told as left.
 void PartLoop::veto() {
-  constexpr double kClearly = 0.98, kEnds = 9e-5;
+  constexpr double kClearly = 0.98;
   const std::size_t told = options_.given.size() - given_p_values_.size();
   while (effects_.size() > told) {
     const auto fit = fit_of(effects_);
@@ -283,12 +282,11 @@ void PartLoop::veto() {
     const double full = fit->errors(with).held_out_rms_um;
     // Together they may harm where none does alone.
     const double none = plain_fit()->errors({}).held_out_rms_um;
-    const bool rises = full > none, rises_clearly = full > (1.0 + kEnds) * none;
+    const bool rises = full > none;
     double least = rises ? 1e300 : kClearly * full;
     std::size_t worst = effects_.size();
     for (std::size_t e = told; e < effects_.size(); ++e) {
       if (effects_[e].family->local && !rises) continue;
-      if (!rises_clearly && is_spot_beyond_doubt(*fit, e)) continue;
       with[e] = false;
       const double error = fit->errors(with).held_out_rms_um;
       with[e] = true;
@@ -297,6 +295,7 @@ void PartLoop::veto() {
       worst = e;
     }
     if (worst == effects_.size()) return;
+    if (is_spot_beyond_doubt(*fit, worst)) denied_spot_ = effects_[worst];
     effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(worst));
     discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(worst));
     if (worst < options_.given.size()) {

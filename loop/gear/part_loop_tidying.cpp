@@ -222,6 +222,7 @@ void PartLoop::take_over(PartLoop& other) {
   options_.given = std::move(other.options_.given);
   neighbours_ = std::move(other.neighbours_);
   vetoed_ = other.vetoed_;
+  denied_spot_ = other.denied_spot_;
   given_p_values_.clear();
   problem_ = {};
   kept_.valid = false;

@@ -26,7 +26,7 @@ HEAD = "record,tooth,flank,diameter_mm,z_mm,deviation_um"
 def add_up(a):
     """What is wrong with the figures of any answer."""
     before, after = a["before"], a["after"]
-    if before["held_out_rms_um"] and after["held_out_rms_um"] > before["held_out_rms_um"] * 1.0001:
+    if before["held_out_rms_um"] and after["held_out_rms_um"] > before["held_out_rms_um"] * (1 + 1e-6):
         return "the error on the hold-out rises"
     shares = [e["explained_fraction"] for e in a["effects"]]
     whole = 1.0 - (after["rms_um"] / before["rms_um"]) ** 2 if before["rms_um"] else 0.0
