@@ -4,6 +4,7 @@
 // still be read.
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -247,9 +248,13 @@ TEST(MeshBombs, AFileThatOnlyReservedItsSizeIsRefusedBeforeItIsRead) {
   const test::ScratchFolder folder;
   const auto path = folder.path() / "reserved.stl";
   ASSERT_TRUE(write_file(path, "solid part\n"));
-  std::filesystem::resize_file(path, std::uintmax_t{4} << 30);  // 4 GB, of which one block is on the disk
+  std::filesystem::resize_file(path, std::uintmax_t{256} << 20);  // of which one block is on the disk
+  const int descriptor = ::open(path.c_str(), O_RDONLY);
+  const off_t hole = ::lseek(descriptor, 0, SEEK_HOLE);
+  ::close(descriptor);
+  if (hole < 0 || hole > 1 << 20) GTEST_SKIP() << "the file system does not tell what has been written";
   const double taken_s = seconds_of([&] {
-    const auto content = read_file(path, std::size_t{8} << 30);
+    const auto content = read_file(path);
     ASSERT_FALSE(content);
     EXPECT_EQ(content.error().code, ErrorCode::kSyntax);
     EXPECT_EQ(content.error().file, path.string());
