@@ -263,7 +263,9 @@ TEST(MeshBombs, AFileThatOnlyReservedItsSizeIsRefusedBeforeItIsRead) {
   EXPECT_LT(taken_s, kAtOnce_s);
   const std::string zeros(std::size_t{17} << 20, '\0');  // written: as good as any
   ASSERT_TRUE(write_file(path, zeros));
-  EXPECT_EQ(read_file(path), zeros);
+  const auto content = read_file(path);
+  ASSERT_TRUE(content);
+  EXPECT_TRUE(*content == zeros);  // not printed
 }
 
 TEST(MeshBombs, WhatComesOutOfAPipeInManyPiecesIsReadWhole) {
