@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <regex>
 
 #include "tests/check/machine_designs.h"
+#include "tests/support/scratch_folder.h"
 #include "trueflank/export/scad/scad_writer.h"
 
 namespace trueflank {
@@ -20,7 +20,8 @@ struct Line {
 
 /// The line of a body, by its name in the comment.
 Line line_of(const Made& made, const std::string& body) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "assembly_of_machine.scad";
+  const test::ScratchFolder folder;
+  const auto path = folder / "assembly.scad";
   EXPECT_TRUE(io::write_scad_assembly(path, made.train, made.shapes));
   std::ifstream file(path);
   const std::string text((std::istreambuf_iterator<char>(file)), {});

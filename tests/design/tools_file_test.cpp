@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/scratch_folder.h"
 #include "trueflank/base/units.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/design_file_writer.h"
@@ -168,8 +168,7 @@ TEST(ToolsFile, WrongOnesAreToldAllAtOnce) {
 }
 
 TEST(ToolsFile, OfADesignStandsBesideIt) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "tools_file_test";
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder folder;
   std::ofstream(folder / "own.toml") << "[rack.mine]\ndedendum = 1.3\n[process.own]\nkerf_mm = 0.2\n";
   const std::string text = "tools = \"own.toml\"\n" + gear_file("[rack]\nprofile = \"mine\"\n"
                                                                 "[made]\nprocess = \"own\"");
