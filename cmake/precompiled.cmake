@@ -9,14 +9,15 @@ set(TRUEFLANK_PRECOMPILED_HEADERS
   <memory> <numeric> <optional> <random> <set> <string> <string_view> <utility> <variant> <vector>
   <tl/expected.hpp> <Eigen/Core> <Eigen/Geometry>)
 
-# A target that compiles them with the flags of the libraries, or (with further headers) of the tests.
+# A target that compiles them with the flags of the libraries, or (with further headers and OPTIONS) of the tests.
 function(trueflank_precompiled target)
-  cmake_parse_arguments(arg "" "" "HEADERS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing: its precompiled headers are used by others.\n")
   add_library(${target} OBJECT ${source})
   trueflank_find_package(Eigen eigen call)
   trueflank_find_package(expected expected call)
   target_link_libraries(${target} PRIVATE trueflank_options ${eigen} ${expected} ${arg_LIBRARIES})
+  target_compile_options(${target} PRIVATE ${arg_OPTIONS})
   target_precompile_headers(${target} PRIVATE ${TRUEFLANK_PRECOMPILED_HEADERS} ${arg_HEADERS})
 endfunction()

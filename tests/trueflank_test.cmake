@@ -34,10 +34,12 @@ function(trueflank_test name)
   target_link_libraries(${target} PRIVATE
     ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
-  if(NOT arg_OPTIMISED)
+  if(arg_OPTIMISED)
+    target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_optimised_test)
+  else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   endif()
-  target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # tests name their own helpers alike
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
