@@ -69,7 +69,7 @@ class DriveReport {
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
     judge(outcome, remainder, r);
-    if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, r);
+    if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, effects, r);
     done.before_nm.assign(selection_.value_nm().data(),
                           selection_.value_nm().data() + selection_.value_nm().size());
     done.after_nm.assign(left.data(), left.data() + left.size());
@@ -137,26 +137,44 @@ class DriveReport {
   }
 
   /// Errors that hang together look like something slow: who reads "noise" is told so.
-  void say_what_neighbours_share(const Eigen::VectorXd& left, LoopResult& r) const {
-    constexpr double kMuch = 0.35, kHalf = 0.45;
+  void say_what_neighbours_share(const Eigen::VectorXd& left,
+                                 const std::vector<DriveEffect>& effects, LoopResult& r) const {
+    // Beside a course of the run that has no name less is enough: more of it is the likely reason.
+    constexpr double kMuch = 0.35, kBesideACourse = 0.25;
     constexpr Eigen::Index kFewest = 60;
     if (left.size() < kFewest) return;
-    Eigen::VectorXd size = left;
-    for (Eigen::Index i = 0; i < size.size(); ++i)
-      size[i] /= selection_.table().points[static_cast<std::size_t>(i)].sigma_nm;
-    const double shared = correlation_of_visits(size, set_points_of(selection_.table().points));
-    if (!(shared > kMuch)) return;
+    const double shared = shared_by_neighbours(left);
+    const bool course = std::any_of(effects.begin(), effects.end(), [](const DriveEffect& e) {
+      return e.family->shape_of_wander || (e.family->shape_of_spell && e.shape[1] == 0.0);
+    });
+    const double enough =
+        course ? std::max(kBesideACourse, 3.5 / std::sqrt(static_cast<double>(left.size()))) : kMuch;
+    if (!(shared > enough)) return;
     const std::string text = printed(
         "neighbouring rows share %.0f %% of what is left: errors that hang together, or something "
         "slow that these "
         "columns do not hold (the same set points again, in another order, would tell)",
         100.0 * shared);
-    if (r.verdict == Verdict::kExplained && shared > kHalf) {
+    if (r.verdict == Verdict::kExplained) {
       r.verdict = Verdict::kPartlyExplained;
       r.structure_left = text;
     } else {
       r.structure_left += "; " + text;
     }
+  }
+
+  /// As it is or turned over in one direction, as what a sensor of the output shares shows.
+  [[nodiscard]] double shared_by_neighbours(const Eigen::VectorXd& left) const {
+    const auto& points = selection_.table().points;
+    const std::vector<int> set_point = set_points_of(points);
+    Eigen::VectorXd alike = left, opposite = left;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      alike[row] /= points[i].sigma_nm;
+      opposite[row] = points[i].forward ? alike[row] : -alike[row];
+    }
+    return std::max(correlation_of_visits(alike, set_point),
+                    correlation_of_visits(opposite, set_point));
   }
 
   void judge_impossible(LoopResult& r) const {

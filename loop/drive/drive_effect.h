@@ -114,6 +114,8 @@ struct DriveFamily : EffectFacts {
   std::function<DriveShape(double order, bool opposite)> shape_of_wave = {};
   /// The shape of a part of the run (order 0) or of a turn, 0 ... 1, that a scan proposes; empty: it takes none.
   std::function<DriveShape(double what, double order, double begin, double length)> shape_of_spell = {};
+  /// The shape of a slow course of the run, a polynomial, that a scan proposes; empty: it takes none.
+  std::function<DriveShape(double what, int degree)> shape_of_wander = {};
   /// @}
 
   /// @name How it is told

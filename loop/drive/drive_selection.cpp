@@ -4,9 +4,22 @@
 #include <cmath>
 
 #include "trueflank/loop/drive/spell_scan.h"
+#include "trueflank/loop/drive/wander_scan.h"
 #include "trueflank/loop/drive/wave_spectrum.h"
 
 namespace trueflank::loop {
+namespace {
+
+/// The first effect of the library that has something.
+template <class Member>
+const DriveFamily* family_with(Member DriveFamily::*something) {
+  const auto& library = drive_library();
+  return &*std::find_if(library.begin(), library.end(), [&](const DriveFamily& family) {
+    return static_cast<bool>(family.*something);
+  });
+}
+
+}  // namespace
 
 DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
                                const DriveLoopOptions& options)
@@ -23,7 +36,11 @@ DriveOutcome DriveSelection::run() {
   if (table_.impossible == Impossible::kEfficiencyAboveOne)
     ban([](const DriveEffect& e) { return e.family->is_loss; });
   DriveOutcome outcome = settle();
-  for (int spells = 0; spells < 3 && propose_spell(outcome); ++spells) outcome = settle();
+  for (int courses = 0; courses < 3; ++courses) {
+    const bool spell = propose_spell(outcome);
+    if (!propose_wander(outcome) && !spell) break;
+    outcome = settle();
+  }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
   drop_what_is_nothing(outcome);
@@ -132,11 +149,8 @@ bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
     if (const double order = candidate.order();
         order > 0.0 && std::abs(order - line.order) < 0.5 / std::max(1.0, table_.turns))
       return false;
-  const auto& library = drive_library();
-  const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
-    return static_cast<bool>(family.shape_of_wave);
-  });
-  candidates_.push_back({&*host, host->shape_of_wave(line.order, line.opposite)});
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_wave);
+  candidates_.push_back({host, host->shape_of_wave(line.order, line.opposite)});
   banned_.push_back(false);
   return true;
 }
@@ -155,14 +169,29 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
                        of_run = likeliest_spell_of_run(here, left);
   const LikeliestSpell& spell = of_turns.p_value <= of_run.p_value ? of_turns : of_run;
   if (!(spell.p_value < kLevel)) return false;
-  const auto& library = drive_library();
-  const auto host = std::find_if(library.begin(), library.end(), [](const DriveFamily& family) {
-    return static_cast<bool>(family.shape_of_spell);
-  });
-  const DriveShape shape = host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length);
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_spell);
+  return add_candidate(
+      {host, host->shape_of_spell(spell.what, spell.order, spell.begin, spell.length)});
+}
+
+bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
+  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  constexpr double kLevel = 0.001;  // searched beside the engine's own test
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  std::vector<bool> left_out;
+  for (const DriveEffect& effect : outcome.effects) left_out.push_back(!effect.family->named);
+  const LikeliestWander wander =
+      likeliest_wander(here, value_ - fit.columns() * fit.without(left_out));
+  if (!(wander.p_value < kLevel)) return false;
+  const DriveFamily* host = family_with(&DriveFamily::shape_of_wander);
+  return add_candidate({host, host->shape_of_wander(wander.what, wander.degree)});
+}
+
+bool DriveSelection::add_candidate(const DriveEffect& effect) {
   for (const DriveEffect& candidate : candidates_)
-    if (candidate.family == &*host && candidate.shape == shape) return false;
-  candidates_.push_back({&*host, shape});
+    if (candidate.family == effect.family && candidate.shape == effect.shape) return false;
+  candidates_.push_back(effect);
   banned_.push_back(false);
   return true;
 }

@@ -96,6 +96,11 @@ class DriveSelection {
   /// would: one candidate more. What goes round with the angle, or has no name, may only imitate it
   /// and is left out while it is looked for; a spell that was chosen stays.
   bool propose_spell(const DriveOutcome& outcome);
+  /// Where the rest moves slowly over the run as noise would not, whatever has no name left out:
+  /// one candidate more.
+  bool propose_wander(const DriveOutcome& outcome);
+  /// False where it is one already.
+  bool add_candidate(const DriveEffect& effect);
   /// Tries the named effects in the order in which people would think of them: where the plainer
   /// ones predict as well as what the engine chose among all, they are kept.
   DriveOutcome plainest(DriveOutcome outcome);

@@ -263,6 +263,39 @@ TEST(DriveLoop, AnOilThatWasChangedIsAJumpAtItsRowAndNoDrift) {
       << told(closed->result);
 }
 
+// Jumps and parts of the run imitate it and leave its rest.
+TEST(DriveLoop, AZeroThatWandersIsACourseOfTheRunAndLeavesNoMoreThanTheNoise) {
+  HiddenDrive drive;
+  drive.output_reading = [](double nm, const BenchMoment& m) {
+    return nm + 0.25 * std::sin(2.0 * M_PI * 1.5 * m.input_turns / 5400.0 + 0.7);
+  };
+  BenchPlan plan;
+  plan.output_nm = {4, 8, 12, 16, 20};
+  const auto closed = close_hidden(drive, plan);
+  ASSERT_TRUE(closed);
+  EXPECT_THAT(told(closed->result), testing::HasSubstr("comes and goes slowly"));
+  EXPECT_THAT(told(closed->result), testing::HasSubstr("a zero of the output's torque that wanders"));
+  EXPECT_LT(closed->result.after.rms, 1.2 * 0.05 / std::sqrt(2.0)) << told(closed->result);
+}
+
+// A zero that moves within a few rows moves the driven torque up in one direction and down in the
+// other: neighbours are alike only once one direction is turned over.
+TEST(DriveLoop, WhatNeighboursShareIsNotCalledNoiseThoughItsSignTurnsWithTheDirection) {
+  HiddenDrive drive = rubbing([](auto&, int) { return 0.13; });
+  auto zero_nm = std::make_shared<double>(0.0);
+  auto random = std::make_shared<std::mt19937_64>(5);
+  drive.output_reading = [=](double nm, auto&) {
+    *zero_nm = 0.75 * *zero_nm + 0.2 * std::normal_distribution<double>()(*random);
+    return nm + *zero_nm;
+  };
+  BenchPlan plan;
+  plan.output_nm = {4, 8, 12, 16, 20};
+  const auto closed = close_hidden(drive, plan);
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(closed->result.verdict, Verdict::kPartlyExplained) << told(closed->result);
+  EXPECT_THAT(told(closed->result), testing::HasSubstr("neighbouring rows share"));
+}
+
 TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
   const HiddenDrive drive = losing([](auto&) { return 0.004; });
   BenchPlan one_load;

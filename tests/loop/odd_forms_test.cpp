@@ -267,5 +267,30 @@ TEST(OddForms, ABurrStandsWhereItIsAndIsAsWideAsItIs) {
   EXPECT_NEAR(spot.cos, 80.0, 25.0) << list(result);
 }
 
+// A few points of 12 000 (one alone would be no burr): too few to move the mean of
+// a window, and each by itself would be wild.
+TEST(OddForms, ABurrThatOnlyAFewPointsMetIsToldWithItsToothAndPlace) {
+  const MadeGear gear = spur(24);
+  const double roll_from = roll_of_radius(gear, gear.root_form_mm),
+               roll_to = roll_of_radius(gear, gear.tip_mm);
+  const auto burr = [&](auto&, const FlankSpot& s, auto&) {
+    if (s.tooth != 14 || s.side < 0) return 0.0;
+    const double over = 0.5 * (s.u - 0.2) * (roll_to - roll_from),
+                 up = 0.5 * (s.v + 0.4) * gear.face_mm;
+    return over * over + up * up < 0.5 * 0.5 ? 70.0 : 0.0;
+  };
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    ScanOptions options;
+    options.points = 12000;
+    options.noise_um = 3.0;
+    options.seed = seed;
+    const auto result = close(gear, scan_of(gear, {grown(burr)}, options), true);
+    EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << seed;
+    const std::string told = list(result) + result.structure_left;
+    EXPECT_NE(told.find("flank of tooth 14, "), std::string::npos) << seed << ": " << told;
+    for (const loop::FoundEffect& effect : result.effects) EXPECT_FALSE(effect.named) << effect.id;
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

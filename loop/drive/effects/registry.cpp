@@ -38,6 +38,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_hump(),
         unnamed_change(),
         unnamed_spell(),
+        unnamed_wander(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

@@ -46,6 +46,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_hump();
 [[nodiscard]] DriveFamily unnamed_change();
 [[nodiscard]] DriveFamily unnamed_spell();
+[[nodiscard]] DriveFamily unnamed_wander();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

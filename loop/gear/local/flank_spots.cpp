@@ -8,12 +8,14 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/far_points.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 namespace {
 
 constexpr double kClip = 3.5;
+constexpr double kFar = 6.0;  ///< spreads
 constexpr int kMostCells = 20, kFewestCells = 4;
 constexpr std::size_t kFewestPoints = 40, kMostSpots = 3;
 
@@ -46,7 +48,7 @@ class SpotSearch {
       const int patch = patches.patch_of_row[i];
       return patch < 0 ? -1 : flank_of[static_cast<std::size_t>(patch)];
     });
-    std::size_t points = 0;
+    std::size_t points = 0;  // of all flanks
     for (std::size_t flank = 0; flank < flanks; ++flank) points += rows.count(flank);
     const std::size_t per_flank = points / flanks;
     if (per_flank < kFewestPoints) return;
@@ -90,6 +92,8 @@ class SpotSearch {
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
     });
     tell_loud_flanks();
+    together_ = far_points_together(geometry, table, rows, flanks, row_um,
+                                    {kFar / kClip * limits[0], kFar / kClip * limits[1]});
   }
 
   std::vector<FlankSpot> run() {
@@ -104,6 +108,7 @@ class SpotSearch {
       spots.push_back(found.square > 0.0 ? found.fullest : found.likest);
       spots.back().p_value = p;
     }
+    add_far_points(spots);
     std::sort(spots.begin(), spots.end(),
               [](const auto& a, const auto& b) { return a.p_value < b.p_value; });
     if (spots.size() > kMostSpots) spots.resize(kMostSpots);
@@ -118,6 +123,21 @@ class SpotSearch {
     FlankSpot likest, fullest;
     double square = 0.0;
   };
+
+  /// Points that lie far off together, on flanks where no window is as sure.
+  void add_far_points(std::vector<FlankSpot>& spots) const {
+    for (const FlankSpot& together : together_) {
+      const auto same = std::find_if(spots.begin(), spots.end(), [&](const FlankSpot& spot) {
+        return spot.tooth == together.tooth && spot.side == together.side;
+      });
+      const auto field = fields_.find({together.tooth, together.side});
+      if (field != fields_.end() && field->second.loud > 1.0) continue;
+      if (same == spots.end())
+        spots.push_back(together);
+      else if (same->p_value > together.p_value)
+        *same = together;
+    }
+  }
 
   /// Cells are as many over the profile as over the face, what stands on a flank is as often round
   /// in millimetres: small windows of all proportions.
@@ -223,6 +243,7 @@ class SpotSearch {
   const FlankGeometry& geometry_;
   int cells_ = 0;
   std::map<std::pair<int, int>, Field> fields_;
+  std::vector<FlankSpot> together_;  ///< points that lie far off
 };
 
 }  // namespace

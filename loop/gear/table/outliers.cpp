@@ -114,9 +114,7 @@ RowNumbers with_patches_beside(const PatchRows& patches, const PatchRows::value_
 /// accident.
 template <class Predicate>
 bool neighbours_agree(const Observations& table, const RowNumbers& patch, std::uint32_t i,
-                      Predicate agrees) {
-  const bool trace = table.rows[i].kind != ObservationKind::kScanFlank;
-  const std::size_t asked = trace ? 3 : 4, needed = 2;
+                      std::size_t asked, std::size_t needed, Predicate agrees) {
   if (patch.size() <= asked) return false;
   const Place& place = table.place(table.rows[i]);
   std::vector<std::pair<double, std::uint32_t>> near;
@@ -164,11 +162,30 @@ RowNumbers outliers_of(const Observations& table, const PatchRows& patches,
     return {};
   const RowNumbers beside = with_patches_beside(patches, of_patch);
   std::erase_if(far, [&](std::uint32_t i) {
-    return neighbours_agree(table, beside, i, [&](std::uint32_t other) {
+    const bool trace = table.rows[i].kind != ObservationKind::kScanFlank;
+    return neighbours_agree(table, beside, i, trace ? 3 : 4, 2, [&](std::uint32_t other) {
       return std::abs(above(other)) > 0.5 * limit && (above(other) > 0.0) == (above(i) > 0.0);
     });
   });
   return far;
+}
+
+/// Of a scan's wild points those that lie together, where all are so few that none would do so by
+/// accident: a burr that hardly a point met. `wild` says it of every row.
+RowNumbers few_together(const Observations& table, const PatchRows& patches,
+                        const PatchRows::value_type& of_patch, const Level& level,
+                        const RowNumbers& far, const std::vector<bool>& wild) {
+  constexpr std::size_t kNear = 6;
+  RowNumbers together;
+  if (far.empty() || table.rows[far.front()].kind != ObservationKind::kScanFlank) return together;
+  const RowNumbers beside = with_patches_beside(patches, of_patch);
+  for (const std::uint32_t i : far)
+    if (neighbours_agree(table, beside, i, kNear, 1, [&](std::uint32_t other) {
+          return wild[other] && (table.rows[other].deviation_um > level.centre_um) ==
+                                    (table.rows[i].deviation_um > level.centre_um);
+        }))
+      together.push_back(i);
+  return together;
 }
 
 void take_out(const std::vector<bool>& out, Observations& table) {
@@ -212,11 +229,24 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
         outliers_of(table, patches, *judged[k], levels[k], spread_of.at(judged[k]->first[0]));
   });
   std::vector<bool> out(table.rows.size(), false);
-  bool any = false;
-  for (const RowNumbers& rows : found)
-    for (const std::uint32_t i : rows) out[i] = any = true;
+  std::map<int, double> wild, all;  // rows of each kind and source
+  for (std::size_t k = 0; k < judged.size(); ++k) {
+    wild[judged[k]->first[0]] += static_cast<double>(found[k].size());
+    all[judged[k]->first[0]] += static_cast<double>(judged[k]->second.size());
+    for (const std::uint32_t i : found[k]) out[i] = true;
+  }
+  const std::vector<bool> far = out;
+  constexpr double kByAccident = 0.01, kHalfOfNear = 3.0;
+  for (std::size_t k = 0; k < judged.size(); ++k) {
+    const double few = wild[judged[k]->first[0]];
+    if (found[k].empty() || few * few * kHalfOfNear > kByAccident * all[judged[k]->first[0]])
+      continue;
+    for (const std::uint32_t i :
+         few_together(table, patches, *judged[k], levels[k], found[k], far))
+      out[i] = false;
+  }
   table.outliers = 0;
-  if (any) take_out(out, table);
+  if (std::find(out.begin(), out.end(), true) != out.end()) take_out(out, table);
 }
 
 }  // namespace trueflank::loop
