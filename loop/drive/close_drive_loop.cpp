@@ -9,6 +9,7 @@
 #include "trueflank/loop/drive/bench_remainder.h"
 #include "trueflank/loop/drive/bench_visits.h"
 #include "trueflank/loop/drive/drive_selection.h"
+#include "trueflank/loop/drive/exchanged_effects.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -66,6 +67,8 @@ class DriveReport {
     r.effects = describe_drive_effects({here, all, training, selection_.value_nm(), remainder,
                                         outcome.discovery.chosen, selection_.candidates(),
                                         selection_.exchangeable()});
+    if (selection_.table().impossible != Impossible::kEfficiencyAboveOne)
+      hold_exchanged_effects(selection_, effects, r.effects);
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
     judge(outcome, remainder, r);

@@ -140,10 +140,48 @@ Eigen::MatrixXd DriveFit::shape_slopes() const {
   return slopes;
 }
 
+DriveState DriveFit::state_at(const Eigen::VectorXd& coefficients) const {
+  DriveState state;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].family->into_state)
+      effects_[e].family->into_state(state, effects_[e].shape, coefficients[first_column_[e]]);
+  return state;
+}
+
+Eigen::MatrixXd DriveFit::coefficient_slopes() const {
+  constexpr double kStep = 0.01;  // of the coefficient
+  const auto& points = context_.table.points;
+  std::vector<double> values(16);
+  const auto explained_at = [&](const Eigen::VectorXd& b) {
+    DriveContext there = context_;
+    there.state = state_at(b);
+    Eigen::VectorXd explained = Eigen::VectorXd::Zero(columns_.rows());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t e = 0; e < effects_.size(); ++e) {
+        effects_[e].family->evaluate(there, points[i], effects_[e].shape, values.data());
+        for (int k = 0; k < effects_[e].columns(); ++k)
+          explained[static_cast<Eigen::Index>(i)] +=
+              values[static_cast<std::size_t>(k)] * b[first_column_[e] + k];
+      }
+    return explained;
+  };
+  Eigen::MatrixXd slopes = columns_;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const int column = first_column_[e];
+    const double step = kStep * std::abs(coefficients_[column]);
+    if (!effects_[e].family->into_state || !(step > 0.0)) continue;
+    Eigen::VectorXd low = coefficients_, high = coefficients_;
+    low[column] -= step;
+    high[column] += step;
+    slopes.col(column) = (explained_at(high) - explained_at(low)) / (2.0 * step);
+  }
+  return slopes;
+}
+
 Eigen::MatrixXd DriveFit::covariance() const {
   const auto& points = context_.table.points;
   Eigen::MatrixXd x(columns_.rows(), columns_.cols() + shapes_);
-  x << columns_, shape_slopes();
+  x << coefficient_slopes(), shape_slopes();
   const auto p = x.cols();
   const Eigen::VectorXd left = value_ - columns_ * coefficients_;
   const Eigen::MatrixXd weighted = weight_.asDiagonal() * x;

@@ -39,12 +39,17 @@ class DriveFit {
   [[nodiscard]] Eigen::MatrixXd covariance() const;
   /// Column of a shape value in the covariance; -1: fixed.
   [[nodiscard]] int shape_column(int effect, int value) const { return shape_column_[effect][value]; }
+  /// Friction and scale at these coefficients.
+  [[nodiscard]] DriveState state_at(const Eigen::VectorXd& coefficients) const;
   /// Units less what was fitted.
   [[nodiscard]] double degrees() const;
 
  private:
   void fill_columns();
   [[nodiscard]] Eigen::MatrixXd shape_slopes() const;
+  /// Change of the explained torque per unit of every coefficient. A friction's column is the secant
+  /// from the design, and moves with it: efficiencies bend.
+  [[nodiscard]] Eigen::MatrixXd coefficient_slopes() const;
   [[nodiscard]] bool sees(int point) const;
 
   const DriveContext& context_;

@@ -116,13 +116,7 @@ bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
 }
 
 DriveState DriveSelection::state_of(const DriveFit& fit) {
-  DriveState state;
-  for (std::size_t e = 0; e < fit.effects().size(); ++e) {
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
-    const DriveEffect& effect = fit.effects()[e];
-    if (effect.family->into_state) effect.family->into_state(state, effect.shape, b);
-  }
-  return state;
+  return fit.state_at(fit.coefficients());
 }
 
 bool DriveSelection::move_state(const DriveOutcome& outcome) {

@@ -296,6 +296,27 @@ TEST(DriveLoop, WhatNeighboursShareIsNotCalledNoiseThoughItsSignTurnsWithTheDire
   EXPECT_THAT(told(closed->result), testing::HasSubstr("neighbouring rows share"));
 }
 
+// Whether the zero is the input's or the output's, two sensors hardly tell, and the drag beside it
+// is another one for each.
+TEST(DriveLoop, TheIntervalOfADragHoldsWhicheverSensorHasTheZero) {
+  HiddenDrive drive = losing([](auto&) { return 0.004; });
+  drive.output_zero_nm = 0.4;
+  BenchPlan plan;
+  plan.output_nm = {6, 10, 14, 17, 20};
+  int told = 0, held = 0;
+  for (plan.seed = 1; plan.seed <= 10; ++plan.seed) {
+    const auto closed = close_hidden(drive, plan);
+    ASSERT_TRUE(closed);
+    const loop::FoundEffect* drag = found(closed->result, "drag_torque");
+    if (drag == nullptr) continue;
+    const loop::Parameter* torque = parameter(*drag, "torque_nm");
+    ++told;
+    held += torque->low <= 0.004 && 0.004 <= torque->high ? 1 : 0;
+  }
+  EXPECT_GE(told, 8);
+  EXPECT_GE(held, told - 1);
+}
+
 TEST(DriveLoop, OneLoadCannotTellDragFromFrictionAndASweepCan) {
   const HiddenDrive drive = losing([](auto&) { return 0.004; });
   BenchPlan one_load;
