@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values one a tooth (index, runout) are few beside those of traces, and say what traces with zeros
-// of their own hardly show. What they say alone must not be lost in the joint answer.
+// Values one a tooth (index, runout) are few beside those of traces and scans, and say what traces
+// with zeros of their own, or a scan in a frame of its own, hardly show. What they say alone must not
+// be lost in the joint answer.
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +18,22 @@ bool is_one_a_tooth(const Observation& row) {
   return row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
 }
 
-/// The table with these values alone; its places and traces keep their numbers.
+/// The table with these values alone; its traces and sources keep their numbers.
 Observations values_one_a_tooth(const Observations& table) {
-  Observations single = table;
-  std::erase_if(single.rows, [](const Observation& row) { return !is_one_a_tooth(row); });
-  single.notes.clear();
+  Observations single;
+  single.traces = table.traces;
+  single.poses = table.poses;
+  single.pose_is_free = table.pose_is_free;
+  for (const Observation& row : table.rows) {
+    if (!is_one_a_tooth(row)) continue;
+    single.rows.push_back(row);
+    single.rows.back().first_place = static_cast<std::uint32_t>(single.places.size());
+    for (std::uint32_t p = row.first_place; p < row.first_place + row.places; ++p) {
+      single.places.push_back(table.places[p]);
+      if (!table.sigmas_um.empty())
+        single.sigmas_um.push_back(p < table.sigmas_um.size() ? table.sigmas_um[p] : kNaN);
+    }
+  }
   return single;
 }
 
@@ -126,7 +138,7 @@ void PartLoop::hold_to_single_values() {
       std::any_of(table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
         return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
       });
-  if (!traced || !table_->points_mm.empty()) return;
+  if (!traced && table_->points_mm.empty()) return;
   Observations single = values_one_a_tooth(table_);
   if (single.rows.empty()) return;
   Options options = options_;
@@ -146,7 +158,7 @@ void PartLoop::hold_to_single_values() {
       add(alone.effects_[e], alone.discovery_.chosen[e].p_value);
   if (more.empty()) return;
   const std::vector<Effect> without_slopes = more;
-  for (std::size_t g = 0; g < candidates_.size(); ++g)
+  for (std::size_t g = 0; traced && g < candidates_.size(); ++g)
     if (!banned_[g] && is_wave_of_slopes(candidates_[g])) add(candidates_[g], discovery_.p_left);
   if (!adopt(more, p_values)) (void)adopt(without_slopes, p_values);
 }

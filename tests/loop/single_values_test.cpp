@@ -51,6 +51,31 @@ TEST(SingleValues, RecordsThatAgreeSayNothingOfAContradiction) {
   EXPECT_TRUE(result.notes.empty());
 }
 
+// A scan in any pose hides where the bore is; its many points must not hide that the index shows it.
+TEST(SingleValues, WhatAnIndexShowsIsNotLostBesideAScanInAnyPose) {
+  const MadeGear gear = spur(12);
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    ScanOptions scanned;
+    scanned.points = 6000;
+    scanned.noise_um = 3.0;
+    scanned.any_pose = true;
+    scanned.seed = seed;
+    InspectionOptions inspected;
+    inspected.profile = inspected.helix = false;
+    inspected.noise_um = 0.7;
+    inspected.seed = seed;
+    loop::MeasuredData data;
+    data.scans.push_back(scan_of(gear, {off_centre(9.0, 40.0)}, scanned));
+    data.inspections.push_back(inspection_of(gear, {off_centre(9.0, 40.0)}, inspected));
+    const auto closed = loop::close_loop(geometry_of(gear), "gear", data, {});
+    ASSERT_TRUE(closed);
+    const loop::LoopResult& result = closed->result;
+    const auto* found = find(result, "eccentricity");
+    ASSERT_NE(found, nullptr) << seed << ": " << list(result);
+    EXPECT_NEAR(parameter(*found, "amplitude_um").value, 9.0, 0.8) << seed;
+  }
+}
+
 /// An index whose errors have tails far longer than normal ones.
 loop::InspectionData wild_index(const MadeGear& gear, unsigned seed, double tooth_um) {
   InspectionOptions options;
