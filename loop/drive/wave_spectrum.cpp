@@ -127,18 +127,19 @@ class Spectrum {
   void all_lines_at_once() {
     const int lines = static_cast<int>((kHighest - first_) / step_) + 1;
     const std::vector<Complex> of_size = line_sums(angle_, size_, first_, step_, lines);
-    // The sums of squares are waves of twice the order.
-    const std::vector<Complex> of_one = line_sums(angle_, square_, 2.0 * first_, 2.0 * step_, lines);
+    // The sums of squares are waves of twice the order; the directions' signs are not in them.
+    if (!opposite_) of_one_ = line_sums(angle_, square_, 2.0 * first_, 2.0 * step_, lines);
     for (int k = 0; k < lines; ++k) {
       const auto at = static_cast<std::size_t>(k);
       judge(first_ + step_ * k, of_size[at].real(), of_size[at].imag(),
-            0.5 * (weights_ + of_one[at].real()), 0.5 * of_one[at].imag());
+            0.5 * (weights_ + of_one_[at].real()), 0.5 * of_one_[at].imag());
     }
   }
 
   const double turns_;
   const bool wrapped_;
   std::vector<double> angle_, left_, load_, size_, square_;
+  std::vector<Complex> of_one_;  ///< line sums of the squares, with the load or without
   std::vector<bool> forward_;
   double sum_ = 0.0, rows_ = 0.0, weights_ = 0.0, step_ = 1.0, first_ = 1.0, highest_ = 0.0;
   bool both_ = false, opposite_ = false, with_load_ = false;
