@@ -10,6 +10,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/unit_spread.h"
 
 namespace trueflank::loop {
 namespace {
@@ -53,15 +54,14 @@ StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatist
   test_local(banned);
 }
 
-/// What is asked of every unit: its sums over the fitted columns.
+/// What is asked of every unit: what the fit leaves of it, and what it takes from candidates.
 struct StructureTest::UnitSums {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd left;  ///< products with what the fit leaves
+  Eigen::VectorXd left;  ///< products of the fitted columns with what the fit leaves
+  UnitSpread spread;
 };
 struct StructureTest::FittedToUnits {
   const std::vector<int>& columns;
   const std::vector<UnitSums>& units;
-  PanelSolver solver;  ///< of the fitted columns over all units
 };
 
 /// Scores of every unit and Gram matrices of every group, beside the fitted columns.
@@ -80,8 +80,9 @@ void StructureTest::project(const std::vector<int>& columns) {
             .transpose();
   absorbed_ = Eigen::MatrixXd::Zero(m, p);
   fitted_ = Eigen::VectorXd::Zero(m);
+  Eigen::MatrixXd inverse(m, m);
   if (m > 0) {
-    const Eigen::MatrixXd inverse = solver.solve_columns(Eigen::MatrixXd::Identity(m, m));
+    inverse = solver.solve_columns(Eigen::MatrixXd::Identity(m, m));
     absorbed_ = inverse * cross;
     fitted_ = inverse * all.model_value(columns);
   }
@@ -95,15 +96,14 @@ void StructureTest::project(const std::vector<int>& columns) {
                     cross(Eigen::all, seq).transpose() * absorbed_(Eigen::all, seq);
     flipped_[g] = projected_[g] - statistics_.zero_loss(static_cast<int>(g));
   }
-  std::vector<UnitSums> units(static_cast<std::size_t>(statistics_.units()));
+  std::vector<UnitSums> units;
   for (int unit = 0; unit < statistics_.units(); ++unit) {
     const auto& sums = statistics_.unit(unit);
-    UnitSums& one = units[static_cast<std::size_t>(unit)];
-    one.gram = sums.model_model(columns, columns);
-    one.left = sums.model_value(columns) - one.gram * fitted_;
+    const Eigen::MatrixXd own = sums.model_model(columns, columns);
+    units.push_back({sums.model_value(columns) - own * fitted_, UnitSpread(own, inverse)});
   }
   unit_scores_.resize(p, statistics_.units());
-  const FittedToUnits fitted{columns, units, m > 0 ? PanelSolver(solver) : PanelSolver()};
+  const FittedToUnits fitted{columns, units};
   // Candidates do not ask each other: the same sums on any number of processors.
   constexpr std::size_t kPanelsOfWork = 4;
   const std::size_t panels = statistics_.panels().size();
@@ -126,7 +126,7 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
   for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
     if (asked_at_[static_cast<std::size_t>(g)] >= 0)
       most = std::max(most, problem_.groups[static_cast<std::size_t>(g)].columns);
-  Panel absorbed(m, PanelRow{}), overlap(m, PanelRow{});
+  Panel absorbed(m, PanelRow{}), own_rows(m), spread(m);
   for (std::size_t k = 0; k < m; ++k)
     for (std::size_t c = 0; c < columns; ++c)
       absorbed[k][c] = absorbed_(static_cast<Eigen::Index>(k),
@@ -147,15 +147,11 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
     }
     std::copy_n(score.begin(), columns, unit_scores_.col(unit).data() + panel.first_column);
     if (most == 0 || m == 0) continue;
-    for (std::size_t k = 0; k < m; ++k) {
-      const std::size_t row = fitted.solver.row_at(k);
-      overlap[k] = statistics_.unit_candidates(fitted.columns[row], p, unit);
-      subtract_rows(overlap[k], sums.gram.col(static_cast<Eigen::Index>(row)).data(),
-                    absorbed.data(), m);
-    }
-    fitted.solver.solve_lower(overlap);
-    for (std::size_t k = 0; k < m; ++k)
-      add_products(lost, fitted.solver.inverse_pivot(k), overlap[k]);
+    const UnitSpread& taken = sums.spread;
+    for (std::size_t k = 0; k < taken.rank(); ++k)
+      own_rows[k] = statistics_.unit_candidates(fitted.columns[taken.rows()[k]], p, unit);
+    taken.spread_of(own_rows, absorbed, spread);
+    for (std::size_t k = 0; k < taken.rank(); ++k) add_products(lost, 1.0, spread[k]);
   }
   for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
     if (asked_at_[static_cast<std::size_t>(g)] < 0) continue;
