@@ -6,16 +6,56 @@
 
 namespace trueflank::loop {
 
+namespace {
+
+/// The flank that a place is on; both where it is on none.
+FlankChoice flank_of(const FlankGeometry& geometry, const Place& place) {
+  if (place.surface != Surface::kFlank) return FlankChoice::kBoth;
+  return place.side == flank_side(Flank::kLeft, geometry.gear().kind) ? FlankChoice::kLeft
+                                                                      : FlankChoice::kRight;
+}
+
+}  // namespace
+
 void Effect::evaluate(const FlankGeometry& geometry, const Place& place, double* values) const {
-  const bool on_flank = place.surface == Surface::kFlank;
-  if (flank != FlankChoice::kBoth) {
-    const Flank wanted = flank == FlankChoice::kLeft ? Flank::kLeft : Flank::kRight;
-    if (!on_flank || place.side != flank_side(wanted, geometry.gear().kind)) {
-      std::fill_n(values, columns(), 0.0);
-      return;
-    }
+  if (flank == FlankChoice::kBoth || flank == flank_of(geometry, place))
+    family->evaluate(geometry, place, shape, values);
+  else
+    std::fill_n(values, columns(), 0.0);
+}
+
+EffectsTogether::EffectsTogether(std::span<const Effect> effects) : effects_(effects) {
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const Effect& effect = effects[e];
+    ones_.push_back({columns_, effect.columns(), effect.flank,
+                     e > 0 && effects[e - 1].shape == effect.shape});
+    columns_ += ones_.back().columns;
+    any_on_one_flank_ = any_on_one_flank_ || effect.flank != FlankChoice::kBoth;
   }
-  family->evaluate(geometry, place, shape, values);
+}
+
+void EffectsTogether::evaluate(const FlankGeometry& geometry, const Place& place,
+                               double* columns) const {
+  const EffectFamily& family = *effects_.front().family;
+  const FlankChoice here = flank_of(geometry, place);
+  if (family.evaluate_together) {
+    family.evaluate_together(geometry, place, effects_, columns);
+    if (!any_on_one_flank_) return;
+    for (const One& one : ones_)
+      if (one.flank != FlankChoice::kBoth && one.flank != here)
+        std::fill_n(columns + one.column, one.columns, 0.0);
+    return;
+  }
+  double last[8];
+  bool known = false;
+  for (std::size_t e = 0; e < ones_.size(); ++e) {
+    const One& one = ones_[e];
+    known = known && one.same_shape;
+    const bool acts = one.flank == FlankChoice::kBoth || one.flank == here;
+    if (acts && !known) family.evaluate(geometry, place, effects_[e].shape, last);
+    known = known || acts;
+    for (int k = 0; k < one.columns; ++k) columns[one.column + k] = acts ? last[k] : 0.0;
+  }
 }
 
 const EffectFamily* find_family(const std::string& id) {

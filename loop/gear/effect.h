@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@ enum class Correctable { kGeometry, kNoCause };
 
 /// Shape values of an effect: order, height, tooth, ...
 using EffectShape = std::vector<double>;
+
+struct Effect;
 
 /// Along what a gear must have been measured before an effect can be seen.
 struct NeedsToBeSeen {
@@ -50,6 +53,10 @@ struct EffectFamily : EffectFacts {
   std::function<int(const EffectShape&)> columns;
   std::function<std::vector<EffectShape>(const FlankGeometry&)> shapes;
   std::function<void(const FlankGeometry&, const Place&, const EffectShape&, double* columns)> evaluate;
+  /// Columns of several effects of the family at one place, on whatever flanks they act, side by
+  /// side: where they share work. Empty: each is evaluated by itself.
+  std::function<void(const FlankGeometry&, const Place&, std::span<const Effect>, double* columns)>
+      evaluate_together = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   /// Varies within a patch: its mean there is taken over single values. Empty: it does not.
@@ -118,6 +125,27 @@ struct Effect {
   }
   /// A term of a description without a name, gathered with others of its order.
   [[nodiscard]] bool is_term() const { return !family->named && !family->local; }
+};
+
+/// Effects of one family whose columns are asked for side by side: the same as of each by itself but
+/// for the last digit, for less work.
+class EffectsTogether {
+ public:
+  /// They stay where they are.
+  explicit EffectsTogether(std::span<const Effect> effects);
+  [[nodiscard]] int columns() const { return columns_; }
+  void evaluate(const FlankGeometry& geometry, const Place& place, double* columns) const;
+
+ private:
+  struct One {
+    int column = 0, columns = 0;
+    FlankChoice flank = FlankChoice::kBoth;
+    bool same_shape = false;  ///< as the one before: one shape on both, left and right flanks
+  };
+  std::span<const Effect> effects_;
+  std::vector<One> ones_;
+  int columns_ = 0;
+  bool any_on_one_flank_ = false;
 };
 
 /// The library: all families, named ones first. Lives as long as the program.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "trueflank/base/threads.h"
 
@@ -28,48 +29,90 @@ double largest_of_points(const Observations& table, const Work& work) {
 
 }  // namespace
 
-double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table) {
-  std::vector<int> body;
-  for (int e = 0; e < static_cast<int>(fit.effects().size()); ++e)
-    if (fit.effects()[e].family->displacement_mm) body.push_back(e);
-  /// Returns by how much the deviation of a row changes.
-  const auto move_row = [&](std::size_t i) {
-    Observation& row = table.rows[i];
-    if (row.kind != ObservationKind::kScanFlank) return 0.0;
-    Place& place = table.places[row.first_place];
-    const std::array<double, 3> p = table.points_mm[i];
-    // The displacement belongs to the point before it was moved: two steps find it.
+namespace {
+
+/// Moves points of scanned flanks back by what a fit says moved them.
+class MoveBack {
+ public:
+  MoveBack(const FlankGeometry& geometry, const PointFit& fit) : geometry_(geometry), fit_(fit) {
+    for (int e = 0; e < static_cast<int>(fit.effects().size()); ++e)
+      if (fit.effects()[static_cast<std::size_t>(e)].family->displacement_mm) body_.push_back(e);
+  }
+
+  struct Moved {
+    Place place;
+    double deviation_um = 0.0;
+  };
+  /// Where a row's point lay, and its deviation there; nothing where it is on no flank, or would
+  /// come onto another one.
+  [[nodiscard]] std::optional<Moved> operator()(const Observations& table, std::size_t i) const {
+    const Observation& row = table.rows[i];
+    if (row.kind != ObservationKind::kScanFlank) return {};
+    const Place& place = table.places[row.first_place];
+    const PlacedPoint placed = geometry_.nearest_flank(moved_back(table.points_mm[i]));
+    if (placed.place.tooth != place.tooth || placed.place.side != place.side ||
+        !(placed.place.roll_mm > 0.0))
+      return {};
+    Moved moved{placed.place, um_from_mm(placed.distance_mm)};
+    moved.place.surface = place.surface;
+    double values[8];
+    for (const int e : body_) {
+      const Effect& effect = fit_.effects()[static_cast<std::size_t>(e)];
+      effect.evaluate(geometry_, placed.place, values);
+      for (int k = 0; k < effect.columns(); ++k)
+        moved.deviation_um += values[k] * fit_.coefficients()[fit_.first_column(e) + k];
+    }
+    return moved;
+  }
+
+ private:
+  [[nodiscard]] std::array<double, 3> moved_back(const std::array<double, 3>& p) const {
     std::array<double, 3> back = p;
+    // The displacement belongs to the point before it was moved: two steps find it.
     for (int step = 0; step < 2; ++step) {
       std::array<double, 3> q = p;
-      for (const int e : body) {
-        const Effect& effect = fit.effects()[e];
+      for (const int e : body_) {
+        const Effect& effect = fit_.effects()[static_cast<std::size_t>(e)];
         const auto u = effect.family->displacement_mm(
-            geometry, back, effect.shape, fit.coefficients().data() + fit.first_column(e));
-        for (int k = 0; k < 3; ++k) q[k] -= u[k];
+            geometry_, back, effect.shape, fit_.coefficients().data() + fit_.first_column(e));
+        for (std::size_t k = 0; k < 3; ++k) q[k] -= u[k];
       }
       back = q;
     }
-    const PlacedPoint placed = geometry.nearest_flank(back);
-    if (placed.place.tooth != place.tooth || placed.place.side != place.side ||
-        !(placed.place.roll_mm > 0.0))
-      return 0.0;
-    double deviation = um_from_mm(placed.distance_mm);
-    double values[8];
-    for (const int e : body) {
-      fit.effects()[e].evaluate(geometry, placed.place, values);
-      for (int k = 0; k < fit.effects()[e].columns(); ++k)
-        deviation += values[k] * fit.coefficients()[fit.first_column(e) + k];
-    }
-    const double change = std::abs(deviation - row.deviation_um);
-    row.deviation_um = deviation;
-    const Surface surface = place.surface;
-    place = placed.place;
-    place.surface = surface;
-    return change;
-  };
+    return back;
+  }
+
+  const FlankGeometry& geometry_;
+  const PointFit& fit_;
+  std::vector<int> body_;
+};
+
+}  // namespace
+
+double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
+                           const Observations& table) {
+  constexpr std::size_t kSample = 8192;
+  const MoveBack move_back(geometry, fit);
+  const std::size_t stride = std::max<std::size_t>(1, table.points_mm.size() / kSample);
+  double most = 0.0;
+  for (std::size_t i = 0; i < table.points_mm.size(); i += stride)
+    if (const auto moved = move_back(table, i))
+      most = std::max(most, std::abs(moved->deviation_um - table.rows[i].deviation_um));
+  return most;
+}
+
+double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table) {
+  const MoveBack move_back(geometry, fit);
   table.is_displaced = true;
-  return largest_of_points(table, move_row);
+  return largest_of_points(table, [&](std::size_t i) {
+    const auto moved = move_back(table, i);
+    if (!moved) return 0.0;
+    Observation& row = table.rows[i];
+    const double change = std::abs(moved->deviation_um - row.deviation_um);
+    row.deviation_um = moved->deviation_um;
+    table.places[row.first_place] = moved->place;
+    return change;
+  });
 }
 
 void undo_displacement(const FlankGeometry& geometry, Observations& table) {

@@ -12,6 +12,11 @@ namespace trueflank::loop {
 /// [um].
 double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table);
 
+/// The largest change of a deviation [um] that linearise_at would make to some thousand points,
+/// every n-th of the table, which stays as it is.
+[[nodiscard]] double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
+                                         const Observations& table);
+
 /// Deviations and places of the gear as designed, as make_observations had them: computed again
 /// from the points, which takes no memory beside the table.
 void undo_displacement(const FlankGeometry& geometry, Observations& table);

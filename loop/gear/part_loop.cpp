@@ -291,9 +291,13 @@ bool PartLoop::linearise() {
   });
   if (!body || table_->points_mm.empty()) return false;
   const auto fit = fit_of(effects_);
+  const double noticed_um = 0.02 * fit->noise_um();
+  // Displacements are smooth: where a sample moves by less than half of that, no point moves by more.
+  if (table_->is_displaced && change_of_sample_um(geometry_, *fit, table_) < 0.5 * noticed_um)
+    return false;
   const double change = linearise_at(geometry_, *fit, table_.own());
   forget_fits();
-  if (!(change > 0.02 * fit->noise_um())) return false;
+  if (!(change > noticed_um)) return false;
   divide_into_patches();
   leave_out_across_steps();
   return true;

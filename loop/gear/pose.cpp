@@ -90,13 +90,21 @@ class PoseSearch {
       costs[k] = search_phase(poses[k]);
     });
     const auto least = std::min_element(costs.begin(), costs.end()) - costs.begin();
-    return refined(poses[static_cast<std::size_t>(least)], fine_, 12);
+    return refined(poses[static_cast<std::size_t>(least)], fine_, {.rounds = 12, .still = 1e-5});
   }
 
+  /// When a refinement ends: after so many rounds, or where the step is smaller than `still` [mm and
+  /// rad] and the weights hardly change any more.
+  struct Rounds {
+    int rounds = 8;
+    double still = 1e-8;
+  };
   /// Gauss-Newton with Tukey weights whose width follows the residual down.
-  Pose refined(Pose pose, const Points& points, int rounds) const {
+  Pose refined(Pose pose, const Points& points, const Rounds& limits) const {
+    constexpr double kHardly = 0.02;
     double width = 0.3 * geometry_.gear().normal_module_mm;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < limits.rounds; ++round) {
+      const double width_before = width;
       const Vector5 step = newton_step(pose, points, width);
       const Eigen::Vector3d turn(step[2], step[3], step[4]);
       const double angle = turn.norm();
@@ -106,7 +114,7 @@ class PoseSearch {
       pose.rotation = rotation * pose.rotation;
       pose.translation_mm = rotation * pose.translation_mm + Eigen::Vector3d(step[0], step[1], 0.0);
       place_height(pose, points);
-      if (round > 6 && step.norm() < 1e-11) break;
+      if (step.norm() < limits.still && width > (1.0 - kHardly) * width_before) break;
     }
     return pose;
   }
@@ -208,7 +216,7 @@ class PoseSearch {
     std::sort(tried.begin(), tried.end(), cheaper);
     double best = 1e300;
     for (std::size_t i = 0; i < std::min<std::size_t>(4, tried.size()); ++i) {
-      const Pose refined_pose = refined(tried[i].second, coarse_, 8);
+      const Pose refined_pose = refined(tried[i].second, coarse_, {.rounds = 8, .still = 1e-4});
       const double value = cost(refined_pose, coarse_);
       if (value < best) {
         best = value;
@@ -321,7 +329,7 @@ Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan) {
                  .file = scan.file});
   PoseSearch search(geometry, scan.points_mm);
   Pose pose = search.best();
-  pose = search.refined(pose, thinned(scan.points_mm, 40000), 8);
+  pose = search.refined(pose, thinned(scan.points_mm, 40000), {});
   return least_turned(geometry, pose);
 }
 

@@ -391,6 +391,10 @@ class RemainderSearch {
 
   /// Waves over the generating rotation that are no candidates: of one flank, or of higher orders.
   void look_over_rotation() {
+    if (std::none_of(patches_.patches.begin(), patches_.patches.end(), [](const auto& patch) {
+          return patch.kind == ObservationKind::kProfile;
+        }))
+      return;  // it is traces that are asked
     std::vector<bool> used(table_.rows.size());
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
     const RotationWave wave = likeliest_rotation_wave(geometry_, table_, row_um_, used);

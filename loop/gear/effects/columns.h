@@ -19,17 +19,34 @@ struct PlanePoint {
   return {place.radius_mm * place.polar_direction[0], place.radius_mm * place.polar_direction[1]};
 }
 
-/// Cosine and sine of an angle. Those of the angle asked for last are at hand: places of one tooth
-/// come one after the other.
-[[nodiscard]] inline std::array<double, 2> direction_at(double angle_rad) {
-  struct Last {
-    double angle_rad = kNaN;
-    std::array<double, 2> direction{};
-  };
-  static thread_local Last last;
-  if (angle_rad != last.angle_rad) last = {angle_rad, {std::cos(angle_rad), std::sin(angle_rad)}};
-  return last.direction;
-}
+/// Cosines and sines of whole multiples of an angle, as they are asked for one after the other: the
+/// next follows from the one before by one product of complex numbers.
+class WavesOf {
+ public:
+  explicit WavesOf(double angle_rad) : angle_(angle_rad) {}
+
+  /// {cos, sin} of order times the angle. Accuracy: order times 2e-16 of what a call of its own tells.
+  [[nodiscard]] std::array<double, 2> of(double order) {
+    if (order == order_) return wave_;
+    if (order == order_ + 1.0) {
+      if (!has_step_) step_ = {std::cos(angle_), std::sin(angle_)};
+      has_step_ = true;
+      wave_ = {wave_[0] * step_[0] - wave_[1] * step_[1],
+               wave_[0] * step_[1] + wave_[1] * step_[0]};
+    } else {
+      const double angle = order * angle_;  // one argument: one call for both
+      wave_ = {std::cos(angle), std::sin(angle)};
+    }
+    order_ = order;
+    return wave_;
+  }
+
+ private:
+  double angle_;
+  double order_ = kNaN;
+  bool has_step_ = false;
+  std::array<double, 2> wave_{}, step_{};
+};
 
 /// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on height.
 void two_directions(const FlankGeometry& geometry, const Place& place, double factor, double* columns);

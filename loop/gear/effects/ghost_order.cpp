@@ -20,6 +20,38 @@ double lowest_order_with(double waves, const FlankGeometry& geometry) {
   return std::ceil(waves * kTwoPi / std::abs(turned));
 }
 
+namespace {
+
+/// The rotation at which the tool met a place; backwards: as if the teeth were counted so.
+double rotation_rad(const FlankGeometry& g, const Place& p, bool backwards) {
+  const double along = g.sense() * p.side * p.roll_mm / g.base_radius_mm();
+  return g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) + (backwards ? along : -along);
+}
+
+void set_columns(EffectFamily& f, bool backwards) {
+  f.evaluate = [backwards](const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                           double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double angle = shape[0] * rotation_rad(g, p, backwards);  // one argument: one call for both
+    c[0] = std::cos(angle);
+    c[1] = std::sin(angle);
+  };
+  f.evaluate_together = [backwards](const FlankGeometry& g, const Place& p,
+                                    std::span<const Effect> effects, double* c) {
+    std::fill_n(c, 2 * effects.size(), 0.0);
+    if (p.surface != Surface::kFlank) return;
+    WavesOf waves(rotation_rad(g, p, backwards));
+    for (const Effect& effect : effects) {
+      const auto [cosine, sine] = waves.of(effect.shape[0]);
+      *c++ = cosine;
+      *c++ = sine;
+    }
+  };
+}
+
+}  // namespace
+
 EffectFamily ghost_order() {
   EffectFamily f;
   f.id = "ghost_order";
@@ -37,15 +69,7 @@ EffectFamily ghost_order() {
     // than the patches and found in the traces themselves (local/rotation_waves.h).
     return whole_numbers(3, most_ghost_order(g));
   };
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double rotation =
-        g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) - g.sense() * p.side * p.roll_mm / g.base_radius_mm();
-    const double angle = shape[0] * rotation;  // one argument: one call for both
-    c[0] = std::cos(angle);
-    c[1] = std::sin(angle);
-  };
+  set_columns(f, false);
   f.is_fine = [](const FlankGeometry& g, const EffectShape& shape) {
     return shape[0] > 2.0 * g.teeth();
   };
@@ -86,15 +110,7 @@ EffectFamily ghost_order_counted_backwards() {
       "other face";
   f.correctable = Correctable::kNoCause;
   f.of_traces_only = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = c[1] = 0.0;
-    if (p.surface != Surface::kFlank) return;
-    const double rotation =
-        g.centre_rad(p.tooth) + g.twist_rad(p.z_mm) + g.sense() * p.side * p.roll_mm / g.base_radius_mm();
-    const double angle = shape[0] * rotation;  // one argument: one call for both
-    c[0] = std::cos(angle);
-    c[1] = std::sin(angle);
-  };
+  set_columns(f, true);
   return f;
 }
 

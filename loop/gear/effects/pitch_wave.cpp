@@ -21,14 +21,27 @@ EffectFamily pitch_wave() {
   f.shapes = [](const FlankGeometry& g) {
     return whole_numbers(1, std::min(60, (g.teeth() - 1) / 2));
   };
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+  // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
+  const auto lever = [](const FlankGeometry& g, const Place& p) {
+    return p.side * g.base_radius_mm() / g.reference_radius_mm() * g.cos_base_helix();
+  };
+  f.evaluate = [lever](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    // A turn by an arc on the reference circle moves the flank by the same turn on the base circle.
-    const double lever = p.side * g.base_radius_mm() / g.reference_radius_mm() * g.cos_base_helix();
-    const auto [cosine, sine] = direction_at(shape[0] * g.centre_rad(p.tooth));
-    c[0] = lever * cosine;
-    c[1] = lever * sine;
+    const double angle = shape[0] * g.centre_rad(p.tooth);  // one argument: one call for both
+    c[0] = lever(g, p) * std::cos(angle);
+    c[1] = lever(g, p) * std::sin(angle);
+  };
+  f.evaluate_together = [lever](const FlankGeometry& g, const Place& p,
+                                std::span<const Effect> effects, double* c) {
+    std::fill_n(c, 2 * effects.size(), 0.0);
+    if (p.surface != Surface::kFlank) return;
+    WavesOf waves(g.centre_rad(p.tooth));
+    for (const Effect& effect : effects) {
+      const auto [cosine, sine] = waves.of(effect.shape[0]);
+      *c++ = lever(g, p) * cosine;
+      *c++ = lever(g, p) * sine;
+    }
   };
   f.order = first_value;
   f.doubt_share = 0.05;

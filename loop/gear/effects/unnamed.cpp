@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "trueflank/base/legendre.h"
 #include "trueflank/loop/gear/effects/columns.h"
@@ -10,7 +12,7 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
-constexpr int kMostProfileDegree = 4, kMostFaceDegree = 4;
+constexpr int kMostProfileDegree = 4, kMostFaceDegree = 4, kMostOrder = 60;
 
 std::vector<EffectShape> free_shapes(const FlankGeometry& g) {
   std::vector<EffectShape> shapes;
@@ -18,7 +20,7 @@ std::vector<EffectShape> free_shapes(const FlankGeometry& g) {
   for (int i = 0; i <= kMostProfileDegree; ++i)
     for (int j = 0; j <= kMostFaceDegree; ++j) {
       if (i + j > 4) continue;
-      const int most = std::min(half, i + j == 0 ? 60 : i + j <= 2 ? 6 : 3);
+      const int most = std::min(half, i + j == 0 ? kMostOrder : i + j <= 2 ? 6 : 3);
       for (int n = 0; n <= most; ++n)
         for (const int flanks : {0, 1}) {
           if (i + j == 0 && n == 0 && flanks == 1) continue;  // a turn: no effect
@@ -26,6 +28,37 @@ std::vector<EffectShape> free_shapes(const FlankGeometry& g) {
         }
     }
   return shapes;
+}
+
+/// Polynomials and waves of a place are shared by all terms.
+void evaluate_terms(const FlankGeometry& g, const Place& p, std::span<const Effect> effects,
+                    double* c) {
+  const double on_flank = p.surface == Surface::kFlank ? 1.0 : 0.0;
+  std::array<double, kMostProfileDegree + 1> over_profile;
+  std::array<double, kMostFaceDegree + 1> over_face;
+  for (int i = 0; i <= kMostProfileDegree; ++i)
+    over_profile[static_cast<std::size_t>(i)] =
+        on_flank * legendre(i, g.profile_coordinate(p.roll_mm));
+  for (int j = 0; j <= kMostFaceDegree; ++j)
+    over_face[static_cast<std::size_t>(j)] = legendre(j, g.face_coordinate(p.z_mm));
+  std::array<std::array<double, 2>, kMostOrder + 1> waves;
+  WavesOf wave(g.centre_rad(p.tooth));
+  std::size_t known = 0;
+  const auto wave_at = [&](double order) {  // terms of what is left may be of higher orders
+    if (order > kMostOrder) return WavesOf(g.centre_rad(p.tooth)).of(order);
+    for (; known <= static_cast<std::size_t>(order); ++known)
+      waves[known] = wave.of(static_cast<double>(known));
+    return waves[static_cast<std::size_t>(order)];
+  };
+  for (const Effect& effect : effects) {
+    const EffectShape& shape = effect.shape;
+    const double value = over_profile[static_cast<std::size_t>(shape[0])] *
+                         over_face[static_cast<std::size_t>(shape[1])] *
+                         (shape[3] != 0.0 ? p.side : 1);
+    const auto [cosine, sine] = wave_at(shape[2]);
+    *c++ = value * cosine;
+    if (shape[2] != 0.0) *c++ = value * sine;
+  }
 }
 
 std::string course(int degree, const std::string& over) {
@@ -79,14 +112,11 @@ EffectFamily unnamed() {
     const double value = legendre(static_cast<int>(shape[0]), g.profile_coordinate(p.roll_mm)) *
                          legendre(static_cast<int>(shape[1]), g.face_coordinate(p.z_mm)) *
                          (shape[3] != 0.0 ? p.side : 1);
-    if (!wave) {
-      c[0] = value;
-      return;
-    }
-    const auto [cosine, sine] = direction_at(shape[2] * g.centre_rad(p.tooth));
-    c[0] = value * cosine;
-    c[1] = value * sine;
+    const double angle = shape[2] * g.centre_rad(p.tooth);  // one argument: one call for both
+    c[0] = wave ? value * std::cos(angle) : value;
+    if (wave) c[1] = value * std::sin(angle);
   };
+  f.evaluate_together = evaluate_terms;
   f.order = [](const EffectShape& shape) { return shape[2]; };
   f.needs = [](const EffectShape& shape) {
     return NeedsToBeSeen{.along_profile = shape[0] > 0.0,

@@ -20,6 +20,11 @@ EffectFamily unnamed_flank() {
   f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
     c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? 1.0 : 0.0;
   };
+  f.evaluate_together = [](const FlankGeometry&, const Place& p, std::span<const Effect> effects,
+                           double* c) {
+    const double tooth = p.surface == Surface::kFlank ? p.tooth : kNaN;
+    for (const Effect& effect : effects) *c++ = effect.shape[0] == tooth ? 1.0 : 0.0;
+  };
   f.words = [](const EffectShape& shape, FlankChoice flank) {
     return "the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") +
            " flank of tooth " + std::to_string(static_cast<int>(shape[0])) + " stands out";

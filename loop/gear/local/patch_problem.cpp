@@ -2,10 +2,9 @@
 // The patches as rows of the problem that discovery solves.
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <span>
 
-#include "trueflank/export/parallel_jobs.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
@@ -42,97 +41,70 @@ void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, 
 
 namespace {
 
-constexpr std::size_t kCandidatesOfWork = 64, kPatchesAtOnce = 64;
+constexpr std::size_t kRowsOfColumns = 256;
 
-/// Patches of one tooth after the other: what differs from tooth to tooth alone is asked for the
-/// same angle many times in a row.
-std::vector<std::size_t> by_tooth(const Patches& patches) {
-  std::vector<std::size_t> order(patches.patches.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return patches.patches[a].places.front().place.tooth <
-           patches.patches[b].places.front().place.tooth;
-  });
-  return order;
+/// Effects of one family that stand beside each other, in the matrix too.
+struct EffectRun {
+  EffectsTogether effects;
+  int column = 0;
+  bool fine = false;  ///< they vary within a patch
+};
+
+std::vector<EffectRun> runs_of(const FlankGeometry& geometry, const std::vector<Effect>& effects,
+                               const std::vector<CandidateGroup>& groups,
+                               const std::vector<std::size_t>& asked) {
+  const auto is_fine = [&](const Effect& effect) {
+    return effect.family->is_fine && effect.family->is_fine(geometry, effect.shape);
+  };
+  std::vector<EffectRun> runs;
+  for (std::size_t i = 0, end = 0; i < asked.size(); i = end) {
+    const std::size_t first = asked[i];
+    const bool fine = is_fine(effects[first]);
+    for (end = i + 1; end < asked.size(); ++end)
+      if (asked[end] != first + (end - i) || effects[asked[end]].family != effects[first].family ||
+          is_fine(effects[asked[end]]) != fine)
+        break;
+    runs.push_back({EffectsTogether(std::span(effects).subspan(first, end - i)),
+                    groups[first].first_column, fine});
+  }
+  return runs;
 }
 
-/// The columns of some effects over a few patches. They are written side by side in a small block
-/// of their own and go to the matrix a row at a time: its rows lie kilobytes apart, so that a
-/// column written straight into it would miss the cache with every value.
-class ColumnBlock {
+/// Writes the mean of the effects' columns over a patch into its row.
+class RowOfPatch {
  public:
-  ColumnBlock(const FlankGeometry& geometry, const Patches& patches,
-              const std::vector<Effect>& effects, std::span<const std::size_t> asked,
-              DiscoveryProblem& problem)
-      : geometry_(geometry),
-        patches_(patches),
-        effects_(effects),
-        asked_(asked),
-        problem_(problem) {
-    for (const std::size_t g : asked_) {
-      const CandidateGroup& group = problem.groups[g];
-      if (!runs_.empty() && runs_.back().column + runs_.back().columns == group.first_column)
-        runs_.back().columns += group.columns;
-      else
-        runs_.push_back({group.first_column, group.columns});
-      width_ += static_cast<std::size_t>(group.columns);
-    }
-    values_.resize(width_ * kPatchesAtOnce);
+  RowOfPatch(const FlankGeometry& geometry, const std::vector<EffectRun>& runs)
+      : geometry_(geometry), runs_(runs) {
+    int widest = 0;
+    for (const EffectRun& run : runs) widest = std::max(widest, run.effects.columns());
+    one_.resize(static_cast<std::size_t>(widest));
+    sum_.resize(static_cast<std::size_t>(widest));
   }
 
-  void write(std::span<const std::size_t> members) {
-    std::size_t column = 0;
-    for (const std::size_t g : asked_) {
-      write_effect(members, effects_[g], column);
-      column += static_cast<std::size_t>(problem_.groups[g].columns);
+  void write(const Patches::Patch& patch, float* row) {
+    for (const EffectRun& run : runs_) {
+      const int columns = run.effects.columns();
+      std::fill_n(sum_.begin(), columns, 0.0);
+      if (run.fine && !patch.sample.empty())
+        for (const Place& place : patch.sample)
+          add(run, place, 1.0 / static_cast<double>(patch.sample.size()));
+      else
+        for (const WeightedPlace& place : patch.places) add(run, place.place, place.weight);
+      std::transform(sum_.begin(), sum_.begin() + columns, row + run.column,
+                     [](double value) { return static_cast<float>(value); });
     }
-    const float* from = values_.data();
-    for (const std::size_t i : members)
-      for (const Run& run : runs_) {
-        std::copy_n(from, run.columns,
-                    problem_.candidates.row(static_cast<Eigen::Index>(i)).data() + run.column);
-        from += run.columns;
-      }
   }
 
  private:
-  /// Columns that stand beside each other in the matrix, too.
-  struct Run {
-    int column = 0, columns = 0;
-  };
-
-  /// The mean of an effect's columns over each patch.
-  void write_effect(std::span<const std::size_t> members, const Effect& effect,
-                    std::size_t column) {
-    const int columns = effect.columns();
-    const bool fine = effect.family->is_fine && effect.family->is_fine(geometry_, effect.shape);
-    double one[8], sum[8];
-    float* to = values_.data() + column;
-    for (const std::size_t i : members) {
-      const Patches::Patch& patch = patches_.patches[i];
-      std::fill_n(sum, columns, 0.0);
-      const auto add = [&](const Place& place, double weight) {
-        effect.evaluate(geometry_, place, one);
-        for (int k = 0; k < columns; ++k) sum[k] += weight * one[k];
-      };
-      if (fine && !patch.sample.empty())
-        for (const Place& place : patch.sample)
-          add(place, 1.0 / static_cast<double>(patch.sample.size()));
-      else
-        for (const WeightedPlace& place : patch.places) add(place.place, place.weight);
-      for (int k = 0; k < columns; ++k) to[k] = static_cast<float>(sum[k]);
-      to += width_;
-    }
+  void add(const EffectRun& run, const Place& place, double weight) {
+    run.effects.evaluate(geometry_, place, one_.data());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(run.effects.columns()); ++k)
+      sum_[k] += weight * one_[k];
   }
 
   const FlankGeometry& geometry_;
-  const Patches& patches_;
-  const std::vector<Effect>& effects_;
-  std::span<const std::size_t> asked_;
-  DiscoveryProblem& problem_;
-  std::vector<Run> runs_;
-  std::size_t width_ = 0;
-  std::vector<float> values_;
+  const std::vector<EffectRun>& runs_;
+  std::vector<double> one_, sum_;
 };
 
 /// Groups of the effects, in order.
@@ -214,21 +186,15 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
     if (g >= before.size() || g >= stood.size() || !(before[g] == effects[g]) ||
         stood[g].first_column != problem.groups[g].first_column)
       changed.push_back(g);
-  // Candidates do not ask each other: the same columns on any number of processors. A few patches
-  // at a time, so that their rows of the matrix stay at hand.
-  const std::vector<std::size_t> order = by_tooth(patches);
-  std::vector<io::QueuedJob> jobs;
-  for (std::size_t first = 0; first < changed.size(); first += kCandidatesOfWork)
-    jobs.push_back({[&, first] {
-                      const std::span asked(changed.data() + first,
-                                            std::min(kCandidatesOfWork, changed.size() - first));
-                      ColumnBlock block(geometry, patches, effects, asked, problem);
-                      for (std::size_t p = 0; p < order.size(); p += kPatchesAtOnce)
-                        block.write({order.data() + p, std::min(kPatchesAtOnce, order.size() - p)});
-                      return true;
-                    },
-                    {}});
-  io::run_jobs(jobs);
+  // Patches do not ask each other: the same columns on any number of processors.
+  const std::vector<EffectRun> runs = runs_of(geometry, effects, problem.groups, changed);
+  if (runs.empty()) return;
+  const std::size_t count = patches.patches.size();
+  for_each_piece((count + kRowsOfColumns - 1) / kRowsOfColumns, [&](std::size_t piece) {
+    RowOfPatch row(geometry, runs);
+    for (std::size_t i = piece * kRowsOfColumns; i < std::min(count, (piece + 1) * kRowsOfColumns); ++i)
+      row.write(patches.patches[i], problem.candidates.row(static_cast<Eigen::Index>(i)).data());
+  });
 }
 
 }  // namespace trueflank::loop
