@@ -10,10 +10,49 @@
 
 namespace trueflank::loop {
 
-Place FlankGeometry::directed(const Undirected& found) {
+namespace {
+
+/// Below this series for angles tell as many digits as the functions: the next term is less than 1e-17
+/// of the first.
+constexpr double kSmallAngle = 0.01;
+
+/// The arc tangent of (a - b) / (1 + a b) on top of that of b: that of a, where they are near.
+double arc_tangent_near(double a, double b, double arc_tangent_of_b) {
+  const double t = (a - b) / (1.0 + a * b), s = t * t;
+  if (!(s < kSmallAngle * kSmallAngle)) return std::atan(a);
+  return arc_tangent_of_b + t * (1.0 - s * (1.0 / 3.0 - s * (0.2 - s * (1.0 / 7.0 - s / 9.0))));
+}
+
+/// A direction turned by a small angle.
+std::array<double, 2> turned(const std::array<double, 2>& direction, double angle_rad) {
+  const double s = angle_rad * angle_rad;
+  const double cosine = 1.0 - s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s / 40320.0)));
+  const double sine =
+      angle_rad * (1.0 - s * (1.0 / 6.0 - s * (1.0 / 120.0 - s * (1.0 / 5040.0 - s / 362880.0))));
+  return {direction[0] * cosine - direction[1] * sine, direction[0] * sine + direction[1] * cosine};
+}
+
+}  // namespace
+
+Place FlankGeometry::directed(const Undirected& found) const {
+  if (found.place.surface == Surface::kFlank && std::abs(found.turn_rad) < kSmallAngle)
+    return directed_on_flank(found);
   Place place = found.place;
   place.polar_direction = {std::cos(place.polar_rad), std::sin(place.polar_rad)};
   place.normal_direction = {std::cos(found.normal_rad), std::sin(found.normal_rad)};
+  return place;
+}
+
+/// From the direction of the measured point, without cosines and sines. The normal stands to the
+/// direction of the place as the tangent of the base circle stands to the radius: by the angle
+/// whose cosine is base radius over radius, short of a right angle.
+Place FlankGeometry::directed_on_flank(const Undirected& found) const {
+  Place place = found.place;
+  place.polar_direction = turned(found.from_direction, found.turn_rad);
+  const double along = sense_ * place.roll_mm / place.radius_mm,
+               across = place.side * base_radius_ / place.radius_mm;
+  const auto [x, y] = place.polar_direction;
+  place.normal_direction = {x * along - y * across, x * across + y * along};
   return place;
 }
 
@@ -55,33 +94,17 @@ double FlankGeometry::designed_deviation_mm(const Place& place) const {
   return designed_.deviation_mm(place.tooth - 1, flank, place.roll_mm, place.z_mm);
 }
 
-double FlankGeometry::profile_coordinate(double roll_mm) const {
-  return 2.0 * (roll_mm - root_roll_) / (tip_roll_ - root_roll_) - 1.0;
-}
-
-double FlankGeometry::face_coordinate(double z_mm) const { return 2.0 * z_mm / face_width_ - 1.0; }
-
-double FlankGeometry::twist_rad(double z_mm) const {
-  if (herringbone_ && z_mm > 0.5 * face_width_) return twist_per_mm_ * (face_width_ - z_mm);
-  return twist_per_mm_ * z_mm;
-}
-
-double FlankGeometry::normal_z(const Place& place) const {
-  if (place.surface != Surface::kFlank) return 0.0;
-  const double hand = herringbone_ && place.z_mm > 0.5 * face_width_ ? -1.0 : 1.0;
-  return -hand * place.side * sin_base_helix_;
-}
-
 double FlankGeometry::roll_at_radius_mm(double radius_mm) const {
   return roll_length_mm(radius_mm, base_radius_);
 }
 
 Place FlankGeometry::on_flank(int tooth, int side, double roll_mm, double z_mm) const {
-  return directed(flank_place(tooth, side, roll_mm, z_mm));
+  return directed(flank_place(tooth, side, roll_mm, z_mm, std::atan(roll_mm / base_radius_)));
 }
 
+/// The pressure angle is the arc tangent of the roll length over the base radius.
 FlankGeometry::Undirected FlankGeometry::flank_place(int tooth, int side, double roll_mm,
-                                                     double z_mm) const {
+                                                     double z_mm, double pressure_rad) const {
   Undirected found;
   Place& place = found.place;
   place.surface = Surface::kFlank;
@@ -90,9 +113,9 @@ FlankGeometry::Undirected FlankGeometry::flank_place(int tooth, int side, double
   place.roll_mm = roll_mm;
   place.z_mm = z_mm;
   const double xi = roll_mm / base_radius_;
-  const double inv = xi - std::atan(xi);
+  const double inv = xi - pressure_rad;
   const double centre = centre_rad(tooth) + twist_rad(z_mm);
-  place.radius_mm = std::hypot(base_radius_, roll_mm);
+  place.radius_mm = std::sqrt(base_radius_ * base_radius_ + roll_mm * roll_mm);
   place.polar_rad = centre + side * (half_angle_ - sense_ * inv);
   found.normal_rad = centre + side * (0.5 * kPi + half_angle_ - sense_ * xi);
   return found;
@@ -136,7 +159,7 @@ double FlankGeometry::nearest_distance_mm(const std::array<double, 3>& p, double
 FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<double, 3>& p,
                                                           double margin) const {
   Undirected result;
-  const double radius = std::hypot(p[0], p[1]);
+  const double radius = std::sqrt(p[0] * p[0] + p[1] * p[1]);
   const double polar = std::atan2(p[1], p[0]);
   const double pitch = kTwoPi / gear_.teeth;
   const double from_first = polar - twist_rad(p[2]);
@@ -151,9 +174,18 @@ FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<doubl
     return result;
   }
   const double roll = std::sqrt((radius - base_radius_) * (radius + base_radius_));
-  const double involute = roll - base_radius_ * std::atan2(roll, base_radius_);
+  const double pressure = std::atan(roll / base_radius_);  // of the point
+  const double involute = roll - base_radius_ * pressure;
   const double transverse = base_radius_ * (side * offset - half_angle_) + sense_ * involute;
-  result = flank_place(tooth + 1, side, std::max(0.0, roll - sense_ * transverse), p[2]);
+  const double roll_of_place = std::max(0.0, roll - sense_ * transverse);
+  result = flank_place(
+      tooth + 1, side, roll_of_place, p[2],
+      arc_tangent_near(roll_of_place / base_radius_, roll / base_radius_, pressure));
+  result.from_direction = {p[0] / radius, p[1] / radius};
+  // within two turns, but for flanks twisted further
+  double turn = result.place.polar_rad - polar;
+  if (turn > kPi) turn -= kTwoPi;
+  result.turn_rad = std::abs(turn) <= kPi ? turn : std::remainder(turn, kTwoPi);
   result.distance_mm = transverse * cos_base_helix_ - designed_deviation_mm(result.place);
   const double u = profile_coordinate(result.place.roll_mm);
   if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;

@@ -72,15 +72,24 @@ class FlankGeometry {
   [[nodiscard]] double designed_deviation_mm(const Place& place) const;
 
   /// Roll length as -1 at the root form circle ... +1 at the tip form circle.
-  [[nodiscard]] double profile_coordinate(double roll_mm) const;
+  [[nodiscard]] double profile_coordinate(double roll_mm) const {
+    return 2.0 * (roll_mm - root_roll_) / (tip_roll_ - root_roll_) - 1.0;
+  }
   /// Height as -1 ... +1 over the face.
-  [[nodiscard]] double face_coordinate(double z_mm) const;
+  [[nodiscard]] double face_coordinate(double z_mm) const { return 2.0 * z_mm / face_width_ - 1.0; }
   /// Rotation of the section at a height against that at z = 0.
-  [[nodiscard]] double twist_rad(double z_mm) const;
+  [[nodiscard]] double twist_rad(double z_mm) const {
+    if (herringbone_ && z_mm > 0.5 * face_width_) return twist_per_mm_ * (face_width_ - z_mm);
+    return twist_per_mm_ * z_mm;
+  }
   /// 2 pi (tooth - 1) / z: a tooth's angle at z = 0.
   [[nodiscard]] double centre_rad(int tooth) const { return kTwoPi * (tooth - 1) / gear_.teeth; }
   /// z part of the unit normal of a flank.
-  [[nodiscard]] double normal_z(const Place& place) const;
+  [[nodiscard]] double normal_z(const Place& place) const {
+    if (place.surface != Surface::kFlank) return 0.0;
+    const double hand = herringbone_ && place.z_mm > 0.5 * face_width_ ? -1.0 : 1.0;
+    return -hand * place.side * sin_base_helix_;
+  }
 
   [[nodiscard]] double roll_at_radius_mm(double radius_mm) const;
   [[nodiscard]] Place on_flank(int tooth, int side, double roll_mm, double z_mm) const;
@@ -107,9 +116,14 @@ class FlankGeometry {
     Place place;
     double normal_rad = 0.0;  ///< direction of the transverse part of the outward normal
     double distance_mm = 0.0;
+    /// Of a flank: the direction of the measured point, and how much further round the place is.
+    std::array<double, 2> from_direction{};
+    double turn_rad = kNaN;
   };
-  [[nodiscard]] static Place directed(const Undirected& found);
-  [[nodiscard]] Undirected flank_place(int tooth, int side, double roll_mm, double z_mm) const;
+  [[nodiscard]] Place directed_on_flank(const Undirected& found) const;
+  [[nodiscard]] Place directed(const Undirected& found) const;
+  [[nodiscard]] Undirected flank_place(int tooth, int side, double roll_mm, double z_mm,
+                                       double pressure_rad) const;
   [[nodiscard]] Undirected circle_place(Surface surface, int tooth, double polar_rad,
                                         double radius_mm, double z_mm) const;
   [[nodiscard]] Undirected undirected_flank(const std::array<double, 3>& point_mm,

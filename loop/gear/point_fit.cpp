@@ -2,12 +2,15 @@
 #include "trueflank/loop/gear/point_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/export/parallel_jobs.h"
 #include "trueflank/geometry/linear_equations.h"
 
@@ -92,34 +95,67 @@ void PointFit::average_zeros() {
 
 namespace {
 
-/// Rows that are summed at once.
-constexpr Eigen::Index kPanel = 32;
+/// Rows that are worked on at once.
+constexpr std::size_t kPanel = 32;
+static_assert(kPanel % 8 == 0);
 /// Rows of one piece of work, and most pieces: they depend on the data alone, so sums are the same
 /// on any number of processors.
 constexpr std::size_t kRowsOfWork = 16384, kMostPieces = 8;
 
-/// Sums of squares and products of rows, gathered in panels; the lower triangle.
+/// The values of a column in a panel of rows stand beside each other.
+using ColumnOfPanel = std::array<double, kPanel>;
+
+/// Sums of squares and products of rows, gathered in panels; the lower triangle. The columns of a
+/// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  explicit Gram(Eigen::Index columns)
-      : sum_(Eigen::MatrixXd::Zero(columns, columns)), panel_(columns, kPanel) {}
-  template <class Row>
-  void add(const Row& row) {
-    panel_.col(filled_) = row;
+  explicit Gram(std::size_t columns) : sum_((columns + 1) * (columns + 2) / 2), panel_(columns + 1) {}
+  /// Adds a row of a panel times a factor.
+  void add(const std::vector<ColumnOfPanel>& rows, std::size_t row, double factor) {
+    for (std::size_t k = 0; k + 1 < panel_.size(); ++k) panel_[k][filled_] = factor * rows[k][row];
+    panel_.back()[filled_] = factor;
     if (++filled_ == kPanel) flush();
   }
-  [[nodiscard]] const Eigen::MatrixXd& sum() {
+  /// Of the columns and the 1.
+  [[nodiscard]] Eigen::MatrixXd sum() {
     flush();
-    return sum_;
+    const auto n = static_cast<Eigen::Index>(panel_.size());
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+    auto next = sum_.begin();
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j) result(i, j) = *next++;
+    return result;
   }
 
  private:
   void flush() {
-    if (filled_ > 0) sum_.selfadjointView<Eigen::Lower>().rankUpdate(panel_.leftCols(filled_));
+    if (filled_ == 0) return;
+    for (ColumnOfPanel& column : panel_) std::fill(column.begin() + filled_, column.end(), 0.0);
     filled_ = 0;
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      double* sum = sum_.data();
+      for (std::size_t i = 0; i < panel_.size(); ++i)
+        for (std::size_t j = 0; j <= i; ++j) {
+          Four even{}, odd{};
+          for (std::size_t r = 0; r < kPanel; r += 8) {
+            Four a, b, c, d;
+            std::memcpy(&a, &panel_[i][r], sizeof a);
+            std::memcpy(&b, &panel_[j][r], sizeof b);
+            std::memcpy(&c, &panel_[i][r + 4], sizeof c);
+            std::memcpy(&d, &panel_[j][r + 4], sizeof d);
+            even += a * b;
+            odd += c * d;
+          }
+          even += odd;
+          *sum++ += (even[0] + even[1]) + (even[2] + even[3]);
+        }
+    });
   }
-  Eigen::MatrixXd sum_, panel_;
-  Eigen::Index filled_ = 0;
+  /// Four parts of a sum (left to itself, the compiler divides the sums otherwise and shuffles).
+  using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+  std::vector<double> sum_;
+  std::vector<ColumnOfPanel> panel_;
+  std::size_t filled_ = 0;
 };
 
 void fill_upper(Eigen::MatrixXd& m) {
@@ -163,9 +199,30 @@ struct PointFit::Sums {
   int observations = 0, held_out = 0;
 };
 
+/// Nuisance and effect columns, the value last, of rows that stand beside each other.
+struct PointFit::RowPanel {
+  explicit RowPanel(const PointFit& fit)
+      : columns(static_cast<std::size_t>(fit.columns_) + 1), one(columns.size()) {}
+
+  std::vector<ColumnOfPanel> columns;
+  std::vector<double> one;
+
+  void fill(const PointFit& fit, const std::vector<std::size_t>& rows) {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      fit.features(rows[r], one.data());
+      for (std::size_t k = 0; k < one.size(); ++k) columns[k][r] = one[k];
+    }
+  }
+  void subtract(std::size_t row, const Eigen::VectorXd& mean) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      columns[k][row] -= mean[static_cast<Eigen::Index>(k)];
+  }
+};
+
 PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::size_t begin,
                                  std::size_t end) const {
-  const int n = columns_ + 1;
+  const Eigen::Index n = columns_ + 1;
+  const auto columns = static_cast<std::size_t>(n);
   Sums sums;
   sums.train = sums.plain_held = Eigen::MatrixXd::Zero(n, n);
   sums.unit_grams.resize(patches_.units);
@@ -173,45 +230,55 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   // Rows of scans are the same for all sums. Those of traces, few, have the hold-out's own zeros in
   // what is learnt and what is held out.
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
-  Gram plain_held(n), plain_other(n);
-  Eigen::VectorXd row(n);
+  Gram plain_held(columns), plain_other(columns);
+  RowPanel panel(*this);
+  std::vector<std::size_t> rows;
+  const auto add_panel = [&] {
+    panel.fill(*this, rows);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Observation& observation = table_.rows[rows[r]];
+      const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
+      const bool held = patch.held, in_trace = observation.trace >= 0;
+      const bool counts = counts_as_error(observation.kind);
+      if (in_trace) {
+        Eigen::VectorXd part(n);
+        for (Eigen::Index k = 0; k < n; ++k) part[k] = panel.columns[static_cast<std::size_t>(k)][r];
+        part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
+        if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
+        if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
+        panel.subtract(r, whole_zero_means_[observation.trace]);
+      }
+      auto& unit = (held || in_trace ? other : learnt)[patch.unit];
+      if (!unit) unit.emplace(columns);
+      unit->add(panel.columns, r, patch.root);
+      if (!counts) continue;
+      (held && !in_trace ? plain_held : plain_other).add(panel.columns, r, 1.0);
+      ++sums.observations;
+      sums.held_out += held ? 1 : 0;
+    }
+    rows.clear();
+  };
   for (std::size_t i = begin; i < end; ++i) {
     if (patches_.patch_of_row[i * stride_] < 0) continue;
-    const Observation& observation = table_.rows[i * stride_];
-    const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[i * stride_])];
-    const double w = patch.weight;
-    const bool held = patch.held, in_trace = observation.trace >= 0;
-    const bool counts = counts_as_error(observation.kind);
-    features(i * stride_, row.data());
-    if (in_trace) {
-      const Eigen::VectorXd part = row - zero_means_[2 * observation.trace + (held ? 1 : 0)];
-      if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, w);
-      if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
-      row -= whole_zero_means_[observation.trace];
-    }
-    auto& unit = (held || in_trace ? other : learnt)[patch.unit];
-    if (!unit) unit.emplace(n);
-    unit->add(patch.root * row);
-    Eigen::VectorXd& unit_sum = sums.unit_sums[patch.unit];
-    if (unit_sum.size() == 0) unit_sum = Eigen::VectorXd::Zero(n + 1);
-    unit_sum.head(n) += w * row;
-    unit_sum[n] += w;
-    if (!counts) continue;
-    (held && !in_trace ? plain_held : plain_other).add(row);
-    ++sums.observations;
-    sums.held_out += held ? 1 : 0;
+    rows.push_back(i * stride_);
+    if (rows.size() == kPanel) add_panel();
   }
+  add_panel();
   for (int u = 0; u < patches_.units; ++u) {
     if (!learnt[u] && !other[u]) continue;
-    Eigen::MatrixXd& gram = sums.unit_grams[u];
-    gram = Eigen::MatrixXd::Zero(n, n);
-    if (other[u]) gram += other[u]->sum();
-    if (!learnt[u]) continue;
-    gram += learnt[u]->sum();
-    sums.train += learnt[u]->sum();
+    Eigen::MatrixXd with_one = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    if (other[u]) with_one += other[u]->sum();
+    if (learnt[u]) {
+      const Eigen::MatrixXd of_training = learnt[u]->sum();
+      with_one += of_training;
+      sums.train += of_training.topLeftCorner(n, n);
+    }
+    sums.unit_grams[u] = with_one.topLeftCorner(n, n);
+    sums.unit_sums[u] = with_one.row(n).transpose();
   }
-  sums.plain_all = plain_held.sum() + plain_other.sum();
-  sums.plain_held += plain_held.sum();
+  const Eigen::MatrixXd held = plain_held.sum().topLeftCorner(n, n);
+  sums.plain_all = held + plain_other.sum().topLeftCorner(n, n);
+  sums.plain_held += held;
   return sums;
 }
 
@@ -417,14 +484,34 @@ void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& afte
   const Eigen::VectorXd none =
       solution(all_, columns_with(std::vector<bool>(effects_.size(), false)));
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
-    Eigen::VectorXd row(columns_ + 1);
+    RowPanel panel(*this);
+    std::vector<std::size_t> rows;
+    ColumnOfPanel before, after;
+    const auto tell_panel = [&] {
+      panel.fill(*this, rows);
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
+          panel.subtract(r, whole_zero_means_[trace]);
+      before = after = panel.columns.back();
+      for (int k = 0; k < columns_; ++k) {
+        const ColumnOfPanel& column = panel.columns[static_cast<std::size_t>(k)];
+        for (std::size_t r = 0; r < kPanel; ++r) {
+          before[r] -= none[k] * column[r];
+          after[r] -= coefficients_[k] * column[r];
+        }
+      }
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        before_um[rows[r]] = static_cast<float>(before[r]);
+        after_um[rows[r]] = static_cast<float>(after[r]);
+      }
+      rows.clear();
+    };
     for (std::size_t i = begin; i < end; ++i) {
       if (patches_.patch_of_row[i] < 0) continue;
-      features(i, row.data());
-      if (table_.rows[i].trace >= 0) row -= whole_zero_means_[table_.rows[i].trace];
-      before_um[i] = static_cast<float>(row[columns_] - none.dot(row.head(columns_)));
-      after_um[i] = static_cast<float>(row[columns_] - coefficients_.dot(row.head(columns_)));
+      rows.push_back(i);
+      if (rows.size() == kPanel) tell_panel();
     }
+    tell_panel();
   });
 }
 

@@ -69,6 +69,7 @@ class PointFit {
   void add_place(const Observation& row, const Place& place, double* values) const;
   void average_zeros();
   struct PatchOfRow;
+  struct RowPanel;
   struct Sums;
   [[nodiscard]] Sums sums_of(const std::vector<PatchOfRow>& patches, std::size_t begin,
                              std::size_t end) const;

@@ -13,30 +13,9 @@ NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observatio
     : geometry_(geometry), cos_base_helix_(geometry.cos_base_helix()) {
   // Scans come first among the sources (make_observations).
   for (const bool free : table.pose_is_free) {
-    first_of_source_.push_back(count_);
-    free_of_source_.push_back(free);
+    sources_.push_back({count_, free});
     count_ += free ? 5 : 1;
   }
-}
-
-void NuisanceColumns::add(const Place& place, ObservationKind kind, int source, double weight,
-                          double* values) const {
-  if (source >= static_cast<int>(first_of_source_.size())) return;
-  if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot) return;
-  double* c = values + first_of_source_[source];
-  const double x = place.radius_mm * place.polar_direction[0];
-  const double y = place.radius_mm * place.polar_direction[1];
-  const double transverse = place.surface == Surface::kFlank ? cos_base_helix_ : 1.0;
-  const double nx = transverse * place.normal_direction[0];
-  const double ny = transverse * place.normal_direction[1];
-  c[0] += weight * (x * ny - y * nx);  // turn about the axis
-  if (!free_of_source_[source]) return;
-  const double nz = geometry_.normal_z(place);
-  const double z = place.z_mm - 0.5 * geometry_.face_width_mm();
-  c[1] += weight * nx;
-  c[2] += weight * ny;
-  c[3] += weight * (y * nz - z * ny);
-  c[4] += weight * (z * nx - x * nz);
 }
 
 namespace {

@@ -129,8 +129,8 @@ class PatchMaker {
   static constexpr std::size_t kMostSamples = 8;
   static constexpr int kNoPatch = -1, kByKey = -2;
 
-  /// What takes time for every row is done on all processors; patches get their numbers, and their
-  /// samples, in the order of the rows.
+  /// What takes time for every row is done on all processors; patches get their numbers in the order
+  /// of the rows.
   void gather() {
     find_places_in_lists();
     number_patches();
@@ -183,7 +183,6 @@ class PatchMaker {
       }
       if (*known < 0) *known = add_patch(i);
       patch = *known;
-      keep_sample(static_cast<std::size_t>(patch), i);
     }
   }
 
@@ -216,8 +215,9 @@ class PatchMaker {
       std::vector<Sum> sums(end - first);
       rows.for_each(piece, table_, [&](std::size_t i) {
         const Observation& row = table_.rows[i];
-        sums[static_cast<std::size_t>(result_.patch_of_row[i]) - first].add(row, table_.place(row),
-                                                                            table_.sigma_um(row));
+        const auto patch = static_cast<std::size_t>(result_.patch_of_row[i]);
+        sums[patch - first].add(row, table_.place(row), table_.sigma_um(row));
+        keep_sample(patch, i);
       });
       for (std::size_t k = first; k < end; ++k) finish_patch(k, sums[k - first]);
     });
@@ -248,13 +248,20 @@ class PatchMaker {
     std::array<std::uint32_t, kMostSamples> rows{};
   };
 
-  /// Every value is as likely to be among those kept.
+  /// Every value is as likely to be among those kept. Each patch draws by itself.
   void keep_sample(std::size_t patch, std::size_t row) {
     if (is_single(result_.patches[patch].kind)) return;
     Sample& sample = samples_[patch];
     std::uint64_t at = sample.count++;
-    if (at >= kMostSamples) at = random_() % sample.count;
+    if (at >= kMostSamples) at = drawn(patch, sample.count) % sample.count;
     if (at < kMostSamples) sample.rows[at] = static_cast<std::uint32_t>(row);
+  }
+  /// The mixing of splitmix64.
+  static std::uint64_t drawn(std::uint64_t patch, std::uint64_t number) {
+    std::uint64_t x = (patch << 32U) + number * 0x9E3779B97F4A7C15U;
+    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+    return x ^ (x >> 31U);
   }
 
   /// What may share its random error: a flank of a scan, a trace, a single value. Where there are
@@ -446,7 +453,6 @@ class PatchMaker {
   int face_parts_ = 8;
   std::vector<Key> keys_;
   std::vector<Sample> samples_;
-  std::mt19937_64 random_{20260103};
   Patches result_;
 };
 

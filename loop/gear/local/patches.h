@@ -70,13 +70,35 @@ class NuisanceColumns {
   [[nodiscard]] int count() const { return count_; }
   /// Adds weight times the columns at a place of a source.
   void add(const Place& place, ObservationKind kind, int source, double weight,
-           double* values) const;
+           double* values) const {
+    if (source >= static_cast<int>(sources_.size())) return;
+    if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot) return;
+    const Source& of = sources_[static_cast<std::size_t>(source)];
+    double* const c = values + of.first;
+    const double x = place.radius_mm * place.polar_direction[0];
+    const double y = place.radius_mm * place.polar_direction[1];
+    const double transverse = place.surface == Surface::kFlank ? cos_base_helix_ : 1.0;
+    const double nx = transverse * place.normal_direction[0];
+    const double ny = transverse * place.normal_direction[1];
+    c[0] += weight * (x * ny - y * nx);  // turn about the axis
+    if (!of.free) return;
+    const double nz = geometry_.normal_z(place);
+    const double z = place.z_mm - 0.5 * geometry_.face_width_mm();
+    c[1] += weight * nx;
+    c[2] += weight * ny;
+    c[3] += weight * (y * nz - z * ny);
+    c[4] += weight * (z * nx - x * nz);
+  }
 
  private:
+  /// Of a scan: its first column, and whether it is free in all directions.
+  struct Source {
+    int first = 0;
+    bool free = false;
+  };
   const FlankGeometry& geometry_;
   double cos_base_helix_ = 1.0;
-  std::vector<int> first_of_source_;
-  std::vector<bool> free_of_source_;
+  std::vector<Source> sources_;
   int count_ = 0;
 };
 
