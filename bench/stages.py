@@ -50,12 +50,12 @@ STAGES = {
     "points to observations": r"trueflank::loop::make_observations\(|" + BESIDE +
                               r"trueflank::loop::\(anonymous namespace\)::(TableBuilder|PoseSearch)",
     "patches": r"trueflank::loop::make_patches\(",
-    "columns of candidates": r"std::_Function_handler<bool \(\), trueflank::loop::set_candidates\(",
+    "columns of candidates": r"trueflank::loop::set_candidates\(|" + BESIDE + r"trueflank::loop::set_candidates",
     "discovery": r"trueflank::loop::discover\(|" + BESIDE +
                  r"trueflank::loop::(BlockStatistics|StructureTest|CrossValidation|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run",
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE + r"trueflank::loop::linearise_at",
-    "fits to points": r"trueflank::loop::PointFit::sums_of\(",
+    "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",
     "reading meshes": r"trueflank::io::read_mesh\(",
     "testing that meshes are closed": r"trueflank::mesh_validity\(",
     "tree of facets": r"trueflank::TriangleTree::TriangleTree\(",

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <utility>
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -30,6 +32,55 @@ MatrixXd cosines(Index m) {
                 std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
                          static_cast<double>(m));
   return c;
+}
+
+/// A step or band along a course, about its mean.
+struct CourseForm {
+  Kind kind = Kind::kStep;
+  double at = 0.0, width = 0.0;  ///< [rows]
+  VectorXd values;
+  double square = 0.0;
+  VectorXd powers;  ///< squares of its coefficients on the cosines
+};
+
+/// What courses of so many rows are asked for; the same whatever they hold.
+struct CourseForms {
+  explicit CourseForms(Index m) : basis(cosines(m)) {
+    for (Index i = 2; i <= m - 2; ++i) {
+      VectorXd step = VectorXd::Zero(m);
+      step.tail(m - i).setOnes();
+      add(Kind::kStep, static_cast<double>(i), 0.0, std::move(step));
+    }
+    for (double width = 1.2; width < 0.25 * static_cast<double>(m); width *= 1.6)
+      for (double at = 0.5; at < static_cast<double>(m); at += std::max(0.5, 0.4 * width)) {
+        VectorXd band(m);
+        for (Index i = 0; i < m; ++i) {
+          const double off = (static_cast<double>(i) + 0.5 - at) / width;
+          band[i] = std::exp(-off * off);
+        }
+        add(Kind::kBand, at, width, std::move(band));
+      }
+  }
+  MatrixXd basis;
+  std::vector<CourseForm> forms;
+
+ private:
+  void add(Kind kind, double at, double width, VectorXd values) {
+    values.array() -= values.mean();
+    const double square = values.squaredNorm();
+    VectorXd powers = (basis * values).cwiseAbs2();
+    forms.push_back({kind, at, width, std::move(values), square, std::move(powers)});
+  }
+};
+
+/// A loop asks a few times for the same two numbers of rows: those asked for last are at hand.
+const CourseForms& forms_of_rows(Index m) {
+  constexpr std::size_t kMostKept = 2;
+  thread_local std::deque<CourseForms> kept;
+  for (const CourseForms& known : kept)
+    if (known.basis.rows() == m) return known;
+  if (kept.size() == kMostKept) kept.pop_front();
+  return kept.emplace_back(m);
 }
 
 class CourseScan {
@@ -77,7 +128,7 @@ class CourseScan {
 
   /// Variance of every cosine's coefficient in one course, from how courses of a set scatter.
   void tell_spectrum() {
-    const MatrixXd basis = cosines(m_);
+    const MatrixXd& basis = forms_of_rows(m_).basis;
     VectorXd squares = VectorXd::Zero(m_);
     double degrees = 0.0;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -95,7 +146,6 @@ class CourseScan {
       const Index from = std::max<Index>(1, k - half), to = std::min<Index>(m_ - 1, k + half);
       spectrum_[k] = squares.segment(from, to - from + 1).mean() / degrees;
     }
-    basis_ = basis;
   }
 
   [[nodiscard]] VectorXd common(int set, double& courses) const {
@@ -119,41 +169,23 @@ class CourseScan {
     double courses = 0.0;
     const VectorXd mean = common(set, courses);
     const VectorXd variance = spectrum_ / courses;
-    forms_ = 0.0;
-    for (Index i = 2; i <= m_ - 2; ++i) {
-      VectorXd step = VectorXd::Zero(m_);
-      step.tail(m_ - i).setOnes();
-      judge(step_, Kind::kStep, set, 1.0 / courses, mean, variance, step, static_cast<double>(i),
-            0.0);
-    }
-    for (double width = 1.2; width < 0.25 * static_cast<double>(m_); width *= 1.6)
-      for (double at = 0.5; at < static_cast<double>(m_); at += std::max(0.5, 0.4 * width)) {
-        VectorXd band(m_);
-        for (Index i = 0; i < m_; ++i) {
-          const double off = (static_cast<double>(i) + 0.5 - at) / width;
-          band[i] = std::exp(-off * off);
-        }
-        judge(band_, Kind::kBand, set, 1.0 / courses, mean, variance, band, at, width);
-      }
+    const std::vector<CourseForm>& forms = forms_of_rows(m_).forms;
+    forms_ = static_cast<double>(forms.size());
+    for (const CourseForm& form : forms)
+      judge(form.kind == Kind::kStep ? step_ : band_, form, set, 1.0 / courses, mean, variance);
     look_for_common_wave(set, 1.0 / courses, mean, variance);
   }
 
   /// `scale`: variance of the mean over that of one course.
-  void judge(CourseFinding& best, Kind kind, int set, double scale, const VectorXd& mean,
-             const VectorXd& variance, VectorXd form, double at, double width) {
-    const auto number = static_cast<std::size_t>(forms_);
-    forms_ += 1.0;
-    form.array() -= form.mean();
-    const double norm = form.squaredNorm();
-    const double score = form.dot(mean);
-    // Every set is asked for the same forms.
-    if (number == powers_.size()) powers_.emplace_back((basis_ * form).cwiseAbs2());
-    const double t = score / std::sqrt(powers_[number].dot(variance));
+  void judge(CourseFinding& best, const CourseForm& form, int set, double scale,
+             const VectorXd& mean, const VectorXd& variance) {
+    const double score = form.values.dot(mean);
+    const double t = score / std::sqrt(form.powers.dot(variance));
     const double p = student_two_sided(std::abs(t), degrees_);
-    const double square = score * score / norm / scale;
+    const double square = score * score / form.square / scale;
     if (!is_better(p, square, best.p_value, best.square)) return;
     const double m = static_cast<double>(m_);
-    best = {kind, p, set, -1, at / m, width / m, square, score / norm};
+    best = {form.kind, p, set, -1, form.at / m, form.width / m, square, score / form.square};
   }
 
   void look_for_common_wave(int set, double scale, const VectorXd& mean, const VectorXd& variance) {

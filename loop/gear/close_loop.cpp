@@ -118,12 +118,8 @@ GearLoop close_one(const FlankGeometry& geometry, const std::string& gear_name, 
   PartLoop loop(geometry, std::move(table), {.declared = options.declared, .makings = options.makings});
   loop.run();
   const auto fit = loop.fit_of(loop.effects());
-  std::vector<float> before_um, after_um;
-  {
-    std::vector<float> unused;
-    fit->residuals(unused, after_um);
-    loop.plain_fit()->residuals(before_um, unused);
-  }
+  std::vector<float> before_um = loop.plain_fit()->residuals_without_effects_um();
+  std::vector<float> after_um = *fit->residuals_um();
   GearLoop done{result_of(geometry, loop, *fit, after_um, options.makings), geometry, {}, {}, {}};
   done.result.gear = gear_name;
   done.before_um = std::move(before_um);

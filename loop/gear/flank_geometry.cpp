@@ -158,7 +158,6 @@ double FlankGeometry::nearest_distance_mm(const std::array<double, 3>& p, double
 
 FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<double, 3>& p,
                                                           double margin) const {
-  Undirected result;
   const double radius = std::sqrt(p[0] * p[0] + p[1] * p[1]);
   const double polar = std::atan2(p[1], p[0]);
   const double pitch = kTwoPi / gear_.teeth;
@@ -169,16 +168,17 @@ FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<doubl
   if (tooth < 0) tooth += gear_.teeth;
   const int side = offset >= 0.0 ? 1 : -1;
   if (radius <= base_radius_) {
-    result.place.surface = Surface::kNone;
-    result.place.tooth = tooth + 1;
-    return result;
+    Undirected none;
+    none.place.surface = Surface::kNone;
+    none.place.tooth = tooth + 1;
+    return none;
   }
   const double roll = std::sqrt((radius - base_radius_) * (radius + base_radius_));
   const double pressure = std::atan(roll / base_radius_);  // of the point
   const double involute = roll - base_radius_ * pressure;
   const double transverse = base_radius_ * (side * offset - half_angle_) + sense_ * involute;
   const double roll_of_place = std::max(0.0, roll - sense_ * transverse);
-  result = flank_place(
+  Undirected result = flank_place(
       tooth + 1, side, roll_of_place, p[2],
       arc_tangent_near(roll_of_place / base_radius_, roll / base_radius_, pressure));
   result.from_direction = {p[0] / radius, p[1] / radius};

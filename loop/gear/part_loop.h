@@ -137,7 +137,7 @@ class PartLoop {
   struct Kept {
     bool valid = false;
     std::vector<Effect> effects;
-    std::vector<float> row_um;
+    std::shared_ptr<const std::vector<float>> row_um;
     std::array<std::optional<std::vector<RemainderFinding>>, 2> findings;  ///< of training, of all
   };
   Kept kept_;

@@ -224,8 +224,8 @@ void PartLoop::drop_teeth_within_the_tails() {
     if (!effects_[e].family->local || effects_[e].columns() != 1) continue;
     std::vector<Effect> without = effects_;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<float> before_um, after_um;
-    PointFit(geometry_, table_, patches_, without).residuals(before_um, after_um);
+    const auto left_um = PointFit(geometry_, table_, patches_, without).residuals_um();
+    const std::vector<float>& after_um = *left_um;
     const double height = height_of_single_values(table_, effects_[e], geometry_, after_um);
     if (!(height > 0.0)) continue;
     if (chance_of_tooth(table_, effects_[e], geometry_, after_um) > kByChance) {

@@ -23,11 +23,10 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
   if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
                                   kept_.effects.end(), same)) {
     kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
-    std::vector<float> before_um;
-    fit_of(effects)->residuals(before_um, kept_.row_um);
+    kept_.row_um = fit_of(effects)->residuals_um();
   }
   auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
-  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, kept_.row_um, which);
+  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, *kept_.row_um, which);
   return *findings;
 }
 

@@ -235,11 +235,10 @@ void PartLoop::doubt_names_below_what_is_left() {
   constexpr double kLess = 0.25, kShows = 0.01;  // of squares
   const std::size_t told = options_.given.size() - given_p_values_.size();
   if (effects_.size() == told) return;
-  std::vector<float> before_um, after_um;
   const PointFit fit(geometry_, table_, patches_, effects_);
-  fit.residuals(before_um, after_um);
+  const auto after_um = fit.residuals_um();
   std::map<ObservationKind, double> left, with;
-  for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, after_um, false)) {
+  for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *after_um, false)) {
     with[kind] = error.square / error.count;
     left[kind] = std::max(0.0, error.square - error.random_square) / error.count;
   }
@@ -251,12 +250,11 @@ void PartLoop::doubt_names_below_what_is_left() {
     if (!family.named || family.local || (sizes && family.shows_in_sizes)) continue;
     std::vector<Effect> without = effects_;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<float> bare_um;
-    PointFit(geometry_, table_, patches_, without).residuals(before_um, bare_um);
+    const auto bare_um = PointFit(geometry_, table_, patches_, without).residuals_um();
     // What it takes out beside the others: two that undo each other take out nothing.
     std::map<ObservationKind, double> taken;
     double most = 0.0;
-    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, bare_um, false)) {
+    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *bare_um, false)) {
       taken[kind] = error.square / error.count - with[kind];
       most = std::max(most, taken[kind]);
     }

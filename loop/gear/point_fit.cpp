@@ -43,27 +43,38 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
 
 /// Nuisance and effect columns of a row, the value last.
 void PointFit::features(std::size_t i, double* values) const {
-  std::fill_n(values, columns_ + 1, 0.0);
   const Observation& row = table_.rows[i];
-  if (what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank) {
+  if (i < table_.points_mm.size()) {  // of a scan: one place, with a weight of 1
+    const bool as_it_was =
+        what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank;
+    if (!as_it_was) {
+      features_at(table_.place(row), row, values);
+      values[columns_] = row.deviation_um;
+      return;
+    }
     const PlacedPoint placed = as_designed(geometry_, table_, i);
-    add_place(row, placed.place, values);
+    features_at(placed.place, row, values);
     values[columns_] = um_from_mm(placed.distance_mm);
     return;
   }
-  for (std::uint32_t k = 0; k < row.places; ++k)
-    add_place(row, table_.places[row.first_place + k], values);
+  std::fill_n(values, columns_ + 1, 0.0);
+  for (std::uint32_t k = 0; k < row.places; ++k) {
+    const Place& place = table_.places[row.first_place + k];
+    nuisance_.add(place, row.kind, row.source, row.weight, values);
+    double one[8];
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      effects_[e].evaluate(geometry_, place, one);
+      for (int c = 0; c < effects_[e].columns(); ++c)
+        values[first_column_[e] + c] += row.weight * one[c];
+    }
+  }
   values[columns_] = row.deviation_um;
 }
 
-void PointFit::add_place(const Observation& row, const Place& place, double* values) const {
-  nuisance_.add(place, row.kind, row.source, row.weight, values);
-  double one[8];
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    effects_[e].evaluate(geometry_, place, one);
-    for (int k = 0; k < effects_[e].columns(); ++k)
-      values[first_column_[e] + k] += row.weight * one[k];
-  }
+void PointFit::features_at(const Place& place, const Observation& row, double* values) const {
+  nuisance_.set(place, row.kind, row.source, values);
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    effects_[e].evaluate(geometry_, place, values + first_column_[e]);
 }
 
 /// Means of all columns over every trace: what its unknown zero takes out of them. The hold-out has
@@ -478,32 +489,35 @@ void PointFit::solve() {
   }
 }
 
-void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& after_um) const {
-  before_um.assign(table_.rows.size(), 0.0f);
-  after_um.assign(table_.rows.size(), 0.0f);
-  const Eigen::VectorXd none =
-      solution(all_, columns_with(std::vector<bool>(effects_.size(), false)));
+std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {
+  auto known = residuals_um_.lock();
+  if (!known) {
+    known = std::make_shared<const std::vector<float>>(residuals_with(coefficients_));
+    residuals_um_ = known;
+  }
+  return known;
+}
+
+std::vector<float> PointFit::residuals_without_effects_um() const {
+  return residuals_with(solution(all_, columns_with(std::vector<bool>(effects_.size(), false))));
+}
+
+std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients) const {
+  std::vector<float> left_um(table_.rows.size(), 0.0f);
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
     RowPanel panel(*this);
     std::vector<std::size_t> rows;
-    ColumnOfPanel before, after;
     const auto tell_panel = [&] {
       panel.fill(*this, rows);
       for (std::size_t r = 0; r < rows.size(); ++r)
         if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
           panel.subtract(r, whole_zero_means_[trace]);
-      before = after = panel.columns.back();
+      ColumnOfPanel left = panel.columns.back();
       for (int k = 0; k < columns_; ++k) {
         const ColumnOfPanel& column = panel.columns[static_cast<std::size_t>(k)];
-        for (std::size_t r = 0; r < kPanel; ++r) {
-          before[r] -= none[k] * column[r];
-          after[r] -= coefficients_[k] * column[r];
-        }
+        for (std::size_t r = 0; r < kPanel; ++r) left[r] -= coefficients[k] * column[r];
       }
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        before_um[rows[r]] = static_cast<float>(before[r]);
-        after_um[rows[r]] = static_cast<float>(after[r]);
-      }
+      for (std::size_t r = 0; r < rows.size(); ++r) left_um[rows[r]] = static_cast<float>(left[r]);
       rows.clear();
     };
     for (std::size_t i = begin; i < end; ++i) {
@@ -513,6 +527,7 @@ void PointFit::residuals(std::vector<float>& before_um, std::vector<float>& afte
     }
     tell_panel();
   });
+  return left_um;
 }
 
 }  // namespace trueflank::loop

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "trueflank/loop/gear/local/patches.h"
@@ -58,15 +59,19 @@ class PointFit {
   /// The same with some effects left out and all else refitted.
   [[nodiscard]] double residual_square(const std::vector<bool>& with_effect) const;
 
-  /// Residual of every row [um]: as fitted with all effects, and with none.
-  void residuals(std::vector<float>& before_um, std::vector<float>& after_um) const;
+  /// Residual of every row [um] as fitted with all effects. Asked for again, they are the same as
+  /// long as somebody holds them.
+  [[nodiscard]] std::shared_ptr<const std::vector<float>> residuals_um() const;
+  /// The same with none of the effects.
+  [[nodiscard]] std::vector<float> residuals_without_effects_um() const;
 
   [[nodiscard]] int observations() const { return observations_; }
   [[nodiscard]] int held_out() const { return held_out_; }
 
  private:
   void features(std::size_t row, double* values) const;
-  void add_place(const Observation& row, const Place& place, double* values) const;
+  void features_at(const Place& place, const Observation& row, double* values) const;
+  [[nodiscard]] std::vector<float> residuals_with(const Eigen::VectorXd& coefficients) const;
   void average_zeros();
   struct PatchOfRow;
   struct RowPanel;
@@ -97,6 +102,7 @@ class PointFit {
   Eigen::VectorXd coefficients_;
   Eigen::MatrixXd covariance_;
   std::vector<double> degrees_, retained_;
+  mutable std::weak_ptr<const std::vector<float>> residuals_um_;
   double noise_um_ = 0.0, residual_square_ = 0.0;
   int observations_ = 0, held_out_ = 0, zeros_ = 0;
 };

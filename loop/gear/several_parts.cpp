@@ -272,9 +272,8 @@ class PartsLoop {
                               {full.rms_um, full.held_out_rms_um, 0.0}});
       for (const std::string& note : loop.table().notes)
         result.notes.push_back(parts_[p].name + ": " + note);
-      std::vector<float> unused;
-      none.residuals(before[p], unused);
-      fit.residuals(unused, after[p]);
+      before[p] = none.residuals_without_effects_um();
+      after[p] = *fit.residuals_um();
       for (std::size_t i = 0; i < after[p].size(); ++i) {
         if (!counts_as_error(loop.table().rows[i].kind)) continue;
         auto& own = result.parts.back();

@@ -69,6 +69,29 @@ TEST_F(OffAxis, TheFitToTheDesignIsTheSameHoweverTheTableWasDisplaced) {
   EXPECT_NE(displaced.errors({}).rms_um, before.errors({}).rms_um);
 }
 
+TEST_F(OffAxis, ASampleTellsWhetherPointsWouldBeMovedAgain) {
+  const double first = change_of_sample_um(geometry_, fit_of_eccentricity(), table_);
+  EXPECT_FALSE(table_.is_displaced);
+  EXPECT_NEAR(first, linearise_at(geometry_, fit_of_eccentricity(), table_), 1e-3);
+  const double again = change_of_sample_um(geometry_, fit_of_eccentricity(), table_);
+  EXPECT_GT(first, 0.1);
+  EXPECT_LT(again, 0.01 * first);
+}
+
+TEST_F(OffAxis, ResidualsAskedForAgainAreTheSameWhileSomebodyHoldsThem) {
+  const loop::PointFit fit = fit_of_eccentricity();
+  const auto residuals_um = fit.residuals_um();
+  EXPECT_EQ(fit.residuals_um(), residuals_um);
+  double square = 0.0;
+  int counted = 0;
+  for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+    if (!loop::counts_as_error(table_.rows[i].kind) || patches_.patch_of_row[i] < 0) continue;
+    square += (*residuals_um)[i] * (*residuals_um)[i];
+    ++counted;
+  }
+  EXPECT_NEAR(std::sqrt(square / counted), fit.errors({true}).rms_um, 1e-5);
+}
+
 TEST_F(OffAxis, ThePoseLeavesNoLessThanTheBoundSays) {
   const double bound = least_plain_rms_um(geometry_, table_, patches_);
   const loop::PointFit fit(geometry_, table_, patches_, {});

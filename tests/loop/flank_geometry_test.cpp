@@ -42,6 +42,29 @@ TEST(FlankGeometry, DistanceOfAHelicalGearIsAlongTheNormal) {
   expect_exact_distance(helical(30, -25.0));
 }
 
+/// A measured point's directions come by series from its own, those of a place by cosine and sine.
+TEST(FlankGeometry, DirectionsOfAPlacedPointAreThoseOfItsPlace) {
+  for (const MadeGear& made : {spur(24), ring(60), helical(30, -25.0), helical(200, 35.0)}) {
+    const FlankGeometry geometry = geometry_of(made);
+    for (const int tooth : {1, made.teeth / 3, made.teeth / 2, made.teeth / 2 + 1, made.teeth})
+      for (const int side : {1, -1})
+        for (const double u : {-0.9, 0.0, 0.9})
+          for (const double distance : {-0.3, -0.02, 0.0, 0.004, 0.2}) {
+            Vec3 p = point_on(made, {tooth, side, u, 0.3});
+            const Vec3 n = normal_at(made, {tooth, side, u, 0.3});
+            for (std::size_t k = 0; k < 3; ++k) p[k] += distance * n[k];
+            const loop::Place placed = geometry.nearest_flank(p).place;
+            const loop::Place place =
+                geometry.on_flank(placed.tooth, placed.side, placed.roll_mm, placed.z_mm);
+            EXPECT_NEAR(placed.radius_mm, place.radius_mm, 1e-13 * place.radius_mm);
+            for (std::size_t k = 0; k < 2; ++k) {
+              EXPECT_NEAR(placed.polar_direction[k], place.polar_direction[k], 2e-14);
+              EXPECT_NEAR(placed.normal_direction[k], place.normal_direction[k], 2e-14);
+            }
+          }
+  }
+}
+
 TEST(FlankGeometry, TipAndRootPointsAreNoFlankPoints) {
   const MadeGear made = spur(24);
   const FlankGeometry geometry = geometry_of(made);

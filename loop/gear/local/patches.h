@@ -68,6 +68,11 @@ class NuisanceColumns {
  public:
   NuisanceColumns(const FlankGeometry& geometry, const Observations& table);
   [[nodiscard]] int count() const { return count_; }
+  /// The columns at a place of a source.
+  void set(const Place& place, ObservationKind kind, int source, double* values) const {
+    for (int k = 0; k < count_; ++k) values[k] = 0.0;
+    add(place, kind, source, 1.0, values);
+  }
   /// Adds weight times the columns at a place of a source.
   void add(const Place& place, ObservationKind kind, int source, double weight,
            double* values) const {
