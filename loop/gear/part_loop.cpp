@@ -255,7 +255,7 @@ void PartLoop::select() {
 }
 
 void PartLoop::leave_out_across_steps() {
-  kept_.valid = false;
+  kept_ = {};
   std::vector<double> heights_mm;
   for (const Effect& effect : effects_)
     if (effect.family->shape_is_step) heights_mm.push_back(effect.shape[0]);

@@ -87,8 +87,8 @@ class PoseSearch {
     std::array<double, 3> costs{};
     for_each_piece(poses.size(), [&](std::size_t k) {
       poses[k] = start(turn_onto_z(directions.col(static_cast<Eigen::Index>(k))));
-      costs[k] = search_phase(poses[k]);
     });
+    for (std::size_t k = 0; k < poses.size(); ++k) costs[k] = search_phase(poses[k]);
     const auto least = std::min_element(costs.begin(), costs.end()) - costs.begin();
     return refined(poses[static_cast<std::size_t>(least)], fine_, {.rounds = 12, .still = 1e-5});
   }
@@ -204,26 +204,36 @@ class PoseSearch {
         for (int dy = -1; dy <= 1; ++dy) {
           Pose moved = turned;
           moved.translation_mm += Eigen::Vector3d(dx * step, dy * step, 0.0);
-          tried.emplace_back(cost(moved, few_), moved);
+          tried.emplace_back(0.0, moved);
         }
     }
+    judge(tried, few_);
     // Few points tell most trials from the good ones, more of them the good ones from each other.
     constexpr std::size_t kGood = 40;
     const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
     std::sort(tried.begin(), tried.end(), cheaper);
     if (tried.size() > kGood) tried.resize(kGood);
-    for (auto& [value, trial] : tried) value = cost(trial, coarse_);
+    judge(tried, coarse_);
     std::sort(tried.begin(), tried.end(), cheaper);
-    double best = 1e300;
-    for (std::size_t i = 0; i < std::min<std::size_t>(4, tried.size()); ++i) {
-      const Pose refined_pose = refined(tried[i].second, coarse_, {.rounds = 8, .still = 1e-4});
-      const double value = cost(refined_pose, coarse_);
-      if (value < best) {
-        best = value;
-        pose = refined_pose;
-      }
-    }
-    return best;
+    constexpr std::size_t kRefined = 4;
+    tried.resize(std::min(kRefined, tried.size()));
+    for_each_piece(tried.size(), [&](std::size_t k) {
+      auto& [value, trial] = tried[k];
+      trial = refined(trial, coarse_, {.rounds = 8, .still = 1e-4});
+      value = cost(trial, coarse_);
+    });
+    const auto best = std::min_element(tried.begin(), tried.end(), cheaper);
+    pose = best->second;
+    return best->first;
+  }
+
+  /// Tells the cost of every pose, on all processors.
+  void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points) const {
+    constexpr std::size_t kOfWork = 8;
+    for_each_piece((tried.size() + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
+      for (std::size_t k = piece * kOfWork; k < std::min(tried.size(), (piece + 1) * kOfWork); ++k)
+        tried[k].first = cost(tried[k].second, points);
+    });
   }
 
   /// Distance of a point from its flank, NaN where it is far from any; what moves it.

@@ -63,6 +63,12 @@ class RowOfPatch {
   void write(const Patches::Patch& patch, float* row) {
     for (const EffectRun& run : runs_) {
       const int columns = run.effects.columns();
+      if (is_one_place(patch) && !run.fine) {
+        run.effects.evaluate(geometry_, patch.places.front().place, one_.data());
+        std::transform(one_.begin(), one_.begin() + columns, row + run.column,
+                       [](double value) { return static_cast<float>(value); });
+        continue;
+      }
       std::fill_n(sum_.begin(), columns, 0.0);
       if (run.fine && !patch.sample.empty())
         for (const Place& place : patch.sample)
@@ -75,6 +81,9 @@ class RowOfPatch {
   }
 
  private:
+  static bool is_one_place(const Patches::Patch& patch) {
+    return patch.places.size() == 1 && patch.places.front().weight == 1.0;
+  }
   void add(const EffectRun& run, const Place& place, double weight) {
     run.effects.evaluate(geometry_, place, one_.data());
     for (std::size_t k = 0; k < static_cast<std::size_t>(run.effects.columns()); ++k)
