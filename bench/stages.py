@@ -54,7 +54,8 @@ STAGES = {
     "discovery": r"trueflank::loop::discover\(|" + BESIDE +
                  r"trueflank::loop::(BlockStatistics|StructureTest|CrossValidation|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run",
-    "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE + r"trueflank::loop::linearise_at",
+    "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
+                     r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",
     "reading meshes": r"trueflank::io::read_mesh\(",
     "testing that meshes are closed": r"trueflank::mesh_validity\(",
