@@ -406,6 +406,7 @@ TEST(GearDistance, OfHalvesThatDifferIsThatOfAllTeeth) {
     const Toothing toothing{.profile = &design, .twist = {.face_width_mm = 10.0}, .deviation = &field};
     const GearDistance distance(section_profile(toothing, 5.0).profile);
     std::vector<Point2> outline;  // of three teeth
+    std::vector<int> side_of;     // of each of its points
     for (int tooth : {-1, 0, 1})
       for (int side : {-1, 1}) {
         std::vector<Point2> half;
@@ -418,6 +419,7 @@ TEST(GearDistance, OfHalvesThatDifferIsThatOfAllTeeth) {
           }
         if (side < 0) std::reverse(half.begin(), half.end());
         outline.insert(outline.end(), half.begin(), half.end());
+        side_of.resize(outline.size(), side);
       }
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> share(-1.0, 1.0);
@@ -425,15 +427,20 @@ TEST(GearDistance, OfHalvesThatDifferIsThatOfAllTeeth) {
     for (int i = 0; i < 400; ++i) {
       const Point2 p = (middle + 1.4 * share(engine)) *
                        unit_vector(share(engine) * kPi / design.gear().teeth);
-      double nearest = 1e300;
+      double nearest = 1e300, nearest_of_half = 1e300;
+      const auto found = distance.nearest(p);
       for (std::size_t k = 0; k + 1 < outline.size(); ++k) {
         const Point2 along = outline[k + 1] - outline[k];
         const double square = along.squaredNorm();
         const double u =
             square > 0.0 ? std::clamp((p - outline[k]).dot(along) / square, 0.0, 1.0) : 0.0;
-        nearest = std::min(nearest, (p - outline[k] - u * along).norm());
+        const double away = (p - outline[k] - u * along).norm();
+        nearest = std::min(nearest, away);
+        if ((side_of[k] < 0) == found.clockwise_half || side_of[k] != side_of[k + 1])
+          nearest_of_half = std::min(nearest_of_half, away);
       }
-      EXPECT_NEAR(std::abs(distance.nearest(p).distance_mm), nearest, 2e-5) << i << " " << internal;
+      EXPECT_NEAR(std::abs(found.distance_mm), nearest, 2e-5) << i << " " << internal;
+      EXPECT_NEAR(nearest_of_half, nearest, 2e-5) << i << " " << internal;
     }
   }
 }
