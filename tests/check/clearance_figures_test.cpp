@@ -32,13 +32,26 @@ TEST(OverlapFigures, TeethThatModificationsMakePenetrateAskForTheBacklashTheyLac
   ASSERT_EQ(overlap.status, CheckStatus::kFail);
   EXPECT_LT(overlap.value, -5.0);
   const std::string start =
-      "without their modifications these teeth clear each other: smaller slopes, or backlash_mm larger by ";
+      "without their modifications these teeth clear each other: smaller slopes, or backlash_mm "
+      "larger by ";
   ASSERT_EQ(overlap.cure.substr(0, start.size()), start);
   const double larger_mm = std::stod(overlap.cure.substr(start.size()));
   const double cosine = std::cos(working_pressure_angle_rad(train.pair(train.meshes[0])));
   EXPECT_NEAR(larger_mm, -2e-3 * overlap.value / cosine, 1e-5);
   design.backlash_mm = larger_mm + 1e-5;
   EXPECT_NE(only(check_gearbox(laid_out(design)), "overlap").status, CheckStatus::kFail);
+}
+
+TEST(OverlapFigures, SayWhetherThereIsClearanceOrTheFlanksTouch) {
+  const auto message = [](double backlash_mm) {
+    const Finding overlap =
+        only(check_gearbox(laid_out(pair_design(25, 40, false, backlash_mm))), "overlap");
+    EXPECT_EQ(overlap.status, CheckStatus::kPass);
+    return overlap.message;
+  };
+  EXPECT_EQ(message(0.1).find("smallest clearance 46.98"), 0u)
+      << message(0.1);  // 50 cos 20 degrees
+  EXPECT_EQ(message(0.0).find("the flanks touch over a mesh cycle"), 0u) << message(0.0);
 }
 
 /// The clearance of a mesh with both gears thicker by so much and the axes farther apart.

@@ -9,6 +9,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/block_statistics.h"
+#include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/discovery.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/ring_scan.h"
@@ -18,8 +19,8 @@
 namespace trueflank::loop {
 namespace {
 
-/// Groups of one to three columns, the last twelve local ones, over values in eight units, four folds and,
-/// where wanted, six traces with zeros of their own.
+/// Groups of one to three columns, the last twelve local ones, over values in eight units, four
+/// folds and, where wanted, six traces with zeros of their own.
 DiscoveryProblem made_problem(unsigned seed, bool zeros, int nuisance = 2) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -27,14 +28,18 @@ DiscoveryProblem made_problem(unsigned seed, bool zeros, int nuisance = 2) {
   DiscoveryProblem problem;
   for (int g = 0, column = 0; g < kGroups; ++g) {
     const int columns = g < kCommon ? 1 + g % 3 : 1;
-    problem.groups.push_back({.first_column = column, .columns = columns, .local_family = g < kCommon ? -1 : 0});
+    problem.groups.push_back(
+        {.first_column = column, .columns = columns, .local_family = g < kCommon ? -1 : 0});
     column += columns;
   }
   const auto columns = problem.groups.back().first_column + 1;
   problem.value = Eigen::VectorXd::NullaryExpr(kValues, [&] { return normal(random); });
-  problem.weight = Eigen::VectorXd::NullaryExpr(kValues, [&] { return 0.5 + std::abs(normal(random)); });
-  problem.nuisance = Eigen::MatrixXd::NullaryExpr(kValues, nuisance, [&] { return normal(random); });
-  problem.candidates = Eigen::MatrixXf::NullaryExpr(kValues, columns, [&] { return static_cast<float>(normal(random)); });
+  problem.weight =
+      Eigen::VectorXd::NullaryExpr(kValues, [&] { return 0.5 + std::abs(normal(random)); });
+  problem.nuisance =
+      Eigen::MatrixXd::NullaryExpr(kValues, nuisance, [&] { return normal(random); });
+  problem.candidates = Eigen::MatrixXf::NullaryExpr(
+      kValues, columns, [&] { return static_cast<float>(normal(random)); });
   for (int i = 0; i < kValues; ++i) {
     problem.unit.push_back((i / 3) % 8);
     problem.fold.push_back(i % 5);  // 0 is locked
@@ -50,7 +55,10 @@ struct CentredByHand {
   Eigen::MatrixXd model, candidates;
 
   explicit CentredByHand(const DiscoveryProblem& p)
-      : weight(p.weight), value(p.value), model(p.nuisance), candidates(p.candidates.cast<double>()) {
+      : weight(p.weight),
+        value(p.value),
+        model(p.nuisance),
+        candidates(p.candidates.cast<double>()) {
     for (int i = 0; i < p.value.size(); ++i)
       if (p.fold[static_cast<std::size_t>(i)] > 0) used.push_back(i);
     for (int trace = 0; trace < 6; ++trace) {
@@ -60,7 +68,8 @@ struct CentredByHand {
       if (rows.empty()) continue;
       const Eigen::RowVectorXd w = weight(rows).transpose() / weight(rows).sum();
       const double mean = w * value(rows);
-      const Eigen::RowVectorXd of_model = w * model(rows, Eigen::all), of_candidates = w * candidates(rows, Eigen::all);
+      const Eigen::RowVectorXd of_model = w * model(rows, Eigen::all),
+                               of_candidates = w * candidates(rows, Eigen::all);
       for (const int i : rows) {
         value[i] -= mean;
         model.row(i) -= of_model;
@@ -70,7 +79,8 @@ struct CentredByHand {
   }
   /// Weighted products of two columns over the used values that `wanted` says.
   template <class Wanted>
-  [[nodiscard]] double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Wanted& wanted) const {
+  [[nodiscard]] double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
+                               const Wanted& wanted) const {
     double sum = 0.0;
     for (const int i : used)
       if (wanted(static_cast<std::size_t>(i))) sum += weight[i] * a[i] * b[i];
@@ -89,23 +99,29 @@ TEST(DiscoverySums, AreThoseOfEveryUnitAndFold) {
     EXPECT_EQ(statistics.units(), 8);
     EXPECT_EQ(statistics.folds(), 4);
     EXPECT_EQ(statistics.used().size(), hand.used.size());
-    const auto expect_sums = [&](const BlockStatistics::Sums& sums, const auto& wanted, bool with_candidates) {
+    const auto expect_sums = [&](const BlockStatistics::Sums& sums, const auto& wanted,
+                                 bool with_candidates) {
       EXPECT_NEAR(sums.value_value, hand.product(hand.value, hand.value, wanted), 1e-5);
-      EXPECT_NEAR(sums.weight, hand.product(Eigen::VectorXd::Ones(120), Eigen::VectorXd::Ones(120), wanted), 1e-9);
+      EXPECT_NEAR(sums.weight,
+                  hand.product(Eigen::VectorXd::Ones(120), Eigen::VectorXd::Ones(120), wanted),
+                  1e-9);
       for (int k = 0; k < 4; ++k) {
         EXPECT_NEAR(sums.model_value[k], hand.product(hand.model.col(k), hand.value, wanted), 1e-5);
         for (int l = 0; l < 4; ++l)
-          EXPECT_NEAR(sums.model_model(k, l), hand.product(hand.model.col(k), hand.model.col(l), wanted), 1e-5);
+          EXPECT_NEAR(sums.model_model(k, l),
+                      hand.product(hand.model.col(k), hand.model.col(l), wanted), 1e-5);
       }
       for (int c = 0; c < hand.candidates.cols(); ++c) {
-        EXPECT_NEAR(sums.candidate_value[c], hand.product(hand.candidates.col(c), hand.value, wanted), 1e-4);
+        EXPECT_NEAR(sums.candidate_value[c],
+                    hand.product(hand.candidates.col(c), hand.value, wanted), 1e-4);
         for (int k = 0; k < 4 && with_candidates; ++k)
           EXPECT_NEAR(sums.model_candidate[static_cast<std::size_t>(k)][c],
                       hand.product(hand.candidates.col(c), hand.model.col(k), wanted), 1e-4);
       }
     };
     for (int unit = 0; unit < 8; ++unit)
-      expect_sums(statistics.unit(unit), [&](std::size_t i) { return problem.unit[i] == unit; }, false);
+      expect_sums(
+          statistics.unit(unit), [&](std::size_t i) { return problem.unit[i] == unit; }, false);
     const auto all = [](std::size_t) { return true; };
     expect_sums(statistics.all(), all, true);
     EXPECT_NEAR(statistics.total_weight(), statistics.all().weight, 1e-9);
@@ -115,10 +131,11 @@ TEST(DiscoverySums, AreThoseOfEveryUnitAndFold) {
       for (int g = 0; g < 24; ++g)
         for (int a = 0; a < problem.groups[g].columns; ++a)
           for (int b = 0; b < problem.groups[g].columns; ++b)
-            EXPECT_NEAR(statistics.group_gram(g, fold)(a, b),
-                        hand.product(hand.candidates.col(problem.groups[g].first_column + a),
-                                     hand.candidates.col(problem.groups[g].first_column + b), wanted),
-                        1e-4);
+            EXPECT_NEAR(
+                statistics.group_gram(g, fold)(a, b),
+                hand.product(hand.candidates.col(problem.groups[g].first_column + a),
+                             hand.candidates.col(problem.groups[g].first_column + b), wanted),
+                1e-4);
     }
   }
 }
@@ -135,8 +152,12 @@ TEST(DiscoverySums, AZeroTakesWhatThePartsOfItsTraceShare) {
       std::map<int, Eigen::VectorXd> parts;
       for (const int i : hand.used) {
         if (problem.zero[static_cast<std::size_t>(i)] != trace) continue;
-        Eigen::VectorXd& part = parts.try_emplace(problem.unit[static_cast<std::size_t>(i)], Eigen::VectorXd::Zero(group.columns)).first->second;
-        part += hand.weight[i] * hand.candidates.row(i).segment(group.first_column, group.columns).transpose();
+        Eigen::VectorXd& part = parts
+                                    .try_emplace(problem.unit[static_cast<std::size_t>(i)],
+                                                 Eigen::VectorXd::Zero(group.columns))
+                                    .first->second;
+        part += hand.weight[i] *
+                hand.candidates.row(i).segment(group.first_column, group.columns).transpose();
         weight += hand.weight[i];
       }
       for (const auto& [unit, part] : parts) loss += part * part.transpose() / weight;
@@ -151,7 +172,8 @@ struct LeftByHand : CentredByHand {
     if (model.cols() == 0) return;
     const Eigen::MatrixXd f = model(used, Eigen::all);
     const Eigen::VectorXd w = weight(used);
-    const Eigen::MatrixXd inverse = (f.transpose() * w.asDiagonal() * f).inverse() * f.transpose() * w.asDiagonal();
+    const Eigen::MatrixXd inverse =
+        (f.transpose() * w.asDiagonal() * f).inverse() * f.transpose() * w.asDiagonal();
     const Eigen::VectorXd of_value = inverse * value(used);
     const Eigen::MatrixXd of_candidates = inverse * candidates(used, Eigen::all);
     value -= model * of_value;
@@ -179,7 +201,8 @@ TEST(StructureTest, OfALocalGroupIsStudentsTestAgainstTheOthersOfItsFamily) {
     for (std::size_t i = 0; i < scores.size(); ++i) {
       double mean = 0.0, variance = 0.0;
       for (std::size_t k = 0; k < scores.size(); ++k) mean += k == i ? 0.0 : scores[k] / 11.0;
-      for (std::size_t k = 0; k < scores.size(); ++k) variance += k == i ? 0.0 : std::pow(scores[k] - mean, 2) / 10.0;
+      for (std::size_t k = 0; k < scores.size(); ++k)
+        variance += k == i ? 0.0 : std::pow(scores[k] - mean, 2) / 10.0;
       const double t = (scores[i] - mean) / std::sqrt(variance * (1.0 + 1.0 / 11.0));
       const double p = std::min(1.0, 12.0 * student_two_sided(std::abs(t), 10.0));
       if (p >= least) continue;
@@ -221,9 +244,10 @@ TEST(StructureTest, ByFlipsFindsWhatIsThereAndSeldomWhatIsNot) {
 
 TEST(StructureTest, WhatTheModelHoldsCannotBeSeen) {
   DiscoveryProblem problem = made_problem(5, false);
-  problem.candidates.col(0) = problem.nuisance.col(0).cast<float>();           // group 0
-  problem.candidates.col(2) = (problem.nuisance.col(1) * 2.0).cast<float>();   // of group 1
-  problem.candidates.col(problem.groups[5].first_column + 1) = problem.candidates.col(problem.groups[5].first_column);
+  problem.candidates.col(0) = problem.nuisance.col(0).cast<float>();          // group 0
+  problem.candidates.col(2) = (problem.nuisance.col(1) * 2.0).cast<float>();  // of group 1
+  problem.candidates.col(problem.groups[5].first_column + 1) =
+      problem.candidates.col(problem.groups[5].first_column);
   problem.candidates.col(problem.groups[9].first_column).setZero();
   const BlockStatistics statistics(problem);
   const StructureTest test(problem, statistics, {0, 1}, 19, {});
@@ -242,7 +266,8 @@ DiscoveryProblem holding(const std::vector<std::pair<int, double>>& groups, unsi
   for (int i = 0; i < 120; ++i) problem.unit[static_cast<std::size_t>(i)] = i / 3;
   for (const auto& [g, factor] : groups)
     for (int k = 0; k < problem.groups[g].columns; ++k)
-      problem.value += factor * problem.candidates.col(problem.groups[g].first_column + k).cast<double>();
+      problem.value +=
+          factor * problem.candidates.col(problem.groups[g].first_column + k).cast<double>();
   return problem;
 }
 
@@ -262,7 +287,9 @@ TEST(Discovery, FindsWhatIsHiddenAndNothingElse) {
   EXPECT_EQ(chosen(local), (std::vector<int>{15}));
   EXPECT_TRUE(discover(holding({}), {.flips = 199}).chosen.empty());
   // no more than are asked for
-  EXPECT_EQ(discover(holding({{3, 1.5}, {7, -1.2}}), {.flips = 199, .most_effects = 1}).chosen.size(), 1u);
+  EXPECT_EQ(
+      discover(holding({{3, 1.5}, {7, -1.2}}), {.flips = 199, .most_effects = 1}).chosen.size(),
+      1u);
 }
 
 TEST(Discovery, OfTwinsThePreferredOneIsChosenAndTheOtherIsConfounded) {
@@ -279,7 +306,8 @@ TEST(Discovery, OfTwinsThePreferredOneIsChosenAndTheOtherIsConfounded) {
     // where one is banned the other one is chosen, though it is not preferred
     std::vector<bool> banned(problem.groups.size(), false);
     banned[static_cast<std::size_t>(better)] = true;
-    EXPECT_EQ(chosen(discover(problem, {.flips = 199, .banned = banned})), std::vector<int>{9 - better});
+    EXPECT_EQ(chosen(discover(problem, {.flips = 199, .banned = banned})),
+              std::vector<int>{9 - better});
     // kin are one effect: not each other's rivals
     problem.groups[3].kin = problem.groups[6].kin = 1;
     const DiscoveryResult kin = discover(problem, {.flips = 199});
@@ -290,7 +318,8 @@ TEST(Discovery, OfTwinsThePreferredOneIsChosenAndTheOtherIsConfounded) {
 
 TEST(Discovery, OneEffectThatIsTwoOthersTakesTheirPlace) {
   DiscoveryProblem problem = holding({{3, 1.5}, {6, 1.5}});
-  const int a = problem.groups[3].first_column, b = problem.groups[6].first_column, sum = problem.groups[9].first_column;
+  const int a = problem.groups[3].first_column, b = problem.groups[6].first_column,
+            sum = problem.groups[9].first_column;
   problem.candidates.col(sum) = problem.candidates.col(a) + problem.candidates.col(b);
   EXPECT_EQ(chosen(discover(problem, {.flips = 199})), std::vector<int>{9});
 }
@@ -314,10 +343,12 @@ TEST(Discovery, GainsAreWhatTheFoldsSayWithoutTheEffect) {
     const Eigen::VectorXd root = problem.weight.cwiseSqrt();
     const Eigen::MatrixXd c = root.asDiagonal() * columns;
     const Eigen::VectorXd y = root.cwiseProduct(problem.value);
-    const Eigen::VectorXd fit = c(learnt, Eigen::all).colPivHouseholderQr().solve(Eigen::VectorXd(y(learnt)));
+    const Eigen::VectorXd fit =
+        c(learnt, Eigen::all).colPivHouseholderQr().solve(Eigen::VectorXd(y(learnt)));
     return (y(asked) - c(asked, Eigen::all) * fit).squaredNorm();
   };
-  for (int fold = 1; fold <= 4; ++fold) gains.push_back(error(problem.nuisance, fold, false) - error(with, fold, false));
+  for (int fold = 1; fold <= 4; ++fold)
+    gains.push_back(error(problem.nuisance, fold, false) - error(with, fold, false));
   for (int i = 0; i < 120; ++i)
     if (problem.fold[static_cast<std::size_t>(i)] > 0) weight += problem.weight[i];
   const double sum = std::accumulate(gains.begin(), gains.end(), 0.0);
@@ -327,7 +358,35 @@ TEST(Discovery, GainsAreWhatTheFoldsSayWithoutTheEffect) {
   EXPECT_NEAR(found.gain, sum / weight, 1e-5);
   EXPECT_NEAR(found.gain_error, std::sqrt(4.0 * squares / 3.0) / weight, 1e-5);
   const double n = 40.0 * 4.0;  // units and folds
-  EXPECT_NEAR(found.bic_gain, n * std::log(error(problem.nuisance, 1, true) / error(with, 1, true)) - std::log(n), 1e-3);
+  EXPECT_NEAR(found.bic_gain,
+              n * std::log(error(problem.nuisance, 1, true) / error(with, 1, true)) - std::log(n),
+              1e-3);
+}
+
+TEST(PanelRows, AreAddedAndSubtractedColumnByColumn) {
+  PanelRow row{}, other{};
+  for (std::size_t j = 0; j < kPanelColumns; ++j) {
+    row[j] = 1.0 + 0.5 * static_cast<double>(j);
+    other[j] = 3.0 - 0.25 * static_cast<double>(j * j % 7);
+  }
+  const Panel both{row, other};
+  const double factors[] = {2.0, -3.0};
+  PanelRow added = row, subtracted = row;
+  add_rows(added, factors, both.data(), 2);
+  subtract_rows(subtracted, factors, both.data(), 2);
+  std::vector<PanelRow> products(3, row), less(3, row);
+  add_products(products, 2.0, other);
+  subtract_products(less, row, other);
+  for (std::size_t j = 0; j < kPanelColumns; ++j) {
+    EXPECT_DOUBLE_EQ(added[j], row[j] + 2.0 * row[j] - 3.0 * other[j]);
+    EXPECT_DOUBLE_EQ(subtracted[j], row[j] - 2.0 * row[j] + 3.0 * other[j]);
+    for (std::size_t apart = 0; apart < 3; ++apart) {
+      const bool inside = j + apart < kPanelColumns;
+      EXPECT_DOUBLE_EQ(products[apart][j],
+                       row[j] + (inside ? 2.0 * other[j] * other[j + apart] : 0.0));
+      EXPECT_DOUBLE_EQ(less[apart][j], row[j] - (inside ? row[j] * other[j + apart] : 0.0));
+    }
+  }
 }
 
 std::vector<int> places(int n) {
@@ -351,7 +410,8 @@ double p_by_hand(const Eigen::MatrixXd& series, double square, double degrees, d
   const Eigen::VectorXd y = series.col(1).array() - series.col(1).mean();
   const double left = static_cast<double>(y.size()) - 1.0 - degrees;
   // two tests of four kinds in two series
-  return 8.0 * 2.0 * looked_at * f_tail(square / degrees / ((y.squaredNorm() - square) / left), degrees, left);
+  return 8.0 * 2.0 * looked_at *
+         f_tail(square / degrees / ((y.squaredNorm() - square) / left), degrees, left);
 }
 
 TEST(RingScanFigures, OfAnArcAreTheMeanOfItsTeethOverTheOthersAndItsFTest) {
@@ -395,7 +455,8 @@ TEST(RingScanFigures, OfARampAreItsRiseAndItsFTest) {
   ramp.array() -= ramp.mean();
   const double slope = ramp.dot(series.col(1)) / ramp.squaredNorm();
   EXPECT_NEAR(found.amount, slope * 23.0 / 24.0, 1e-9);
-  EXPECT_NEAR(found.p_value / p_by_hand(series, slope * slope * ramp.squaredNorm(), 1.0, 24.0), 1.0, 1e-9);
+  EXPECT_NEAR(found.p_value / p_by_hand(series, slope * slope * ramp.squaredNorm(), 1.0, 24.0), 1.0,
+              1e-9);
 }
 
 TEST(RingScanFigures, OfACombAreItsHeightAndItsFTest) {
@@ -410,7 +471,9 @@ TEST(RingScanFigures, OfACombAreItsHeightAndItsFTest) {
   EXPECT_NEAR(found.amount, inside / 6.0 - outside / 18.0, 1e-9);
   // combs of 2 (one: the other half says the same), 3, 4, 5, 6, 7 and 8
   const double square = found.amount * found.amount * 6.0 * 18.0 / 24.0;
-  EXPECT_NEAR(found.p_value / p_by_hand(series, square, 1.0, 1.0 + 3.0 + 4.0 + 5.0 + 6.0 + 7.0 + 8.0), 1.0, 1e-9);
+  EXPECT_NEAR(
+      found.p_value / p_by_hand(series, square, 1.0, 1.0 + 3.0 + 4.0 + 5.0 + 6.0 + 7.0 + 8.0), 1.0,
+      1e-9);
 }
 
 }  // namespace

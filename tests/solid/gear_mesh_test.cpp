@@ -30,6 +30,24 @@ GearboxDesign prototype_with_everything() {
   return design;
 }
 
+TEST(GearMesh, IsAskedForATenthOfTheThinnestWall) {
+  const auto circle = [](double x, double y, double r) { return CircleOutline{.centre = {x, y}, .radius_mm = r}; };
+  const auto asked = [&](const CircleOutline& second, double tolerance_mm = 10.0) {
+    const Slab disk{.z_lower_mm = 0.0, .z_upper_mm = 2.0, .outer = circle(0.0, 0.0, 20.0), .holes = {circle(10.0, 0.0, 3.0), second}};
+    return meshing_tolerance_mm({.name = "disk", .slabs = {disk}}, tolerance_mm);
+  };
+  EXPECT_NEAR(asked(circle(-10.0, 0.0, 2.0)), 0.7, 1e-12);   // the first hole and the rim
+  EXPECT_NEAR(asked(circle(15.4, 0.0, 2.0)), 0.04, 1e-12);   // hole and hole
+  EXPECT_NEAR(asked(circle(0.0, 17.7, 2.0)), 0.03, 1e-12);   // the second hole and the rim
+  EXPECT_EQ(asked(circle(0.0, 17.7, 2.0), 0.01), 0.01);
+  // a collar that stands on the disk around its hole, and one as wide as the disk
+  for (const double collar : {3.25, 20.0}) {
+    const Slab disk{.z_lower_mm = 0.0, .z_upper_mm = 2.0, .outer = circle(0.0, 0.0, 20.0), .holes = {circle(0.0, 0.0, 3.0)}};
+    const Slab above{.z_lower_mm = 2.0, .z_upper_mm = 3.0, .outer = circle(0.0, 0.0, collar), .holes = {circle(0.0, 0.0, 3.0)}};
+    EXPECT_NEAR(meshing_tolerance_mm({.name = "collar", .slabs = {disk, above}}, 10.0), 0.1 * (collar - 3.0), 1e-12);
+  }
+}
+
 TEST(GearMesh, EveryPartOfThePrototypeIsOneClosedOutwardShell) {
   const auto train = lay_out(prototype_with_everything());
   ASSERT_TRUE(train);
