@@ -185,6 +185,7 @@ TEST(JointCureMoves, TakeAsManyPlanetsAwayAsDoNotFit) {
 }
 
 TEST(JointCureMoves, PlanetsCollideWhereNoShorterTipClearsThem) {
+  EXPECT_FALSE(planets_collide(laid_out(pair_design(20, 40, false, 0.05))));
   // room beside a planet's axis: a sin(pi / n) of a = 29 modules; tips may lose 0.6 modules
   GearboxDesign design = simple_design(18, 40, 98, 4);
   const double room = 29.0 * std::sin(kPi / 4.0);
