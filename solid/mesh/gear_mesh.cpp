@@ -39,6 +39,7 @@ class StackMesher {
     const double tolerance = meshing_tolerance_mm(shape, options.tolerance_mm);
     for (int loop = 0; loop < static_cast<int>(outlines_.size()); ++loop) add_loop(loop, tolerance);
     rows_.assign(loops_.size() * (sections_.size() + 1), kNone);
+    row_sizes_.assign(rows_.size(), 0);
   }
 
   PartMesh build() {
@@ -105,7 +106,7 @@ class StackMesher {
     for (const auto& p : grid.row(height_in_gear(loop, z_mm))) points.push_back({p[0], p[1]});
     OutlineLoop result = loop_through(std::move(points));
     result.teeth = grid.teeth();
-    result.points_per_tooth = grid.points_per_tooth();
+    result.points_per_tooth = static_cast<int>(result.points.size()) / grid.teeth();
     result.teeth_alike = grid.teeth_alike();
     return result;
   }
@@ -122,15 +123,20 @@ class StackMesher {
     return level == 0 ? shape_.slabs.front().z_lower_mm : shape_.slabs[level - 1].z_upper_mm;
   }
 
+  [[nodiscard]] std::size_t row_index(int loop, std::size_t level) const {
+    return at(loop) * (sections_.size() + 1) + level;
+  }
   /// First vertex of a loop's points at an interface; made when first asked for.
   std::uint32_t row(int loop, std::size_t level) {
-    int& first = rows_[at(loop) * (sections_.size() + 1) + level];
+    int& first = rows_[row_index(loop, level)];
     if (first == kNone) {
       first = static_cast<int>(result_.mesh.vertices.size());
       if (grids_[at(loop)])
         add_row(*grids_[at(loop)], height_in_gear(loop, z_of(level)));
       else
         add_row(beds_[at(loop)] ? bed_row(loop, z_of(level)) : loops_[at(loop)].points, z_of(level));
+      row_sizes_[row_index(loop, level)] =
+          static_cast<std::uint32_t>(result_.mesh.vertices.size()) - static_cast<std::uint32_t>(first);
     }
     return static_cast<std::uint32_t>(first);
   }
@@ -222,6 +228,11 @@ class StackMesher {
     const std::uint32_t inner = add_vertices(grid.inner_points(layer));
     const auto n = static_cast<std::uint32_t>(grid.points_per_tooth());
     const auto teeth = static_cast<std::uint32_t>(grid.teeth());
+    const ToothingGrid::RowPlaces at_lower = grid.row_places(layer),
+                                  at_upper = grid.row_places(layer + 1);
+    const auto on_row = [](const ToothingGrid::RowPlaces& row, std::uint32_t k, std::uint32_t column) {
+      return k * static_cast<std::uint32_t>(row.count) + static_cast<std::uint32_t>(row.place[column]);
+    };
     std::vector<std::uint32_t> before{0};  // inner vertices of a tooth before each column's
     for (const auto& column : patch.inner)
       before.push_back(before.back() + static_cast<std::uint32_t>(column.size()));
@@ -230,8 +241,8 @@ class StackMesher {
         const std::uint32_t column = static_cast<std::uint32_t>(node.column) % n;
         const std::uint32_t k = (tooth + static_cast<std::uint32_t>(node.column) / n) % teeth;
         const auto row = static_cast<std::uint32_t>(node.row);
-        if (row == 0) return lower + k * n + column;
-        if (row > patch.inner[column].size()) return upper + k * n + column;
+        if (row == 0) return lower + on_row(at_lower, k, column);
+        if (row > patch.inner[column].size()) return upper + on_row(at_upper, k, column);
         return inner + k * before.back() + before[column] + row - 1;
       };
       for (const auto& [a, b, c] : patch.facets) add_triangle(vertex(a), vertex(b), vertex(c), hole);
@@ -327,7 +338,7 @@ class StackMesher {
     std::vector<std::uint32_t> vertex;  // of the cap's numbers
     for (int loop : boundary) {
       const std::uint32_t first = row(loop, level);
-      for (std::uint32_t i = 0; i < loops_[at(loop)].points.size(); ++i) vertex.push_back(first + i);
+      for (std::uint32_t i = 0; i < row_sizes_[row_index(loop, level)]; ++i) vertex.push_back(first + i);
     }
     for (const Point2& p : cap.added_points) {
       vertex.push_back(static_cast<std::uint32_t>(result_.mesh.vertices.size()));
@@ -348,6 +359,7 @@ class StackMesher {
   std::vector<std::optional<ToothingGrid>> grids_;  ///< of toothings that are no prisms
   std::vector<std::optional<BedRows>> beds_;  ///< of outlines without teeth that have a bed chamfer
   std::vector<int> rows_;
+  std::vector<std::uint32_t> row_sizes_;  ///< vertices; toothings may have more on one face than on another
   std::map<std::vector<int>, CapTriangulation> caps_;
   PartMesh result_;
 };

@@ -15,6 +15,10 @@ namespace {
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Vertices farther apart along the chains than so many of their widest steps are never joined.
 constexpr double kReach = 1.5;
+/// The same along a strip that is joined from edge to edge: its facets may lean.
+constexpr double kReachAcross = 4.0;
+/// Strips with no more edges are joined in every way, and the best one taken.
+constexpr int kNarrow = 6;
 
 /// A corner whose angle lies farther out than this share of a strip's is where it ends.
 constexpr double kBeyond = 0.05;
@@ -40,9 +44,9 @@ double widest_step(const Chain& chain) {
 template <class Error>
 class Zip {
  public:
-  Zip(const Chain& left, const Chain& right, const Error& error)
+  Zip(const Chain& left, const Chain& right, const Error& error, double reach_steps = kReach)
       : left_(left), right_(right), error_(error) {
-    const double reach = kReach * std::max(widest_step(left), widest_step(right));
+    const double reach = reach_steps * std::max(widest_step(left), widest_step(right));
     std::size_t cells = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       const auto is_before = [](const Link& link, double along) { return link.along < along; };
@@ -62,9 +66,15 @@ class Zip {
     from_left_.assign(cells, false);
   }
 
-  void add_to(std::vector<std::array<NetNode, 3>>& facets) {
+  /// Sum of the fourth powers of the errors.
+  double settle_all() {
     for (std::size_t i = 0; i < left_.size(); ++i)
       for (std::size_t j = rows_[i].low; j < rows_[i].high; ++j) settle(i, j);
+    return cost_.back();
+  }
+
+  /// After settle_all().
+  void add_to(std::vector<std::array<NetNode, 3>>& facets) const {
     const std::size_t begin = facets.size();
     std::size_t i = left_.size() - 1, j = right_.size() - 1;
     while (i > 0 || j > 0) {
@@ -115,8 +125,8 @@ class Zip {
 class PatchBuilder {
  public:
   PatchBuilder(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
-               double turn_rad, const NetSurface* surface)
-      : edges_(edges), turn_(turn_rad), surface_(surface) {
+               double turn_rad, const NetSurface* surface, const NetRows* rows)
+      : edges_(edges), turn_(turn_rad), surface_(surface), rows_(rows) {
     TRUEFLANK_EXPECTS(!edges.empty() && inner.size() == edges.size());
     result_.inner = std::move(inner);
   }
@@ -128,8 +138,10 @@ class PatchBuilder {
     for (int i = first; i < first + n;) {
       int end = i + 1;
       while (end < first + n && edge(end).region == edge(i).region) ++end;
-      if (edge(i).developable)
-        add_strips(i, end);
+      if (surface_ != nullptr)
+        add_strip_of_surface(i, end);
+      else if (edge(i).developable)
+        add_plain_strips(i, end);
       else
         for (int k = i; k < end; ++k) add_band(k);
       result_.region.resize(result_.facets.size(), edge(i).region);
@@ -174,11 +186,10 @@ class PatchBuilder {
     const auto chain = [&](int column) {
       Chain links;
       for (int row = 0; row <= last_row(column); ++row)
-        links.push_back({{column, row}, height({column, row}), 0.0, point({column, row}, i + 1)});
+        links.push_back({{column, row}, height({column, row}), 0.0, {}});
       return links;
     };
     const auto off = [&](const Link& a, const Link& b) {
-      if (surface_ != nullptr) return off_chord(a, b);
       const double ds = e.length_mm * (b.node.column - a.node.column);
       const double turn = turn_ * (b.along - a.along);
       return e.cosine / 8.0 *
@@ -189,7 +200,122 @@ class PatchBuilder {
       return triangle_error(off(a, b), off(b, c), off(c, a));
     };
     const Chain left = chain(i), right = chain(i + 1);
-    Zip(left, right, error).add_to(result_.facets);
+    Zip zip(left, right, error);
+    zip.settle_all();
+    zip.add_to(result_.facets);
+  }
+
+  [[nodiscard]] bool is_on(const std::vector<bool>& row, int column) const {
+    return rows_ == nullptr || row[static_cast<std::size_t>(column) % edges_.size()];
+  }
+  static double error_of(const Link& a, const Link& b, const Link& c) {
+    return triangle_error(off_chord(a, b), off_chord(b, c), off_chord(c, a));
+  }
+
+  /// The border of a strip, counter-clockwise from its lower left corner.
+  struct Border {
+    Chain loop;
+    std::array<std::size_t, 4> corners{};  ///< lower left, lower right, upper right, upper left
+    [[nodiscard]] Chain way(std::size_t from, std::size_t to) const {
+      Chain chain;
+      for (std::size_t k = from;; k = k + 1 < loop.size() ? k + 1 : 0) {
+        chain.push_back(loop[k]);
+        if (k == to) return chain;
+      }
+    }
+    [[nodiscard]] Chain way_back(std::size_t from, std::size_t to) const {
+      Chain chain = way(to, from);
+      std::reverse(chain.begin(), chain.end());
+      return chain;
+    }
+  };
+  /// `along(column, height)` of its vertices.
+  template <class Along>
+  [[nodiscard]] Border border(int from, int to, const Along& along) const {
+    Border result;
+    const auto add = [&](int column, int row) {
+      const NetNode node{column, row};
+      result.loop.push_back({node, along(column, height(node)), 0.0, point(node, to)});
+    };
+    for (int i = from; i <= to; ++i)
+      if (i == from || i == to || is_on(rows_->lower, i)) add(i, 0);
+    result.corners[1] = result.loop.size() - 1;
+    for (int row = 1; row < last_row(to); ++row) add(to, row);
+    result.corners[2] = result.loop.size();
+    for (int i = to; i >= from; --i)
+      if (i == from || i == to || is_on(rows_->upper, i)) add(i, last_row(i));
+    result.corners[3] = result.loop.size() - 1;
+    for (int row = last_row(from) - 1; row > 0; --row) add(from, row);
+    return result;
+  }
+
+  /// Between two columns that have vertices inside the patch, or could have: whichever way of joining
+  /// them has the least error.
+  void add_strip_of_surface(int from, int to) {
+    const bool inside = !inner(from).empty() || !inner(to).empty();
+    const bool wide = to - from > kNarrow;
+    best_ = {};
+    if (!inside || edge(from).across)
+      join_across(from, to, inside);
+    else if (!edge(from).developable)
+      join_upwards(from, to);
+    else {
+      add_strips(from, to);
+      if (!wide) join_upwards(from, to), join_across(from, to, inside);
+    }
+    result_.facets.insert(result_.facets.end(), best_.facets.begin(), best_.facets.end());
+  }
+
+  /// From edge to edge of the patch.
+  void join_across(int from, int to, bool inside) {
+    std::vector<double> way{0.0};
+    for (int i = from; i < to; ++i) way.push_back(way.back() + edge(i).length_mm);
+    const Border strip = border(from, to, [&](int column, double) {
+      return way[static_cast<std::size_t>(column - from)];
+    });
+    const auto [ll, lr, ur, ul] = strip.corners;
+    if (!inside) return join(strip.way_back(ul, ur), strip.way(ll, lr), kReachAcross);
+    for (const std::size_t start : {ll, ul})
+      for (const std::size_t end : {ur, lr}) join_corners(strip, start, end, kReachAcross);
+  }
+
+  /// From column to column.
+  void join_upwards(int from, int to) {
+    const Border strip = border(from, to, [](int, double height) { return height; });
+    const auto [ll, lr, ur, ul] = strip.corners;
+    if (lr == 1 && ul == ur + 1) return join(strip.way_back(ll, ul), strip.way(lr, ur), kReach);
+    for (const std::size_t start : {ll, lr})
+      for (const std::size_t end : {ur, ul}) join_corners(strip, start, end, kReach);
+  }
+
+  /// Both ways round a strip from one corner to another.
+  void join_corners(const Border& strip, std::size_t start, std::size_t end, double reach_steps) {
+    const Chain right = strip.way(start, end), left = strip.way_back(start, end);
+    if (left.size() > 2 && right.size() > 2) join_ways(left, right, error_of, reach_steps);
+  }
+
+  /// Two chains with their first and last vertices in common.
+  template <class Error>
+  void join_ways(const Chain& left, const Chain& right, const Error& error, double reach_steps) {
+    const Chain inner_left(left.begin() + 1, left.end() - 1),
+        inner_right(right.begin() + 1, right.end() - 1);
+    Zip zip(inner_left, inner_right, error, reach_steps);
+    const auto fourth = [](double e) { return e * e * e * e; };
+    const double cost = zip.settle_all() + fourth(error(left[0], right[1], left[1])) +
+                        fourth(error(inner_left.back(), inner_right.back(), left.back()));
+    if (!(cost < best_.cost) && !best_.facets.empty()) return;
+    best_ = {cost, {{left[0].node, right[1].node, left[1].node}}};
+    zip.add_to(best_.facets);
+    best_.facets.push_back({inner_left.back().node, inner_right.back().node, left.back().node});
+  }
+
+  void join(const Chain& left, const Chain& right, double reach_steps) {
+    Zip zip(left, right, error_of, reach_steps);
+    const double cost = zip.settle_all();
+    if (!(cost < best_.cost) && !best_.facets.empty()) return;
+    best_.cost = cost;
+    best_.facets.clear();
+    zip.add_to(best_.facets);
   }
 
   /// The two ways round a strip's border from its corner of least angle to that of the largest,
@@ -213,6 +339,12 @@ class PatchBuilder {
     right = forwards, left = backwards;
   }
 
+  void add_plain_strips(int from, int to) {
+    best_ = {};
+    add_strips(from, to);
+    result_.facets.insert(result_.facets.end(), best_.facets.begin(), best_.facets.end());
+  }
+
   /// Columns `from` to `to` of a developable surface. Both ways round its border the angle of the
   /// normal ascends (or descends), from one corner to the opposite one.
   void add_strips(int from, int to) {
@@ -231,8 +363,10 @@ class PatchBuilder {
     };
     for (int i = from; i <= to; ++i) {
       const double support = i < to ? edge(i).support_from_mm : edge(i - 1).support_to_mm;
-      lower.push_back(link(i, 0, support));
-      upper.push_back(link(i, last_row(i), support));
+      const bool end = i == from || i == to;
+      if (end || rows_ == nullptr || is_on(rows_->lower, i)) lower.push_back(link(i, 0, support));
+      if (end || rows_ == nullptr || is_on(rows_->upper, i))
+        upper.push_back(link(i, last_row(i), support));
       if (i == from || i == to)
         for (int row = 1; row < last_row(i); ++row)
           (i == from ? at_from : at_to).push_back(link(i, row, support));
@@ -275,17 +409,18 @@ class PatchBuilder {
         return triangle_error(off_chord(a, b), off_chord(b, c), off_chord(c, a));
       return std::max({off(a, b), off(b, c), off(c, a)});
     };
-    result_.facets.push_back({left[0].node, right[1].node, left[1].node});
-    const NetNode end = left.back().node;
-    const Chain inner_left(left.begin() + 1, left.end() - 1),
-        inner_right(right.begin() + 1, right.end() - 1);
-    Zip(inner_left, inner_right, error).add_to(result_.facets);
-    result_.facets.push_back({inner_left.back().node, inner_right.back().node, end});
+    join_ways(left, right, error, kReach);
   }
 
   const std::vector<NetEdge>& edges_;
   double turn_ = 0.0;
   const NetSurface* surface_ = nullptr;
+  const NetRows* rows_ = nullptr;
+  struct Joined {
+    double cost = kNoLimit;  ///< sum of the fourth powers of errors
+    std::vector<std::array<NetNode, 3>> facets = {};
+  };
+  Joined best_ = {};  ///< of a strip
   NetPatch result_;
 };
 
@@ -302,12 +437,12 @@ double triangle_error(double a, double b, double c) {
 
 NetPatch net_patch(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
                    double turn_rad) {
-  return PatchBuilder(edges, std::move(inner), turn_rad, nullptr).build();
+  return PatchBuilder(edges, std::move(inner), turn_rad, nullptr, nullptr).build();
 }
 
 NetPatch net_patch(const std::vector<NetEdge>& edges, std::vector<std::vector<double>> inner,
-                   double turn_rad, const NetSurface& surface) {
-  return PatchBuilder(edges, std::move(inner), turn_rad, &surface).build();
+                   double turn_rad, const NetSurface& surface, const NetRows& rows) {
+  return PatchBuilder(edges, std::move(inner), turn_rad, &surface, &rows).build();
 }
 
 }  // namespace trueflank

@@ -17,6 +17,7 @@ namespace trueflank {
 struct NetEdge {
   int region = 0;            ///< neighbours with the same number lie on one smooth surface
   bool developable = false;  ///< turns and supports say all: a circle about the axis, an involute
+  bool across = false;  ///< of a surface: joined from edge to edge of the patch, not column to column
   double length_mm = 0.0;
   double turn_rad = 0.0;  ///< of the section's normal on the way
   double support_mm = 0.0, support_from_mm = 0.0,
@@ -37,6 +38,11 @@ struct NetPoint {
 /// The surface of an edge at its beginning or end, at a height (share of the patch).
 using NetSurface = std::function<NetPoint(int edge, bool at_end, double height)>;
 
+/// The columns that have a vertex on the lower and on the upper edge of a patch.
+struct NetRows {
+  std::vector<bool> lower, upper;
+};
+
 /// One tooth between two heights, from the beginning of a region on.
 struct NetPatch {
   std::vector<std::vector<double>>
@@ -54,10 +60,12 @@ struct NetPatch {
                                  std::vector<std::vector<double>> inner, double turn_rad);
 /// The same where the surface is no screw: errors are taken from its points and normals (a chord
 /// departs by an eighth of the way along it that the normal makes between its ends). What is
-/// marked as developable is a strip as above, though it need be so only nearly.
+/// marked as developable is a strip as above, though it need be so only nearly. All regions are
+/// strips: columns inside them have vertices on the patch's edges alone, if at all. Requires: the
+/// columns at the ends of regions on both rows.
 [[nodiscard]] NetPatch net_patch(const std::vector<NetEdge>& edges,
                                  std::vector<std::vector<double>> inner, double turn_rad,
-                                 const NetSurface& surface);
+                                 const NetSurface& surface, const NetRows& rows);
 
 /// Distance of a paraboloid from the triangle through its points, from its (signed) distances at
 /// the middles of the edges. On saddles and cylinders the largest of these; on a dome the height

@@ -415,14 +415,38 @@ bool ToothingGrid::rises(std::size_t layer, int tooth, int point) const {
   return rises_[layer][first + static_cast<std::size_t>(point)];
 }
 
+const ToothingGrid::HalfEdge* ToothingGrid::begins_at(std::size_t column) const {
+  const std::size_t n = points_.size(), before = edge_of_[(column + n - 1) % n],
+                    after = edge_of_[column];
+  return before == after ? nullptr : &edges_[std::max(before, after)];
+}
+
+bool ToothingGrid::is_on_row(std::size_t column, std::size_t row) const {
+  const HalfEdge* half = begins_at(column);
+  return half == nullptr || row >= kMostBreaks || ((half->rows >> row) & 1U) != 0;
+}
+
+ToothingGrid::RowPlaces ToothingGrid::row_places(std::size_t row) const {
+  RowPlaces result;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    result.place.push_back(result.count);
+    if (is_on_row(i, row)) ++result.count;
+  }
+  return result;
+}
+
 std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   std::vector<Point> result;
   result.reserve(points_.size() * static_cast<std::size_t>(teeth_));
   const double z = z_mm + outline_.z_lower_mm;
   if (teeth_alike_) {
     std::vector<Point2> tooth;
-    for (const Place& p : points_)
-      tooth.push_back(section_point(toothing_, place_at(p, 0, z_mm), z_mm));
+    const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
+    const auto row = static_cast<std::size_t>(
+        std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (is_on_row(i, row))
+        tooth.push_back(section_point(toothing_, place_at(points_[i], 0, z_mm), z_mm));
     const double turn = outline_.rotation_rad + section_turn_rad(toothing_.twist, z_mm);
     for (int k = 0; k < teeth_; ++k) {
       const Point2 direction = unit_vector(turn + kTwoPi * k / teeth_);

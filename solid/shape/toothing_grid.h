@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "trueflank/solid/shape/flank_breaks.h"
@@ -39,6 +40,13 @@ class ToothingGrid {
   /// All teeth at a height (gear's frame): points of the part's frame, tooth by tooth as in
   /// SectionPolygon.
   [[nodiscard]] std::vector<std::array<double, 3>> row(double z_mm) const;
+  /// The place of each column in a tooth's part of row(heights_mm()[row]), and how many there are. Of a
+  /// column that has no vertex on this row: of the next one.
+  struct RowPlaces {
+    std::vector<int> place;
+    int count = 0;
+  };
+  [[nodiscard]] RowPlaces row_places(std::size_t row) const;
   /// Whether the quadrilateral above row `layer` that follows a point of a tooth is cut from its
   /// lower left to its upper right corner (seen from the axis' outside, the axis upwards).
   [[nodiscard]] bool rises(std::size_t layer, int tooth, int point) const;
@@ -60,7 +68,9 @@ class ToothingGrid {
   struct HalfEdge {
     std::size_t piece = 0;
     double from = 0.0, to = 0.0;
-    bool starts_strip = false;  ///< of a modified net: its first column has vertices between breaks
+    // of a modified net, of its first column, by bits:
+    std::uint64_t rows = ~std::uint64_t{0};  ///< breaks on which it has a vertex
+    std::uint64_t posts = 0;                 ///< patches in which it may have vertices, too
   };
   /// A place on a tooth, whichever tooth.
   struct Place {
@@ -68,6 +78,8 @@ class ToothingGrid {
     std::size_t piece = 0;
     double parameter = 0.0;
   };
+  /// Breaks and patches of nets are named by the bits of a number.
+  static constexpr std::size_t kMostBreaks = 64;
   /// Places at which a piece is looked at for how it bends.
   static constexpr std::size_t kSamples = 32;
   /// What the facets aim at, by piece and sample.
@@ -85,6 +97,9 @@ class ToothingGrid {
   [[nodiscard]] bool is_even(std::size_t middle) const {
     return chord_middles_[middle].parameter == middles_[middle].parameter;
   }
+  /// The half edge that begins at a column of the tooth; null at the middles of tooth and gap.
+  [[nodiscard]] const HalfEdge* begins_at(std::size_t column) const;
+  [[nodiscard]] bool is_on_row(std::size_t column, std::size_t row) const;
   void lay_plain(double aim_mm);
   class SurfaceNet;
   /// A net of modified teeth. False where the tolerance is not kept.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "trueflank/solid/shape/column_demand.h"
+#include "trueflank/solid/shape/surface_form.h"
+#include "trueflank/solid/shape/toothing_grid.h"
+
+namespace trueflank {
+
+/// Modified teeth as a net: what bends the surface is found on the surface itself. Each patch
+/// (between two breaks of the face) has posts of its own: columns with vertices inside it; each
+/// break has the vertices that the patches beside it ask for. One attempt; the grid's columns and
+/// patches are laid while it lasts. Source: docs/theory/helical-facets.md.
+class ToothingGrid::SurfaceNet {
+ public:
+  SurfaceNet(ToothingGrid& grid, double tolerance_mm);
+  /// False where the tolerance is not kept.
+  bool lay();
+
+ private:
+  using Space3 = Eigen::Vector3d;
+  /// Cells of a panel, and heights of a patch (shares), at which it is looked at for how it bends.
+  static constexpr std::size_t kCells = 16;
+  static constexpr std::array<double, 3> kHeights = {0.12, 0.5, 0.88};
+  /// Heights on either side of such a one, as a share of the patch.
+  static constexpr double kReachUp = 0.0625;
+  /// By side and height.
+  using CellForms = std::array<SurfaceForm, 2 * kHeights.size()>;
+  using PanelForms = std::array<CellForms, kCells>;
+
+  /// How a patch crosses a panel.
+  struct Crossing {
+    PanelForms forms;  ///< over a cell and the patch
+    bool dome = false;
+    bool across = false;   ///< no vertices inside: facets reach from one break to the other
+    bool between = false;  ///< the vertices of one break stand between those of the other
+    int rows = 1;          ///< of a dome
+  };
+  /// What lies between two joints or breaks of the profile.
+  struct Panel {
+    std::size_t piece = 0;
+    double from = 0.0, to = 0.0;
+    bool land = false, flank = false;
+    double wider = 1.0;  ///< a land's chords are off by so many times those of the profile
+    std::vector<Crossing> patches = {};
+  };
+
+  static bool is_land(PieceKind kind) {
+    return kind == PieceKind::kTip || kind == PieceKind::kRoot;
+  }
+  [[nodiscard]] std::size_t patch_count() const { return g_.breaks_mm_.size() - 1; }
+  [[nodiscard]] double height_of(std::size_t patch, double share) const {
+    return std::lerp(g_.breaks_mm_[patch], g_.breaks_mm_[patch + 1], share);
+  }
+  [[nodiscard]] Space3 on(int side, std::size_t piece, double parameter, double z) const {
+    const Point p = g_.at({side, piece, parameter}, 0, z);
+    return Space3(p.data());
+  }
+  /// Of a patch and piece.
+  [[nodiscard]] std::size_t aims_of(std::size_t patch, std::size_t piece) const {
+    return patch * pieces_ + piece;
+  }
+  [[nodiscard]] std::pair<std::size_t, std::size_t> samples(std::size_t piece, double a,
+                                                            double b) const;
+  [[nodiscard]] double aim_between(std::size_t patch, std::size_t piece, double a, double b) const;
+
+  // surface_net_panels.cpp: what the surface asks for
+  void find_panels();
+  void measure_land(Panel& panel) const;
+  void look_at(Panel& panel) const;
+  [[nodiscard]] SurfaceForm form(int side, std::size_t piece, double from, double to,
+                                 std::size_t patch, double share) const;
+  [[nodiscard]] double cell_edge(const Panel& panel, double cell) const {
+    return std::lerp(panel.from, panel.to, cell / kCells);
+  }
+  [[nodiscard]] double room_of(const Panel& panel, std::size_t patch, std::size_t cell) const;
+  [[nodiscard]] ColumnDemand columns(const Panel& panel, std::size_t patch, int rows) const;
+  [[nodiscard]] ColumnDemand chords(const Panel& panel, std::size_t row) const;
+  [[nodiscard]] double straight_way(const Panel& panel, std::size_t patch, double parameter) const;
+  void choose_crossing(Panel& panel, std::size_t patch) const;
+
+  // surface_net_columns.cpp: where vertices stand
+  void spread();
+  void add_land(const Panel& panel);
+  void add_panel(Panel& panel);
+  [[nodiscard]] std::vector<double> row_between(const Panel& panel, std::size_t patch,
+                                                const std::vector<double>& other) const;
+  [[nodiscard]] double rows_of(const Crossing& crossing) const;
+  [[nodiscard]] std::vector<std::vector<double>> posts_of(Panel& panel) const;
+  [[nodiscard]] std::vector<double> row_of(const Panel& panel, std::size_t row,
+                                           const std::vector<std::vector<double>>& posts) const;
+
+  // toothing_grid_surface.cpp: the net of a patch
+  [[nodiscard]] bool is_post(std::size_t column) const;
+  [[nodiscard]] std::vector<bool> row_columns(std::size_t row) const;
+  void find_regions();
+  [[nodiscard]] bool is_flank(std::size_t edge) const;
+  [[nodiscard]] bool on_land(std::size_t edge) const;
+  [[nodiscard]] const Panel& panel_of(std::size_t edge) const;
+  [[nodiscard]] std::size_t region_end(std::size_t edge) const;
+  [[nodiscard]] std::pair<double, double> span_of(std::size_t from, std::size_t to) const;
+  void join_regions();
+  [[nodiscard]] double steps_of(std::size_t from, std::size_t to) const;
+  [[nodiscard]] std::vector<std::vector<double>> inner_rows() const;
+  [[nodiscard]] std::vector<bool> columns_between() const;
+  [[nodiscard]] double ridge(std::size_t column) const;
+  [[nodiscard]] Place end_of(std::size_t edge, bool at_end) const;
+  [[nodiscard]] NetPoint net_point(std::size_t edge, bool at_end, double share) const;
+
+  // surface_net_measure.cpp: whether it keeps the tolerance
+  struct At {
+    double parameter = 0.0, z = 0.0;
+    Space3 point = Space3::Zero();
+  };
+  void measure(const NetPatch& net, Aims& errors) const;
+  [[nodiscard]] Space3 over_edge(const Place& surface, const At& p, const At& q,
+                                 double share) const;
+  [[nodiscard]] double facet_error(const Place& surface, const std::array<At, 3>& corner,
+                                   bool in_strip) const;
+  [[nodiscard]] static double land_error(const std::array<At, 3>& corner);
+
+  ToothingGrid& g_;
+  double tolerance_;
+  std::size_t pieces_ = 0;
+  std::vector<Panel> panels_;
+  Aims aims_;
+  std::vector<NetEdge> net_;  ///< of patch_
+  std::size_t patch_ = 0;
+};
+
+}  // namespace trueflank

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whether a net of modified teeth keeps the tolerance: every facet against the surface.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/solid/shape/surface_net.h"
+
+namespace trueflank {
+namespace {
+
+/// Where a chord's middle lies farther from the surface's own, it is looked for.
+constexpr double kOffMiddle = 0.02;
+
+}  // namespace
+
+/// The point of the surface over the share of a facet's edge.
+ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_edge(const Place& surface,
+                                                                     const At& p, const At& q,
+                                                                     double share) const {
+  const Space3 chord = q.point - p.point;
+  const double length2 = chord.squaredNorm();
+  double at = share;
+  Space3 found;
+  for (int i = 0; i < 4; ++i) {
+    found = on(surface.side, surface.piece, std::lerp(p.parameter, q.parameter, at),
+               std::lerp(p.z, q.z, at));
+    const double off = (found - p.point).dot(chord) / length2 - share;
+    if (!(std::abs(off) > kOffMiddle)) break;
+    at = std::clamp(at - off, 0.0, 1.0);
+  }
+  return found;
+}
+
+void ToothingGrid::SurfaceNet::measure(const NetPatch& net, Aims& errors) const {
+  const std::size_t n = net_.size();
+  for (std::size_t t = 0; t < net.facets.size(); ++t) {
+    const auto& facet = net.facets[t];
+    const int first = std::min({facet[0].column, facet[1].column, facet[2].column});
+    const std::size_t edge = static_cast<std::size_t>(first) % n;
+    const Place& surface = g_.middles_[edge];
+    std::array<At, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto column = static_cast<std::size_t>(facet[k].column);
+      const auto& rows = net.inner[column % n];
+      const auto row = static_cast<std::size_t>(facet[k].row);
+      const double share = row == 0 ? 0.0 : row > rows.size() ? 1.0 : rows[row - 1];
+      const bool at_end = net.region[t] != net_[column % n].region;
+      const Place place = on_land(edge) ? g_.points_[column % n]
+                                        : end_of((at_end ? column + n - 1 : column) % n, at_end);
+      corner[k] = {place.parameter, height_of(patch_, share), Space3::Zero()};
+      const std::size_t tooth = on_land(edge) ? column / n : 0;
+      const Point p = g_.at(place, static_cast<int>(tooth) % g_.teeth_, corner[k].z);
+      corner[k].point = Space3(p.data());
+    }
+    const double error =
+        on_land(edge) ? land_error(corner)
+                      : facet_error(surface, corner, net_[edge].developable || net_[edge].across);
+    const auto [low_sample, high_sample] = samples(
+        surface.piece, std::min({corner[0].parameter, corner[1].parameter, corner[2].parameter}),
+        std::max({corner[0].parameter, corner[1].parameter, corner[2].parameter}));
+    auto& charged = errors[aims_of(patch_, surface.piece)];
+    for (std::size_t k = low_sample; k < high_sample; ++k) charged[k] = std::max(charged[k], error);
+  }
+}
+
+double ToothingGrid::SurfaceNet::facet_error(const Place& surface, const std::array<At, 3>& corner,
+                                             bool in_strip) const {
+  const Space3 normal =
+      (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
+  std::array<double, 3> middle{};
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const At &p = corner[k], &q = corner[(k + 1) % 3];
+    for (const double share : {0.5, 0.25, 0.75}) {
+      if (share != 0.5 && !in_strip)
+        break;  // only strips have edges that may bend in one half alone
+      const Space3 away = over_edge(surface, p, q, share) - p.point;
+      const double off = away.dot(normal);
+      // an end face's edge has the surface on one side only
+      if (share == 0.5 && p.z == q.z) {
+        const Space3 chord = (q.point - p.point).normalized();
+        largest = std::max(largest, (away - chord * away.dot(chord)).norm());
+      }
+      if (share == 0.5) middle[k] = off;
+      largest = std::max(largest, std::abs(off));
+    }
+  }
+  return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
+}
+
+/// Lands are cylinders about the axis, cones where a chamfer lowers tips.
+double ToothingGrid::SurfaceNet::land_error(const std::array<At, 3>& corner) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Space3 &p = corner[k].point, &q = corner[(k + 1) % 3].point;
+    const double radius = 0.5 * (p.head<2>().norm() + q.head<2>().norm());
+    largest = std::max(largest, std::abs(radius - (0.5 * (p + q)).head<2>().norm()));
+  }
+  return largest;
+}
+
+}  // namespace trueflank

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the surface of modified teeth asks for: columns, rows and chords, by second differences.
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/solid/shape/surface_net.h"
+
+namespace trueflank {
+namespace {
+
+/// Saddles bent by less than this share of the room have facets from break to break as wide as
+/// their chords, wherever these stand.
+constexpr double kSlack = 1.25;
+/// The same of domes.
+constexpr double kAlmostWhole = 0.75;
+
+/// What is left of the way up along the straightest way, in rooms: below 0 on saddles.
+double left_up(const SurfaceForm& form, double room_mm) {
+  const double across = std::max(std::abs(form.across), 1e-6 * room_mm);
+  return (form.along * (form.across < 0.0 ? -1.0 : 1.0) - form.mixed * form.mixed / across) /
+         room_mm;
+}
+
+/// Vertices that one step asks for of either break where facets reach from one to the other.
+double vertices_across(const SurfaceForm& form, double room_mm) {
+  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), q = left_up(form, room_mm);
+  const double chords = std::sqrt(bent / room_mm);
+  return -q <= kSlack ? chords : chords / (std::sqrt(1.0 - q) - std::sqrt(-q - 1.0));
+}
+
+}  // namespace
+
+SurfaceForm ToothingGrid::SurfaceNet::form(int side, std::size_t piece, double from, double to,
+                                           std::size_t patch, double share) const {
+  const double middle = 0.5 * (from + to);
+  const double z0 = height_of(patch, share - kReachUp), z = height_of(patch, share),
+               z1 = height_of(patch, share + kReachUp);
+  const auto x = [&](double parameter, double height) {
+    return on(side, piece, parameter, height);
+  };
+  return surface_form(
+      {x(from, z0), x(from, z), x(middle, z0), x(middle, z), x(middle, z1), x(to, z), x(to, z1)},
+      2.0, 1.0 / kReachUp);
+}
+
+void ToothingGrid::SurfaceNet::find_panels() {
+  const auto& pieces = g_.toothing_.profile->pieces();
+  const std::vector<double>& breaks = g_.breaks_.parameters();
+  for (const HalfEdge& e : g_.edges_) {
+    const bool at_break = std::find(breaks.begin(), breaks.end(), e.from) != breaks.end();
+    if (panels_.empty() || panels_.back().piece != e.piece || at_break)
+      panels_.push_back({.piece = e.piece,
+                         .from = e.from,
+                         .land = is_land(pieces[e.piece].kind),
+                         .flank = pieces[e.piece].kind == PieceKind::kInvolute});
+    panels_.back().to = e.to;
+  }
+  for (Panel& panel : panels_)
+    if (panel.land)
+      measure_land(panel);
+    else
+      look_at(panel);
+}
+
+/// Lands are wider where flanks have more material or chamfers lower tips.
+void ToothingGrid::SurfaceNet::measure_land(Panel& panel) const {
+  const Curve& curve = g_.toothing_.profile->pieces()[panel.piece].curve;
+  const auto spread_of = [](const Point2& a, const Point2& b) {
+    const double angle = std::atan2(cross(a, b), a.dot(b));
+    return angle * angle * a.norm();
+  };
+  const double plain = spread_of(point_at(curve, curve.begin), point_at(curve, curve.end));
+  for (const double z : g_.breaks_mm_)
+    for (const int side : {-1, 1}) {
+      const Space3 a = on(side, panel.piece, curve.begin, z),
+                   b = on(side, panel.piece, curve.end, z);
+      if (plain > 0.0)
+        panel.wider = std::max(panel.wider, spread_of(a.head<2>(), b.head<2>()) / plain);
+    }
+}
+
+void ToothingGrid::SurfaceNet::look_at(Panel& panel) const {
+  const double room = 8.0 * tolerance_;
+  panel.patches.resize(patch_count());
+  for (std::size_t patch = 0; patch < patch_count(); ++patch) {
+    Crossing& crossing = panel.patches[patch];
+    for (std::size_t c = 0; c < kCells; ++c) {
+      const auto cell = static_cast<double>(c);
+      std::size_t k = 0;
+      for (const int side : {-1, 1})
+        for (const double share : kHeights) {
+          crossing.forms[c][k] = form(side, panel.piece, cell_edge(panel, cell),
+                                      cell_edge(panel, cell + 1.0), patch, share);
+          crossing.dome = crossing.dome || crossing.forms[c][k].is_dome(room);
+          ++k;
+        }
+    }
+  }
+}
+
+double ToothingGrid::SurfaceNet::room_of(const Panel& panel, std::size_t patch,
+                                         std::size_t cell) const {
+  const auto c = static_cast<double>(cell);
+  return 8.0 * aim_between(patch, panel.piece, cell_edge(panel, c), cell_edge(panel, c + 1.0));
+}
+
+/// Posts that a patch asks for with so many rows.
+ColumnDemand ToothingGrid::SurfaceNet::columns(const Panel& panel, std::size_t patch,
+                                               int rows) const {
+  ColumnDemand demand(panel.from, panel.to);
+  for (std::size_t c = 0; c < kCells; ++c) {
+    const double room = room_of(panel, patch, c);
+    double most = 1e-9;
+    for (const SurfaceForm& form : panel.patches[patch].forms[c]) {
+      // where one step up would do, columns stand as chords: steps keep the diagonals right
+      const bool low = !form.is_dome(room) && std::abs(form.along) <= room;
+      most =
+          std::max(most, low ? std::sqrt(std::abs(form.across) / room) : form.columns(rows, room));
+    }
+    demand.add(most);
+  }
+  return demand;
+}
+
+/// Vertices that the patches beside a break ask for on it.
+ColumnDemand ToothingGrid::SurfaceNet::chords(const Panel& panel, std::size_t row) const {
+  ColumnDemand demand(panel.from, panel.to);
+  for (std::size_t c = 0; c < kCells; ++c) {
+    double most = 1e-9;
+    for (std::size_t patch = row > 0 ? row - 1 : 0; patch < std::min(row + 1, patch_count());
+         ++patch) {
+      const Crossing& crossing = panel.patches[patch];
+      const double room = room_of(panel, patch, c);
+      for (const SurfaceForm& form : crossing.forms[c]) {
+        most = std::max(most, std::sqrt(form.level / room));
+        if (crossing.across) most = std::max(most, vertices_across(form, room));
+      }
+    }
+    demand.add(most);
+  }
+  return demand;
+}
+
+/// How far a straight line of the surface wanders along the panel from the lower break to the upper
+/// one; of two the one that is nearly upright.
+double ToothingGrid::SurfaceNet::straight_way(const Panel& panel, std::size_t patch,
+                                              double parameter) const {
+  const double share = (parameter - panel.from) / (panel.to - panel.from);
+  const auto cell = static_cast<std::size_t>(std::clamp(share * kCells, 0.0, kCells - 1.0));
+  double cells = 0.0;
+  for (const std::size_t k :
+       {std::size_t{1}, kHeights.size() + 1}) {  // of both sides, at half height
+    const SurfaceForm& f = panel.patches[patch].forms[cell][k];
+    const double under = f.mixed * f.mixed - f.across * f.along;
+    if (under > 0.0) cells -= 0.5 * f.along / (f.mixed + std::copysign(std::sqrt(under), f.mixed));
+  }
+  return cells * (panel.to - panel.from) / kCells;
+}
+
+/// Facets from break to break where no column needs vertices inside; of a dome as many rows as make
+/// the fewest facets with the columns they leave.
+void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) const {
+  Crossing& crossing = panel.patches[patch];
+  double along = 0.0, dome = 0.0, saddle = 0.0;
+  for (std::size_t c = 0; c < kCells; ++c) {
+    const double room = room_of(panel, patch, c);
+    for (const SurfaceForm& form : crossing.forms[c]) {
+      along = std::max(along, std::abs(form.along) / room);
+      dome = std::max(dome, left_up(form, room));
+      saddle = std::max(saddle, -left_up(form, room));
+    }
+  }
+  crossing.across = along <= 1.0 && dome <= kAlmostWhole;
+  crossing.between = crossing.across && saddle > kSlack;
+  crossing.rows = 1;
+  if (!crossing.dome || crossing.across) return;
+  const int fewest = whole_parts(std::sqrt(along));
+  double least_facets = 1e300;
+  for (int rows = fewest; rows <= 2 * fewest + 1; ++rows) {
+    const double facets =
+        static_cast<double>(whole_parts(columns(panel, patch, rows).whole())) * rows;
+    if (facets < least_facets) least_facets = facets, crossing.rows = rows;
+  }
+}
+
+}  // namespace trueflank
