@@ -73,8 +73,9 @@ class Zip {
     return cost_.back();
   }
 
-  /// After settle_all().
-  void add_to(std::vector<std::array<NetNode, 3>>& facets) const {
+  /// After settle_all(). Returns the largest error of these facets.
+  double add_to(std::vector<std::array<NetNode, 3>>& facets) const {
+    double largest = 0.0;
     const std::size_t begin = facets.size();
     std::size_t i = left_.size() - 1, j = right_.size() - 1;
     while (i > 0 || j > 0) {
@@ -82,8 +83,10 @@ class Zip {
       const Link& next = step ? left_[i] : right_[j];
       step ? --i : --j;
       facets.push_back({left_[i].node, right_[j].node, next.node});
+      largest = std::max(largest, std::abs(error_(left_[i], right_[j], next)));
     }
     std::reverse(facets.begin() + static_cast<std::ptrdiff_t>(begin), facets.end());
+    return largest;
   }
 
  private:
@@ -261,7 +264,8 @@ class PatchBuilder {
       join_upwards(from, to);
     else {
       add_strips(from, to);
-      if (!wide) join_upwards(from, to), join_across(from, to, inside);
+      if (!wide && best_.largest > rows_->tolerance_mm)
+        join_upwards(from, to), join_across(from, to, inside);
     }
     result_.facets.insert(result_.facets.end(), best_.facets.begin(), best_.facets.end());
   }
@@ -304,8 +308,9 @@ class PatchBuilder {
     const double cost = zip.settle_all() + fourth(error(left[0], right[1], left[1])) +
                         fourth(error(inner_left.back(), inner_right.back(), left.back()));
     if (!(cost < best_.cost) && !best_.facets.empty()) return;
-    best_ = {cost, {{left[0].node, right[1].node, left[1].node}}};
-    zip.add_to(best_.facets);
+    best_ = {cost, 0.0, {{left[0].node, right[1].node, left[1].node}}};
+    best_.largest = std::max({zip.add_to(best_.facets), error(left[0], right[1], left[1]),
+                              error(inner_left.back(), inner_right.back(), left.back())});
     best_.facets.push_back({inner_left.back().node, inner_right.back().node, left.back().node});
   }
 
@@ -418,6 +423,7 @@ class PatchBuilder {
   const NetRows* rows_ = nullptr;
   struct Joined {
     double cost = kNoLimit;  ///< sum of the fourth powers of errors
+    double largest = 0.0;    ///< of the errors
     std::vector<std::array<NetNode, 3>> facets = {};
   };
   Joined best_ = {};  ///< of a strip

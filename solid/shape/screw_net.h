@@ -38,9 +38,11 @@ struct NetPoint {
 /// The surface of an edge at its beginning or end, at a height (share of the patch).
 using NetSurface = std::function<NetPoint(int edge, bool at_end, double height)>;
 
-/// The columns that have a vertex on the lower and on the upper edge of a patch.
+/// The columns that have a vertex on the lower and on the upper edge of a patch, and the error from which
+/// on strips are joined in other ways, too.
 struct NetRows {
   std::vector<bool> lower, upper;
+  double tolerance_mm = 0.0;
 };
 
 /// One tooth between two heights, from the beginning of a region on.

@@ -11,9 +11,9 @@ namespace trueflank {
 namespace {
 
 /// Rounds of finer columns and steps where facets do not keep the tolerance.
-constexpr int kSurfaceRounds = 18;
+constexpr int kSurfaceRounds = 24;
 /// More facets than so many times the first round's: something bends that columns do not mend.
-constexpr double kWorthWhile = 2.5;
+constexpr double kWorthWhile = 4.0;
 /// From this round on the neighbours of what is too coarse are laid finer, too.
 constexpr int kAlone = 4;
 /// A net is measured, not bounded: what its error is taken for.
@@ -60,7 +60,7 @@ bool ToothingGrid::SurfaceNet::lay() {
         return net_point(static_cast<std::size_t>(edge), at_end, height);
       };
       g_.patches_.push_back(net_patch(net_, inner_rows(), g_.patch_turn_rad(patch_), surface,
-                                      {row_columns(patch_), row_columns(patch_ + 1)}));
+                                      {row_columns(patch_), row_columns(patch_ + 1), tolerance_}));
       measure(g_.patches_.back(), errors);
       facets += static_cast<double>(g_.patches_.back().facets.size());
     }
@@ -193,8 +193,16 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
   };
   if (crossing.across) return 1.0;
   const double width = share(end) - share(begin);
-  const auto first = static_cast<std::size_t>(std::clamp(share(begin) + 1e-6, 0.0, kCells - 1.0));
-  const auto last = static_cast<std::size_t>(std::clamp(share(end) - 1e-6, 0.0, kCells - 1.0));
+  const auto cell_at = [](double cells) {
+    return static_cast<std::size_t>(std::clamp(cells, 0.0, kCells - 1.0));
+  };
+  std::size_t first = cell_at(share(begin) + 1e-6), last = cell_at(share(end) - 1e-6);
+  const std::size_t centre = cell_at(0.5 * (share(begin) + share(end)));
+  // where posts have many steps, those of the middle do: rounding makes up for it
+  if (std::abs(crossing.forms[centre][1].along) > room) {
+    first = std::min(centre, cell_at(share(begin) + 0.5));
+    last = std::max(centre, cell_at(share(end) - 0.5));
+  }
   const std::size_t side = g_.middles_[from].side < 0 ? 0 : kHeights.size();
   double steps = 1.0;
   for (std::size_t c = first; c <= last; ++c)
