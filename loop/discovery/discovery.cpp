@@ -148,15 +148,21 @@ class Selection {
   }
 
   /// Of those as good as the best the one with the lowest preference, then the fewest columns, then the
-  /// simplest.
+  /// simplest, then the one that gains most. Names of the same columns gain alike but for rounding: of
+  /// them the one listed first.
   [[nodiscard]] int preferred(const std::vector<Tried>& tried, const Tried& best) const {
-    const Tried* pick = &best;
+    const double rounding = 1e-9 * std::abs(best.gain.sum());
     const auto rank = [&](const Tried& t) {
       const CandidateGroup& group = problem_.groups[t.group];
-      return std::tuple(group.preference, group.columns, group.complexity, -t.gain.sum());
+      return std::tuple(group.preference, group.columns, group.complexity);
     };
-    for (const Tried& other : tried)
-      if (is_tie(best.gain - other.gain) && rank(other) < rank(*pick)) pick = &other;
+    const Tried* pick = nullptr;
+    for (const Tried& other : tried) {
+      if (&other != &best && !is_tie(best.gain - other.gain)) continue;
+      if (!pick || rank(other) < rank(*pick) ||
+          (rank(other) == rank(*pick) && other.gain.sum() > pick->gain.sum() + rounding))
+        pick = &other;
+    }
     return pick->group;
   }
 
