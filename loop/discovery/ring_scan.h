@@ -32,4 +32,9 @@ struct RingFinding {
 [[nodiscard]] RingFinding scan_ring(const Eigen::MatrixXd& series, const std::vector<int>& place,
                                     int ring);
 
+/// How likely two series of as many values each agree as they do, or are opposite, by chance: a
+/// t test of their correlation about their means. 1 of fewer than five values: four agree too often.
+/// Values of one series may be as noisy as they like if none knows of the other's.
+[[nodiscard]] double chance_of_agreement(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 }  // namespace trueflank::loop

@@ -60,7 +60,9 @@ class PartLoop {
 
  private:
   void hold_to_single_values();
-  [[nodiscard]] bool adopt(const std::vector<Effect>& more, const std::vector<double>& p_values);
+  [[nodiscard]] bool adopt(const std::vector<Effect>& more, const std::vector<double>& p_values,
+                           const std::vector<Effect>& instead_of = {});
+  [[nodiscard]] std::vector<Effect> waves_in_place_of(const std::vector<Effect>& alone) const;
   void drop_what_new_ones_say(std::size_t first_new);
   void remove_effect(std::size_t effect);
   [[nodiscard]] std::vector<FoundEffect> told() const;

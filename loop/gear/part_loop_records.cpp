@@ -47,6 +47,12 @@ bool is_wave_of_slopes(const Effect& effect) {
          needs.along_profile != needs.along_face;
 }
 
+/// The same on the whole flank of every tooth.
+bool is_constant_on_flanks(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  return !effect.family->local && !needs.along_profile && !needs.along_face;
+}
+
 }  // namespace
 
 /// Takes an effect out of the answer, wherever it stands.
@@ -97,14 +103,20 @@ void PartLoop::drop_what_new_ones_say(std::size_t first_new) {
   }
 }
 
-/// Puts effects into the answer and takes out what they make idle. Kept where no more is left for
-/// the columns that it costs and the hold-out does not lose; false: it is as it was.
-bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>& p_values) {
+/// Puts effects into the answer, in place of some of its own, and takes out what they make idle. Kept
+/// where no more is left for the columns that it costs and the hold-out does not lose; false: it is
+/// as it was.
+bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>& p_values,
+                     const std::vector<Effect>& instead_of) {
   // Chi-square: five standard errors, and what a column takes out by chance; of the held-out error.
   constexpr double kClearly = 25.0, kByChance = 4.0, kNoLoss = 1e-3;
   const std::vector<Effect> effects = effects_, given = options_.given;
   const std::vector<ChosenGroup> chosen = discovery_.chosen;
   const std::vector<double> given_p_values = given_p_values_;
+  for (const Effect& effect : instead_of)
+    remove_effect(static_cast<std::size_t>(
+        std::find(effects_.begin(), effects_.end(), effect) - effects_.begin()));
+  const std::size_t kept = effects_.size();
   for (std::size_t e = 0; e < more.size(); ++e) {
     if (std::find(effects_.begin(), effects_.end(), more[e]) != effects_.end()) continue;
     ChosenGroup record;
@@ -113,7 +125,7 @@ bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>&
     effects_.push_back(more[e]);
     discovery_.chosen.push_back(record);
   }
-  drop_what_new_ones_say(effects.size());
+  drop_what_new_ones_say(kept);
   const auto held_out_um = [&](const std::vector<Effect>& of) {
     return fit_of(of)->errors(std::vector<bool>(of.size(), true)).held_out_rms_um;
   };
@@ -129,6 +141,17 @@ bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>&
   options_.given = given;
   given_p_values_ = given_p_values;
   return false;
+}
+
+/// Waves of the answer without a name, constant on each flank, that values one a tooth alone do not
+/// tell, which show nothing else: `alone` says what they show.
+std::vector<Effect> PartLoop::waves_in_place_of(const std::vector<Effect>& alone) const {
+  std::vector<Effect> waves;
+  for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e)
+    if (effects_[e].is_term() && effects_[e].order() > 0.0 && is_constant_on_flanks(effects_[e]) &&
+        std::find(alone.begin(), alone.end(), effects_[e]) == alone.end())
+      waves.push_back(effects_[e]);
+  return waves;
 }
 
 /// What values one a tooth say alone and the joint answer lacks enters it, with the waves of slopes
@@ -160,6 +183,8 @@ void PartLoop::hold_to_single_values() {
   const std::vector<Effect> without_slopes = more;
   for (std::size_t g = 0; traced && g < candidates_.size(); ++g)
     if (!banned_[g] && is_wave_of_slopes(candidates_[g])) add(candidates_[g], discovery_.p_left);
+  const std::vector<Effect> waves = waves_in_place_of(alone.effects_);
+  if (!waves.empty() && adopt(more, p_values, waves)) return;
   if (!adopt(more, p_values)) (void)adopt(without_slopes, p_values);
 }
 

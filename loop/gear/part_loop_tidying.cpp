@@ -229,8 +229,63 @@ void PartLoop::take_over(PartLoop& other) {
   forget_fits();
 }
 
+namespace {
+
+/// Squares of profile traces [um^2]: of values beside each trace's mean, and beside its straight line.
+struct TraceSquares {
+  double whole = 0.0, bent = 0.0;
+};
+
+TraceSquares squares_of_profiles(const FlankGeometry& geometry, const Observations& table,
+                                 const std::vector<float>& row_um) {
+  struct Sums {
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+  std::map<int, Sums> of_trace;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    if (row.kind != ObservationKind::kProfile || row.trace < 0 || !std::isfinite(row_um[i]))
+      continue;
+    const double x = geometry.profile_coordinate(table.place(row).roll_mm), y = row_um[i];
+    Sums& sums = of_trace[row.trace];
+    sums.n += 1.0;
+    sums.x += x;
+    sums.y += y;
+    sums.xx += x * x;
+    sums.xy += x * y;
+    sums.yy += y * y;
+  }
+  TraceSquares squares;
+  for (const auto& [trace, sums] : of_trace) {
+    const double xx = sums.xx - sums.x * sums.x / sums.n, xy = sums.xy - sums.x * sums.y / sums.n,
+                 yy = sums.yy - sums.y * sums.y / sums.n;
+    squares.whole += yy;
+    squares.bent += xx > 0.0 ? yy - xy * xy / xx : yy;
+  }
+  return squares;
+}
+
+/// True where the traces would bend as the wave does that takes `bare_um` to `after_um`, and do not:
+/// slopes that differ from tooth to tooth are told as a wave over the profile.
+bool is_wave_of_straight_traces(const FlankGeometry& geometry, const Observations& table,
+                                const std::vector<float>& bare_um,
+                                const std::vector<float>& after_um) {
+  constexpr double kBends = 0.5;
+  std::vector<float> wave_um(bare_um.size());
+  for (std::size_t i = 0; i < wave_um.size(); ++i) wave_um[i] = bare_um[i] - after_um[i];
+  const TraceSquares bare = squares_of_profiles(geometry, table, bare_um),
+                     after = squares_of_profiles(geometry, table, after_um),
+                     wave = squares_of_profiles(geometry, table, wave_um);
+  if (!(wave.whole > 0.0)) return false;
+  const double taken = bare.whole - after.whole, taken_bent = bare.bent - after.bent;
+  return taken_bent < kBends * taken * wave.bent / wave.whole;
+}
+
+}  // namespace
+
 /// While structure is left, a name that does less than what is left, in every kind of record that
-/// shows it, is as likely a part of that: it is told as a form, or not at all.
+/// shows it, is as likely a part of that: it is told as a form, or not at all. So is a machine's
+/// order that straight traces look like.
 void PartLoop::doubt_names_below_what_is_left() {
   constexpr double kLess = 0.25, kShows = 0.01;  // of squares
   const std::size_t told = options_.given.size() - given_p_values_.size();
@@ -261,8 +316,12 @@ void PartLoop::doubt_names_below_what_is_left() {
     const bool stands = std::any_of(taken.begin(), taken.end(), [&](const auto& of_kind) {
       return of_kind.second > kShows * most && of_kind.second >= kLess * left[of_kind.first];
     });
-    if (stands) continue;
-    if (const EffectFamily* form = find_form(effects_[e].family->form_word)) {
+    const bool slopes =
+        family.tells_order_along_profile && table_->points_mm.empty() &&
+        is_wave_of_straight_traces(geometry_, table_, *bare_um, *after_um);
+    if (stands && !slopes) continue;
+    if (const EffectFamily* form = find_form(effects_[e].family->form_word);
+        form != nullptr && !slopes) {
       effects_[e].family = form;
       continue;
     }

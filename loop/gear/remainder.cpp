@@ -53,6 +53,7 @@ class RemainderSearch {
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation();
     look_around();
+    look_at_flanks_of_teeth();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kLevel; });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return is_better(a.p_value, a.square, b.p_value, b.square);
@@ -207,8 +208,8 @@ class RemainderSearch {
                                                 geometry_.face_coordinate(place.z_mm));
     const bool profile = row.kind == ObservationKind::kProfile,
                helix = row.kind == ObservationKind::kHelix;
-    Moments& of_tooth = moments_of(profile ? 1
-                                   : helix ? 2
+    Moments& of_tooth = moments_of(profile ? kProfiles
+                                   : helix ? kHelices
                                            : 3,
                                    row.source)[moment_at(place.side > 0 ? 1 : 0, place.tooth)];
     ++of_tooth.count;
@@ -432,6 +433,48 @@ class RemainderSearch {
     }
   }
 
+  /// Slopes and bows of traces that differ from tooth to tooth, alike or opposite on both flanks of
+  /// each: noise knows of one trace only, however it hangs together within it.
+  void look_at_flanks_of_teeth() {
+    constexpr int kForms = 2;  // of a trace's own direction
+    const auto looks = static_cast<double>(kForms * moments_.size());
+    for (const auto& [key, of_teeth] : moments_) {
+      if (key.first != kProfiles && key.first != kHelices) continue;
+      for (const int form : key.first == kProfiles ? std::array{1, 3} : std::array{2, 4}) {
+        const auto [right, left] = values_of_both_flanks(of_teeth, form);
+        const double p_value = std::min(1.0, looks * chance_of_agreement(right, left));
+        if (p_value > kLevel) continue;
+        const bool opposite =
+            (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) < 0.0;
+        const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
+        const double spread = std::sqrt((common.array() - common.mean()).square().mean());
+        add_text(p_value,
+                 printed("a %s over the %s of its own on every tooth, %s both its flanks, with a "
+                         "standard deviation of %.3g um",
+                         form < 3 ? "slope" : "bow", key.first == kProfiles ? "profile" : "face",
+                         opposite ? "opposite on" : "alike on", (form < 3 ? 2.0 : 1.0) * spread),
+                 (form < 3 ? 2.0 : 1.0) * spread);
+      }
+    }
+  }
+
+  /// A form of the teeth of which both flanks were measured.
+  static std::array<Eigen::VectorXd, 2> values_of_both_flanks(const std::vector<Moments>& of_teeth,
+                                                              int form) {
+    const auto k = static_cast<std::size_t>(form);
+    std::array<std::vector<double>, 2> values;
+    for (std::size_t at = 0; at + 1 < of_teeth.size(); at += 2) {
+      if (!(of_teeth[at].square[k] > 0.0) || !(of_teeth[at + 1].square[k] > 0.0)) continue;
+      for (const std::size_t side : {0, 1})
+        values[side].push_back(of_teeth[at + side].sum[k] / of_teeth[at + side].square[k]);
+    }
+    const auto vector = [](const std::vector<double>& of) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
+    };
+    return {vector(values[0]), vector(values[1])};
+  }
+
   /// One form of all teeth: a column of the ring.
   struct Series {
     int form = 0;
@@ -560,7 +603,7 @@ class RemainderSearch {
     return table_.rows[i].places == 1 && table_.place(table_.rows[i]).surface == Surface::kFlank;
   }
 
-  static constexpr int kScans = 0;
+  static constexpr int kScans = 0, kProfiles = 1, kHelices = 2;
   const FlankGeometry& geometry_;
   const Observations& table_;
   const Patches& patches_;

@@ -476,5 +476,37 @@ TEST(RingScanFigures, OfACombAreItsHeightAndItsFTest) {
       1e-9);
 }
 
+TEST(ChanceOfAgreement, IsStudentsOfTheCorrelation) {
+  Eigen::VectorXd a(6), b(6);
+  a << 1.0, 4.0, 2.0, 7.0, 5.0, 3.0;
+  b << 2.0, 3.0, 2.5, 6.0, 4.0, 4.5;
+  // r by hand: means 22 / 6 and 22 / 6
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    aa += (a[i] - 22.0 / 6.0) * (a[i] - 22.0 / 6.0);
+    bb += (b[i] - 22.0 / 6.0) * (b[i] - 22.0 / 6.0);
+    ab += (a[i] - 22.0 / 6.0) * (b[i] - 22.0 / 6.0);
+  }
+  const double r = ab / std::sqrt(aa * bb), t = r * std::sqrt(4.0 / (1.0 - r * r));
+  EXPECT_NEAR(chance_of_agreement(a, b), student_two_sided(t, 4.0), 1e-12);
+  EXPECT_NEAR(chance_of_agreement(a, 3.0 - 2.0 * b.array()), student_two_sided(t, 4.0), 1e-12);
+  EXPECT_LT(chance_of_agreement(a, a), 1e-9);
+  EXPECT_EQ(chance_of_agreement(a.head(4), a.head(4)), 1.0);
+  EXPECT_EQ(chance_of_agreement(a, Eigen::VectorXd::Constant(6, 2.0)), 1.0);
+}
+
+TEST(ChanceOfAgreement, OfNoiseIsAsOftenBelowALevelAsTheLevelSays) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  int below = 0;
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto a = Eigen::VectorXd::NullaryExpr(8, [&] { return normal(random); }).eval();
+    const auto b = Eigen::VectorXd::NullaryExpr(8, [&] { return 9.0 * normal(random); }).eval();
+    below += chance_of_agreement(a, b) < 0.05 ? 1 : 0;
+  }
+  EXPECT_NEAR(below, 0.05 * kTrials, 4.0 * std::sqrt(0.05 * 0.95 * kTrials));
+}
+
 }  // namespace
 }  // namespace trueflank::loop

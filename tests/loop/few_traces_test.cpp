@@ -172,6 +172,36 @@ TEST(FewTraces, ASlopeThatComesAndGoesIsNoMachinesOrder) {
   }
 }
 
+/// Both flanks of a tooth have one slope; what differs is told, whatever the orders of few teeth say.
+TEST(FewTraces, SlopesOfTheirOwnOnEveryToothAreToldByTheFlanksThatAgree) {
+  const MadeGear gear = spur(43);
+  const auto slope = [](auto&, const FlankSpot& s, auto&) {
+    return 10.0 * s.v * s.side * std::cos(4.0 * 2.0 * M_PI * (s.tooth - 1) / 43.0 + 1.9);
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    InspectionOptions options = sheet(gear, 8, seed);
+    options.noise_um = 1.0;
+    options.points = 100;
+    const auto result = close(gear, inspection_of(gear, {grown(slope)}, options));
+    EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << seed << ": " << list(result);
+  }
+}
+
+TEST(FewTraces, StraightTracesThatTurnFromToothToToothAreNoWaveOverTheProfile) {
+  for (const int teeth : {4, 6}) {
+    const int z = teeth == 4 ? 19 : 43;
+    const MadeGear gear = spur(z);
+    const auto slope = [&](auto&, const FlankSpot& s, auto&) {
+      return 12.0 * s.u * std::cos(0.5 * teeth * 2.0 * M_PI * (s.tooth - 1) / z - 3.5);
+    };
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const auto result = close(gear, inspection_of(gear, {grown(slope)}, sheet(gear, teeth, seed)));
+      EXPECT_EQ(find(result, "ghost_order"), nullptr) << teeth << ": " << list(result);
+      EXPECT_NE(result.verdict, loop::Verdict::kNoEffect) << teeth;
+    }
+  }
+}
+
 /// Traces whose values were read in steps of 2.5 times their noise.
 TEST(FewTraces, CoarseReadingsSeldomAlarm) {
   const MadeGear gear = spur(24);
