@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The printed actuators and the boxed pair in PrusaSlicer: every plate is sliced without a warning and without repair, and holds
-every part that bom.csv says is made, as often as it says."""
+"""The printed actuators and the boxed pair in PrusaSlicer: no plate needs repair, and plates hold every part that bom.csv says is
+made, as often as it says. Plates are sliced without a warning: in the campaign all of them, else the boxed pair's and one of an
+actuator."""
 import csv
 import os
 import pathlib
@@ -24,7 +25,7 @@ def run(*command):
 
 
 class PrintedActuator(unittest.TestCase):
-    EXAMPLE, PLATES = "printed_actuator", 2
+    EXAMPLE, PLATES, SLICED = "printed_actuator", 2, 1
 
     @classmethod
     def setUpClass(cls):
@@ -58,9 +59,9 @@ class PrintedActuator(unittest.TestCase):
             self.assertEqual(set(manifold), {"yes"}, plate.name)
             self.assertNotRegex(text, r"(?i)repair|edges_fixed|open edges")
 
-    def test_prusa_slicer_slices_every_plate_without_a_warning(self):
+    def test_prusa_slicer_slices_plates_without_a_warning(self):
         self.assertGreaterEqual(len(self.plates), self.PLATES)
-        for plate in self.plates:
+        for plate in self.plates if "TRUEFLANK_CAMPAIGN" in os.environ else self.plates[:self.SLICED]:
             gcode = plate.with_suffix(".gcode")
             code, text = run("prusa-slicer", "--export-gcode", "--dont-arrange", "--bed-shape", BED, *QUICK,
                              "-o", gcode, plate)
@@ -70,17 +71,15 @@ class PrintedActuator(unittest.TestCase):
 
 
 class BoxedPair(PrintedActuator):
-    EXAMPLE, PLATES = "boxed_pair", 1
+    EXAMPLE, PLATES, SLICED = "boxed_pair", 1, 1
 
 
 class PlanetaryActuator(PrintedActuator):
-    EXAMPLE, PLATES = "planetary_actuator", 1
-    test_prusa_slicer_slices_every_plate_without_a_warning = None  # half a minute: two examples do
+    EXAMPLE, PLATES, SLICED = "planetary_actuator", 1, 0
 
 
 class SteppedActuator(PrintedActuator):
-    EXAMPLE, PLATES = "stepped_actuator", 1
-    test_prusa_slicer_slices_every_plate_without_a_warning = None  # half a minute: two examples do
+    EXAMPLE, PLATES, SLICED = "stepped_actuator", 1, 0
 
 
 if __name__ == "__main__":

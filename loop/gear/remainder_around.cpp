@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/remainder_around.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/discovery/ring_scan.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr int kFewestTeeth = 8;
+
+class AroundSearch {
+ public:
+  AroundSearch(const FlankGeometry& geometry, const MomentsOfTeeth& moments,
+               const InPlaceOfSector& dent)
+      : geometry_(geometry), moments_(moments), dent_(dent) {}
+
+  std::vector<RemainderFinding> run() {
+    look_at_rings();
+    look_at_flanks_of_teeth();
+    return std::move(found_);
+  }
+
+ private:
+  /// Height, slope and bow of every tooth, in a ring: both flanks together, or the one measured.
+  void look_at_rings() {
+    for (const auto& [key, of_teeth] : moments_) {
+      std::array<std::vector<int>, 3> teeth;  // with right flanks, left flanks, both
+      for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth) {
+        const bool right = of_teeth[ToothMoments::at(0, tooth)].count > 0,
+                   left = of_teeth[ToothMoments::at(1, tooth)].count > 0;
+        if (right) teeth[0].push_back(tooth);
+        if (left) teeth[1].push_back(tooth);
+        if (right && left) teeth[2].push_back(tooth);
+      }
+      if (static_cast<int>(teeth[2].size()) >= kFewestTeeth)
+        look_around(key, of_teeth, teeth[2], -1);
+      else
+        for (const int side : {0, 1})
+          if (static_cast<int>(teeth[static_cast<std::size_t>(side)].size()) >= kFewestTeeth)
+            look_around(key, of_teeth, teeth[static_cast<std::size_t>(side)], side);
+    }
+  }
+
+  /// Slopes and bows of traces that differ from tooth to tooth, alike or opposite on both flanks of
+  /// each: noise knows of one trace only, however it hangs together within it.
+  void look_at_flanks_of_teeth() {
+    constexpr int kForms = 2;  // of a trace's own direction
+    const auto looks = static_cast<double>(kForms * moments_.size());
+    for (const auto& [key, of_teeth] : moments_) {
+      if (key.first != MomentsOf::kProfiles && key.first != MomentsOf::kHelices) continue;
+      for (const int form : key.first == MomentsOf::kProfiles ? std::array{1, 3} : std::array{2, 4}) {
+        const auto [right, left] = values_of_both_flanks(of_teeth, form);
+        const double p_value = std::min(1.0, looks * chance_of_agreement(right, left));
+        if (p_value > kRemainderLevel) continue;
+        const bool opposite =
+            (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) < 0.0;
+        const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
+        const double spread = std::sqrt((common.array() - common.mean()).square().mean());
+        add_text(p_value,
+                 printed("a %s over the %s of its own on every tooth, %s both its flanks, with a "
+                         "standard deviation of %.3g um",
+                         form < 3 ? "slope" : "bow", key.first == MomentsOf::kProfiles ? "profile" : "face",
+                         opposite ? "opposite on" : "alike on", (form < 3 ? 2.0 : 1.0) * spread),
+                 (form < 3 ? 2.0 : 1.0) * spread);
+      }
+    }
+  }
+
+  /// A form of the teeth of which both flanks were measured.
+  static std::array<Eigen::VectorXd, 2> values_of_both_flanks(const std::vector<ToothMoments>& of_teeth,
+                                                              int form) {
+    const auto k = static_cast<std::size_t>(form);
+    std::array<std::vector<double>, 2> values;
+    for (std::size_t at = 0; at + 1 < of_teeth.size(); at += 2) {
+      if (!(of_teeth[at].square[k] > 0.0) || !(of_teeth[at + 1].square[k] > 0.0)) continue;
+      for (const std::size_t side : {0, 1})
+        values[side].push_back(of_teeth[at + side].sum[k] / of_teeth[at + side].square[k]);
+    }
+    const auto vector = [](const std::vector<double>& of) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size())));
+    };
+    return {vector(values[0]), vector(values[1])};
+  }
+
+  /// One form of all teeth: a column of the ring.
+  struct Series {
+    int form = 0;
+    bool opposite = false;
+    FlankChoice flank = FlankChoice::kBoth;
+  };
+
+  /// The form of a tooth on one side (0 right, 1 left), or of both together.
+  static std::optional<double> value_of(const std::vector<ToothMoments>& of_teeth, int tooth, int side,
+                                        const Series& series) {
+    const auto k = static_cast<std::size_t>(series.form);
+    const ToothMoments& right = of_teeth[ToothMoments::at(0, tooth)];
+    const ToothMoments& left = of_teeth[ToothMoments::at(1, tooth)];
+    if ((side != 1 && !(right.square[k] > 0.0)) || (side != 0 && !(left.square[k] > 0.0)))
+      return {};
+    if (side == 0) return right.sum[k] / right.square[k];
+    if (side == 1) return left.sum[k] / left.square[k];
+    return 0.5 * (left.sum[k] / left.square[k] +
+                  (series.opposite ? -1.0 : 1.0) * right.sum[k] / right.square[k]);
+  }
+
+  void look_around(const std::pair<MomentsOf, int>& key, const std::vector<ToothMoments>& of_teeth,
+                   const std::vector<int>& teeth, int side) {
+    const auto n = static_cast<Eigen::Index>(teeth.size());
+    std::vector<Series> what;
+    Eigen::MatrixXd series(n, 0);
+    for (int form = 0; form < static_cast<int>(ToothMoments::kForms); ++form)
+      for (const bool opposite : {false, true}) {
+        if (opposite && side >= 0) continue;
+        const Series one{form, opposite, flank_choice(geometry_, side)};
+        Eigen::VectorXd values(n);
+        bool known = true;
+        for (Eigen::Index i = 0; i < n && known; ++i) {
+          const auto value = value_of(of_teeth, teeth[static_cast<std::size_t>(i)], side, one);
+          known = value.has_value();
+          if (known) values[i] = *value;
+        }
+        if (!known) continue;
+        series.conservativeResize(Eigen::NoChange, series.cols() + 1);
+        series.col(series.cols() - 1) = values;
+        what.push_back(one);
+      }
+    if (what.empty()) return;
+    std::vector<int> place = teeth;
+    for (int& at : place) --at;
+    RingFinding found = scan_ring(series, place, geometry_.teeth());
+    if (found.series < 0) return;
+    found.p_value = std::min(1.0, found.p_value * static_cast<double>(moments_.size()));
+    if (found.p_value > kRemainderLevel) return;
+    add_ring(found, teeth, what[static_cast<std::size_t>(found.series)], key.first == MomentsOf::kScan);
+  }
+
+  void add_ring(const RingFinding& found, const std::vector<int>& teeth, const Series& series,
+                bool scan) {
+    const double u = series.form == 1 ? 1.0 : series.form == 3 ? 2.0 : 0.0;
+    const double v = series.form == 2 ? 1.0 : series.form == 4 ? 2.0 : 0.0;
+    const double turned = series.opposite ? 1.0 : 0.0;
+    const auto n = static_cast<int>(teeth.size());
+    const auto add_here = [&](const char* family, EffectShape shape) {
+      found_.push_back(finding_of(family, series.flank, std::move(shape), found.p_value,
+                                  found.amount, false));
+    };
+    using Kind = RingFinding::Kind;
+    if (found.kind == Kind::kRamp) {
+      add_here("unnamed_ramp", {found.first + 1.0, u, v, turned});
+    } else if (found.kind == Kind::kComb && found.count > 2) {
+      add_here("unnamed_comb", {double(found.count), found.first + 1.0, u, v, turned});
+    } else if (found.kind == Kind::kArc) {
+      const int first = teeth[static_cast<std::size_t>(found.first)];
+      const int last = teeth[static_cast<std::size_t>((found.first + found.count - 1) % n)];
+      const int z = geometry_.teeth();
+      const int count = ((last - first) % z + z) % z + 1;
+      if (scan)
+        if (auto dent = dent_({first, count, v, series.opposite}, found.p_value)) {
+          found_.push_back(std::move(*dent));
+          return;
+        }
+      add_here("unnamed_sector", {double(first), double(count), u, v, turned});
+    } else if (found.kind == Kind::kComb ||
+               (3 * n >= 2 * geometry_.teeth() && 2 * found.order >= geometry_.teeth() - 1)) {
+      add_here("unnamed_alternation", {u, v, turned});
+    } else if (u < 2.0 && v < 2.0 && series.flank == FlankChoice::kBoth) {
+      add_here("unnamed", {u, v, double(found.order), turned});
+    } else {
+      add_text(found.p_value,
+               printed("a wave %d times around the %d teeth measured, %.3g um", found.order, n,
+                       found.amount),
+               found.amount);
+    }
+  }
+
+  /// What is no form that could be a column.
+  void add_text(double p_value, std::string text, double amount) {
+    found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
+  }
+
+  const FlankGeometry& geometry_;
+  const MomentsOfTeeth& moments_;
+  const InPlaceOfSector& dent_;
+  std::vector<RemainderFinding> found_;
+};
+
+}  // namespace
+
+RemainderFinding finding_of(const char* family, FlankChoice flank, EffectShape shape,
+                            double p_value, double amount, bool local, double square) {
+  RemainderFinding finding{
+      p_value, {}, square, amount, Effect{find_family(family), flank, std::move(shape)}, local};
+  const Effect& effect = *finding.effect;
+  const char* on = effect.family->flank_only || effect.flank == FlankChoice::kBoth ? ""
+                   : effect.flank == FlankChoice::kLeft ? ", left flanks"
+                                                        : ", right flanks";
+  finding.text =
+      effect.family->words(effect.shape, effect.flank) + on + printed(", %.3g um", amount);
+  return finding;
+}
+
+FlankChoice flank_choice(const FlankGeometry& geometry, int side) {
+  return side < 0                                 ? FlankChoice::kBoth
+         : (side > 0) == (geometry.sense() > 0.0) ? FlankChoice::kLeft
+                                                  : FlankChoice::kRight;
+}
+
+std::vector<RemainderFinding> look_around_gear(const FlankGeometry& geometry,
+                                               const MomentsOfTeeth& moments,
+                                               const InPlaceOfSector& dent) {
+  return AroundSearch(geometry, moments, dent).run();
+}
+
+}  // namespace trueflank::loop
