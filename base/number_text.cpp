@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/units.h"
 
 namespace trueflank {
 namespace {
@@ -146,6 +147,8 @@ std::string trimmed_number(double value, int decimals) {
   if (text.ends_with('.')) text.pop_back();
   return text == "-0" ? "0" : text;
 }
+
+std::string whole_um(double length_mm) { return std::to_string(std::lround(um_from_mm(length_mm))) + " um"; }
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
   std::string text;

@@ -20,6 +20,8 @@ namespace trueflank {
 
 /// A length for a message, to the micrometre: "12.500".
 [[nodiscard]] inline std::string fixed_mm(double value_mm) { return printed_number(value_mm, "%.3f"); }
+/// The same as a whole number of micrometres: "12 um".
+[[nodiscard]] std::string whole_um(double length_mm);
 
 /// "a, b, c"
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view between = ", ");

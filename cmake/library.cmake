@@ -28,7 +28,7 @@ function(trueflank_library folder)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON
-    UNITY_BUILD_BATCH_SIZE 6)
+    UNITY_BUILD_BATCH_SIZE 14)
   target_compile_features(${target} ${interface} cxx_std_20)
   # The folders stand at the top level and are included as trueflank/<folder>/..., in the tree as after
   # installation: a link in the build folder makes it so.

@@ -13,10 +13,6 @@
 namespace trueflank {
 namespace {
 
-std::string mm(double length_mm) {
-  return plain_number(std::round(length_mm * 1e4) / 1e4) + " mm";
-}
-
 class Contradictions {
  public:
   Contradictions(const GearboxDesign& design, bool kind_known, Reading& reading)
@@ -85,7 +81,7 @@ class Contradictions {
     if (reading_.good("gearbox.backlash_mm") && reading_.good("gearbox.module_mm") &&
         design_.backlash_mm > design_.module_mm)
       reading_.contradiction("gearbox.backlash_mm", "more than one module",
-                             "at most " + mm(design_.module_mm));
+                             "at most " + plain_mm(design_.module_mm));
   }
 
   void check_groove() {
@@ -101,7 +97,7 @@ class Contradictions {
       if (reading_.good(gear.name + ".face_width_mm") &&
           design_.relief_groove_mm >= gear.face_width_mm)
         return reading_.contradiction(groove, "leaves " + gear.name + " no teeth",
-                                      "less than its face width, " + mm(gear.face_width_mm));
+                                      "less than its face width, " + plain_mm(gear.face_width_mm));
   }
 
   void check_rack() {
@@ -157,8 +153,8 @@ class Contradictions {
     const auto module1 = module_mm(*gear1), module2 = module_mm(*gear2);
     if (module1 && module2 && *module1 != *module2) {
       const std::string differ = name1 + " and " + name2 +
-                                 " mesh, but their modules are " + mm(*module1) + " and " +
-                                 mm(*module2);
+                                 " mesh, but their modules are " + plain_mm(*module1) + " and " +
+                                 plain_mm(*module2);
       const GearDesign& own = gear2->module_mm ? *gear2 : *gear1;
       reading_.contradiction(own.name + ".module_mm", differ, "one module for gears that mesh");
     }
@@ -196,7 +192,7 @@ class Contradictions {
     const double tip = *gear_->tip_diameter_mm;
     if (gear_->kind == GearKind::kExternal ? tip <= *root : tip >= *root)
       wrong("tip_diameter_mm", "on the wrong side of the root circle",
-            (gear_->kind == GearKind::kExternal ? "more than " : "less than ") + mm(*root));
+            (gear_->kind == GearKind::kExternal ? "more than " : "less than ") + plain_mm(*root));
   }
 
   /// An amount and the measure that places it need each other.
@@ -218,7 +214,7 @@ class Contradictions {
     const double tip = *gear_->tip_diameter_mm;
     if (gear_->kind == GearKind::kExternal ? start_mm >= tip : start_mm <= tip)
       wrong(relief_key, "beyond the tip circle",
-            (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + mm(tip));
+            (gear_->kind == GearKind::kExternal ? "less than " : "more than ") + plain_mm(tip));
   }
 
   void check_modifications() {
@@ -234,11 +230,11 @@ class Contradictions {
     if (!good("face_width_mm")) return;
     if (good("modifications.edge_chamfer_mm") && 2.0 * m.edge_chamfer_mm >= gear_->face_width_mm)
       wrong("modifications.edge_chamfer_mm", "leaves nothing of the face width",
-            "less than " + mm(0.5 * gear_->face_width_mm));
+            "less than " + plain_mm(0.5 * gear_->face_width_mm));
     if (good("modifications.end_relief_length_mm") &&
         2.0 * m.end_relief_length_mm > gear_->face_width_mm)
       wrong("modifications.end_relief_length_mm", "more than half the face width",
-            "at most " + mm(0.5 * gear_->face_width_mm));
+            "at most " + plain_mm(0.5 * gear_->face_width_mm));
   }
 
   void check_bore_kind() {
@@ -268,9 +264,9 @@ class Contradictions {
     if (good("bore_mm")) {
       if (good("bore_d_flat_mm") && (bore.d_flat_mm >= d || bore.d_flat_mm <= 0.5 * d))
         wrong("bore_d_flat_mm", "no flat of this bore",
-              "more than " + mm(0.5 * d) + " and less than " + mm(d));
+              "more than " + plain_mm(0.5 * d) + " and less than " + plain_mm(d));
       if (good("bore_keyway_width_mm") && bore.keyway_width_mm >= d)
-        wrong("bore_keyway_width_mm", "not narrower than the bore", "less than " + mm(d));
+        wrong("bore_keyway_width_mm", "not narrower than the bore", "less than " + plain_mm(d));
     }
     const auto root = root_diameter_mm();
     const char* name = bore.kind == BoreKind::kHex ? "bore_hex_mm" : "bore_mm";
@@ -282,7 +278,7 @@ class Contradictions {
         good("bore_keyway_depth_mm"))
       reach = std::hypot(reach + bore.keyway_depth_mm, 0.5 * bore.keyway_width_mm);
     if (2.0 * reach >= *root)
-      wrong(name, "cuts through the root circle, which has " + mm(*root),
+      wrong(name, "cuts through the root circle, which has " + plain_mm(*root),
             "a bore that stays inside the root circle");
   }
 
@@ -332,15 +328,15 @@ class Contradictions {
     const double spacing = bolts.circle_diameter_mm * std::sin(kPi / bolts.count);
     if (bolts.count > 1 && spacing <= bolts.hole_diameter_mm)
       wrong("bolt_hole_diameter_mm", "makes the holes run into each other",
-            "less than " + mm(spacing));
+            "less than " + plain_mm(spacing));
     if (good("outer_diameter_mm") &&
         bolts.circle_diameter_mm + bolts.hole_diameter_mm >= *gear_->outer_diameter_mm)
       wrong("bolt_circle_diameter_mm", "puts the holes through the outer diameter",
-            "less than " + mm(*gear_->outer_diameter_mm - bolts.hole_diameter_mm));
+            "less than " + plain_mm(*gear_->outer_diameter_mm - bolts.hole_diameter_mm));
     const auto root = root_diameter_mm();
     if (root && bolts.circle_diameter_mm - bolts.hole_diameter_mm <= *root)
       wrong("bolt_circle_diameter_mm", "puts the holes into the teeth",
-            "more than " + mm(*root + bolts.hole_diameter_mm));
+            "more than " + plain_mm(*root + bolts.hole_diameter_mm));
   }
 
   void check_halves() {
@@ -356,7 +352,7 @@ class Contradictions {
   void check_outer_diameter() {
     const auto root = root_diameter_mm();
     if (root && good("outer_diameter_mm") && *gear_->outer_diameter_mm <= *root)
-      wrong("outer_diameter_mm", "leaves no rim around the root circle", "more than " + mm(*root));
+      wrong("outer_diameter_mm", "leaves no rim around the root circle", "more than " + plain_mm(*root));
   }
 
   void check_cutter() {
@@ -391,7 +387,7 @@ class Contradictions {
     if (reading_.good("carrier.bearing_width_mm") && reading_.good("carrier.plate_thickness_mm") &&
         carrier.bearing_width_mm >= carrier.plate_thickness_mm)
       reading_.contradiction("carrier.bearing_width_mm", "the seat goes through the carrier's plate",
-                             "less than " + mm(carrier.plate_thickness_mm));
+                             "less than " + plain_mm(carrier.plate_thickness_mm));
     check_pins(carrier);
   }
 
@@ -416,7 +412,7 @@ class Contradictions {
                *carrier.pin_diameter_mm >= planet->bore.diameter_mm) {
       reading_.contradiction("carrier.pin_diameter_mm",
                              "the pin is not thinner than the planet's bore",
-                             "less than " + mm(planet->bore.diameter_mm));
+                             "less than " + plain_mm(planet->bore.diameter_mm));
     }
   }
 

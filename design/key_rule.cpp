@@ -79,6 +79,8 @@ std::string plain_number(double number) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, format).ptr};
 }
 
+std::string plain_mm(double length_mm) { return plain_number(std::round(length_mm * 1e4) / 1e4) + " mm"; }
+
 std::string wanted(const KeyRule& rule) {
   std::string text = type_name(rule) + range(rule);
   const std::string unit = rule.unit;

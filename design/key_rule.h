@@ -40,6 +40,8 @@ using KeyValue = std::variant<std::int64_t, double, std::string, bool>;
 [[nodiscard]] std::string wanted(const KeyRule& rule);
 /// A bound as people write it: 0.05, 100, 20000.
 [[nodiscard]] std::string plain_number(double number);
+/// A length to a ten-thousandth of a millimetre: "1.25 mm".
+[[nodiscard]] std::string plain_mm(double length_mm);
 
 /// The name nearest to one that is not known, by the letters to change; empty where none is near.
 [[nodiscard]] std::string nearest_name(std::string_view unknown,

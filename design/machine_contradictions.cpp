@@ -10,8 +10,6 @@
 namespace trueflank {
 namespace {
 
-std::string mm(double length_mm) { return plain_number(std::round(length_mm * 1e4) / 1e4) + " mm"; }
-
 class MachineContradictions {
  public:
   MachineContradictions(const GearboxDesign& design, bool kind_known, Reading& reading)
@@ -111,9 +109,9 @@ class MachineContradictions {
     if (!(motor.shaft_diameter_mm > 0.0 && motor.flat_mm > 0.0)) return;
     if (!(motor.flat_mm > 0.5 * motor.shaft_diameter_mm && motor.flat_mm < motor.shaft_diameter_mm))
       reading_.contradiction("motor.flat_mm",
-                             "is no flat of a shaft of " + mm(motor.shaft_diameter_mm),
-                             "more than " + mm(0.5 * motor.shaft_diameter_mm) + ", less than " +
-                                 mm(motor.shaft_diameter_mm));
+                             "is no flat of a shaft of " + plain_mm(motor.shaft_diameter_mm),
+                             "more than " + plain_mm(0.5 * motor.shaft_diameter_mm) + ", less than " +
+                                 plain_mm(motor.shaft_diameter_mm));
   }
 
   const GearboxDesign& design_;

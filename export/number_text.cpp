@@ -47,6 +47,12 @@ void append_decimal(std::string& text, double value) {
   text.append(digits.data(), put_decimal(digits.data(), value));
 }
 
+std::string decimal_text(double value) {
+  std::string text;
+  append_decimal(text, value);
+  return text;
+}
+
 void append_shortest(std::string& text, double value) { append(text, value == 0.0 ? 0.0 : value); }
 void append_shortest(std::string& text, float value) { append(text, value == 0.0F ? 0.0F : value); }
 void append_integer(std::string& text, std::int64_t value) { append(text, value); }

@@ -10,6 +10,7 @@ namespace trueflank::io {
 /// Rounded to 10^-6, trailing zeros dropped: a nanometre where the number is in millimetres. Never
 /// "-0". Not a number and what exceeds 9e12 is written as append_shortest does.
 void append_decimal(std::string& text, double value);
+[[nodiscard]] std::string decimal_text(double value);
 
 /// The shortest digits that read back as the same double.
 void append_shortest(std::string& text, double value);

@@ -39,10 +39,6 @@ Errors located(Error error, const std::string& file) {
   return {error};
 }
 
-std::string um(double length_mm) {
-  return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
-}
-
 /// A compensated part comes out as designed but for what the process does otherwise than expected: a part
 /// whose walls stand outside by more than half of what was to be compensated was not compensated.
 Errors compensated_twice(const loop::Correction& correction, const Process& process,
@@ -50,13 +46,13 @@ Errors compensated_twice(const loop::Correction& correction, const Process& proc
   const double found = correction.walls_outside_mm(), expected = process.horizontal_expansion_mm;
   if (!(std::abs(found - expected) < std::abs(found))) return {};
   return {{.code = ErrorCode::kInconsistent,
-           .message = "the walls of the measured part stand " + um(found) + " outside, and " +
-                      process.name + " puts them " + um(expected) +
+           .message = "the walls of the measured part stand " + whole_um(found) + " outside, and " +
+                      process.name + " puts them " + whole_um(expected) +
                       " outside: it was made without --compensate, and what the process does would be "
                       "taken away twice",
            .key = "--compensate",
            .remedy = "--correct alone; where the part was compensated all the same, a "
-                     "horizontal_expansion_mm of the process that is larger by " + um(found) +
+                     "horizontal_expansion_mm of the process that is larger by " + whole_um(found) +
                      ", and a part made with it",
            .file = file}};
 }

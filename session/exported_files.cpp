@@ -2,22 +2,17 @@
 #include "trueflank/session/exported_files.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "trueflank/base/number_text.h"
 
 namespace trueflank {
 namespace {
 
-std::string um(double length_mm) {
-  return std::to_string(std::lround(um_from_mm(length_mm))) + " um";
-}
-
 std::string compensation_text(const Process& process, const CompensatedShapes& moved) {
   std::string text = "meshes are compensated for " + process.name + ": walls " +
-                     um(process.horizontal_expansion_mm) + " inwards";
+                     whole_um(process.horizontal_expansion_mm) + " inwards";
   if (process.elephant_foot_mm > 0.0)
-    text += ", chamfered by " + um(process.elephant_foot_mm) +
+    text += ", chamfered by " + whole_um(process.elephant_foot_mm) +
             " at the face that lies on the bed (z = 0 of each part)";
   text += "\n";
   for (const std::string& note : moved.notes) text += note + "\n";

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kWidestKerf_mm = 20.0;
 
-std::string number(double value) {
-  std::string text;
-  io::append_decimal(text, value);
-  return text;
-}
-
 Status take_process(DesignFile& file, const std::string& name) {
   if (name.empty()) return {};
   const Process* process = file.tools.processes.find(name);
@@ -39,7 +33,7 @@ Errors errors_of(const MadeOptions& options) {
   return {{.code = ErrorCode::kUsage,
            .message = "no width of a cut",
            .key = "--kerf-mm",
-           .value = number(*options.kerf_mm),
+           .value = io::decimal_text(*options.kerf_mm),
            .remedy = "0 to 20"}};
 }
 

@@ -30,12 +30,6 @@ namespace {
 constexpr double kFinestTolerance_um = 0.001;
 constexpr double kCoarsestTolerance_um = 1000.0;
 
-std::string number(double value) {
-  std::string text;
-  io::append_decimal(text, value);
-  return text;
-}
-
 Errors part_errors(const MakeOptions& options, const PartShapes& shapes) {
   if (options.part.empty()) return {};
   std::string names;
@@ -240,7 +234,7 @@ Errors errors_of(const MakeOptions& options) {
     errors.push_back({.code = ErrorCode::kUsage,
                       .message = "no tolerance for a part",
                       .key = "--tolerance-um",
-                      .value = number(options.tolerance_um),
+                      .value = io::decimal_text(options.tolerance_um),
                       .remedy = "0.001 to 1000"});
   return errors;
 }

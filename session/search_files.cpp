@@ -12,13 +12,7 @@
 namespace trueflank {
 namespace {
 
-std::string decimal(double value) {
-  std::string text;
-  io::append_decimal(text, value);
-  return text;
-}
-
-std::string json_number(double value) { return std::isfinite(value) ? decimal(value) : "null"; }
+std::string json_number(double value) { return std::isfinite(value) ? io::decimal_text(value) : "null"; }
 
 /// Figures may be small: seven digits instead of six places.
 std::string figure_number(double value) {
@@ -30,7 +24,7 @@ std::string json_figure(double value) {
 
 /// Empty where there is none.
 std::string csv_number(double value) {
-  return std::isfinite(value) ? decimal(value) : std::string();
+  return std::isfinite(value) ? io::decimal_text(value) : std::string();
 }
 
 /// JSON takes the escapes TOML's basic strings use.
@@ -219,9 +213,9 @@ std::string search_csv(const SearchTask& task, const SearchReport& report) {
           pair        ? pair->candidates[1].free.layer1_shift
           : set.ring2 ? c.free.layer2_shift
                       : kNaN})
-      text += "," + (value == value ? decimal(value) : std::string());
+      text += "," + (value == value ? io::decimal_text(value) : std::string());
     text += "," + set.train->kind() + "," + set.train->input + "," + std::to_string(teeth.planets) +
-            "," + teeth.text + "," + (c.gap == c.gap ? decimal(c.gap) : std::string());
+            "," + teeth.text + "," + (c.gap == c.gap ? io::decimal_text(c.gap) : std::string());
     const DesignDimensions& d = c.dimensions;
     text += "," +
             csv_number(d.face_width_mm == d.face_width_mm ? d.face_width_mm

@@ -19,11 +19,7 @@ constexpr const char* kBorders[] = {
     "#d62728", "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#8c564b", "#e377c2", "#17becf",
     "#7f7f7f", "#bcbd22", "#111111", "#003f5c", "#f2a900", "#58508d", "#00a087", "#ff6361"};
 
-std::string decimal_or_nothing(double value) {
-  std::string text;
-  if (value == value) io::append_decimal(text, value);
-  return text;
-}
+std::string decimal_or_nothing(double value) { return std::isnan(value) ? std::string() : io::decimal_text(value); }
 
 /// "shift of ring1".
 std::string title_of(const ToothSet& set, MapAxis axis) {

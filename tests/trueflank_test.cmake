@@ -40,7 +40,7 @@ function(trueflank_test name)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # tests name their own helpers alike
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 10)
   # One label a test: gtest_discover_tests passes on no lists.
   set(label ${name})
   if(arg_SLOW)
@@ -53,7 +53,7 @@ function(trueflank_test name)
   else()
     # At test time, not after each link: listing tests is no part of building.
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-      DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} COST ${cost})
+      DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${label} COST ${cost})
   endif()
 endfunction()
 

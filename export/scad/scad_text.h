@@ -15,11 +15,7 @@ inline std::string number(double value) {
   return text;
 }
 /// For parameters that people read: to a nanometre.
-inline std::string short_number(double value) {
-  std::string text;
-  append_decimal(text, value);
-  return text;
-}
+inline std::string short_number(double value) { return decimal_text(value); }
 inline std::string degrees(double angle_rad) { return number(deg_from_rad(angle_rad)); }
 
 /// Text without what would end a comment's line.

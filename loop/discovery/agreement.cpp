@@ -14,8 +14,8 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kFewest = 4, kMost = 24;
-static_assert(4 * kMost == kMostWholesAsked);
+constexpr std::size_t kFewest = 4, kMostTried = 24;
+static_assert(4 * kMostTried == kMostWholesAsked);
 /// Share of a group's information that must lie in whole traces, and below which a trace holds none
 /// of it.
 constexpr double kInWholes = 0.9, kNone = 1e-3;
@@ -142,7 +142,7 @@ struct Asked {
 
 /// True for a group of so many columns that lives in more wholes than are asked: flips judge it.
 bool lives_in_too_many(const Agreement& sum, int columns) {
-  return sum.degrees > static_cast<int>(kMost) * columns;
+  return sum.degrees > static_cast<int>(kMostTried) * columns;
 }
 
 /// What one whole says of the columns of a panel, less what of them is absorbed.

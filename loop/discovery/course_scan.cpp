@@ -13,7 +13,7 @@
 namespace trueflank::loop {
 namespace {
 
-using Kind = CourseFinding::Kind;
+using CourseKind = CourseFinding::Kind;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,7 +36,7 @@ MatrixXd cosines(Index m) {
 
 /// A step or band along a course, about its mean.
 struct CourseForm {
-  Kind kind = Kind::kStep;
+  CourseKind kind = CourseKind::kStep;
   double at = 0.0, width = 0.0;  ///< [rows]
   VectorXd values;
   double square = 0.0;
@@ -49,7 +49,7 @@ struct CourseForms {
     for (Index i = 2; i <= m - 2; ++i) {
       VectorXd step = VectorXd::Zero(m);
       step.tail(m - i).setOnes();
-      add(Kind::kStep, static_cast<double>(i), 0.0, std::move(step));
+      add(CourseKind::kStep, static_cast<double>(i), 0.0, std::move(step));
     }
     for (double width = 1.2; width < 0.25 * static_cast<double>(m); width *= 1.6)
       for (double at = 0.5; at < static_cast<double>(m); at += std::max(0.5, 0.4 * width)) {
@@ -58,14 +58,14 @@ struct CourseForms {
           const double off = (static_cast<double>(i) + 0.5 - at) / width;
           band[i] = std::exp(-off * off);
         }
-        add(Kind::kBand, at, width, std::move(band));
+        add(CourseKind::kBand, at, width, std::move(band));
       }
   }
   MatrixXd basis;
   std::vector<CourseForm> forms;
 
  private:
-  void add(Kind kind, double at, double width, VectorXd values) {
+  void add(CourseKind kind, double at, double width, VectorXd values) {
     values.array() -= values.mean();
     const double square = values.squaredNorm();
     VectorXd powers = (basis * values).cwiseAbs2();
@@ -172,7 +172,7 @@ class CourseScan {
     const std::vector<CourseForm>& forms = forms_of_rows(m_).forms;
     forms_ = static_cast<double>(forms.size());
     for (const CourseForm& form : forms)
-      judge(form.kind == Kind::kStep ? step_ : band_, form, set, 1.0 / courses, mean, variance);
+      judge(form.kind == CourseKind::kStep ? step_ : band_, form, set, 1.0 / courses, mean, variance);
     look_for_common_wave(set, 1.0 / courses, mean, variance);
   }
 
@@ -200,7 +200,7 @@ class CourseScan {
       const double p = f_tail(0.5 * half * amplitude * amplitude / variance[k], 2.0, degrees_);
       const double square = half * amplitude * amplitude / scale;
       if (!is_better(p, square, wave_.p_value, wave_.square)) return;
-      wave_ = {Kind::kWave, p, set, -1, 0.0, 1.0 / f, square, amplitude};
+      wave_ = {CourseKind::kWave, p, set, -1, 0.0, 1.0 / f, square, amplitude};
       best = f;
     };
     for (double f = 2.0; f <= most; f += kStep) judge_wave(f);
@@ -226,7 +226,7 @@ class CourseScan {
   /// spectrum that is smooth.
   void look_for_own_waves() {
     constexpr double kStandsOut = 3.0;
-    CourseFinding best{Kind::kOwnWaves};
+    CourseFinding best{CourseKind::kOwnWaves};
     double tests = 0.0;
     for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
       if (sets_[s].cols() < 1) continue;
@@ -292,7 +292,7 @@ class CourseScan {
   void look_for_spots() {
     std::vector<VectorXd> louds;
     for (const MatrixXd& set : sets_) louds.push_back(loudness_of(set));
-    CourseFinding best{Kind::kSpot};
+    CourseFinding best{CourseKind::kSpot};
     double tests = 0.0;
     for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
       std::vector<double> all;
@@ -350,7 +350,7 @@ class CourseScan {
   VectorXd spectrum_;
   std::vector<VectorXd> powers_;  ///< squared cosine coefficients of every form
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
-  CourseFinding step_{Kind::kStep}, band_{Kind::kBand}, wave_{Kind::kWave};
+  CourseFinding step_{CourseKind::kStep}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;
 };
 

@@ -31,8 +31,8 @@ struct BestOfKind {
 };
 using Best = std::array<BestOfKind, kKinds>;
 
-using Kind = RingFinding::Kind;
-constexpr std::size_t at(Kind kind) { return static_cast<std::size_t>(kind); }
+using RingKind = RingFinding::Kind;
+constexpr std::size_t at(RingKind kind) { return static_cast<std::size_t>(kind); }
 
 class RingScan {
  public:
@@ -125,14 +125,14 @@ class RingScan {
 
   [[nodiscard]] double looked_at(std::size_t kind) const {
     const auto n = static_cast<double>(n_);
-    return kind == at(Kind::kArc)    ? n * static_cast<double>(n_ / 2 - 1)
-           : kind == at(Kind::kWave) ? static_cast<double>(orders_)
-           : kind == at(Kind::kRamp) ? static_cast<double>(ramps_.rows())
+    return kind == at(RingKind::kArc)    ? n * static_cast<double>(n_ / 2 - 1)
+           : kind == at(RingKind::kWave) ? static_cast<double>(orders_)
+           : kind == at(RingKind::kRamp) ? static_cast<double>(ramps_.rows())
                                      : static_cast<double>(combs_.rows());
   }
   /// F test of what the best of so many takes out of a series, whose squares sum to n.
   [[nodiscard]] double p_by_size(double square, std::size_t kind) const {
-    const double degrees = kind == at(Kind::kWave) ? 2.0 : 1.0;
+    const double degrees = kind == at(RingKind::kWave) ? 2.0 : 1.0;
     const double left = static_cast<double>(n_) - 1.0 - degrees;
     const double f = square / degrees / (std::max(static_cast<double>(n_) - square, 1e-12) / left);
     return std::min(
@@ -145,20 +145,20 @@ class RingScan {
     for (Index s = 0; s < series_.cols(); ++s) {
       if (!(scale_[static_cast<std::size_t>(s)] > 0.0)) continue;
       for (Index i = 0; i < n_; ++i) placed[i] = series_(order[static_cast<std::size_t>(i)], s);
-      best_arc(placed, static_cast<int>(s), best[at(Kind::kArc)]);
+      best_arc(placed, static_cast<int>(s), best[at(RingKind::kArc)]);
       const VectorXd parts = waves_ * placed;
       for (Index k = 0; k < orders_; ++k)
-        improve(best[at(Kind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
+        improve(best[at(RingKind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
                                         .series = static_cast<int>(s),
                                         .order = static_cast<int>(k + 1)});
       const VectorXd ramps = ramps_ * placed, combs = combs_ * placed;
       for (Index k = 0; k < ramps.size(); ++k)
-        improve(best[at(Kind::kRamp)], {.square = ramps[k] * ramps[k],
+        improve(best[at(RingKind::kRamp)], {.square = ramps[k] * ramps[k],
                                         .series = static_cast<int>(s),
                                         .first = ramp_at_[static_cast<std::size_t>(k)]});
       for (Index k = 0; k < combs.size(); ++k) {
         const auto [every, first] = comb_at_[static_cast<std::size_t>(k)];
-        improve(best[at(Kind::kComb)], {.square = combs[k] * combs[k],
+        improve(best[at(RingKind::kComb)], {.square = combs[k] * combs[k],
                                         .series = static_cast<int>(s),
                                         .first = first,
                                         .count = every});
@@ -188,7 +188,7 @@ class RingScan {
   }
 
   [[nodiscard]] RingFinding finding(const BestOfKind& best, std::size_t kind, double p) const {
-    RingFinding result{.kind = static_cast<Kind>(kind),
+    RingFinding result{.kind = static_cast<RingKind>(kind),
                        .p_value = p,
                        .series = best.series,
                        .first = best.first,
@@ -206,17 +206,17 @@ class RingScan {
       return scale * form.dot(series_.col(best.series)) * (form.maxCoeff() - form.minCoeff());
     };
     switch (result.kind) {
-      case Kind::kArc:
+      case RingKind::kArc:
         result.amount = amount_of_arc(best);
         break;
-      case Kind::kWave:
+      case RingKind::kWave:
         result.amount = scale * std::sqrt(2.0 * best.square / static_cast<double>(n_));
         break;
-      case Kind::kRamp:
+      case RingKind::kRamp:
         result.amount =
             height(rows_of(ramps_, [&](std::size_t i) { return ramp_at_[i] == best.first; }));
         break;
-      case Kind::kComb:
+      case RingKind::kComb:
         result.amount = height(rows_of(combs_, [&](std::size_t i) {
           return comb_at_[i] == std::pair(best.count, best.first);
         }));

@@ -15,7 +15,7 @@ constexpr double kGoldenAngle_rad = 2.399963229728653;
 constexpr double kLampWidth_rad = 0.11;  // half the angle under which the lamp is seen
 constexpr double kLowest = 0.06;         // sine of the lowest direction's height
 /// A surface is taken this many samples of a map in front of itself: it is not in its own shadow.
-constexpr double kLift = 1.6;
+constexpr double kRayLift = 1.6;
 /// Cosine below which a direction does not count: a little light comes round the edge.
 constexpr float kGrazing = -0.2F;
 constexpr int kMost = 128;  // directions
@@ -94,7 +94,7 @@ void SkyLight::add(Maps& maps, const std::vector<Eigen::Vector3d>& directions,
 template <class Take>
 void SkyLight::for_each_seen(const Maps& maps, const Eigen::Vector3d& point,
                              const Eigen::Vector3d& normal, const Take& take) const {
-  const Eigen::Vector3f p = (point + kLift * step_mm_ * normal).cast<float>(),
+  const Eigen::Vector3f p = (point + kRayLift * step_mm_ * normal).cast<float>(),
                         n = normal.cast<float>();
   // the outermost samples of a map see nothing: the ball is smaller
   const auto last = static_cast<float>(samples_ - 1);

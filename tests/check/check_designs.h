@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
+#include "tests/support/train_members.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/gear_train.h"
@@ -58,11 +59,10 @@ inline GearDesign& gear(GearboxDesign& design, const std::string& name) {
   throw std::logic_error("no gear " + name);
 }
 
-/// Throws with the first error where the design cannot be laid out.
-inline GearTrain laid_out(const GearboxDesign& design) {
-  auto train = lay_out(design);
-  if (!train) throw std::runtime_error(train.error().front().message);
-  return std::move(*train);
+/// The number that stands after some words of a message; not a number where they are not said.
+inline double told(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
 }
 
 /// The one finding of an id at a place; throws where there is none.

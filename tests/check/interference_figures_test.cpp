@@ -25,10 +25,6 @@ double roll(double radius, int teeth) {
   return std::sqrt(radius * radius - std::pow(0.5 * teeth * kCos, 2));
 }
 
-double told(const std::string& text, const std::string& words) {
-  const std::size_t at = text.find(words);
-  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
-}
 bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }

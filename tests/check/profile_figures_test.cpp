@@ -11,12 +11,7 @@
 namespace trueflank::test {
 namespace {
 
-double told(const std::string& text, const std::string& words) {
-  const std::size_t at = text.find(words);
-  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
-}
-
-const double kSin = std::sin(kPi / 9.0), kCos = std::cos(kPi / 9.0);
+const double kSinAlpha = std::sin(kPi / 9.0), kCosAlpha = std::cos(kPi / 9.0);
 
 GearboxDesign gear_design(int teeth, double shift, GearKind kind = GearKind::kExternal) {
   GearboxDesign d{.name = "gear", .topology = train_topology("gear")};
@@ -44,7 +39,7 @@ TEST(ProfileFigures, ARootRoundingIsAtMostTheFullRoundOfTheRack) {
   GearboxDesign d = gear_design(30, 0.0);
   d.rack.root_radius = 0.6;
   // the circle that touches both flanks and the bottom of the rack's tip
-  const double full = (kPi / 4.0 - 1.25 * kSin / kCos) * kCos / (1.0 - kSin);
+  const double full = (kPi / 4.0 - 1.25 * kSinAlpha / kCosAlpha) * kCosAlpha / (1.0 - kSinAlpha);
   const Finding f = judged(d);
   EXPECT_NEAR(told(f.message, "full round, "), full, 1e-4);
   EXPECT_NEAR(told(f.cure, "rack.root_radius of at most "), full, 1e-4);
@@ -56,9 +51,9 @@ TEST(ProfileFigures, ARootRoundingIsAtMostTheFullRoundOfTheRack) {
 TEST(ProfileFigures, ARingsTipInsideItsBaseCircleIsTold) {
   const Finding f = judged(gear_design(24, 0.0, GearKind::kInternal));
   EXPECT_NEAR(told(f.message, "tip circle of diameter "), 22.0, 1e-6) << f.message;
-  EXPECT_NEAR(told(f.message, "inside the base circle of "), 24.0 * kCos, 1e-4);
-  EXPECT_NEAR(told(f.cure, "tip diameter of at least "), 24.0 * kCos, 1e-4);
-  EXPECT_GE(told(f.cure, "tip diameter of at least "), 24.0 * kCos);
+  EXPECT_NEAR(told(f.message, "inside the base circle of "), 24.0 * kCosAlpha, 1e-4);
+  EXPECT_NEAR(told(f.cure, "tip diameter of at least "), 24.0 * kCosAlpha, 1e-4);
+  EXPECT_GE(told(f.cure, "tip diameter of at least "), 24.0 * kCosAlpha);
 }
 
 TEST(ProfileFigures, OfAShapedRingTheCutterIsToldAndWhatItTrims) {

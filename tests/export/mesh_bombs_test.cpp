@@ -45,7 +45,7 @@ void expect_refused(const std::string& content, const char* extension, ErrorCode
   EXPECT_LT(taken_s, kAtOnce_s);
 }
 
-std::string package(const std::string& model) {
+std::string packed_model(const std::string& model) {
   PackedText packed(model);
   packed.close();
   return zip_archive({{"3D/a.model", packed}}).value();
@@ -67,7 +67,7 @@ std::string grid_object(int facets, const std::string& more) {
 TEST(MeshBombs, ColouredFacetsOf3mfAreReadAtOnce) {
   constexpr int kFacets = 100'000;
   for (const std::string more : {" pid=\"2\" p1=\"0\"", " pid='2'", " note=\"a > b\""}) {
-    const std::string content = package("<model><resources>" + grid_object(kFacets, more) +
+    const std::string content = packed_model("<model><resources>" + grid_object(kFacets, more) +
                                         "</resources><build><item objectid=\"1\"/></build></model>");
     const double taken_s = seconds_of([&] {
       const auto bodies = parse_bodies(content, ".3mf");
@@ -82,7 +82,7 @@ TEST(MeshBombs, ColouredFacetsOf3mfAreReadAtOnce) {
 TEST(MeshBombs, ListsThatNeverEndAreSearchedOnce) {
   std::string model = "<model><resources><object id=\"1\"><mesh>";
   for (int i = 0; i < 100'000; ++i) model += "<vertices>\n<vertex x=\"0\" y=\"0\" z=\"0\"  />";
-  EXPECT_LT(seconds_of([&] { static_cast<void>(parse_bodies(package(model), ".3mf")); }), kAtOnce_s);
+  EXPECT_LT(seconds_of([&] { static_cast<void>(parse_bodies(packed_model(model), ".3mf")); }), kAtOnce_s);
 }
 
 TEST(MeshBombs, ComponentsOfComponentsAreRefused) {
@@ -92,7 +92,7 @@ TEST(MeshBombs, ComponentsOfComponentsAreRefused) {
     for (int i = 0; i < 10; ++i) model += "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
     model += "</components></object>";
   }
-  expect_refused(package(model + "</resources><build><item objectid=\"6\"/></build></model>"), ".3mf",
+  expect_refused(packed_model(model + "</resources><build><item objectid=\"6\"/></build></model>"), ".3mf",
                  ErrorCode::kUnsupported);
 }
 
@@ -100,13 +100,13 @@ TEST(MeshBombs, APlateOfManyCopiesIsRead) {
   std::string model = "<model><resources>" + grid_object(10'000, "") + "</resources><build>";
   for (int i = 0; i < 60; ++i)
     model += "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 " + std::to_string(20 * i) + " 0 0\"/>";
-  const auto bodies = parse_bodies(package(model + "</build></model>"), ".3mf");
+  const auto bodies = parse_bodies(packed_model(model + "</build></model>"), ".3mf");
   ASSERT_TRUE(bodies) << bodies.error().message;
   EXPECT_EQ(bodies->size(), 60U);
 }
 
 TEST(MeshBombs, BlanksInAnArchiveAreRefused) {
-  expect_refused(package("<model>" + std::string(100U << 20, ' ') + "</model>"), ".3mf",
+  expect_refused(packed_model("<model>" + std::string(100U << 20, ' ') + "</model>"), ".3mf",
                  ErrorCode::kUnsupported);
 }
 

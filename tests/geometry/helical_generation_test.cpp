@@ -11,6 +11,7 @@
 #include <random>
 
 #include "tests/support/rolling_tool.h"
+#include "tests/support/sample_gears.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/geometry/tooth_profile.h"
 #include "trueflank/geometry/toothing.h"
@@ -18,24 +19,12 @@
 namespace trueflank {
 namespace {
 
+using test::described;
+
 using testing::PinionTool;
 using testing::RackTool;
 
 using Point3 = std::array<double, 3>;
-
-std::string describe(const Gear& g) {
-  return "z " + std::to_string(g.teeth) + " beta " +
-         std::to_string(deg_from_rad(g.helix_angle_rad)) + " x " + std::to_string(g.shift) + " m " +
-         std::to_string(g.normal_module_mm) + " alpha " +
-         std::to_string(deg_from_rad(g.rack.pressure_angle_rad)) + " hf " +
-         std::to_string(g.rack.dedendum) + " rho " + std::to_string(g.rack.root_radius) + " thin " +
-         std::to_string(g.thinning_mm) + " pr " + std::to_string(g.rack.protuberance) + " q " +
-         std::to_string(g.rack.grinding_stock) +
-         (g.cutter ? " cutter z " + std::to_string(g.cutter->teeth) + " x " +
-                         std::to_string(g.cutter->shift) + " rho " +
-                         std::to_string(g.cutter->tip_radius)
-                   : std::string());
-}
 
 /// The teeth of a rack in its normal section: the finished flank and, where the tool has one, the
 /// protuberance's own tooth, as two wedges.
@@ -109,7 +98,7 @@ Generated expect_rack_generates(const ToothProfile& profile, bool herringbone) {
         result.worst_mm = std::max(result.worst_mm, std::abs(miss));
         ++result.points;
         EXPECT_NEAR(miss, 0.0, limit)
-            << describe(g) << " piece " << static_cast<int>(piece.kind) << " u " << u << " height "
+            << described(g) << " piece " << static_cast<int>(piece.kind) << " u " << u << " height "
             << height << (herringbone ? " herringbone" : "");
         if (::testing::Test::HasFailure()) return result;
       }
@@ -143,7 +132,7 @@ TEST(HelicalGeneration, ExternalGearsAreWhatTheInclinedRackCuts) {
         with_protuberance(helical_gear(25, 0.0, 20.0), 0.06, 10, 0.04),
         with_protuberance(helical_gear(12, 0.0, -28.0), 0.05, 10, 0.0)}) {
     const auto profile = ToothProfile::make(gear);
-    ASSERT_TRUE(profile) << describe(gear) << profile.error().message;
+    ASSERT_TRUE(profile) << described(gear) << profile.error().message;
     expect_rack_generates(*profile, false);
     expect_rack_generates(*profile, true);
     if (HasFailure()) return;
@@ -265,7 +254,7 @@ void expect_cutter_generates(const ToothProfile& profile) {
             },
             -3.1, 3.1, 6000);
         EXPECT_NEAR(miss, 0.0, tolerance::kCurve_mm * std::max(1.0, m))
-            << describe(g) << " piece " << static_cast<int>(piece.kind) << " u " << u << " height "
+            << described(g) << " piece " << static_cast<int>(piece.kind) << " u " << u << " height "
             << height;
         if (::testing::Test::HasFailure()) return;
       }

@@ -9,12 +9,15 @@
 #include <random>
 
 #include "tests/support/rolling_tool.h"
+#include "tests/support/sample_gears.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/geometry/involute.h"
 #include "trueflank/geometry/tooth_profile.h"
 
 namespace trueflank {
 namespace {
+
+using test::described;
 
 using testing::RackTool;
 
@@ -53,14 +56,6 @@ Gear gear_of(int teeth, double shift, double amount, double angle_deg, double st
   return gear;
 }
 
-std::string describe(const Gear& g) {
-  return "z " + std::to_string(g.teeth) + " x " + std::to_string(g.shift) + " pr " +
-         std::to_string(g.rack.protuberance) + " at " +
-         std::to_string(deg_from_rad(g.rack.protuberance_angle_rad)) + " q " +
-         std::to_string(g.rack.grinding_stock) + " rho " + std::to_string(g.rack.root_radius) +
-         " hf " + std::to_string(g.rack.dedendum);
-}
-
 void expect_tool_generates(const ToothProfile& profile) {
   const Gear& g = profile.gear();
   const ProtuberanceTool tool = tool_of(g, profile.root_radius_coefficient() * g.normal_module_mm);
@@ -70,7 +65,7 @@ void expect_tool_generates(const ToothProfile& profile) {
       const Curve& c = piece.curve;
       const Point2 p = rotated(point_at(c, c.begin + u * (c.end - c.begin)), -kPi / g.teeth);
       EXPECT_NEAR(miss(tool, g, p), 0.0, tolerance::kCurve_mm * std::max(1.0, g.normal_module_mm))
-          << describe(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
+          << described(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
     }
   }
   for (std::size_t i = 1; i < profile.pieces().size(); ++i)
@@ -78,7 +73,7 @@ void expect_tool_generates(const ToothProfile& profile) {
                profile.pieces()[i - 1].curve.end_point())
                   .norm(),
               1e-9)
-        << describe(g) << " at piece " << i;
+        << described(g) << " at piece " << i;
 }
 
 TEST(Protuberance, IsWhatTheRollingToolCuts) {
@@ -88,7 +83,7 @@ TEST(Protuberance, IsWhatTheRollingToolCuts) {
         gear_of(10, -0.1, 0.05, 5, 0.0, 0.2), gear_of(100, 0.0, 0.03, 10, 0.01, 0.39),
         gear_of(30, 0.0, 0.004, 5, 0.0, 0.39), gear_of(30, 0.0, 0.05, 10, 0.0, 0.0)}) {
     const auto profile = ToothProfile::make(gear);
-    ASSERT_TRUE(profile) << describe(gear) << profile.error().message;
+    ASSERT_TRUE(profile) << described(gear) << profile.error().message;
     EXPECT_NEAR(profile->notes().protuberance_undercut_mm, residual_protuberance(gear.rack), 1e-15);
     expect_tool_generates(*profile);
   }

@@ -6,26 +6,17 @@
 #include <random>
 
 #include "tests/support/rolling_tool.h"
+#include "tests/support/sample_gears.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/geometry/involute.h"
 
 namespace trueflank {
 namespace {
 
+using test::described;
+
 using testing::PinionTool;
 using testing::RackTool;
-
-std::string describe(const Gear& g) {
-  return "z " + std::to_string(g.teeth) + " x " + std::to_string(g.shift) + " m " +
-         std::to_string(g.normal_module_mm) + " alpha " +
-         std::to_string(deg_from_rad(g.rack.pressure_angle_rad)) + " hf " +
-         std::to_string(g.rack.dedendum) + " rho " + std::to_string(g.rack.root_radius) + " thin " +
-         std::to_string(g.thinning_mm) + " tip " + std::to_string(g.tip_radius_mm) +
-         (g.cutter ? " cutter z " + std::to_string(g.cutter->teeth) + " x " +
-                         std::to_string(g.cutter->shift) + " rho " +
-                         std::to_string(g.cutter->tip_radius)
-                   : std::string());
-}
 
 Gear external_gear(int teeth, double shift, double root_radius = 0.38) {
   Gear gear{.teeth = teeth, .shift = shift};
@@ -67,7 +58,7 @@ void expect_rack_generates(const ToothProfile& profile) {
       const double miss = testing::rack_miss(rack, 0.5 * m * g.teeth, g.shift * m, p,
                                              0.6 + 8.0 / g.teeth);
       EXPECT_NEAR(miss, 0.0, tolerance::kCurve_mm * std::max(1.0, m))
-          << describe(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
+          << described(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
     }
   }
 }
@@ -79,8 +70,8 @@ TEST(ToothProfile, IsWhatTheRollingRackCuts) {
         external_gear(500, 0.0), external_gear(12, 0.3, 0.0), external_gear(9, 0.0, 0.0),
         external_gear(25, 0.0, 0.6)}) {
     const auto profile = ToothProfile::make(gear);
-    ASSERT_TRUE(profile) << describe(gear) << profile.error().message;
-    expect_pieces_join(*profile, describe(gear));
+    ASSERT_TRUE(profile) << described(gear) << profile.error().message;
+    expect_pieces_join(*profile, described(gear));
     expect_rack_generates(*profile);
   }
 }
@@ -110,7 +101,7 @@ TEST(ToothProfile, IsWhatTheRollingRackCutsForRandomGears) {
     }
     ++made;
     undercut += profile->notes().undercut;
-    expect_pieces_join(*profile, describe(gear));
+    expect_pieces_join(*profile, described(gear));
     expect_rack_generates(*profile);
     if (HasFailure()) return;
   }
@@ -138,14 +129,14 @@ TEST(ToothProfile, RingFilletTouchesFlankAndRootCircle) {
   for (const Gear& gear : {ring_gear(90, 0.5225), ring_gear(81, 1.9967), ring_gear(40, 0.0),
                            ring_gear(200, -0.5)}) {
     const auto profile = ToothProfile::make(gear);
-    ASSERT_TRUE(profile) << describe(gear);
-    expect_pieces_join(*profile, describe(gear));
+    ASSERT_TRUE(profile) << described(gear);
+    expect_pieces_join(*profile, described(gear));
     const auto& pieces = profile->pieces();
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       if (pieces[i].kind != PieceKind::kFillet) continue;
       const Curve &flank = pieces[i - 1].curve, &fillet = pieces[i].curve;
       EXPECT_NEAR(cross(tangent_at(flank, flank.end), tangent_at(fillet, fillet.begin)), 0.0, 1e-9)
-          << describe(gear);
+          << described(gear);
       EXPECT_NEAR(fillet.end_point().norm(), nominal_root_radius_mm(gear), 1e-9);
       EXPECT_NEAR(tangent_at(fillet, fillet.end).dot(unit_vector(
                       polar_angle_rad(fillet.end_point()))), 0.0, 1e-9);
@@ -179,7 +170,7 @@ void expect_cutter_generates(const ToothProfile& profile) {
       const double miss = testing::pinion_miss(tool, centre_distance,
                                                static_cast<double>(c.teeth) / g.teeth, p, 1.6);
       EXPECT_NEAR(miss, 0.0, tolerance::kCurve_mm * std::max(1.0, m))
-          << describe(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
+          << described(g) << " piece " << static_cast<int>(piece.kind) << " u " << u;
     }
   }
 }
@@ -206,7 +197,7 @@ TEST(ToothProfile, ShapedRingIsWhatTheRollingCutterCuts) {
     }
     ++made;
     trimmed += profile->notes().tip_trimmed;
-    expect_pieces_join(*profile, describe(gear));
+    expect_pieces_join(*profile, described(gear));
     expect_cutter_generates(*profile);
     if (HasFailure()) return;
   }
@@ -248,7 +239,7 @@ TEST(ToothProfile, RingWithoutSpacesIsRefused) {
 TEST(ToothProfile, RefusesWhatCannotBeMade) {
   const auto error_of = [](const Gear& gear) {
     const auto profile = ToothProfile::make(gear);
-    EXPECT_FALSE(profile) << describe(gear);
+    EXPECT_FALSE(profile) << described(gear);
     return profile ? Error{} : profile.error();
   };
   Gear pointed_rack = external_gear(30, 0.0);
@@ -270,7 +261,7 @@ void expect_rounding(Gear gear, double rho) {
   const auto sharp = ToothProfile::make(gear);
   gear.tip_rounding_mm = rho;
   const auto profile = ToothProfile::make(gear);
-  const std::string what = describe(gear) + " rounding " + std::to_string(rho);
+  const std::string what = described(gear) + " rounding " + std::to_string(rho);
   ASSERT_TRUE(sharp && profile) << what;
   expect_pieces_join(*profile, what);
   const auto& pieces = profile->pieces();

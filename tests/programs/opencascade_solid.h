@@ -33,6 +33,7 @@ class SilentOpenCascade : public ::testing::Environment {
  public:
   void SetUp() override { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
 };
+inline const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new SilentOpenCascade);
 
 inline TopoDS_Shape read_back(const PartShape& part) {
   auto solid = brep_of(part);

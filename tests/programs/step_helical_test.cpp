@@ -13,15 +13,7 @@
 namespace trueflank {
 namespace {
 
-using test::expect_exact_solid, test::read_back;
-
-const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new test::SilentOpenCascade);
-
-ToothProfile profile_of(const Gear& gear) {
-  auto profile = ToothProfile::make(gear);
-  EXPECT_TRUE(profile) << profile.error().message;
-  return *profile;
-}
+using test::expect_exact_solid, test::read_back, test::profile_of;
 
 /// Distances [mm] of the points of spline faces from the true helicoids, by the equation of the
 /// involute and by the distance from the section's own curves.

@@ -12,13 +12,7 @@
 namespace trueflank {
 namespace {
 
-using test::expect_exact_solid, test::expect_solid, test::read_back;
-
-ToothProfile profile_of(const Gear& gear) {
-  auto profile = ToothProfile::make(gear);
-  EXPECT_TRUE(profile) << profile.error().message;
-  return *profile;
-}
+using test::expect_exact_solid, test::expect_solid, test::read_back, test::profile_of;
 
 /// Largest distance [mm] of the flank faces' points from where the field has them.
 double flank_error_mm(const TopoDS_Shape& shape, const Toothing& toothing,

@@ -16,8 +16,6 @@ namespace {
 
 using test::count, test::expect_exact_solid, test::read_back, test::surface_types;
 
-const auto* const kSilence = ::testing::AddGlobalTestEnvironment(new test::SilentOpenCascade);
-
 /// Largest distance of points of the shape's faces from the involutes of an untwisted gear.
 double largest_flank_error_mm(const TopoDS_Shape& shape, const ToothProfile& profile) {
   const Gear& gear = profile.gear();

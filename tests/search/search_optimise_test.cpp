@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/search/one_set.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/search/search_corner.h"
 #include "trueflank/train/efficiency.h"
@@ -29,19 +30,6 @@ SearchRequirements paper_requirements(double shift_limit = 2.0) {
   SearchRequirements r = requirements(shift_limit);
   r.loss_model = LossModel::kContactRatios;
   return r;
-}
-
-ToothSet set_of(const SearchRequirements& base, int s, int p1, int r1, int p2, int r2) {
-  SearchRequirements r = base;
-  r.sun = {s, s};
-  r.planet1 = {p1, p1};
-  r.ring1 = {r1, r1};
-  r.planet2 = {p2, p2};
-  r.ring2 = {r2, r2};
-  r.identical_planets = false;
-  const SetEnumeration found = enumerate_sets(r);
-  EXPECT_EQ(found.sets.size(), 1u);
-  return found.sets.front();
 }
 
 TEST(SearchModel, HasTheEfficiencyOfTheLaidOutTrainByEitherModel) {

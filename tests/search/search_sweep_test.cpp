@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/search/one_set.h"
 #include "trueflank/search/search_bound.h"
 
 namespace trueflank {
@@ -24,17 +25,6 @@ SearchRequirements paper_requirements(double low, double high) {
   r.shift_max = high;
   r.identical_planets = false;
   return r;
-}
-
-ToothSet set_of(SearchRequirements r, int s, int p1, int r1, int p2, int r2) {
-  r.sun = {s, s};
-  r.planet1 = {p1, p1};
-  r.ring1 = {r1, r1};
-  r.planet2 = {p2, p2};
-  r.ring2 = {r2, r2};
-  const SetEnumeration found = enumerate_sets(r);
-  EXPECT_EQ(found.sets.size(), 1u);
-  return found.sets.front();
 }
 
 /// Plain exhaustion, zoomed around its best points: an account of the optimum that shares nothing

@@ -14,11 +14,7 @@
 namespace trueflank {
 namespace {
 
-ToothProfile profile_of(const Gear& gear) {
-  auto profile = ToothProfile::make(gear);
-  EXPECT_TRUE(profile);
-  return *profile;
-}
+using test::profile_of;
 
 /// Direction in which an edge leaves its start, as its curve runs; chords do for splines.
 Point3 direction_at_start(const Brep& brep, const BrepEdge& edge) {

@@ -17,11 +17,7 @@
 namespace trueflank {
 namespace {
 
-ToothProfile profile_of(const Gear& gear) {
-  auto profile = ToothProfile::make(gear);
-  EXPECT_TRUE(profile) << profile.error().message;
-  return *profile;
-}
+using test::profile_of;
 
 struct Patch {
   SplineBasis u, v;

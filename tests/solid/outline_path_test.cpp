@@ -12,11 +12,7 @@
 namespace trueflank {
 namespace {
 
-ToothProfile profile_of(const Gear& gear) {
-  auto profile = ToothProfile::make(gear);
-  EXPECT_TRUE(profile);
-  return *profile;
-}
+using test::profile_of;
 
 /// Points on a path, `steps` a piece.
 std::vector<Point2> points_of(const OutlinePath& path, int steps) {

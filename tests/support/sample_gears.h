@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_profile.h"
 
 // Gears with every shape of tooth that a profile can have.
 namespace trueflank::test {
+
+/// What a failing test says of a gear whose parameters were drawn.
+inline std::string described(const Gear& g) {
+  const BasicRack& rack = g.rack;
+  return "z " + std::to_string(g.teeth) + " beta " + std::to_string(deg_from_rad(g.helix_angle_rad)) + " x " +
+         std::to_string(g.shift) + " m " + std::to_string(g.normal_module_mm) + " alpha " +
+         std::to_string(deg_from_rad(rack.pressure_angle_rad)) + " hf " + std::to_string(rack.dedendum) + " rho " +
+         std::to_string(rack.root_radius) + " pr " + std::to_string(rack.protuberance) + " at " +
+         std::to_string(deg_from_rad(rack.protuberance_angle_rad)) + " q " + std::to_string(rack.grinding_stock) +
+         " thin " + std::to_string(g.thinning_mm) + " tip " + std::to_string(g.tip_radius_mm) +
+         (g.cutter ? " cutter z " + std::to_string(g.cutter->teeth) + " x " + std::to_string(g.cutter->shift) + " rho " +
+                         std::to_string(g.cutter->tip_radius)
+                   : std::string());
+}
+
+/// Of a gear that a test takes to have teeth; throws what is wrong where it has none.
+inline ToothProfile profile_of(const Gear& gear) {
+  auto profile = ToothProfile::make(gear);
+  if (!profile) throw std::runtime_error(profile.error().message);
+  return std::move(*profile);
+}
 
 struct SampleGear {
   std::string name;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trueflank/train/gear_train.h"
@@ -9,6 +11,13 @@
 
 // Members of a train by their names, as tests speak of them.
 namespace trueflank::test {
+
+/// Of a design that a test takes to be right; throws what is wrong where it is not.
+inline GearTrain laid_out(const GearboxDesign& design) {
+  auto train = lay_out(design);
+  if (!train) throw std::runtime_error(train.error().front().message);
+  return std::move(*train);
+}
 
 /// Per unit of input speed.
 inline double speed_of(const GearTrain& train, std::string_view member) {

@@ -5,16 +5,13 @@
 
 #include <cmath>
 
+#include "tests/support/train_members.h"
 #include "tests/train/prototype_design.h"
 
 namespace trueflank {
 namespace {
 
-GearTrain laid_out(const GearboxDesign& design) {
-  auto train = lay_out(design);
-  EXPECT_TRUE(train.has_value()) << train.error().front().message;
-  return std::move(*train);
-}
+using test::laid_out;
 
 TEST(ClearTips, EndContactAMarginShortOfTheMatesRootForm) {
   GearboxDesign design = test::unshifted("pair", "wheel", {12, 60});

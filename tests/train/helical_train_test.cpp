@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "prototype_design.h"
+#include "tests/support/train_members.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/train/axial_thrust.h"
 #include "trueflank/train/mesh_face.h"
@@ -13,6 +14,8 @@
 namespace trueflank {
 namespace {
 
+using test::laid_out;
+
 GearboxDesign helical_pair(int z1, int z2, double module_mm, double helix_deg, bool internal = false) {
   GearboxDesign design{.name = "pair", .topology = train_topology("pair"),
                        .module_mm = module_mm, .helix_angle_rad = rad_from_deg(helix_deg)};
@@ -21,12 +24,6 @@ GearboxDesign helical_pair(int z1, int z2, double module_mm, double helix_deg, b
                              .kind = internal ? GearKind::kInternal : GearKind::kExternal,
                              .teeth = z2, .shift = 0.0, .face_width_mm = 20.0}};
   return design;
-}
-
-GearTrain laid_out(const GearboxDesign& design) {
-  auto train = lay_out(design);
-  if (!train) throw std::runtime_error(train.error().front().message);
-  return std::move(*train);
 }
 
 TEST(HelicalTrain, NormalSystemExampleOfKhk) {

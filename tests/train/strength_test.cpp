@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/train_members.h"
 #include "tests/train/prototype_design.h"
 #include "trueflank/train/efficiency.h"
 #include "trueflank/train/strength_form_factor.h"
@@ -12,11 +13,7 @@
 namespace trueflank {
 namespace {
 
-GearTrain laid_out(const GearboxDesign& design) {
-  auto train = lay_out(design);
-  EXPECT_TRUE(train.has_value());
-  return *train;
-}
+using test::laid_out;
 
 GearTrain pair_of(int z1, int z2) { return laid_out(test::unshifted("pair", "wheel", {z1, z2})); }
 
