@@ -46,17 +46,16 @@ GearboxDesign with_more_teeth(const GearTrain& train, double factor) {
 
 std::vector<GearboxDesign> farther_designs(const GearTrain& train) {
   const bool planetary = train.design.planets > 1;
-  if (train.meshes.empty() || (planetary && !train.assembly.equal_spacing)) return {};
+  if (train.meshes.empty() || !train.assembly.equal_spacing) return {};
   std::vector<GearboxDesign> designs;
   if (train.design.rack.protuberance == 0.0)
     for (const double share : {0.5, 1.0}) designs.push_back(with_rack_moved(train, share));
   if (train.design.machine) return designs;
-  const auto few = std::min_element(train.design.gears.begin(), train.design.gears.end(),
-                                    [](const GearDesign& a, const GearDesign& b) { return a.teeth < b.teeth; });
+  const int fewest = std::ranges::min(train.design.gears, {}, &GearDesign::teeth).teeth;
   if (planetary) designs.push_back(with_more_teeth(train, 2.0));
   else
     for (const int teeth : {9, 12, 17})
-      if (teeth > few->teeth) designs.push_back(with_more_teeth(train, static_cast<double>(teeth) / few->teeth));
+      if (teeth > fewest) designs.push_back(with_more_teeth(train, static_cast<double>(teeth) / fewest));
   std::erase_if(designs, [&](const GearboxDesign& design) { return design == train.design; });
   return designs;
 }

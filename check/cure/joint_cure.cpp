@@ -14,15 +14,13 @@
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/contact_judgement.h"
+#include "trueflank/check/cure/cure_trial.h"
 #include "trueflank/check/cure/design_change.h"
 #include "trueflank/check/cure/farther_designs.h"
 #include "trueflank/check/cure/joint_cure_moves.h"
 #include "trueflank/check/cure/needed_changes.h"
 #include "trueflank/check/cure/shortened_tips.h"
 #include "trueflank/check/design_tolerances.h"
-#include "trueflank/check/profile.h"
-#include "trueflank/check/tip_thickness.h"
-#include "trueflank/check/undercut.h"
 #include "trueflank/train/stages.h"
 
 namespace trueflank {
@@ -34,51 +32,6 @@ constexpr double kMoreForHousing =
 constexpr int kMostSets = 40, kMostPairs = 150;  // tooth counts tried of planetary sets and of pairs
 constexpr int kMostJudged = 6;                // candidates that every check judges
 
-struct Trial {
-  DesignChange change;
-  double cost = kEndless;
-  double failing = kEndless, worrying = kEndless;
-  [[nodiscard]] bool passes() const { return failing == 0.0; }
-  [[nodiscard]] bool clean() const { return passes() && worrying == 0.0; }
-};
-
-/// Cleaner first, then smaller.
-bool better(const Trial& a, const Trial& b) {
-  if (a.failing != b.failing) return a.failing < b.failing;
-  if (a.clean() != b.clean()) return a.clean();
-  if (!a.clean() && std::abs(a.worrying - b.worrying) > 0.5) return a.worrying < b.worrying;
-  return a.cost < b.cost;
-}
-
-std::set<std::string> warned(const GearTrain& train, int layer) {
-  std::set<std::string> places;
-  for (const auto check : {check_profile, check_undercut, check_tip_thickness})
-    for (const Finding& f : check(train)) {
-      const TrainGear* gear = train.find(f.where);
-      if (f.status == CheckStatus::kWarn && gear && (layer == 0 || gear->layer == layer))
-        places.insert(f.id + "@" + f.where);
-    }
-  return places;
-}
-
-int count(const Findings& findings, CheckStatus status) {
-  return static_cast<int>(std::count_if(findings.begin(), findings.end(),
-                                        [&](const Finding& f) { return f.status == status; }));
-}
-
-/// A check that passed fails now; parts around gears that pass then may have to follow by hand.
-bool any_newly_fails(const Findings& before, const Findings& after,
-                     const std::set<std::string>& ids_around) {
-  const auto passed = [&](const Finding& asked) {
-    return std::any_of(before.begin(), before.end(), [&](const Finding& f) {
-      return f.id == asked.id && f.where == asked.where && f.status == CheckStatus::kPass;
-    });
-  };
-  return std::any_of(after.begin(), after.end(), [&](const Finding& f) {
-    return f.status == CheckStatus::kFail && !ids_around.contains(f.id) && passed(f);
-  });
-}
-
 class Search {
  public:
   Search(const GearTrain& train, const JointCureOptions& options, const AroundGears& around)
@@ -86,11 +39,8 @@ class Search {
         options_(options),
         around_(around),
         layers_(meshing_layers(train)),
-        warned_(warned(train, 0)) {
-    fits_ = std::all_of(train.meshes.begin(), train.meshes.end(), [&](const TrainMesh& mesh) {
-      const double implied = mesh.implied_backlash_mm / train.design.module_mm;
-      return implied > -1e-4 && implied < 0.25;
-    });
+        warned_(warned_gears(train, 0)) {
+    fits_ = shifts_fit(train);
     for (const Complaint& c : ContactJudge::without_turning(train).complaints)
       if (c.id == "axial") layer_gap_mm_ = c.lacking * train.design.module_mm + 0.2 * train.design.module_mm;
     lacking_backlash_ = wanted_backlash_mm() / train.design.module_mm;
@@ -104,7 +54,8 @@ class Search {
       common.backlash += lacking_backlash_;
       if (spent() || common.cost() >= cost_of_cleanest_) break;
       try_common(common);
-      if (needs_other_teeth()) break;
+      // planets that do not mesh at equal spacing: nothing but teeth and their number mends that
+      if (!train_.assembly.equal_spacing) break;
     }
     result.search_ended = !spent();
     if (trials_.empty() || !trials_.front().passes()) try_teeth();
@@ -112,7 +63,7 @@ class Search {
     if (!result.cured())
       result.conflict = gears_pass(result.findings)
                             ? "the gears pass; what is around them has to follow by hand"
-                            : conflict_text(result.findings);
+                            : conflict_text(failed_together_, result.findings);
     return result;
   }
 
@@ -158,8 +109,10 @@ class Search {
   /// Centre distances and backlash are written to 0.1 um.
   [[nodiscard]] static double rounded_up(double backlash_mm) { return backlash_mm > 0.0 ? backlash_mm + 2e-4 : 0.0; }
 
-  [[nodiscard]] bool spent() const {
-    return designs_ >= options_.most_designs || judge_.turned() + bisected_ / 2 >= options_.most_turned;
+  /// So many times what the options allow.
+  [[nodiscard]] bool spent(int times = 1) const {
+    return designs_ >= times * options_.most_designs ||
+           judge_.turned() + bisected_ / 2 >= times * options_.most_turned;
   }
 
   /// The parts of a change can be made, with the gears what stands around them.
@@ -168,17 +121,12 @@ class Search {
     return !around_ || (laid && around_(*laid));
   }
 
-  void keep(Trial trial) {
+  void keep(CureTrial trial) {
     if (trial.clean() && !can_be_made(trial.change)) return;  // others are to be sought
     if (trial.clean()) cost_of_cleanest_ = std::min(cost_of_cleanest_, trial.cost);
     trials_.push_back(std::move(trial));
     std::stable_sort(trials_.begin(), trials_.end(), better);
     if (trials_.size() > kMostJudged) trials_.pop_back();
-  }
-
-  /// Planets that do not mesh at equal spacing: nothing but teeth and their number mends that.
-  [[nodiscard]] bool needs_other_teeth() const {
-    return train_.design.planets > 1 && !train_.assembly.equal_spacing;
   }
 
   /// Every layer's smallest shift with these common values.
@@ -187,13 +135,13 @@ class Search {
     DesignChange joint = common;
     bool all = true;
     for (const int layer : layers_) {
-      std::optional<Trial> best;
+      std::optional<CureTrial> best;
       for (const double shift : shift_moves()) {
         if (spent() || common.cost() + std::abs(shift) >= std::min(cost_of_cleanest_, best && best->clean() ? best->cost : kEndless))
           break;
         DesignChange change = common;
         change.shift_of_layer[layer] = shift;
-        const Trial trial = tried(change, layer);
+        const CureTrial trial = tried(change, layer);
         if (!best || better(trial, *best)) best = trial;
       }
       if (!best) return;
@@ -208,7 +156,7 @@ class Search {
     cost_of_cleanest_ = kEndless;
     int tried_sets = 0;
     for (const DesignChange& move : teeth_moves(train_)) {
-      if (designs_ >= 2 * options_.most_designs || judge_.turned() + bisected_ / 2 >= 2 * options_.most_turned) return;
+      if (spent(2)) return;
       if (move.cost() >= cost_of_cleanest_ + (train_.design.machine ? kMoreForHousing : 0.0))
         continue;
       DesignChange change = move;
@@ -220,11 +168,11 @@ class Search {
       if (++tried_sets > (train_.design.planets < 2 ? kMostPairs : kMostSets)) return;
       DesignChange joint = change;
       for (const int layer : layers_) {
-        std::optional<Trial> best;
-        for (const double shift : {0.0, 0.1, -0.1, 0.2, -0.2, 0.4, -0.4, 0.7, -0.7, 1.0, -1.0}) {
+        std::optional<CureTrial> best;
+        for (const double shift : coarse_shift_moves()) {
           DesignChange moved = change;
           moved.shift_of_layer[layer] = shift;
-          const Trial trial = tried(moved, layer);
+          const CureTrial trial = tried(moved, layer);
           if (!best || better(trial, *best)) best = trial;
           if (best->clean()) break;
         }
@@ -235,8 +183,8 @@ class Search {
   }
 
   /// Lays a change out, shortens tips until they clear, and judges it.
-  Trial tried(DesignChange change, int layer) {
-    Trial trial;
+  CureTrial tried(DesignChange change, int layer) {
+    CureTrial trial;
     trial.cost = change.cost();
     ++designs_;
     auto laid = lay_out(changed_design(train_, change, fits_));
@@ -263,23 +211,15 @@ class Search {
       if (!again) break;
       laid = std::move(again);
     }
-    for (const std::string& place : warned(*laid, layer))
+    for (const std::string& place : warned_gears(*laid, layer))
       if (!warned_.contains(place))
         judgement.complaints.push_back({.id = place.substr(0, place.find('@')), .layer = layer, .lacking = 0.01});
     trial.failing = judgement.failing();
     trial.worrying = judgement.worrying();
-    trial.cost = change.cost() + tip_cost(change);
+    trial.cost = change.cost() + tip_cost(train_, change);
     remember(judgement);
     trial.change = std::move(change);
     return trial;
-  }
-
-  /// What is taken off tips beyond what they have, in modules.
-  [[nodiscard]] double tip_cost(const DesignChange& change) const {
-    double sum = 0.0;
-    for (const auto& [i, diameter] : change.tip_diameter_mm)
-      sum += 0.5 * std::abs(diameter - 2.0 * train_.gears[i].profile.gear().tip_radius_mm) / train_.design.module_mm;
-    return sum;
   }
 
   void remember(const Judgement& judgement) {
@@ -298,32 +238,30 @@ class Search {
 
   /// The design, and where parts around it fail, the same with a housing as large as it must be.
   [[nodiscard]] std::optional<JudgedDesign> judged_with_housing(const GearboxDesign& design) const {
-    auto findings = judged(design);
-    const bool fixed_size = design.machine && design.machine->housing.outer_diameter_mm;
-    if (!fixed_size || (findings && verdict(*findings) != CheckStatus::kFail)) {
-      if (!findings) return std::nullopt;
-      return JudgedDesign{design, std::move(*findings)};
-    }
+    std::optional<JudgedDesign> best;
+    if (auto findings = judged(design)) best = {design, std::move(*findings)};
+    const bool passes = best && verdict(best->findings) != CheckStatus::kFail,
+               fixed_size = design.machine && design.machine->housing.outer_diameter_mm;
+    if (passes || !fixed_size) return best;
     GearboxDesign free = design;
     free.machine->housing.outer_diameter_mm.reset();
     auto freed = judged(free);
-    const bool helps = freed && (!findings || count(*freed, CheckStatus::kFail) <
-                                                  count(*findings, CheckStatus::kFail));
-    if (helps) return JudgedDesign{std::move(free), std::move(*freed)};
-    if (!findings) return std::nullopt;
-    return JudgedDesign{design, std::move(*findings)};
+    if (freed && (!best || count_of(*freed, CheckStatus::kFail) <
+                               count_of(best->findings, CheckStatus::kFail)))
+      best = {std::move(free), std::move(*freed)};
+    return best;
   }
 
   /// The best that every check agrees with.
   void choose(JointCure& result) {
     const Findings before = result.findings;
-    int fails = count(before, CheckStatus::kFail), warns = count(before, CheckStatus::kWarn);
-    for (Trial& trial : trials_) {
+    int fails = count_of(before, CheckStatus::kFail), warns = count_of(before, CheckStatus::kWarn);
+    for (CureTrial& trial : trials_) {
       if (trial.passes()) shrink(trial);
       auto found = judged_with_housing(changed_design(train_, trial.change, fits_));
       if (!found || found->design == train_.design) continue;
-      const int f = count(found->findings, CheckStatus::kFail),
-                w = count(found->findings, CheckStatus::kWarn);
+      const int f = count_of(found->findings, CheckStatus::kFail),
+                w = count_of(found->findings, CheckStatus::kWarn);
       if (f > fails || (f == fails && w >= warns) ||
           any_newly_fails(before, found->findings, ids_around_))
         continue;
@@ -338,13 +276,13 @@ class Search {
   }
 
   /// Shifts and centre distance as near to the old ones as the verdict allows.
-  void shrink(Trial& trial) {
+  void shrink(CureTrial& trial) {
     const auto smaller = [&](const auto& change_at) {
       for (double share = 0.5; share > 0.1; share *= 0.5) {
         DesignChange change = trial.change;
         change.tip_diameter_mm.clear();
         change_at(change, 1.0 - share);
-        const Trial shrunk = tried(change, 0);
+        const CureTrial shrunk = tried(change, 0);
         if (better(shrunk, trial)) trial = shrunk;
       }
     };
@@ -354,27 +292,6 @@ class Search {
     for (const int layer : layers_)
       if (trial.change.shift_of_layer[layer] != 0.0)
         smaller([layer](DesignChange& c, double factor) { c.shift_of_layer[layer] *= factor; });
-  }
-
-  [[nodiscard]] std::string conflict_text(const Findings& left) const {
-    std::vector<std::pair<std::set<std::string>, int>> sets(failed_together_.begin(), failed_together_.end());
-    std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) {
-      return a.first.size() != b.first.size() ? a.first.size() < b.first.size() : a.second > b.second;
-    });
-    if (sets.empty()) {  // no change of these teeth could even be laid out
-      const auto failing = std::find_if(left.begin(), left.end(), [](const Finding& f) { return f.status == CheckStatus::kFail; });
-      return failing == left.end() ? "" : "nothing near this design clears " + failing->id;
-    }
-    if (sets.front().first.size() == 1) {
-      const std::string first = *sets.front().first.begin();
-      for (const auto& [ids, times] : sets)
-        if (ids.size() == 1 && *ids.begin() != first)
-          return first + " and " + *ids.begin() + " contradict each other near this design: what clears one fails the other";
-      return "nothing near this design clears " + first;
-    }
-    auto it = sets.front().first.begin();
-    const std::string first = *it++;
-    return first + " and " + *it + " fail together in every design near this one";
   }
 
   const GearTrain& train_;
@@ -389,8 +306,8 @@ class Search {
   ContactJudge judge_;
   int designs_ = 0, bisected_ = 0;
   double cost_of_cleanest_ = kEndless;
-  std::vector<Trial> trials_;  ///< the best, best first
-  std::map<std::set<std::string>, int> failed_together_;
+  std::vector<CureTrial> trials_;  ///< the best, best first
+  FailedTogether failed_together_;
 };
 
 /// Each stage that fails (or, where none does, that warns) cured by itself, one after the other, and the whole
@@ -412,7 +329,7 @@ JointCure cure_of_stages(const GearTrain& train, const Findings& findings, const
     const auto laid = lay_out(changed);
     if (!laid) continue;
     Findings after = check_gearbox(*laid);
-    if (count(after, CheckStatus::kFail) > count(whole.findings, CheckStatus::kFail)) continue;
+    if (count_of(after, CheckStatus::kFail) > count_of(whole.findings, CheckStatus::kFail)) continue;
     whole.design = std::move(changed);
     whole.findings = std::move(after);
     whole.changed = true;

@@ -58,9 +58,7 @@ double to_reference(const GearTrain& train, const TrainMesh& mesh) {
 std::vector<double> distance_moves(const GearTrain& train) {
   std::vector<double> moves{0.0, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2, 0.35, -0.35, kFarCentreDistance, -kFarCentreDistance};
   for (const TrainMesh& mesh : train.meshes) {
-    const double there =
-        (reference_centre_distance_mm(mesh_teeth(train.pair(mesh))) - train.centre_distance_mm) /
-        train.design.module_mm;
+    const double there = to_reference(train, mesh);
     for (const double move : {there, 0.5 * there})
       if (std::abs(move) > kFarCentreDistance) moves.push_back(move);
   }
@@ -89,6 +87,11 @@ std::vector<DesignChange> common_moves(const GearTrain& train) {
 const std::vector<double>& shift_moves() {
   static const std::vector<double> moves{0.0, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15, 0.2,  -0.2, 0.3,
                                          -0.3, 0.4, -0.4,  0.5, -0.5, 0.7,  -0.7,  1.0, -1.0};
+  return moves;
+}
+
+const std::vector<double>& coarse_shift_moves() {
+  static const std::vector<double> moves{0.0, 0.1, -0.1, 0.2, -0.2, 0.4, -0.4, 0.7, -0.7, 1.0, -1.0};
   return moves;
 }
 

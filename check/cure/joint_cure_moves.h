@@ -14,6 +14,8 @@ namespace trueflank {
 [[nodiscard]] std::vector<DesignChange> common_moves(const GearTrain& train);
 /// Shifts of a layer; the first is 0.
 [[nodiscard]] const std::vector<double>& shift_moves();
+/// The same in larger steps, for other teeth.
+[[nodiscard]] const std::vector<double>& coarse_shift_moves();
 /// Tooth counts and planets, few teeth more or less, as one that assembles may need; at the present
 /// centre distance and, where that is far, at that of the teeth.
 [[nodiscard]] std::vector<DesignChange> teeth_moves(const GearTrain& train);

@@ -70,7 +70,7 @@ bool shorten_at_roots(const GearTrain& laid, const Judgement& judgement, DesignC
       shorten(mesh.gear1, wanted - tip_clearance_of_gear1_mm(pair));
       shorten(mesh.gear2, wanted - tip_clearance_of_gear2_mm(pair));
     }
-  if (!any && complained(judgement, "planet_spacing") && laid.design.planets > 1)
+  if (!any && complained(judgement, "planet_spacing"))
     for (std::size_t i = 0; i < laid.gears.size(); ++i) {
       if (!laid.topology().is_planet_gear(i)) continue;
       const double room = laid.centre_distance_mm * std::sin(kPi / laid.design.planets);

@@ -346,9 +346,7 @@ class CourseScan {
   Index m_;
   std::vector<MatrixXd> clipped_;
   std::vector<VectorXd> mean_;
-  MatrixXd basis_;
   VectorXd spectrum_;
-  std::vector<VectorXd> powers_;  ///< squared cosine coefficients of every form
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
   CourseFinding step_{CourseKind::kStep}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "tests/check/check_designs.h"
 #include "trueflank/base/units.h"
@@ -14,6 +15,7 @@
 #include "trueflank/check/cure/joint_cure_moves.h"
 #include "trueflank/check/cure/needed_changes.h"
 #include "trueflank/check/cure/shortened_tips.h"
+#include "trueflank/check/mesh_clearance.h"
 
 // What cures are put together from, by counting and by formulas.
 namespace trueflank::test {
@@ -109,6 +111,18 @@ TEST(JointCureMoves, OfCommonValuesAreAllOfThemFromSmallToLarge) {
   EXPECT_EQ(near.size(), 11u * 3u * 4u * 4u);
   EXPECT_EQ(near.front().cost(), 0.0);
   expect_from_small_to_large(near);
+  // of equal cost: the nearer distance first, then less backlash, less of the root, less of the addendum
+  const auto order = [](const DesignChange& m) {
+    return std::tuple(std::abs(m.centre_distance), m.centre_distance < 0.0, m.backlash,
+                      -m.root_radius, -m.addendum);
+  };
+  int alike = 0;
+  for (std::size_t i = 1; i < near.size(); ++i)
+    if (near[i - 1].cost() == near[i].cost()) {
+      ++alike;
+      EXPECT_LT(order(near[i - 1]), order(near[i])) << i;
+    }
+  EXPECT_GT(alike, 100);
   // a distance far from that of the teeth: there, and half way where that is far, too
   GearboxDesign design = pair_design(20, 40, false, 0.05);
   design.module_mm = 2.0;
@@ -124,6 +138,20 @@ TEST(JointCureMoves, OfCommonValuesAreAllOfThemFromSmallToLarge) {
   EXPECT_EQ(distances.count(0.6), 1u);
   EXPECT_EQ(distances.count(1.2), 1u);
   EXPECT_EQ(distances.count(-0.6), 0u);
+}
+
+TEST(JointCureMoves, OfShiftsGoUpAndDownByAsMuchAndWider) {
+  ASSERT_EQ(shift_moves().size(), 19u);
+  ASSERT_EQ(coarse_shift_moves().size(), 11u);
+  for (const std::vector<double>& moves : {shift_moves(), coarse_shift_moves()}) {
+    EXPECT_EQ(moves[0], 0.0);
+    for (std::size_t i = 1; i < moves.size(); i += 2) {
+      EXPECT_GT(moves[i], std::abs(moves[i - 1]));
+      EXPECT_LE(moves[i], std::abs(moves[i - 1]) + 0.3 + 1e-12);
+      EXPECT_EQ(moves[i + 1], -moves[i]);
+    }
+    EXPECT_EQ(moves.back(), -1.0);
+  }
 }
 
 /// How many changes of two counts there are with so many steps at most together and three of each.
@@ -181,7 +209,24 @@ TEST(JointCureMoves, TakeAsManyPlanetsAwayAsDoNotFit) {
   EXPECT_EQ(planets(3), (std::set<int>{-1, 0, 1}));
   EXPECT_EQ(planets(4), (std::set<int>{-2, -1, 0, 1}));
   EXPECT_EQ(planets(15), (std::set<int>{-11, -12, -13}));
+  EXPECT_EQ(planets(5), (std::set<int>{-2, -1, 0, 1}));
   EXPECT_EQ(planets(2), (std::set<int>{0, 1}));
+  for (const DesignChange& move : teeth_moves(laid_out(simple_design(12, 40, 92, 2))))
+    EXPECT_EQ(move.centre_distance, 0.0);  // the wider distances are for pairs
+}
+
+TEST(JointCureMoves, OfManyGearsAreFewerTeethTogether) {
+  const auto most = [](const GearboxDesign& design) {
+    int moved = 0;
+    for (const DesignChange& move : teeth_moves(laid_out(design))) {
+      int sum = 0;
+      for (const int step : move.teeth) sum += std::abs(step);
+      moved = std::max(moved, sum);
+    }
+    return moved;
+  };
+  EXPECT_EQ(most(simple_design(12, 40, 92, 3)), 6);
+  EXPECT_EQ(most(paper_design()), 4);
 }
 
 TEST(JointCureMoves, PlanetsCollideWhereNoShorterTipClearsThem) {
@@ -222,6 +267,14 @@ TEST(FartherDesigns, AreHalfWayToAndAtTheStandardRackAndOfMoreTeeth) {
     EXPECT_EQ(more.rack, design.rack);
   }
   for (const GearboxDesign& any : far) EXPECT_FALSE(any.gears[1].tip_diameter_mm);
+  // a pinion that has twelve already
+  GearboxDesign twelve = pair_design(12, 24, false, 0.05);
+  gear(twelve, "wheel").tip_diameter_mm = 25.5;
+  std::set<int> more;
+  for (const GearboxDesign& any : farther_designs(laid_out(twelve)))
+    if (!any.gears[1].tip_diameter_mm) more.insert(any.gears[0].teeth);
+  EXPECT_EQ(more, (std::set<int>{12, 17}));  // 12 with the standard rack
+  EXPECT_EQ(farther_designs(laid_out(twelve)).size(), 3u);
 }
 
 TEST(FartherDesigns, OfSetsHaveTwiceTheTeethAndNoneWherePlanetsDoNotMesh) {
@@ -290,6 +343,44 @@ TEST(NeededChanges, AskTheJudgeNoMoreThanAllowedAndTakeNoRefusalForAYes) {
   const JudgedDesign kept = with_needed_changes(
       train, {changed, {}}, [](const GearboxDesign&) { return std::nullopt; }, 50);
   EXPECT_EQ(kept.design, changed);
+}
+
+TEST(NeededChanges, MoveDistancesGapsAndShiftsBackAsFarAsEighths) {
+  const GearTrain train = laid_out(paper_design(0.1));
+  GearboxDesign changed = train.design;
+  const double a = train.centre_distance_mm, x = train.gears[1].shift;
+  changed.centre_distance_mm = a + 0.8;
+  changed.layer_gap_mm += 1.6;
+  changed.gears[1].shift = x - 0.8;
+  const DesignJudge wants_half = [&](const GearboxDesign& d) {
+    Findings findings;
+    if (*d.centre_distance_mm < a + 0.29) findings.push_back(failing("distance"));
+    if (d.layer_gap_mm < train.design.layer_gap_mm + 0.5) findings.push_back(failing("gap"));
+    if (d.gears[1].shift.value_or(x) > x - 0.35) findings.push_back(failing("shift"));
+    return std::optional(findings);
+  };
+  const JudgedDesign needed = with_needed_changes(train, {changed, {}}, wants_half, 200);
+  EXPECT_NEAR(*needed.design.centre_distance_mm, a + 0.3, 1e-4);  // of eighths of 0.8
+  EXPECT_NEAR(needed.design.layer_gap_mm, train.design.layer_gap_mm + 0.6, 1e-4);
+  EXPECT_NEAR(*needed.design.gears[1].shift, x - 0.4, 1e-4);
+}
+
+TEST(NeededChanges, AKeyThatANumberMovedBackFreesIsTakenBackAndWhatThatFrees) {
+  const GearTrain train = laid_out(paper_design(0.1));
+  GearboxDesign changed = train.design;
+  changed.backlash_mm = 0.5;
+  changed.rack.addendum = 0.8;
+  changed.planets = 2;
+  const DesignJudge chain = [&](const GearboxDesign& d) {
+    Findings findings;
+    if (d.backlash_mm < 0.3) findings.push_back(failing("backlash"));
+    if (d.backlash_mm > 0.4 && d.rack.addendum > 0.8) findings.push_back(failing("addendum"));
+    if (d.rack.addendum < 1.0 && d.planets > 2) findings.push_back(failing("planets"));
+    return std::optional(findings);
+  };
+  GearboxDesign expected = train.design;
+  expected.backlash_mm = 0.3;
+  EXPECT_EQ(with_needed_changes(train, {changed, {}}, chain, 200).design, expected);
 }
 
 TEST(NeededChanges, TakeBackShiftsThatFitEachOtherTogether) {
@@ -416,10 +507,100 @@ TEST(ShortenedTips, ThatAreWrittenAndDigIntoAFilletEndWhereClearOnesDo) {
   EXPECT_NEAR(shortened(-0.4, "contact_ratio"), clear_mm, 1.1e-3);  // too short: longer
   EXPECT_EQ(shortened(0.4, "contact_ratio"), 0.0);
   EXPECT_EQ(shortened(0.4, "overlap"), 0.0);
+  // past a tip that is written and short enough
+  gear(design, "pinion").tip_diameter_mm = 2.0 * open.gears[0].profile.gear().tip_radius_mm - 0.1;
+  EXPECT_NEAR(shortened(0.4, "fillet_interference"), clear_mm, 1.1e-3);
+  gear(design, "pinion").tip_diameter_mm.reset();
   // tips that are not written follow by themselves
   gear(design, "wheel").tip_diameter_mm.reset();
   DesignChange none;
   EXPECT_FALSE(shorten_given(laid_out(design), complaint("fillet_interference"), none));
+}
+
+TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards) {
+  GearboxDesign design = pair_design(30, 60, false, 0.05);
+  design.tips = TipCircles::kClear;
+  const GearTrain open = laid_out(design);
+  ASSERT_EQ(open.gears[1].tip_shortened_mm, 0.0);
+  gear(design, "wheel").tip_diameter_mm = 2.0 * open.gears[1].profile.gear().tip_radius_mm + 0.4;
+  const Judgement judgement{
+      .complaints = {{.id = "fillet_interference", .layer = 1, .lacking = 0.1, .fails = true}}};
+  DesignChange change;
+  EXPECT_FALSE(shorten_given(laid_out(design), judgement, change));
+}
+
+/// Of a layer: tips that turning shows in the way.
+DesignChange in_the_way(const GearTrain& train, int layer) {
+  ContactJudge judge;
+  int bisected = 0;
+  DesignChange change;
+  const bool any = shorten_in_the_way(train, layer, judge, bisected, change);
+  EXPECT_EQ(any, !change.tip_diameter_mm.empty());
+  EXPECT_EQ(any, bisected > 0);
+  return change;
+}
+
+TEST(ShortenedTips, InTheWayEndWhereTheMeshClears) {
+  GearboxDesign design = pair_design(25, 29, true, 0.02);
+  const GearTrain train = laid_out(design);
+  ContactJudge judge;
+  const ContactJudge::Clearances before = judge.clearances(train, train.meshes[0]);
+  ASSERT_LT(std::min(before.driving_mm, before.centred_mm), -1e-4);
+  const DesignChange change = in_the_way(train, 0);
+  ASSERT_EQ(change.tip_diameter_mm.size(), 1u);
+  EXPECT_EQ(change.tip_diameter_mm.begin()->first, before.tip_of_gear1 ? 0u : 1u);
+  for (const double longer_mm : {0.0, 0.01}) {
+    GearboxDesign cured = design;
+    for (const auto& [i, diameter] : change.tip_diameter_mm)
+      cured.gears[i].tip_diameter_mm = diameter + (i == 0 ? longer_mm : -longer_mm);
+    const GearTrain laid = laid_out(cured);
+    const ContactJudge::Clearances after = judge.clearances(laid, laid.meshes[0]);
+    EXPECT_EQ(std::min(after.driving_mm, after.centred_mm) > -1e-6, longer_mm == 0.0);
+  }
+  // nothing is in the way of a pair that clears, or of another layer
+  EXPECT_TRUE(in_the_way(train, 2).tip_diameter_mm.empty());
+  EXPECT_TRUE(in_the_way(laid_out(pair_design(24, 60, false, 0.1)), 0).tip_diameter_mm.empty());
+}
+
+TEST(ShortenedTips, InTheWayAreThoseOfTheLayerAlone) {
+  GearboxDesign design = paper_design();
+  const GearTrain plain = laid_out(design);  // planet1 and ring1 touch with their tips
+  for (const char* gear_name : {"planet2", "ring2"})
+    gear(design, gear_name).tip_diameter_mm =
+        2.0 * plain.find(gear_name)->profile.tip_radius_mm() + (gear_name[0] == 'p' ? 0.7 : -0.7);
+  const GearTrain train = laid_out(design);
+  const auto gears = [&](int layer) {
+    std::set<std::size_t> changed;
+    for (const auto& [i, diameter] : in_the_way(train, layer).tip_diameter_mm) changed.insert(i);
+    return changed;
+  };
+  const std::set<std::size_t> first = gears(1), second = gears(2), all = gears(0);
+  ASSERT_FALSE(second.empty());
+  ASSERT_FALSE(first.empty());
+  for (const std::size_t i : first) EXPECT_EQ(train.gears[i].layer, 1);
+  for (const std::size_t i : second) EXPECT_EQ(train.gears[i].layer, 2);
+  EXPECT_EQ(all.size(), first.size() + second.size());
+}
+
+TEST(ShortenedTips, MakeRoomForAClearanceThatIsAskedFor) {
+  GearboxDesign design = pair_design(24, 60, false, 0.1);
+  gear(design, "pinion").tip_diameter_mm = 2.0 * laid_out(design).gears[0].profile.tip_radius_mm() + 0.36;
+  const auto centred = [](const GearboxDesign& d) {
+    const GearTrain train = laid_out(d);
+    return sweep_clearance_mm(train.pair(train.meshes[0]));
+  };
+  // less than the flanks have, more than the tip
+  const double left = centred(design);
+  GearboxDesign shorter = design;
+  gear(shorter, "pinion").tip_diameter_mm = *gear(design, "pinion").tip_diameter_mm - 0.5;
+  ASSERT_GT(centred(shorter), left + 0.004);
+  EXPECT_TRUE(in_the_way(laid_out(design), 0).tip_diameter_mm.empty());
+  design.made.clearance_mm = left + 0.002;
+  const DesignChange change = in_the_way(laid_out(design), 0);
+  ASSERT_EQ(change.tip_diameter_mm.size(), 1u);
+  gear(design, "pinion").tip_diameter_mm = change.tip_diameter_mm.at(0);
+  EXPECT_NEAR(centred(design), left + 0.002, 1e-3);
+  EXPECT_GE(centred(design), left + 0.002 - 1e-6);
 }
 
 TEST(InterferenceCure, IsToldWithBothWaysAndOfSetsWithTheRestOfTheLayer) {
@@ -460,6 +641,23 @@ TEST(InterferenceCure, OfATipIsWhereTheMarginBecomesZero) {
   EXPECT_GE(*radius1, tip1 - 5e-4);
   EXPECT_GE(*radius2, tip2);
   EXPECT_LE(*radius2, tip2 + 5e-4);
+  // what just touches is good
+  const PairMargin touching = [&](const GearPair& p) { return std::min(first(p), 0.0); };
+  const auto touches = tip_radius_cure_mm(pair, true, {.exact = touching});
+  ASSERT_TRUE(touches);
+  EXPECT_NEAR(*touches, tip1, 5e-4);
+  // the bound is told to the good side
+  const auto told = [&](bool of_gear1, const PairMargin& margin) {
+    const std::string text = cure_text(train, train.meshes[0], of_gear1, {.exact = margin});
+    const std::string words = std::string("tip diameter of ") + (of_gear1 ? "pinion " : "wheel ");
+    EXPECT_EQ(text.find(words), 0u) << text;
+    EXPECT_NE(text.find(of_gear1 ? " mm (-0.6" : " mm (+0.4"), std::string::npos) << text;
+    return std::stod(text.substr(words.size()));
+  };
+  EXPECT_LE(told(true, first), 2.0 * *radius1 + 1e-9);
+  EXPECT_GE(told(true, first), 2.0 * *radius1 - 1e-3);
+  EXPECT_GE(told(false, second), 2.0 * *radius2 - 1e-9);
+  EXPECT_LE(told(false, second), 2.0 * *radius2 + 1e-3);
   const PairMargin never = [](const GearPair&) { return -1.0; };
   EXPECT_FALSE(tip_radius_cure_mm(pair, true, {.exact = never}));
   // what the quick margin finds is taken where the exact one agrees, and sought again where not
@@ -475,7 +673,7 @@ TEST(InterferenceCure, OfAShiftIsTheSmallestOfBothDirectionsAndMovesTheLayer) {
   const TrainMesh& mesh = train.meshes[1];  // planet1 and ring1
   ASSERT_TRUE(train.pair(mesh).internal());
   const double x1 = train.gears[1].shift, x2 = train.gears[2].shift;
-  for (const double wanted : {0.03, 0.33, -0.27}) {
+  for (const double wanted : {0.01, 0.03, 0.33, -0.27}) {
     const PairMargin margin = [&](const GearPair& p) {
       const double moved = p.profile1->gear().shift - x1;
       return wanted > 0.0 ? moved - wanted : wanted - moved;
