@@ -246,7 +246,7 @@ void StructureTest::test_wholes(const std::vector<int>& columns, const std::vect
     if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
   for (std::size_t g = 0; g < single.size(); ++g) {
     if (!(single[g] < 1.0) || (!banned.empty() && banned[g])) continue;
-    const double p = std::min(1.0, kTests * tested * single[g]);
+    const double p = kTests * tested * single[g];
     group_p_values_[g] = std::min(group_p_values_[g], p);
     if (p >= p_value_) continue;
     p_value_ = p;
@@ -285,7 +285,7 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
       const double variance = (squares - score[i] * score[i] - (n - 1.0) * mean * mean) / (n - 2.0);
       if (!(variance > 0.0)) continue;
       const double t = (score[i] - mean) / std::sqrt(variance * n / (n - 1.0));
-      const double p = std::min(1.0, tested * student_two_sided(std::abs(t), n - 2.0));
+      const double p = tested * student_two_sided(std::abs(t), n - 2.0);
       if (p < local_p_value_) {
         local_p_value_ = p;
         likest_local_ = members[i];

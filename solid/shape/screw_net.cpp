@@ -330,9 +330,7 @@ class PatchBuilder {
                             Chain& left, Chain& right) {
     const auto lower = [&](std::size_t a, std::size_t b) { return loop[a].along < loop[b].along; };
     const auto [first, last] = std::minmax_element(corners.begin(), corners.end(), lower);
-    const double sense = left.back().along < left.front().along ? -1.0 : 1.0;
-    const double start = sense > 0.0 ? left.front().along : left.back().along,
-                 end = sense > 0.0 ? left.back().along : left.front().along;
+    const auto [start, end] = std::minmax(left.front().along, left.back().along);
     const double range = loop[*last].along - loop[*first].along;
     if (start - loop[*first].along <= kBeyond * range && loop[*last].along - end <= kBeyond * range)
       return;

@@ -24,7 +24,7 @@ constexpr double kSafety = 0.99;
 struct Bend {
   double length_mm = 0.0, turn_rad = 0.0;  ///< of the way looked at
   double support_mm = 0.0;
-  double cosine = 1.0;
+  double cosine = 0.0;  ///< of the normal and the section's plane
   [[nodiscard]] double curvature() const { return turn_rad / length_mm; }
   /// Curved to one side: no straight line lies on it.
   [[nodiscard]] bool is_dome() const { return curvature() * support_mm > 1.0; }

@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <random>
 
 #include "tests/check/check_designs.h"
+#include "tests/check/random_pairs.h"
+#include "tests/check/recorded_clearances.h"
+#include "tests/support/recorded.h"
+#include "tests/support/sample_gears.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/clearance/clearance_field.h"
+#include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/clearance/modified_clearance.h"
 #include "trueflank/check/mesh_clearance.h"
+#include "trueflank/geometry/polyline.h"
 
 // What small clearances are made of, by formulas and by turning the teeth.
 namespace trueflank::test {
@@ -86,6 +94,80 @@ TEST(ClearanceField, OfDistanceAndThicknessIsThatOfTheTurnedTeethWhereSetsBeginT
   }
   EXPECT_GT(near, 5);
   EXPECT_LT(worst_um, 0.4);
+}
+
+/// Distance of a point from a polygon, negative inside it.
+double distance_of_polygon(const std::vector<Point2>& points, const Point2& p) {
+  double least = 1e300;
+  bool inside = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2 &a = points[i], &b = points[(i + 1) % points.size()];
+    const Point2 along = b - a;
+    const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - a - share * along).norm());
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * along.x())
+      inside = !inside;
+  }
+  return inside ? -least : least;
+}
+
+TEST(GearDistance, IsThatOfTheFinePolygonNearTheTeeth) {
+  constexpr double kTolerance_mm = 1e-5;
+  for (const SampleGear& sample : sample_gears()) {
+    SCOPED_TRACE(sample.name);
+    const auto profile = ToothProfile::make(sample.gear);
+    ASSERT_TRUE(profile);
+    if (profile->gear().teeth > 60) continue;  // the same curves on more teeth
+    const GearDistance gear(*profile);
+    const SectionPolygon polygon = section_polygon(*profile, kTolerance_mm);
+    const double low = std::min(profile->root_radius_mm(), profile->tip_radius_mm()),
+                 high = std::max(profile->root_radius_mm(), profile->tip_radius_mm());
+    const double sense = profile->gear().kind == GearKind::kInternal ? -1.0 : 1.0;
+    std::mt19937 random(5);
+    const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+    for (int i = 0; i < 60; ++i) {
+      const double radius = std::lerp(low - 0.2 * (high - low), high + 0.2 * (high - low), share());
+      const Point2 p = radius * unit_vector((i % 4 == 0 ? kTwoPi : 0.4) * share());
+      const auto nearest = gear.nearest(p);
+      EXPECT_NEAR(nearest.distance_mm, sense * distance_of_polygon(polygon.points, p),
+                  2.0 * kTolerance_mm)
+          << p.transpose();
+      EXPECT_NEAR(nearest.point.norm(), p.norm(), std::abs(nearest.distance_mm) + 1e-9);
+    }
+  }
+}
+
+/// Of the first mesh of a random design: clearances in micrometres, and where they are least.
+std::string clearances_of(int seed) {
+  const auto train = lay_out(random_design(static_cast<std::uint64_t>(seed)));
+  if (!train) return "not laid out";
+  const GearPair pair = train->pair(train->meshes[0]);
+  std::string text;
+  const auto add = [&](const MeshClearance& c) {
+    if (std::isnan(c.clearance_mm)) {
+      text += "none; ";
+      return;
+    }
+    char figures[120];
+    std::snprintf(figures, sizeof figures, "%.3f at %.4f %.4f (%.4f %.4f) %d%d; ",
+                  1e3 * c.clearance_mm, c.place.radius1_mm, c.place.radius2_mm,
+                  c.place.rotation1_rad, c.place.rotation2_rad, c.place.corner1 ? 1 : 0,
+                  c.place.corner2 ? 1 : 0);
+    text += figures;
+  };
+  add(mesh_clearance(pair));
+  add(mesh_clearance(pair, 0.002));
+  add(driving_clearance(pair));
+  char figures[120];
+  std::snprintf(figures, sizeof figures, "sweep %.3f, tips %.3f, driving %.3f",
+                1e3 * sweep_clearance_mm(pair), 1e3 * tip_sweep_clearance_mm(pair),
+                1e3 * tip_driving_clearance_mm(pair));
+  return text + figures;
+}
+
+TEST(ClearanceFigures, OfRandomMeshesAreThoseWrittenDown) {
+  expect_as_recorded(kRecordedClearances, clearances_of);
 }
 
 }  // namespace

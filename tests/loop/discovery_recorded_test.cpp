@@ -78,6 +78,59 @@ std::string of_problem(int seed) {
          told(StructureTest(problem, statistics, {0, 1}, 49, {}), 24);
 }
 
+/// Many groups that hang together, some the sum of two others, with preferences, kin and bans.
+std::string of_hard_problem(int seed) {
+  std::mt19937 random(static_cast<unsigned>(seed) * 131u + 9u);
+  std::normal_distribution<double> normal;
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const int groups = 20 + pick(60), values = 160, common = groups - 10;
+  DiscoveryProblem problem;
+  int columns = 0;
+  for (int g = 0; g < groups; ++g) {
+    const int own = g < common && pick(3) == 0 ? 2 : 1;
+    problem.groups.push_back({.first_column = columns,
+                              .columns = own,
+                              .preference = pick(3),
+                              .local_family = g < common ? -1 : 0,
+                              .kin = pick(5) == 0 ? pick(4) : -1,
+                              .named = pick(4) > 0,
+                              .complexity = static_cast<double>(pick(3))});
+    columns += own;
+  }
+  const auto noise = [&] { return normal(random); };
+  problem.value = Eigen::VectorXd::NullaryExpr(values, noise);
+  problem.weight = Eigen::VectorXd::NullaryExpr(values, [&] { return 0.5 + std::abs(noise()); });
+  problem.nuisance = Eigen::MatrixXd::NullaryExpr(values, 2, noise);
+  problem.candidates =
+      Eigen::MatrixXf::NullaryExpr(values, columns, [&] { return static_cast<float>(noise()); });
+  for (int k = 1; k < columns; ++k)
+    problem.candidates.col(k) += 0.8f * problem.candidates.col(k - 1);
+  const auto first = [&](int g) {
+    return problem.groups[static_cast<std::size_t>(g)].first_column;
+  };
+  const int a = pick(common), b = pick(common), both = pick(common);
+  if (seed % 2 == 0 && both != a && both != b)
+    problem.candidates.col(first(both)) =
+        problem.candidates.col(first(a)) + problem.candidates.col(first(b));
+  for (const int g : {a, b})
+    problem.value += (0.5 + 0.1 * pick(12)) * problem.candidates.col(first(g)).cast<double>();
+  for (int k = pick(5); k > 0; --k)
+    problem.value += 0.1 * pick(12) * problem.candidates.col(first(pick(groups))).cast<double>();
+  const int units = 12 + pick(30);
+  for (int i = 0; i < values; ++i) {
+    problem.unit.push_back(i * units / values);
+    problem.fold.push_back(i * units / values % 6);
+    problem.zero.push_back(seed % 3 == 0 ? i * units / values / 4 : -1);
+    if (seed % 4 == 1) problem.whole.push_back(i * units / values % 7);
+  }
+  DiscoveryOptions options{.flips = 99, .most_effects = 1 + pick(8)};
+  if (seed % 5 == 2)
+    for (int g = 0; g < groups; ++g) options.banned.push_back(pick(4) == 0);
+  const BlockStatistics statistics(problem);
+  return told(discover(problem, options)) + " |" +
+         told(StructureTest(problem, statistics, {0}, 49, options.banned), groups);
+}
+
 std::string of_ring(int seed) {
   std::mt19937 random(static_cast<unsigned>(seed));
   std::normal_distribution<double> normal;
@@ -138,7 +191,8 @@ std::string of_courses(int seed) {
 }
 
 std::string of_seed(int seed) {
-  const std::string text = seed % 3 == 0   ? of_problem(seed / 3)
+  const std::string text = seed >= 1000    ? of_hard_problem(seed - 1000)
+                           : seed % 3 == 0 ? of_problem(seed / 3)
                            : seed % 3 == 1 ? of_ring(seed / 3)
                                            : of_courses(seed / 3);
   return text.substr(std::min(text.size(), text.find_first_not_of("; ")));

@@ -16,9 +16,26 @@ namespace {
 using test::RandomToothing;
 using test::ToothingKinds;
 
+/// Which way the diagonals of a net lean: steps across times steps up, over the edges of all
+/// facets.
+double lean_of(const NetPatch& net) {
+  double sum = 0.0;
+  for (const auto& facet : net.facets)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NetNode &a = facet[k], &b = facet[(k + 1) % 3];
+      const auto height = [&](const NetNode& node) {
+        const auto& rows = net.inner[static_cast<std::size_t>(node.column) % net.inner.size()];
+        const auto row = static_cast<std::size_t>(node.row);
+        return row == 0 ? 0.0 : row > rows.size() ? 1.0 : rows[row - 1];
+      };
+      sum += (b.column - a.column) * (height(b) - height(a));
+    }
+  return sum;
+}
+
 std::string figures_of(const ToothingGrid& grid) {
   std::size_t inner = 0, rising = 0, facets = 0;
-  double radius = 0.0, height = 0.0, turn = 0.0;
+  double radius = 0.0, height = 0.0, turn = 0.0, lean = 0.0;
   std::size_t count = 0;
   const auto add = [&](const std::array<double, 3>& p) {
     radius += std::hypot(p[0], p[1]), height += p[2], turn += std::sin(std::atan2(p[1], p[0]));
@@ -36,6 +53,7 @@ std::string figures_of(const ToothingGrid& grid) {
     const std::size_t some = points.size() / static_cast<std::size_t>(grid.teeth());
     for (std::size_t i = 0; i < some; ++i) add(points[i]);
     inner += some;
+    lean += lean_of(grid.patches()[k]);
     facets += grid.patches()[k].facets.size();
   }
   const int teeth = grid.teeth_alike() ? 1 : grid.teeth();
@@ -47,8 +65,9 @@ std::string figures_of(const ToothingGrid& grid) {
   char text[200];
   std::snprintf(
       text, sizeof text,
-      "%d columns, %zu rows, %zu facets, %zu inside, %zu rising, at %.6f %.6f %.6f, %.4f um",
-      grid.points_per_tooth(), grid.heights_mm().size(), facets, inner, rising, radius / n,
+      "%d columns, %zu rows, %zu facets, %zu inside, %zu rising, lean %.5f, at %.6f %.6f %.6f, "
+      "%.4f um",
+      grid.points_per_tooth(), grid.heights_mm().size(), facets, inner, rising, lean, radius / n,
       height / n, turn / n, 1e3 * grid.chord_error_mm());
   return text;
 }
@@ -59,6 +78,57 @@ constexpr std::array kKinds = {ToothingKinds{},
                                ToothingKinds{.chamfer = true},
                                ToothingKinds{true, true, true},
                                ToothingKinds{.deviation = true, .chamfer = true}};
+
+/// Few teeth, whose involutes begin on the base circle; rings with straight flanks inside it;
+/// modified teeth with chamfers; more heights than nets have.
+GearboxDesign chosen_design(int number) {
+  GearboxDesign design;
+  design.topology = train_topology("gear");
+  GearDesign gear{.name = "gear", .face_width_mm = 8.0};
+  design.helix_angle_rad = rad_from_deg(number % 2 == 0 ? 20.0 : -12.0);
+  if (number < 20) {
+    gear.teeth = 6 + number;
+    gear.shift = std::max(0.0, (17.0 - gear.teeth) / 17.0) + 0.1 * (number % 3);
+  } else if (number < 30) {
+    gear.kind = GearKind::kInternal;
+    gear.teeth = 16 + 3 * (number - 20);
+    design.rack.root_radius = 0.05 * (number % 4);
+  } else {
+    gear.kind = number % 4 == 1 ? GearKind::kInternal : GearKind::kExternal;
+    gear.teeth = 14 + 2 * (number - 30) + (number % 4 == 1 ? 24 : 0);
+    gear.shift = 0.3;
+    if (number % 3 == 0) design.helix_angle_rad = 0.0;
+    design.herringbone = number % 5 == 2 && number % 3 != 0;
+    gear.modifications.crowning_um = number % 2 == 0 ? 12.0 : 0.0;
+    gear.modifications.profile_crowning_um = number % 3 == 1 ? 6.0 : 0.0;
+    gear.modifications.helix_slope_um = number % 5 == 1 ? 9.0 : 0.0;
+    gear.modifications.edge_chamfer_mm = number % 4 < 2 ? 0.05 * (1 + number % 5) : 0.0;
+  }
+  design.gears = {gear};
+  return design;
+}
+
+std::string figures_of_chosen(int number) {
+  const auto train = lay_out(chosen_design(number));
+  if (!train) return "not laid out";
+  const auto shapes = part_shapes(*train);
+  if (!shapes) return "no part";
+  const Slab& slab = shapes->parts[0].slabs[0];
+  const auto* outer = std::get_if<ToothedOutline>(&slab.outer);
+  ToothedOutline outline = outer ? *outer : std::get<ToothedOutline>(slab.holes[0]);
+  // bends the section at the upper face alone
+  const Displacement displacement = [](const std::array<double, 3>& p) {
+    return std::array<double, 3>{0.01 * p[2] / 8.0 * std::cos(5.0 * p[0]), 0.0, 0.0};
+  };
+  if (number == 51 || number == 52) outline.displacement = &displacement;
+  std::vector<double> levels{0.0, 8.0};
+  if (number == 49) {
+    levels.clear();
+    for (int k = 0; k <= 70; ++k) levels.push_back(8.0 * k / 70.0);
+  }
+  return figures_of(ToothingGrid(outline, levels, number % 3 == 2 ? 3e-4 : 2e-3,
+                                 number < 54 ? GridKind::kFewest : GridKind::kRows));
+}
 
 std::string figures_of_seed(int seed) {
   const auto kind = static_cast<std::size_t>(seed) % kKinds.size();
@@ -71,6 +141,10 @@ std::string figures_of_seed(int seed) {
                           rows ? std::vector<double>{0.0, 0.4 * b, b} : std::vector<double>{0.0, b},
                           random->tolerance_mm, rows ? GridKind::kRows : GridKind::kFewest);
   return figures_of(grid);
+}
+
+TEST(MeshFigures, OfChosenToothingsAreThoseWrittenDown) {
+  test::expect_as_recorded(test::kRecordedChosenNets, figures_of_chosen);
 }
 
 TEST(MeshFigures, OfRandomToothingsAreThoseWrittenDown) {

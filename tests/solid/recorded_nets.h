@@ -3,102 +3,196 @@
 
 namespace trueflank::test {
 
-/// Rows, columns and nets of random toothings (mesh_figures_test.cpp), by number: of one tooth where teeth are alike.
-/// "at": means over the vertices of radius, height and sine of the angle.
+/// Rows, columns and nets of random toothings (mesh_figures_test.cpp), by number: of one tooth where teeth are alike. "lean": of the
+/// diagonals, steps across times up; "at": means over the vertices of radius, height and sine of the angle.
 inline constexpr const char* kRecordedNets = R"(
-0: 41 columns, 2 rows, 590 facets, 254 inside, 0 rising, at 2.226337 1.601835 -0.440205, 0.9085 um
-1: 60 columns, 3 rows, 0 facets, 0 inside, 182 rising, at 1.471574 2.448908 0.000000, 0.8627 um
-3: 57 columns, 8 rows, 0 facets, 0 inside, 199 rising, at 12.353071 4.731277 0.013928, 1.3509 um
-5: 24 columns, 4 rows, 112 facets, 0 inside, 0 rising, at 55.071995 3.853525 -0.000000, 20.6706 um
-6: 19 columns, 2 rows, 118 facets, 40 inside, 0 rising, at 45.983042 10.483039 0.106809, 21.3211 um
-9: 84 columns, 4 rows, 792 facets, 247 inside, 0 rising, at 16.815774 2.805503 0.100327, 0.9586 um
-11: 20 columns, 6 rows, 0 facets, 0 inside, 84 rising, at 7.835498 2.220542 -0.052304, 6.4110 um
-12: 18 columns, 2 rows, 76 facets, 20 inside, 0 rising, at 8.668334 1.142182 -0.059206, 2.9300 um
-13: 31 columns, 3 rows, 396 facets, 136 inside, 0 rising, at 50.539449 3.393363 -0.024255, 2.1550 um
-15: 69 columns, 7 rows, 0 facets, 0 inside, 198 rising, at 11.719288 5.469764 -0.006035, 2.9602 um
-18: 48 columns, 3 rows, 728 facets, 268 inside, 0 rising, at 11.138655 4.835011 -0.079771, 1.0794 um
-19: 83 columns, 50 rows, 0 facets, 0 inside, 1909 rising, at 75.429611 12.437953 -0.041857, 0.4935 um
-21: 30 columns, 4 rows, 108 facets, 0 inside, 0 rising, at 6.915828 2.644955 -0.031918, 8.5674 um
-24: 81 columns, 3 rows, 2284 facets, 980 inside, 0 rising, at 44.162931 9.193811 -0.045411, 0.2405 um
-30: 40 columns, 2 rows, 126 facets, 23 inside, 0 rising, at 8.510078 2.570432 -0.018751, 1.0283 um
-31: 43 columns, 4 rows, 0 facets, 0 inside, 62 rising, at 40.266599 3.052273 -0.001426, 0.6305 um
-33: 28 columns, 5 rows, 160 facets, 12 inside, 0 rising, at 5.078385 3.083056 0.032542, 9.3088 um
-36: 14 columns, 2 rows, 44 facets, 8 inside, 0 rising, at 89.305397 7.404330 0.035506, 34.4924 um
-42: 18 columns, 3 rows, 104 facets, 16 inside, 0 rising, at 10.604802 7.979217 0.098150, 39.7738 um
-43: 21 columns, 3 rows, 0 facets, 0 inside, 42 rising, at 6.102992 1.326928 0.000004, 2.1544 um
-45: 26 columns, 4 rows, 136 facets, 20 inside, 0 rising, at 84.660679 19.786138 -0.065570, 33.5991 um
-47: 51 columns, 9 rows, 0 facets, 0 inside, 261 rising, at 174.444493 8.626845 -0.000779, 3.3185 um
-48: 49 columns, 3 rows, 468 facets, 136 inside, 0 rising, at 28.612490 3.984681 0.016493, 1.0145 um
-49: 40 columns, 2 rows, 556 facets, 238 inside, 0 rising, at 18.781264 3.921960 -0.076351, 0.5862 um
-50: 25 columns, 3 rows, 0 facets, 0 inside, 1612 rising, at 12.299321 2.275480 -0.000031, 2.1198 um
-51: 20 columns, 5 rows, 0 facets, 0 inside, 18 rising, at 99.540277 10.719288 0.030943, 31.0542 um
-53: 20 columns, 4 rows, 84 facets, 0 inside, 0 rising, at 15.313149 2.256863 -0.023254, 16.8924 um
-54: 109 columns, 9 rows, 0 facets, 0 inside, 436 rising, at 49.855993 14.226777 0.002801, 0.7862 um
-55: 20 columns, 3 rows, 0 facets, 0 inside, 405 rising, at 5.628929 0.623846 0.000000, 5.3077 um
-56: 27 columns, 9 rows, 0 facets, 0 inside, 1298 rising, at 5.433972 3.774074 -0.000087, 4.4275 um
-58: 16 columns, 4 rows, 0 facets, 0 inside, 1292 rising, at 10.676850 2.056738 -0.000052, 4.6168 um
-60: 45 columns, 2 rows, 174 facets, 42 inside, 0 rising, at 7.617541 1.080169 -0.026452, 0.3989 um
-61: 23 columns, 2 rows, 44 facets, 0 inside, 0 rising, at 29.250455 9.011159 -0.017237, 12.0319 um
-66: 45 columns, 3 rows, 0 facets, 0 inside, 45 rising, at 10.871598 1.722425 0.001909, 0.5446 um
-67: 36 columns, 6 rows, 0 facets, 0 inside, 160 rising, at 104.319599 12.955889 -0.053250, 6.4556 um
-69: 69 columns, 4 rows, 270 facets, 22 inside, 0 rising, at 56.530083 2.930499 0.024334, 3.5568 um
-71: 22 columns, 5 rows, 0 facets, 0 inside, 30 rising, at 10.281633 2.390889 0.024102, 4.6604 um
-73: 56 columns, 2 rows, 344 facets, 116 inside, 0 rising, at 118.495579 16.166814 0.020657, 1.4652 um
-74: 35 columns, 10 rows, 0 facets, 0 inside, 6169 rising, at 17.383533 8.216622 -0.000045, 2.8349 um
-75: 27 columns, 11 rows, 0 facets, 0 inside, 135 rising, at 152.215729 14.999205 0.029414, 11.3462 um
-77: 43 columns, 4 rows, 278 facets, 54 inside, 0 rising, at 7.474668 1.676140 -0.098641, 2.2783 um
-79: 95 columns, 3 rows, 0 facets, 0 inside, 190 rising, at 11.461823 0.974031 -0.000490, 0.0270 um
-81: 54 columns, 4 rows, 262 facets, 39 inside, 0 rising, at 37.637927 5.273034 0.099722, 13.8240 um
-83: 17 columns, 10 rows, 0 facets, 0 inside, 476 rising, at 3.699063 1.921431 -0.000006, 12.5375 um
-85: 41 columns, 2 rows, 210 facets, 64 inside, 0 rising, at 52.246664 8.033977 0.000000, 5.0004 um
-86: 23 columns, 11 rows, 0 facets, 0 inside, 11012 rising, at 118.982153 18.444373 -0.000017, 10.6039 um
-87: 35 columns, 6 rows, 0 facets, 0 inside, 68 rising, at 29.573590 11.183973 0.048093, 7.7102 um
-91: 54 columns, 6 rows, 0 facets, 0 inside, 36 rising, at 52.210663 5.258123 0.014857, 0.5302 um
-92: 18 columns, 4 rows, 0 facets, 0 inside, 3168 rising, at 51.757655 3.996354 -0.000018, 3.8912 um
-93: 39 columns, 5 rows, 184 facets, 0 inside, 0 rising, at 5.726807 2.294165 0.002372, 3.8453 um
-97: 27 columns, 4 rows, 0 facets, 0 inside, 2475 rising, at 41.827291 4.574033 0.000000, 5.5514 um
-103: 51 columns, 3 rows, 0 facets, 0 inside, 102 rising, at 16.571753 2.843176 -0.019064, 1.3503 um
-111: 22 columns, 6 rows, 0 facets, 0 inside, 16 rising, at 27.846224 3.008526 0.064821, 8.6185 um
-115: 24 columns, 6 rows, 0 facets, 0 inside, 448 rising, at 13.923694 10.041205 -0.000000, 21.6071 um
-117: 41 columns, 5 rows, 168 facets, 0 inside, 0 rising, at 1.205285 1.084785 0.021448, 3.5384 um
-121: 52 columns, 2 rows, 104 facets, 0 inside, 0 rising, at 10.705577 1.480007 -0.000003, 0.3350 um
-122: 15 columns, 3 rows, 0 facets, 0 inside, 330 rising, at 28.701250 4.346606 -0.000075, 29.4729 um
-123: 27 columns, 10 rows, 0 facets, 0 inside, 18 rising, at 12.466685 1.985064 0.119860, 3.0043 um
-127: 64 columns, 3 rows, 0 facets, 0 inside, 128 rising, at 4.712878 2.122575 0.000166, 0.4509 um
-128: 40 columns, 3 rows, 0 facets, 0 inside, 167 rising, at 22.398282 6.386245 -0.000070, 5.8308 um
-129: 179 columns, 4 rows, 626 facets, 26 inside, 0 rising, at 1.950872 0.782571 0.025564, 0.2790 um
-133: 20 columns, 2 rows, 0 facets, 0 inside, 400 rising, at 28.619422 7.115555 -0.000003, 7.0680 um
-139: 100 columns, 20 rows, 0 facets, 0 inside, 1900 rising, at 12.576523 0.991866 -0.037882, 0.0637 um
-141: 24 columns, 5 rows, 108 facets, 0 inside, 0 rising, at 8.407160 2.677316 0.004528, 8.5517 um
-143: 24 columns, 5 rows, 0 facets, 0 inside, 20 rising, at 43.914621 4.198397 0.016675, 9.2413 um
-145: 21 columns, 2 rows, 246 facets, 102 inside, 0 rising, at 67.607593 19.026017 -0.243528, 28.0586 um
-147: 14 columns, 5 rows, 0 facets, 0 inside, 24 rising, at 33.483287 6.140654 0.033051, 34.6111 um
-151: 14 columns, 4 rows, 0 facets, 0 inside, 18 rising, at 135.746602 8.904259 0.011540, 21.9870 um
-153: 143 columns, 4 rows, 490 facets, 18 inside, 0 rising, at 6.247245 1.305148 0.020347, 0.3335 um
-155: 76 columns, 8 rows, 0 facets, 0 inside, 372 rising, at 4.122372 3.090345 -0.003405, 0.4779 um
-157: 85 columns, 2 rows, 618 facets, 224 inside, 0 rising, at 2.128551 0.867661 -0.081774, 0.1336 um
-161: 39 columns, 4 rows, 314 facets, 78 inside, 0 rising, at 3.663661 1.057022 -0.192245, 2.2526 um
-165: 84 columns, 4 rows, 536 facets, 124 inside, 0 rising, at 15.119885 1.378655 0.030367, 0.3762 um
-166: 23 columns, 4 rows, 0 facets, 0 inside, 399 rising, at 1.620179 0.707858 -0.000229, 4.5340 um
-167: 30 columns, 8 rows, 0 facets, 0 inside, 85 rising, at 18.959706 4.692538 0.164089, 12.2349 um
-170: 14 columns, 3 rows, 0 facets, 0 inside, 110 rising, at 31.431012 2.955827 -0.000048, 17.1981 um
-181: 18 columns, 2 rows, 0 facets, 0 inside, 711 rising, at 92.661921 14.956739 -0.000000, 11.3773 um
-183: 33 columns, 8 rows, 0 facets, 0 inside, 132 rising, at 45.876363 10.612865 -0.021155, 7.1828 um
-191: 27 columns, 5 rows, 0 facets, 0 inside, 51 rising, at 25.186155 5.106151 0.000003, 11.7498 um
-195: 16 columns, 5 rows, 0 facets, 0 inside, 50 rising, at 15.897876 1.239381 -0.019266, 3.7130 um
-197: 48 columns, 5 rows, 264 facets, 28 inside, 0 rising, at 100.700816 17.452241 0.010494, 12.6227 um
-206: 60 columns, 5 rows, 0 facets, 0 inside, 88 rising, at 36.576811 11.432761 -0.000078, 2.9690 um
-207: 31 columns, 10 rows, 0 facets, 0 inside, 28 rising, at 11.615609 1.557872 0.060519, 0.6389 um
-209: 44 columns, 4 rows, 156 facets, 0 inside, 0 rising, at 37.623007 5.405637 0.000044, 2.8736 um
-212: 14 columns, 2 rows, 0 facets, 0 inside, 251 rising, at 5.670722 0.778820 -0.000108, 5.5004 um
-215: 39 columns, 5 rows, 0 facets, 0 inside, 118 rising, at 46.780906 8.030869 -0.000039, 3.4044 um
-231: 49 columns, 12 rows, 0 facets, 0 inside, 287 rising, at 22.468408 11.732830 0.058822, 6.5464 um
-236: 10 columns, 3 rows, 0 facets, 0 inside, 1420 rising, at 50.532800 4.182499 -0.000024, 15.0776 um
-238: 63 columns, 4 rows, 0 facets, 0 inside, 813 rising, at 4.368443 2.615670 -0.000346, 4.7007 um
-242: 11 columns, 5 rows, 0 facets, 0 inside, 1056 rising, at 12.424151 1.294687 -0.000022, 4.3684 um
-275: 15 columns, 5 rows, 0 facets, 0 inside, 45 rising, at 50.743174 5.099458 -0.002663, 12.0923 um
-287: 24 columns, 5 rows, 0 facets, 0 inside, 1462 rising, at 68.211142 8.090666 -0.000000, 18.9324 um
-293: 108 columns, 4 rows, 268 facets, 0 inside, 0 rising, at 13.111585 4.224092 -0.000022, 0.6555 um
+0: 41 columns, 2 rows, 590 facets, 254 inside, 0 rising, lean 885.77659, at 2.226337 1.601835 -0.440205, 0.9085 um
+1: 60 columns, 3 rows, 0 facets, 0 inside, 182 rising, lean 0.00000, at 1.471574 2.448908 0.000000, 0.8627 um
+3: 57 columns, 8 rows, 0 facets, 0 inside, 199 rising, lean 0.00000, at 12.353071 4.731277 0.013928, 1.3509 um
+5: 24 columns, 4 rows, 112 facets, 0 inside, 0 rising, lean 36.00000, at 55.071995 3.853525 -0.000000, 20.6706 um
+6: 19 columns, 2 rows, 118 facets, 40 inside, 0 rising, lean -76.00000, at 45.983042 10.483039 0.106809, 21.3211 um
+11: 20 columns, 6 rows, 0 facets, 0 inside, 84 rising, lean 0.00000, at 7.835498 2.220542 -0.052304, 6.4110 um
+12: 18 columns, 2 rows, 76 facets, 20 inside, 0 rising, lean 38.66667, at 8.668334 1.142182 -0.059206, 2.9300 um
+13: 31 columns, 3 rows, 396 facets, 136 inside, 0 rising, lean 0.00000, at 50.539449 3.393363 -0.024255, 2.1550 um
+15: 69 columns, 7 rows, 0 facets, 0 inside, 198 rising, lean 0.00000, at 11.719288 5.469764 -0.006035, 2.9602 um
+18: 48 columns, 3 rows, 728 facets, 268 inside, 0 rising, lean -56.73333, at 11.138655 4.835011 -0.079771, 1.0794 um
+21: 30 columns, 4 rows, 108 facets, 0 inside, 0 rising, lean 36.00000, at 6.915828 2.644955 -0.031918, 8.5674 um
+24: 81 columns, 3 rows, 2284 facets, 980 inside, 0 rising, lean -99.99073, at 44.162931 9.193811 -0.045411, 0.2405 um
+30: 40 columns, 2 rows, 126 facets, 23 inside, 0 rising, lean 72.50000, at 8.510078 2.570432 -0.018751, 1.0283 um
+31: 43 columns, 4 rows, 0 facets, 0 inside, 62 rising, lean 0.00000, at 40.266599 3.052273 -0.001426, 0.6305 um
+33: 28 columns, 5 rows, 160 facets, 12 inside, 0 rising, lean -8.00000, at 5.078385 3.083056 0.032542, 9.3088 um
+36: 14 columns, 2 rows, 44 facets, 8 inside, 0 rising, lean -28.00000, at 89.305397 7.404330 0.035506, 34.4924 um
+42: 18 columns, 3 rows, 104 facets, 16 inside, 0 rising, lean -8.00000, at 10.604802 7.979217 0.098150, 39.7738 um
+43: 21 columns, 3 rows, 0 facets, 0 inside, 42 rising, lean 0.00000, at 6.102992 1.326928 0.000004, 2.1544 um
+45: 26 columns, 4 rows, 136 facets, 20 inside, 0 rising, lean 68.00000, at 84.660679 19.786138 -0.065570, 33.5991 um
+48: 49 columns, 3 rows, 468 facets, 136 inside, 0 rising, lean 0.00000, at 28.612490 3.984681 0.016493, 1.0145 um
+49: 40 columns, 2 rows, 556 facets, 238 inside, 0 rising, lean 124.14582, at 18.781264 3.921960 -0.076351, 0.5862 um
+50: 25 columns, 3 rows, 0 facets, 0 inside, 1612 rising, lean 0.00000, at 12.299321 2.275480 -0.000031, 2.1198 um
+51: 20 columns, 5 rows, 0 facets, 0 inside, 18 rising, lean 0.00000, at 99.540277 10.719288 0.030943, 31.0542 um
+54: 109 columns, 9 rows, 0 facets, 0 inside, 436 rising, lean 0.00000, at 49.855993 14.226777 0.002801, 0.7862 um
+55: 20 columns, 3 rows, 0 facets, 0 inside, 405 rising, lean 0.00000, at 5.628929 0.623846 0.000000, 5.3077 um
+56: 27 columns, 9 rows, 0 facets, 0 inside, 1298 rising, lean 0.00000, at 5.433972 3.774074 -0.000087, 4.4275 um
+58: 16 columns, 4 rows, 0 facets, 0 inside, 1292 rising, lean 0.00000, at 10.676850 2.056738 -0.000052, 4.6168 um
+60: 45 columns, 2 rows, 174 facets, 42 inside, 0 rising, lean 88.66667, at 7.617541 1.080169 -0.026452, 0.3989 um
+61: 23 columns, 2 rows, 44 facets, 0 inside, 0 rising, lean 38.00000, at 29.250455 9.011159 -0.017237, 12.0319 um
+66: 45 columns, 3 rows, 0 facets, 0 inside, 45 rising, lean 0.00000, at 10.871598 1.722425 0.001909, 0.5446 um
+67: 36 columns, 6 rows, 0 facets, 0 inside, 160 rising, lean 0.00000, at 104.319599 12.955889 -0.053250, 6.4556 um
+69: 69 columns, 4 rows, 270 facets, 22 inside, 0 rising, lean -102.00000, at 56.530083 2.930499 0.024334, 3.5568 um
+71: 22 columns, 5 rows, 0 facets, 0 inside, 30 rising, lean 0.00000, at 10.281633 2.390889 0.024102, 4.6604 um
+72: 12 columns, 2 rows, 72 facets, 24 inside, 0 rising, lean -54.33333, at 33.370334 4.158090 0.086278, 18.1035 um
+73: 56 columns, 2 rows, 344 facets, 116 inside, 0 rising, lean -193.93333, at 118.495579 16.166814 0.020657, 1.4652 um
+75: 27 columns, 11 rows, 0 facets, 0 inside, 135 rising, lean 0.00000, at 152.215729 14.999205 0.029414, 11.3462 um
+77: 43 columns, 4 rows, 278 facets, 54 inside, 0 rising, lean 100.33333, at 7.474668 1.676140 -0.098641, 2.2783 um
+78: 31 columns, 2 rows, 158 facets, 48 inside, 0 rising, lean 99.00000, at 93.472873 6.225800 -0.024248, 2.5744 um
+79: 95 columns, 3 rows, 0 facets, 0 inside, 190 rising, lean 0.00000, at 11.461823 0.974031 -0.000490, 0.0270 um
+81: 54 columns, 4 rows, 262 facets, 39 inside, 0 rising, lean -155.33333, at 37.637927 5.273034 0.099722, 13.8240 um
+85: 41 columns, 2 rows, 210 facets, 64 inside, 0 rising, lean -28.00000, at 52.246664 8.033977 0.000000, 5.0004 um
+87: 35 columns, 6 rows, 0 facets, 0 inside, 68 rising, lean 0.00000, at 29.573590 11.183973 0.048093, 7.7102 um
+90: 12 columns, 2 rows, 0 facets, 0 inside, 4 rising, lean 0.00000, at 61.760802 10.525135 0.011217, 38.1382 um
+91: 54 columns, 6 rows, 0 facets, 0 inside, 36 rising, lean 0.00000, at 52.210663 5.258123 0.014857, 0.5302 um
+92: 18 columns, 4 rows, 0 facets, 0 inside, 3168 rising, lean 0.00000, at 51.757655 3.996354 -0.000018, 3.8912 um
+93: 39 columns, 5 rows, 184 facets, 0 inside, 0 rising, lean 8.00000, at 5.726807 2.294165 0.002372, 3.8453 um
+96: 35 columns, 2 rows, 170 facets, 50 inside, 0 rising, lean -151.66667, at 16.684439 1.794163 0.041147, 1.3313 um
+102: 12 columns, 2 rows, 60 facets, 18 inside, 0 rising, lean -41.33333, at 54.533882 7.297561 0.076767, 20.1316 um
+103: 51 columns, 3 rows, 0 facets, 0 inside, 102 rising, lean 0.00000, at 16.571753 2.843176 -0.019064, 1.3503 um
+108: 20 columns, 2 rows, 0 facets, 0 inside, 14 rising, lean 0.00000, at 79.030745 5.365888 -0.006248, 6.6602 um
+111: 22 columns, 6 rows, 0 facets, 0 inside, 16 rising, lean 0.00000, at 27.846224 3.008526 0.064821, 8.6185 um
+114: 50 columns, 2 rows, 420 facets, 160 inside, 0 rising, lean -239.33333, at 83.558598 9.544657 0.018621, 0.7711 um
+115: 24 columns, 6 rows, 0 facets, 0 inside, 448 rising, lean 0.00000, at 13.923694 10.041205 -0.000000, 21.6071 um
+117: 41 columns, 5 rows, 168 facets, 0 inside, 0 rising, lean 0.00000, at 1.205285 1.084785 0.021448, 3.5384 um
+120: 41 columns, 3 rows, 584 facets, 210 inside, 0 rising, lean -0.00000, at 35.629912 5.271865 0.023697, 0.7485 um
+121: 52 columns, 2 rows, 104 facets, 0 inside, 0 rising, lean 36.00000, at 10.705577 1.480007 -0.000003, 0.3350 um
+122: 15 columns, 3 rows, 0 facets, 0 inside, 330 rising, lean 0.00000, at 28.701250 4.346606 -0.000075, 29.4729 um
+126: 34 columns, 3 rows, 856 facets, 360 inside, 0 rising, lean -0.00000, at 20.656786 2.427213 -0.032795, 0.2546 um
+127: 64 columns, 3 rows, 0 facets, 0 inside, 128 rising, lean 0.00000, at 4.712878 2.122575 0.000166, 0.4509 um
+128: 40 columns, 3 rows, 0 facets, 0 inside, 167 rising, lean 0.00000, at 22.398282 6.386245 -0.000070, 5.8308 um
+129: 179 columns, 4 rows, 626 facets, 26 inside, 0 rising, lean 56.00000, at 1.950872 0.782571 0.025564, 0.2790 um
+132: 48 columns, 2 rows, 416 facets, 160 inside, 0 rising, lean 374.15635, at 14.023594 4.592474 -0.117229, 1.5812 um
+133: 20 columns, 2 rows, 0 facets, 0 inside, 400 rising, lean 0.00000, at 28.619422 7.115555 -0.000003, 7.0680 um
+138: 59 columns, 3 rows, 300 facets, 32 inside, 0 rising, lean -88.00000, at 15.372032 3.659682 0.005715, 0.4389 um
+139: 100 columns, 20 rows, 0 facets, 0 inside, 1900 rising, lean 0.00000, at 12.576523 0.991866 -0.037882, 0.0637 um
+141: 24 columns, 5 rows, 108 facets, 0 inside, 0 rising, lean 0.00000, at 8.407160 2.677316 0.004528, 8.5517 um
+143: 24 columns, 5 rows, 0 facets, 0 inside, 20 rising, lean 0.00000, at 43.914621 4.198397 0.016675, 9.2413 um
+144: 114 columns, 3 rows, 752 facets, 148 inside, 0 rising, lean -136.00000, at 4.851754 1.921006 0.010385, 0.0586 um
+145: 21 columns, 2 rows, 246 facets, 102 inside, 0 rising, lean 162.53333, at 67.607593 19.026017 -0.243528, 28.0586 um
+147: 14 columns, 5 rows, 0 facets, 0 inside, 24 rising, lean 0.00000, at 33.483287 6.140654 0.033051, 34.6111 um
+150: 29 columns, 3 rows, 0 facets, 0 inside, 29 rising, lean 0.00000, at 34.910634 3.734080 -0.001996, 1.1950 um
+151: 14 columns, 4 rows, 0 facets, 0 inside, 18 rising, lean 0.00000, at 135.746602 8.904259 0.011540, 21.9870 um
+156: 52 columns, 2 rows, 692 facets, 294 inside, 0 rising, lean 810.96503, at 20.685661 2.602052 -0.064169, 0.3613 um
+157: 85 columns, 2 rows, 618 facets, 224 inside, 0 rising, lean 816.09524, at 2.128551 0.867661 -0.081774, 0.1336 um
+161: 39 columns, 4 rows, 314 facets, 78 inside, 0 rising, lean 119.23333, at 3.663661 1.057022 -0.192245, 2.2526 um
+163: 72 columns, 9 rows, 0 facets, 0 inside, 286 rising, lean 0.00000, at 108.829474 16.706661 -0.012609, 0.9781 um
+165: 84 columns, 4 rows, 536 facets, 124 inside, 0 rising, lean -437.60000, at 15.119885 1.378655 0.030367, 0.3762 um
+166: 23 columns, 4 rows, 0 facets, 0 inside, 399 rising, lean 0.00000, at 1.620179 0.707858 -0.000229, 4.5340 um
+167: 30 columns, 8 rows, 0 facets, 0 inside, 85 rising, lean 0.00000, at 18.959706 4.692538 0.164089, 12.2349 um
+170: 14 columns, 3 rows, 0 facets, 0 inside, 110 rising, lean 0.00000, at 31.431012 2.955827 -0.000048, 17.1981 um
+177: 85 columns, 5 rows, 436 facets, 48 inside, 0 rising, lean 0.00000, at 107.870101 9.259685 0.003656, 3.2110 um
+181: 18 columns, 2 rows, 0 facets, 0 inside, 711 rising, lean 0.00000, at 92.661921 14.956739 -0.000000, 11.3773 um
+183: 33 columns, 8 rows, 0 facets, 0 inside, 132 rising, lean 0.00000, at 45.876363 10.612865 -0.021155, 7.1828 um
+191: 27 columns, 5 rows, 0 facets, 0 inside, 51 rising, lean 0.00000, at 25.186155 5.106151 0.000003, 11.7498 um
+195: 16 columns, 5 rows, 0 facets, 0 inside, 50 rising, lean 0.00000, at 15.897876 1.239381 -0.019266, 3.7130 um
+197: 48 columns, 5 rows, 264 facets, 28 inside, 0 rising, lean -36.00000, at 100.700816 17.452241 0.010494, 12.6227 um
+199: 30 columns, 3 rows, 0 facets, 0 inside, 1740 rising, lean 0.00000, at 55.816445 19.160292 0.000000, 10.0521 um
+205: 52 columns, 2 rows, 528 facets, 212 inside, 0 rising, lean -257.57143, at 28.521754 3.888461 0.033616, 0.3789 um
+206: 60 columns, 5 rows, 0 facets, 0 inside, 88 rising, lean 0.00000, at 36.576811 11.432761 -0.000078, 2.9690 um
+207: 31 columns, 10 rows, 0 facets, 0 inside, 28 rising, lean 0.00000, at 11.615609 1.557872 0.060519, 0.6389 um
+209: 44 columns, 4 rows, 156 facets, 0 inside, 0 rising, lean 72.00000, at 37.623007 5.405637 0.000044, 2.8736 um
+212: 14 columns, 2 rows, 0 facets, 0 inside, 251 rising, lean 0.00000, at 5.670722 0.778820 -0.000108, 5.5004 um
+215: 39 columns, 5 rows, 0 facets, 0 inside, 118 rising, lean 0.00000, at 46.780906 8.030869 -0.000039, 3.4044 um
+223: 14 columns, 3 rows, 0 facets, 0 inside, 9 rising, lean 0.00000, at 9.989020 3.153499 0.066049, 10.0897 um
+229: 28 columns, 2 rows, 56 facets, 0 inside, 0 rising, lean 4.00000, at 76.780921 4.960093 0.002484, 2.7181 um
+231: 49 columns, 12 rows, 0 facets, 0 inside, 287 rising, lean 0.00000, at 22.468408 11.732830 0.058822, 6.5464 um
+235: 35 columns, 3 rows, 0 facets, 0 inside, 70 rising, lean 0.00000, at 11.164531 2.347636 -0.002721, 0.7525 um
+236: 10 columns, 3 rows, 0 facets, 0 inside, 1420 rising, lean 0.00000, at 50.532800 4.182499 -0.000024, 15.0776 um
+237: 22 columns, 4 rows, 84 facets, 0 inside, 0 rising, lean -12.00000, at 6.287187 1.755742 0.043412, 7.8863 um
+238: 63 columns, 4 rows, 0 facets, 0 inside, 813 rising, lean 0.00000, at 4.368443 2.615670 -0.000346, 4.7007 um
+242: 11 columns, 5 rows, 0 facets, 0 inside, 1056 rising, lean 0.00000, at 12.424151 1.294687 -0.000022, 4.3684 um
+253: 46 columns, 2 rows, 264 facets, 86 inside, 0 rising, lean -97.33333, at 4.880086 0.472550 0.004330, 0.1820 um
+255: 14 columns, 5 rows, 0 facets, 0 inside, 12 rising, lean 0.00000, at 18.104918 1.946881 0.022460, 4.0881 um
+260: 18 columns, 3 rows, 0 facets, 0 inside, 686 rising, lean 0.00000, at 24.401834 5.122554 -0.000050, 11.1584 um
+261: 28 columns, 4 rows, 140 facets, 18 inside, 0 rising, lean 20.66667, at 6.179599 3.811441 -0.160899, 14.3808 um
+271: 14 columns, 3 rows, 0 facets, 0 inside, 28 rising, lean 0.00000, at 55.992244 10.518490 0.000001, 22.6812 um
+272: 20 columns, 4 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 28.061781 1.801373 -0.000021, 5.1933 um
+273: 53 columns, 5 rows, 268 facets, 20 inside, 0 rising, lean -48.00000, at 80.857652 11.529912 -0.010366, 12.3512 um
+275: 15 columns, 5 rows, 0 facets, 0 inside, 45 rising, lean 0.00000, at 50.743174 5.099458 -0.002663, 12.0923 um
+277: 25 columns, 3 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 29.590955 4.174128 -0.000000, 4.1240 um
+278: 54 columns, 4 rows, 0 facets, 0 inside, 2640 rising, lean 0.00000, at 26.400248 2.003133 -0.000041, 2.8501 um
+279: 52 columns, 8 rows, 0 facets, 0 inside, 202 rising, lean 0.00000, at 2.614957 1.077780 0.014611, 0.5407 um
+283: 46 columns, 16 rows, 0 facets, 0 inside, 326 rising, lean 0.00000, at 13.612705 3.684641 0.082765, 1.2800 um
+285: 48 columns, 4 rows, 196 facets, 18 inside, 0 rising, lean -357.33333, at 14.323777 2.009438 0.082456, 5.0266 um
+290: 18 columns, 3 rows, 0 facets, 0 inside, 644 rising, lean 0.00000, at 36.585966 4.007599 -0.000046, 11.7917 um
+293: 108 columns, 4 rows, 268 facets, 0 inside, 0 rising, lean 76.00000, at 13.111585 4.224092 -0.000022, 0.6555 um
+295: 24 columns, 13 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 17.091158 5.672294 0.247786, 4.8498 um
+296: 12 columns, 5 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 24.311498 3.962810 -0.000027, 8.9342 um
+297: 25 columns, 5 rows, 96 facets, 0 inside, 0 rising, lean 0.00000, at 18.969853 2.204257 -0.006328, 16.9365 um
+)";
+
+/// The same of chosen ones.
+inline constexpr const char* kRecordedChosenNets = R"(
+0: 43 columns, 17 rows, 0 facets, 0 inside, 256 rising, lean 0.00000, at 3.390167 4.000000 0.401468, 1.9002 um
+1: 43 columns, 2 rows, 282 facets, 98 inside, 0 rising, lean 527.43810, at 3.531477 4.000000 -0.219775, 1.9899 um
+2: 98 columns, 36 rows, 0 facets, 0 inside, 700 rising, lean 0.00000, at 4.550506 4.000000 0.315176, 0.2969 um
+3: 46 columns, 2 rows, 300 facets, 104 inside, 0 rising, lean 397.70000, at 4.430065 4.000000 -0.176796, 1.9899 um
+4: 42 columns, 2 rows, 412 facets, 164 inside, 0 rising, lean -577.46825, at 5.117919 4.000000 0.258425, 1.9899 um
+5: 102 columns, 2 rows, 1208 facets, 502 inside, 0 rising, lean 2210.81729, at 5.335578 4.000000 -0.147228, 0.2985 um
+6: 43 columns, 2 rows, 398 facets, 156 inside, 0 rising, lean -472.21905, at 5.993965 4.000000 0.219316, 1.9899 um
+7: 43 columns, 2 rows, 250 facets, 82 inside, 0 rising, lean 260.26667, at 6.340302 4.000000 -0.125232, 1.9899 um
+8: 97 columns, 2 rows, 1762 facets, 784 inside, 0 rising, lean -2541.96609, at 6.937440 4.000000 0.189857, 0.2985 um
+9: 43 columns, 2 rows, 250 facets, 82 inside, 0 rising, lean 192.46667, at 7.163499 4.000000 -0.109163, 1.9899 um
+10: 41 columns, 2 rows, 350 facets, 134 inside, 0 rising, lean -362.13175, at 7.976103 4.000000 0.167273, 1.9899 um
+11: 98 columns, 2 rows, 1068 facets, 436 inside, 0 rising, lean 1255.13579, at 8.076218 4.000000 -0.096586, 0.2985 um
+12: 41 columns, 2 rows, 322 facets, 120 inside, 0 rising, lean -349.97143, at 8.912834 4.000000 0.149402, 1.9899 um
+13: 39 columns, 2 rows, 210 facets, 66 inside, 0 rising, lean 149.73333, at 9.167168 4.000000 -0.086659, 1.9899 um
+14: 92 columns, 2 rows, 1496 facets, 656 inside, 0 rising, lean -1904.88896, at 9.963848 4.000000 0.134876, 0.2985 um
+15: 39 columns, 2 rows, 202 facets, 62 inside, 0 rising, lean 133.60000, at 10.118710 4.000000 -0.078564, 1.9899 um
+16: 37 columns, 2 rows, 286 facets, 106 inside, 0 rising, lean -292.54286, at 11.120075 4.000000 0.122900, 1.9899 um
+17: 89 columns, 2 rows, 886 facets, 354 inside, 0 rising, lean 977.60253, at 11.127769 4.000000 -0.071794, 0.2985 um
+18: 35 columns, 2 rows, 266 facets, 98 inside, 0 rising, lean -231.73333, at 12.067534 4.000000 0.112869, 1.9899 um
+19: 37 columns, 2 rows, 182 facets, 54 inside, 0 rising, lean 133.00000, at 12.232200 4.000000 -0.066135, 1.9899 um
+20: 89 columns, 2 rows, 746 facets, 284 inside, 0 rising, lean -6360.56975, at 8.292726 4.000000 0.167746, 0.2985 um
+21: 31 columns, 2 rows, 174 facets, 56 inside, 0 rising, lean 288.02857, at 10.070899 4.000000 -0.086643, 1.9899 um
+22: 36 columns, 2 rows, 264 facets, 96 inside, 0 rising, lean -418.65714, at 12.230479 4.000000 0.122821, 1.9899 um
+23: 85 columns, 2 rows, 898 facets, 364 inside, 0 rising, lean 1524.53247, at 13.538708 4.000000 -0.066560, 0.2985 um
+24: 25 columns, 2 rows, 94 facets, 22 inside, 0 rising, lean -327.33333, at 14.956002 4.000000 0.093910, 1.9899 um
+25: 32 columns, 2 rows, 130 facets, 33 inside, 0 rising, lean 202.50000, at 16.178561 4.000000 -0.053817, 1.9899 um
+26: 67 columns, 2 rows, 922 facets, 394 inside, 0 rising, lean -1485.51880, at 18.980137 4.000000 0.080047, 0.2985 um
+27: 29 columns, 2 rows, 150 facets, 46 inside, 0 rising, lean 147.00000, at 19.548442 4.000000 -0.044848, 1.9899 um
+28: 19 columns, 2 rows, 70 facets, 16 inside, 0 rising, lean -219.13333, at 21.331969 4.000000 0.070588, 1.9899 um
+29: 58 columns, 2 rows, 476 facets, 180 inside, 0 rising, lean 736.86364, at 22.749844 4.000000 -0.038600, 0.2985 um
+30: 45 columns, 2 rows, 262 facets, 86 inside, 0 rising, lean -11.66667, at 7.004186 4.000000 0.000000, 1.9899 um
+31: 41 columns, 2 rows, 258 facets, 88 inside, 0 rising, lean 217.20000, at 7.866419 4.000000 -0.102527, 1.9899 um
+32: 205 columns, 5 rows, 4660 facets, 1770 inside, 0 rising, lean -224.57576, at 9.331446 4.000000 0.057340, 0.2985 um
+33: 64 columns, 4 rows, 208 facets, 0 inside, 0 rising, lean 52.00000, at 22.901652 4.000000 -0.002038, 1.9899 um
+34: 39 columns, 2 rows, 434 facets, 178 inside, 0 rising, lean -178.14524, at 11.471305 4.000000 0.123029, 1.9899 um
+35: 83 columns, 2 rows, 818 facets, 326 inside, 0 rising, lean 889.23817, at 11.736380 4.000000 -0.068836, 0.2985 um
+36: 73 columns, 4 rows, 394 facets, 72 inside, 0 rising, lean -0.66667, at 12.876296 4.000000 -0.000000, 1.9899 um
+37: 73 columns, 5 rows, 392 facets, 48 inside, 0 rising, lean 20.00000, at 27.638512 4.000000 -0.007660, 1.9899 um
+38: 91 columns, 2 rows, 1934 facets, 876 inside, 0 rising, lean -374.83698, at 15.671151 4.000000 0.090686, 0.2985 um
+39: 33 columns, 2 rows, 0 facets, 0 inside, 33 rising, lean 0.00000, at 15.783351 4.000000 0.000000, 1.7816 um
+40: 67 columns, 4 rows, 506 facets, 138 inside, 0 rising, lean -196.13333, at 17.851459 4.000000 0.080074, 1.9899 um
+41: 201 columns, 4 rows, 1178 facets, 272 inside, 0 rising, lean 900.57143, at 31.869633 4.000000 -0.027686, 0.2985 um
+42: 35 columns, 2 rows, 194 facets, 62 inside, 0 rising, lean -7.66667, at 18.894438 4.000000 -0.000000, 1.9899 um
+43: 31 columns, 2 rows, 150 facets, 44 inside, 0 rising, lean 91.33333, at 20.171980 4.000000 -0.041487, 1.9899 um
+44: 215 columns, 4 rows, 3094 facets, 1147 inside, 0 rising, lean -796.37607, at 21.941798 4.002489 0.064998, 0.2985 um
+45: 41 columns, 4 rows, 150 facets, 0 inside, 0 rising, lean 62.00000, at 34.833223 4.000000 -0.000000, 1.9899 um
+46: 37 columns, 2 rows, 294 facets, 110 inside, 0 rising, lean -116.60000, at 24.247148 4.000000 0.059327, 1.9899 um
+47: 70 columns, 3 rows, 672 facets, 196 inside, 0 rising, lean -128.00000, at 24.049990 4.000000 -0.014319, 0.2985 um
+48: 75 columns, 4 rows, 354 facets, 54 inside, 0 rising, lean 11.33333, at 24.713101 4.000000 0.000000, 1.9899 um
+49: 31 columns, 73 rows, 0 facets, 0 inside, 2144 rising, lean 0.00000, at 39.794748 4.000000 -0.021872, 1.7324 um
+51: 43 columns, 2 rows, 0 facets, 0 inside, 1362 rising, lean 0.00000, at 27.993512 4.000000 -0.000000, 1.9335 um
+52: 63 columns, 16 rows, 0 facets, 0 inside, 26785 rising, lean 0.00000, at 30.583071 4.245313 -0.000001, 1.9536 um
+54: 29 columns, 7 rows, 0 facets, 0 inside, 90 rising, lean 0.00000, at 30.775259 4.000000 -0.000000, 1.8896 um
+55: 37 columns, 4 rows, 0 facets, 0 inside, 111 rising, lean 0.00000, at 32.602395 4.000000 -0.025968, 1.8159 um
+56: 166 columns, 14 rows, 0 facets, 0 inside, 782 rising, lean 0.00000, at 34.495662 4.000000 0.041403, 0.2966 um
+57: 41 columns, 4 rows, 0 facets, 0 inside, 83 rising, lean 0.00000, at 47.084824 4.000000 0.000000, 1.8004 um
+58: 27 columns, 9 rows, 0 facets, 0 inside, 52 rising, lean 0.00000, at 36.979815 4.000000 0.039047, 1.8337 um
+59: 62 columns, 2 rows, 452 facets, 164 inside, 0 rising, lean 289.80000, at 36.259688 4.000000 -0.023083, 0.2985 um
+60: 40 columns, 6 rows, 0 facets, 0 inside, 117 rising, lean 0.00000, at 36.785683 4.000000 -0.000000, 1.8793 um
+61: 31 columns, 7 rows, 0 facets, 0 inside, 156 rising, lean 0.00000, at 52.069538 4.000000 -0.016626, 1.8182 um
+62: 64 columns, 21 rows, 0 facets, 0 inside, 640 rising, lean 0.00000, at 41.183856 4.000000 0.016696, 0.2846 um
+63: 26 columns, 2 rows, 0 facets, 0 inside, 26 rising, lean 0.00000, at 39.673198 4.000000 -0.000000, 1.7840 um
+64: 61 columns, 7 rows, 0 facets, 0 inside, 156 rising, lean 0.00000, at 43.040971 4.000000 0.033338, 1.9966 um
+65: 78 columns, 13 rows, 0 facets, 0 inside, 862 rising, lean 0.00000, at 56.261953 4.000000 -0.015396, 0.2833 um
 )";
 
 }  // namespace trueflank::test

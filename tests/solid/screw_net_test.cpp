@@ -150,7 +150,7 @@ TEST(ScrewNet, JoinsNeighbouringColumnsTheBestOfAllWays) {
 TEST(ScrewNet, JoinsFlanksTheBestOfAllWaysAlongTheirGenerators) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     test::RandomNumbers random(seed);
-    const int columns = 1 + static_cast<int>(seed % 3);
+    const int columns = 1 + static_cast<int>(seed % 4);
     const double turn = (seed % 2 == 0 ? 1.0 : -1.0) * random.between(0.1, 0.6),
                  sense = seed % 4 < 2 ? 1.0 : -1.0;
     std::vector<NetEdge> edges;
@@ -169,9 +169,9 @@ TEST(ScrewNet, JoinsFlanksTheBestOfAllWaysAlongTheirGenerators) {
     }
     edges.push_back({.region = 1, .length_mm = 0.3, .turn_rad = 0.1, .support_mm = 3.0});
     std::vector<std::vector<double>> inner(edges.size());
-    inner[0] = random_heights(random, 1 + static_cast<int>(seed % 3));
+    inner[0] = random_heights(random, 2 + static_cast<int>(seed % 4));
     inner[static_cast<std::size_t>(columns)] =
-        random_heights(random, 1 + static_cast<int>(seed % 2));
+        random_heights(random, 1 + static_cast<int>(seed % 5));
     const NetPatch net = net_patch(edges, inner, turn);
     // both ways round the border, from the corner of least angle to the one of largest
     const auto vertex = [&](int column, int row) {
@@ -221,6 +221,14 @@ TEST(ScrewNet, JoinsFlanksTheBestOfAllWaysAlongTheirGenerators) {
                         fourth(error(inner_left.back(), inner_right.back(), left.back()));
     EXPECT_NEAR(sum_of(net, 0, way({lower, upper, first, last}), error), best, 1e-9 * best) << seed;
   }
+}
+
+TEST(ScrewNet, OfOneRegionAllAroundBeginsAtItsFirstEdge) {
+  const std::vector<NetEdge> edges(
+      3, {.region = 0, .length_mm = 0.5, .turn_rad = 0.2, .support_mm = 2.0});
+  const NetPatch net = net_patch(edges, {{}, {}, {}}, 0.1);
+  EXPECT_EQ(net.facets.size(), 6u);
+  EXPECT_EQ(net.region, std::vector<int>(6, 0));
 }
 
 }  // namespace
