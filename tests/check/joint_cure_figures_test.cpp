@@ -164,6 +164,10 @@ TEST(JointCureFigures, OfRandomDesignsAreTheChangesWrittenDown) {
   expect_as_recorded(kRecordedCures, of_seed);
 }
 
+TEST(JointCureFigures, OfRandomDesignsThatTakeLongerAreTheChangesWrittenDown) {
+  expect_as_recorded(kRecordedLongerCures, of_seed);
+}
+
 /// A pair without backlash whose class asks for some, in a housing.
 GearboxDesign lacking_backlash() {
   GearboxDesign design = pair_design(24, 60, false, 0.0);
@@ -247,6 +251,22 @@ TEST(JointCureFigures, StartsAgainFromAStandardRackWhereNothingNearPasses) {
   EXPECT_EQ(text_of(design, cure), "rack.addendum 0.6219; rack.dedendum 1.0; (not ended)");
 }
 
+TEST(JointCureFigures, ATipThatTurningShowsInTheWayIsShortenedAlone) {
+  const std::string key = "wheel.tip_diameter_mm ";
+  for (const auto& [pinion, tip] : {std::pair(18, "22.847"), {25, "29.85"}, {32, "36.861"}}) {
+    GearboxDesign design = pair_design(pinion, pinion + 6, true, 0.02);
+    design.gears[0].shift = design.gears[1].shift = 0.0;
+    const JointCure cure = joint_cure(laid_out(design), {.most_designs = 1, .farther = false});
+    EXPECT_TRUE(cure.cured());
+    EXPECT_EQ(text_of(design, cure), key + tip + "; (not ended)");
+    // a hundredth more material is too much
+    gear(design, "wheel").tip_diameter_mm = *cure.design.gears[1].tip_diameter_mm - 0.02;
+    const Findings findings = check_gearbox(laid_out(design));
+    EXPECT_TRUE(only(findings, "overlap").status == kFail ||
+                only(findings, "corner_contact").status != kPass);
+  }
+}
+
 TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone) {
   constexpr StageTeeth kFirst{
       .sun = 18, .planet = 36, .planets = 3, .module_mm = 0.8, .face_width_mm = 8.0},
@@ -255,8 +275,11 @@ TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone)
   plain.tips = TipCircles::kClear;
   ASSERT_NE(verdict(check_gearbox(laid_out(plain))), kFail);
   const auto cured = [&](std::initializer_list<const char*> too_long,
-                         const JointCureOptions& options) {
+                         const JointCureOptions& options, double longer2_mm = 0.0) {
     GearboxDesign design = plain;
+    if (longer2_mm > 0.0)
+      gear(design, "sun2").tip_diameter_mm =
+          2.0 * (laid_out(plain).find("sun2")->profile.tip_radius_mm() + longer2_mm);
     for (const char* name : too_long)
       gear(design, name).tip_diameter_mm =
           2.0 * laid_out(plain).find(name)->profile.tip_radius_mm() + 0.6;
@@ -267,6 +290,9 @@ TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone)
   const JointCureOptions soon{.most_designs = 2, .most_turned = 1, .farther = false};
   EXPECT_EQ(cured({"sun1"}, soon), "sun1.tip_diameter_mm not ended");
   EXPECT_EQ(cured({"sun2"}, soon), "sun2.tip_diameter_mm not ended");
+  // that it warns of a tip is no reason to change the stage where the other one fails
+  EXPECT_EQ(cured({"sun1"}, soon, 0.18), "sun1.tip_diameter_mm not ended");
+  EXPECT_EQ(cured({}, soon, 0.18), "sun2.tip_diameter_mm not ended");
   EXPECT_EQ(cured({"sun1", "sun2"}, soon), "sun1.tip_diameter_mm sun2.tip_diameter_mm not ended");
 }
 
