@@ -133,6 +133,9 @@ TEST(GearDistance, IsThatOfTheFinePolygonNearTheTeeth) {
       EXPECT_NEAR(nearest.distance_mm, sense * distance_of_polygon(polygon.points, p),
                   2.0 * kTolerance_mm)
           << p.transpose();
+      const double beside =
+          std::remainder(std::atan2(p.y(), p.x()), kTwoPi / profile->gear().teeth);
+      EXPECT_EQ(nearest.clockwise_half, beside < 0.0);
       EXPECT_NEAR(nearest.point.norm(), p.norm(), std::abs(nearest.distance_mm) + 1e-9);
     }
   }
@@ -164,6 +167,44 @@ std::string clearances_of(int seed) {
                 1e3 * sweep_clearance_mm(pair), 1e3 * tip_sweep_clearance_mm(pair),
                 1e3 * tip_driving_clearance_mm(pair));
   return text + figures;
+}
+
+/// To three digits, without a sign of zero.
+std::string figure(double value) {
+  if (std::isnan(value)) return "none";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
+  return text;
+}
+
+/// The same of teeth with modified flanks, the worst of their heights.
+std::string modified_clearances_of(int number) {
+  GearboxDesign design =
+      pair_design(17 + 3 * number, 31 + 5 * number, number % 3 == 2, 0.02 * (number % 4));
+  design.helix_angle_rad = number % 2 == 0 ? 0.0 : 0.3;
+  ModificationsDesign& pinion = gear(design, "pinion").modifications;
+  pinion.helix_slope_um = 8.0 * (number % 3);
+  pinion.profile_slope_um = number % 4 == 1 ? 12.0 : 0.0;
+  gear(design, "wheel").modifications.crowning_um = number % 2 == 0 ? 10.0 : 0.0;
+  gear(design, "wheel").modifications.profile_crowning_um = number % 3 == 1 ? 7.0 : 0.0;
+  const GearTrain train = laid_out(design);
+  const MeshState state = modified_state(train, train.meshes[0]);
+  std::string heights;
+  for (const PairSection& section : decisive_sections(train, train.meshes[0]))
+    heights += ' ' + figure(section.z_mm);
+  if (number % 3 == 2) {
+    const auto free = modified_removal(train, train.meshes[0]).free_at;
+    heights += ", free at " + std::to_string(std::count(free.begin(), free.end(), true));
+  }
+  const auto at = [](const MeshClearance& c) {
+    return figure(1e3 * c.clearance_mm) + " at " + figure(c.z_mm);
+  };
+  return at(state.centred) + ", driving " + at(state.driving) + ", alone " +
+         figure(1e3 * modified_clearance_mm(train, train.meshes[0])) + "," + heights;
+}
+
+TEST(ClearanceFigures, OfModifiedTeethAreThoseWrittenDown) {
+  expect_as_recorded(kRecordedModifiedClearances, modified_clearances_of);
 }
 
 TEST(ClearanceFigures, OfRandomMeshesAreThoseWrittenDown) {

@@ -49,4 +49,17 @@ inline constexpr const char* kRecordedClearances = R"(
 43: 50.883 at 17.2636 8.8815 (0.0145 2.9405) 00; 33.968 at 17.2521 8.8948 (0.0128 2.9456) 00; 0.000 at 17.2498 8.9070 (0.0125 2.9502) 00; sweep 50.883, tips 50.883, driving 0.000
 )";
 
+/// Of teeth with modified flanks: centred and driving with their heights, the smallest clearance alone, the heights
+/// that decide, and of rings at how many rotations the pinion leaves them.
+inline constexpr const char* kRecordedModifiedClearances = R"(
+0: 0.000 at 5.000, driving none at none, alone 0.000, 5.000
+1: 2.620 at 0.000, driving -0.015 at 0.000, alone 2.620, 0.000 2.500 5.000 7.500 10.000
+2: -11.142 at 3.000, driving -26.747 at 3.000, alone -11.142, 0.000 2.500 3.000 5.000 7.000 7.500 10.000, free at 64
+3: 28.034 at none, driving 0.000 at none, alone 28.034, none
+4: -0.400 at 4.000, driving none at none, alone -0.400, 0.000 2.500 4.000 5.000 6.000 7.500 10.000
+5: -5.208 at 0.000, driving none at none, alone -5.208, 0.000 2.500 5.000 7.500 10.000, free at 64
+6: 18.794 at 5.000, driving 0.000 at 5.000, alone 18.794, 5.000
+7: 23.871 at 0.000, driving 0.000 at 0.000, alone 23.871, 0.000 2.500 5.000 7.500 10.000
+)";
+
 }  // namespace trueflank::test
