@@ -15,6 +15,7 @@
 #include "trueflank/check/clearance/clearance_field.h"
 #include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/clearance/tooth_crossing.h"
 #include "trueflank/check/mesh_clearance.h"
 #include "trueflank/geometry/polyline.h"
 
@@ -77,7 +78,7 @@ TEST(ClearanceField, OfDistanceAndThicknessIsThatOfTheTurnedTeethWhereSetsBeginT
   const GearTrain train = laid_out(paper_design(0.05));
   constexpr double kWidth_mm = 0.15, kThickness_mm = 0.03;
   const GearSpread spread{.thickness_mm = kThickness_mm};
-  double worst_um = 0.0;
+  double worst_um = 0.0, worst_far_um = 0.0;
   int near = 0;
   for (const TrainMesh& mesh : train.meshes) {
     auto field = ClearanceField::make(train, mesh, spread, spread, kWidth_mm);
@@ -86,14 +87,16 @@ TEST(ClearanceField, OfDistanceAndThicknessIsThatOfTheTurnedTeethWhereSetsBeginT
       for (int i = -10; i <= 10; ++i) {
         const double off_mm = kWidth_mm * i / 10.0;
         const double turned_um = 1e3 * turned_clearance_mm(train, mesh, off_mm, v * kThickness_mm);
+        const double told_um = 1e3 * field->clearance_mm(off_mm, 2.0 * v * kThickness_mm);
+        worst_far_um = std::max(worst_far_um, std::abs(told_um - turned_um));
         if (std::abs(turned_um) > 5.0) continue;
         ++near;
-        const double told_um = 1e3 * field->clearance_mm(off_mm, 2.0 * v * kThickness_mm);
         worst_um = std::max(worst_um, std::abs(told_um - turned_um));
       }
   }
   EXPECT_GT(near, 5);
   EXPECT_LT(worst_um, 0.4);
+  EXPECT_LT(worst_far_um, 2.0);  // between sections that are not halved
 }
 
 /// Distance of a point from a polygon, negative inside it.
@@ -139,6 +142,83 @@ TEST(GearDistance, IsThatOfTheFinePolygonNearTheTeeth) {
       EXPECT_NEAR(nearest.point.norm(), p.norm(), std::abs(nearest.distance_mm) + 1e-9);
     }
   }
+}
+
+TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
+  GearboxDesign design = pair_design(19, 37, false, 0.1);
+  gear(design, "pinion").modifications.helix_slope_um = 60.0;
+  const GearTrain train = laid_out(design);
+  const PairSection section = mesh_section(train, train.meshes[0], 0.0);
+  const ToothProfile& profile = section.profile1;
+  ASSERT_NE(&profile.clockwise_pieces(), &profile.pieces());
+  const GearDistance gear_distance(profile);
+  std::mt19937 random(6);
+  const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+  int clockwise = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Point2 p =
+        std::lerp(profile.root_radius_mm() - 0.3, profile.tip_radius_mm() + 0.5, share()) *
+        unit_vector(kTwoPi * share());
+    double least = 1e300;
+    bool on_clockwise = false;
+    for (int tooth = 0; tooth < 19; ++tooth) {
+      const Point2 turned = rotated(p, -kTwoPi * tooth / 19.0);
+      if (turned.x() < 0.9 * turned.norm()) continue;
+      for (const bool mirror : {false, true})
+        for (const ProfilePiece& piece : mirror ? profile.clockwise_pieces() : profile.pieces())
+          for (int k = 0; k <= 1500; ++k) {
+            const Point2 at =
+                point_at(piece.curve, std::lerp(piece.curve.begin, piece.curve.end, k / 1500.0));
+            const double away = (turned - Point2(at.x(), mirror ? -at.y() : at.y())).norm();
+            if (away < least) least = away, on_clockwise = mirror;
+          }
+    }
+    const auto nearest = gear_distance.nearest(p);
+    EXPECT_NEAR(std::abs(nearest.distance_mm), least, 2e-5) << p.transpose();
+    if (least > 0.02) {
+      EXPECT_EQ(nearest.clockwise_half, on_clockwise) << p.transpose();
+    }
+    clockwise += on_clockwise ? 1 : 0;
+  }
+  EXPECT_GT(clockwise, 10);
+  EXPECT_LT(clockwise, 30);
+}
+
+TEST(ToothCrossing, IsToldWhereCornersOfOneLieInTheMaterialOfTheOther) {
+  std::mt19937 random(8);
+  const auto between = [&](double low, double high) {
+    return std::lerp(low, high, static_cast<double>(random() >> 8) * 0x1p-24);
+  };
+  int cross = 0, apart = 0;
+  for (const bool internal : {false, true}) {
+    const GearTrain train = laid_out(pair_design(17, internal ? 45 : 28, internal, 0.2));
+    const GearPair pair = train.pair(train.meshes[0]);
+    const GearDistance distance1(*pair.profile1), distance2(*pair.profile2);
+    const SectionPolygon section1 = section_polygon(*pair.profile1, 2e-3),
+                         section2 = section_polygon(*pair.profile2, 2e-3);
+    for (int i = 0; i < 60; ++i) {
+      // beside the mesh, at every angle about gear 1
+      const double direction = between(0.0, kTwoPi), turn1 = between(0.0, kTwoPi);
+      const Point2 centre2 = (internal ? -1.0 : 1.0) *
+                             (pair.centre_distance_mm + between(0.0, i % 2 == 0 ? 2.4 : 0.4)) *
+                             unit_vector(direction);
+      const double turn2 = i % 3 == 0 ? between(0.0, kTwoPi) : turn1 + between(-0.2, 0.2);
+      double least = 1e300;
+      for (const Point2& p : section1.points)
+        least = std::min(
+            least, distance2.nearest(rotated(rotated(p, turn1) - centre2, -turn2)).distance_mm);
+      for (const Point2& p : section2.points)
+        least = std::min(
+            least, distance1.nearest(rotated(rotated(p, turn2) + centre2, -turn1)).distance_mm);
+      if (std::abs(least) < 5e-3) continue;
+      const ToothCrossing found = teeth_cross(pair, turn1, turn2, centre2);
+      EXPECT_EQ(found.cross, least < 0.0) << internal << ' ' << i << ": " << least;
+      EXPECT_LE(found.chord_error_mm, 4e-5);
+      ++(least < 0.0 ? cross : apart);
+    }
+  }
+  EXPECT_GT(cross, 15);
+  EXPECT_GT(apart, 15);
 }
 
 /// Of the first mesh of a random design: clearances in micrometres, and where they are least.
