@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "trueflank/base/units.h"
 
@@ -18,20 +19,22 @@ double rough_angle_rad(double x, double y) {
 }
 constexpr double kRoughAngle_rad = 1e-3;
 
-bool same_shape(const RackTrochoid& a, const RackTrochoid& b) {
-  return a.pitch_radius_mm == b.pitch_radius_mm && a.corner_depth_mm == b.corner_depth_mm &&
-         a.corner_offset_mm == b.corner_offset_mm && a.corner_radius_mm == b.corner_radius_mm &&
-         a.stretch == b.stretch && a.gap_angle_rad == b.gap_angle_rad;
+auto shape_of(const RackTrochoid& c) {
+  return std::tie(c.pitch_radius_mm, c.corner_depth_mm, c.corner_offset_mm, c.corner_radius_mm,
+                  c.stretch, c.gap_angle_rad);
 }
-bool same_shape(const CutterTrochoid& a, const CutterTrochoid& b) {
-  return a.centre_distance_mm == b.centre_distance_mm &&
-         a.cutter_pitch_radius_mm == b.cutter_pitch_radius_mm &&
-         a.corner_centre_radius_mm == b.corner_centre_radius_mm &&
-         a.corner_centre_angle_rad == b.corner_centre_angle_rad &&
-         a.corner_radius_mm == b.corner_radius_mm && a.ratio == b.ratio &&
-         a.gap_angle_rad == b.gap_angle_rad && a.contact == b.contact;
+auto shape_of(const CutterTrochoid& c) {
+  return std::tie(c.centre_distance_mm, c.cutter_pitch_radius_mm, c.corner_centre_radius_mm,
+                  c.corner_centre_angle_rad, c.corner_radius_mm, c.ratio, c.gap_angle_rad,
+                  c.contact);
 }
-bool same_shape(const PointCurve& a, const PointCurve& b) { return a.point == b.point; }
+auto shape_of(const PointCurve& c) { return std::tie(c.point); }
+template <class Shape>
+bool same_shape(const Shape& a, const Shape& b)
+  requires requires { shape_of(a); }
+{
+  return shape_of(a) == shape_of(b);
+}
 /// Other curves have no spline, and curves of two kinds are not the same.
 template <class A, class B>
 bool same_shape(const A&, const B&) {

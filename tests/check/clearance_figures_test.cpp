@@ -63,6 +63,36 @@ TEST(OverlapFigures, SayWhetherThereIsClearanceOrTheFlanksTouch) {
   EXPECT_EQ(message(0.0).find("the flanks touch over a mesh cycle"), 0u) << message(0.0);
 }
 
+TEST(OverlapFigures, AClearanceThatIsAskedForTakesSoMuchMoreBacklash) {
+  for (const double helix : {0.0, 0.4}) {
+    GearboxDesign design = pair_design(25, 40, false, 0.1);
+    design.helix_angle_rad = helix;
+    design.made.clearance_mm = 0.08;
+    const Finding overlap = only(check_gearbox(laid_out(design)), "overlap");
+    ASSERT_EQ(overlap.status, CheckStatus::kFail);
+    EXPECT_NEAR(overlap.margin, overlap.value - 80.0, 1e-9);
+    const std::string start = "backlash_mm larger by at least ";
+    ASSERT_EQ(overlap.cure.substr(0, start.size()), start);
+    design.backlash_mm += std::stod(overlap.cure.substr(start.size()));
+    const double value = only(check_gearbox(laid_out(design)), "overlap").value;
+    EXPECT_GE(value, 80.0);
+    // seen in the section; along the normal of helical flanks the backlash parts them by less
+    EXPECT_LE(value, helix == 0.0 ? 80.1 : 80.0 + 33.1 * (1.0 / 0.93 - 1.0) + 0.1);
+  }
+}
+
+TEST(OverlapFigures, AxesThatStandTooNearAskForThinnerTeeth) {
+  GearboxDesign design = pair_design(25, 40, false, 0.0);
+  design.gears[0].shift = design.gears[1].shift = 0.0;
+  design.centre_distance_mm = 32.47;  // 30 um too near
+  const Finding overlap = only(check_gearbox(laid_out(design)), "overlap");
+  ASSERT_EQ(overlap.status, CheckStatus::kFail);
+  const std::string start = "teeth thinned by ";
+  ASSERT_EQ(overlap.cure.substr(0, start.size()), start) << overlap.cure;
+  EXPECT_NEAR(std::stod(overlap.cure.substr(start.size())), 60.0 * std::tan(rad_from_deg(20.0)),
+              0.1);
+}
+
 /// The clearance of a mesh with both gears thicker by so much and the axes farther apart.
 double turned_clearance_mm(const GearTrain& train, const TrainMesh& mesh, double distance_mm,
                            double thickness_mm) {
