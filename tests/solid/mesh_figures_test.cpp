@@ -46,12 +46,12 @@ std::string figures_of(const ToothingGrid& grid) {
     const auto row = grid.row(z);
     const std::size_t some =
         grid.teeth_alike() ? row.size() / static_cast<std::size_t>(grid.teeth()) : row.size();
-    for (std::size_t i = 0; i < some; ++i) add(row[i]);
+    for (std::size_t i = 0; i < some; ++i) add(row[(some + i) % row.size()]);
   }
   for (std::size_t k = 0; k < grid.patches().size(); ++k) {
     const auto points = grid.inner_points(k);
     const std::size_t some = points.size() / static_cast<std::size_t>(grid.teeth());
-    for (std::size_t i = 0; i < some; ++i) add(points[i]);
+    for (std::size_t i = 0; i < some; ++i) add(points[some + i]);
     inner += some;
     lean += lean_of(grid.patches()[k]);
     facets += grid.patches()[k].facets.size();
@@ -103,6 +103,14 @@ GearboxDesign chosen_design(int number) {
     gear.modifications.profile_crowning_um = number % 3 == 1 ? 6.0 : 0.0;
     gear.modifications.helix_slope_um = number % 5 == 1 ? 9.0 : 0.0;
     gear.modifications.edge_chamfer_mm = number % 4 < 2 ? 0.05 * (1 + number % 5) : 0.0;
+    if (number >= 66) {
+      gear.teeth = number - 40;
+      gear.kind = GearKind::kExternal;
+      gear.modifications.tip_relief_um = 6.0 + number % 7;
+      gear.modifications.tip_relief_start_diameter_mm =
+          gear.teeth / std::cos(design.helix_angle_rad) + 1.2;
+      if (number % 4 < 2) gear.modifications.tip_relief_shape = ReliefShape::kLinear;
+    }
   }
   design.gears = {gear};
   return design;
@@ -120,14 +128,19 @@ std::string figures_of_chosen(int number) {
   const Displacement displacement = [](const std::array<double, 3>& p) {
     return std::array<double, 3>{0.01 * p[2] / 8.0 * std::cos(5.0 * p[0]), 0.0, 0.0};
   };
+  const Displacement step = [](const std::array<double, 3>& p) {
+    return std::array<double, 3>{p[2] > 4.1 ? 0.02 : 0.0, 0.0, 0.0};
+  };
   if (number == 51 || number == 52) outline.displacement = &displacement;
+  if (number == 16) outline.displacement = &step;
   std::vector<double> levels{0.0, 8.0};
   if (number == 49) {
     levels.clear();
     for (int k = 0; k <= 70; ++k) levels.push_back(8.0 * k / 70.0);
   }
-  return figures_of(ToothingGrid(outline, levels, number % 3 == 2 ? 3e-4 : 2e-3,
-                                 number < 54 ? GridKind::kFewest : GridKind::kRows));
+  return figures_of(ToothingGrid(
+      outline, levels, number % 3 == 2 ? 3e-4 : 2e-3,
+      number < 54 || (number >= 66 && number % 2 == 0) ? GridKind::kFewest : GridKind::kRows));
 }
 
 std::string figures_of_seed(int seed) {
