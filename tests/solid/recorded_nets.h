@@ -125,6 +125,30 @@ inline constexpr const char* kRecordedNets = R"(
 295: 24 columns, 13 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 17.091158 5.672294 0.529414, 4.8498 um
 296: 12 columns, 5 rows, 0 facets, 0 inside, 0 rising, lean 0.00000, at 24.311498 3.962810 -0.000027, 8.9342 um
 297: 25 columns, 5 rows, 96 facets, 0 inside, 0 rising, lean 0.00000, at 18.969853 2.204257 0.153933, 16.9365 um
+311: 40 columns, 7 rows, 0 facets, 0 inside, 162 rising, lean 0.00000, at 3.924190 1.701897 0.257731, 0.5464 um
+319: 23 columns, 3 rows, 0 facets, 0 inside, 24 rising, lean 0.00000, at 47.110584 2.316469 0.087119, 2.3280 um
+323: 18 columns, 10 rows, 0 facets, 0 inside, 72 rising, lean 0.00000, at 20.621086 5.281319 0.147947, 8.1930 um
+335: 36 columns, 5 rows, 0 facets, 0 inside, 88 rising, lean 0.00000, at 1.500021 2.079351 0.761247, 2.0860 um
+343: 14 columns, 3 rows, 0 facets, 0 inside, 28 rising, lean 0.00000, at 30.627413 8.646188 0.238282, 31.5371 um
+355: 25 columns, 6 rows, 0 facets, 0 inside, 75 rising, lean 0.00000, at 96.425124 8.044678 0.073596, 4.0294 um
+367: 20 columns, 6 rows, 0 facets, 0 inside, 22 rising, lean 0.00000, at 20.444907 15.468892 0.686860, 35.1341 um
+371: 31 columns, 6 rows, 0 facets, 0 inside, 86 rising, lean 0.00000, at 19.069903 1.178956 0.093226, 1.9303 um
+379: 56 columns, 3 rows, 0 facets, 0 inside, 14 rising, lean 0.00000, at 3.520292 0.632301 0.307439, 0.5079 um
+395: 16 columns, 8 rows, 0 facets, 0 inside, 48 rising, lean 0.00000, at 101.962694 25.943149 0.188273, 63.2266 um
+403: 38 columns, 3 rows, 0 facets, 0 inside, 56 rising, lean 0.00000, at 12.658796 2.764128 0.121190, 0.5349 um
+415: 18 columns, 3 rows, 0 facets, 0 inside, 810 rising, lean 0.00000, at 65.877586 6.461318 0.000000, 34.7936 um
+443: 36 columns, 5 rows, 0 facets, 0 inside, 110 rising, lean 0.00000, at 18.307214 8.216523 0.424627, 14.1469 um
+451: 30 columns, 3 rows, 0 facets, 0 inside, 60 rising, lean 0.00000, at 15.172307 4.586893 0.280658, 3.5782 um
+455: 20 columns, 5 rows, 0 facets, 0 inside, 720 rising, lean 0.00000, at 10.021177 2.404178 -0.000000, 3.3482 um
+475: 19 columns, 3 rows, 0 facets, 0 inside, 22 rising, lean 0.00000, at 52.937032 3.945266 0.101120, 8.3520 um
+523: 31 columns, 6 rows, 0 facets, 0 inside, 62 rising, lean 0.00000, at 43.248733 7.789677 0.165252, 5.7079 um
+527: 36 columns, 5 rows, 0 facets, 0 inside, 1001 rising, lean 0.00000, at 2.092497 1.096687 0.000000, 1.4990 um
+539: 35 columns, 6 rows, 0 facets, 0 inside, 70 rising, lean 0.00000, at 16.236472 1.201640 0.149020, 2.0589 um
+563: 16 columns, 6 rows, 0 facets, 0 inside, 46 rising, lean 0.00000, at 70.155716 7.552795 0.068503, 11.6613 um
+571: 32 columns, 4 rows, 0 facets, 0 inside, 54 rising, lean 0.00000, at 4.318956 1.758785 0.574377, 3.7255 um
+583: 16 columns, 4 rows, 0 facets, 0 inside, 22 rising, lean 0.00000, at 63.738963 3.585362 0.100933, 17.4052 um
+595: 42 columns, 5 rows, 0 facets, 0 inside, 41 rising, lean 0.00000, at 42.211489 1.966006 0.126320, 0.8415 um
+607: 26 columns, 3 rows, 0 facets, 0 inside, 44 rising, lean 0.00000, at 25.232580 3.238224 0.086436, 1.2750 um
 )";
 
 /// The same of chosen ones.
