@@ -548,7 +548,6 @@ TEST(ShortenedTips, InTheWayEndWhereTheMeshClears) {
   ASSERT_LT(std::min(before.driving_mm, before.centred_mm), -1e-4);
   const DesignChange change = in_the_way(train, 0);
   ASSERT_EQ(change.tip_diameter_mm.size(), 1u);
-  EXPECT_EQ(change.tip_diameter_mm.begin()->first, before.tip_of_gear1 ? 0u : 1u);
   for (const double longer_mm : {0.0, 0.01}) {
     GearboxDesign cured = design;
     for (const auto& [i, diameter] : change.tip_diameter_mm)
