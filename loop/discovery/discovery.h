@@ -41,7 +41,7 @@ struct DiscoveryProblem {
 };
 
 struct DiscoveryOptions {
-  double first_level = 0.02;   ///< false alarm rate of the first test of structure
+  double first_level = 0.01;   ///< false alarm rate of the first test of structure
   double next_level = 0.01;    ///< of the tests once something was found
   double local_level = 0.002;  ///< of effects that live in one unit
   int flips = 799;

@@ -88,12 +88,18 @@ class RingScan {
         waves_(2 * k, i) = std::cos(angle);
         waves_(2 * k + 1, i) = std::sin(angle);
       }
-      for (const Index row : {2 * k, 2 * k + 1}) {
-        const double square = waves_.row(row).squaredNorm();
-        // Of half the ring there is a cosine only.
-        waves_.row(row) *= square > 1e-6 * static_cast<double>(n_) ? 1.0 / std::sqrt(square) : 0.0;
-      }
+      // On some places of a ring a cosine and a sine are not at right angles, nor without a mean.
+      auto cosine = waves_.row(2 * k), sine = waves_.row(2 * k + 1);
+      make_form(cosine);
+      sine -= sine.dot(cosine) * cosine;
+      make_form(sine);
     }
+  }
+  /// Without a mean and of unit norm. Of half the ring there is a cosine only: the rest is rounding.
+  void make_form(MatrixXd::RowXpr form) const {
+    form.array() -= form.mean();
+    const double square = form.squaredNorm();
+    form *= square > 1e-6 * static_cast<double>(n_) ? 1.0 / std::sqrt(square) : 0.0;
   }
 
   void make_ramps_and_combs(const std::vector<int>& place, int ring) {

@@ -488,13 +488,14 @@ bool PartLoop::structure_is_left() const {
   // What the hold-out denied must be surer than what it was not asked about.
   const double sure = vetoed_ ? kSureThoughDenied : kLeftOfNothing;
   if (effects_.empty()) {
-    // A tooth of single values was chosen, or taken back as one of their tails: it is not asked again.
+    // Single teeth have a level of their own, at which they were chosen: they are asked again only
+    // where the hold-out denied one, and never one of single values, whose tails may be long.
     const bool single = std::none_of(
         table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
           return row.kind != ObservationKind::kIndex && row.kind != ObservationKind::kRadial &&
                  row.kind != ObservationKind::kSize;
         });
-    const double p = single ? discovery_.first_common_p_value : discovery_.first_p_value;
+    const double p = vetoed_ && !single ? discovery_.first_p_value : discovery_.first_common_p_value;
     return p <= sure / options_.tables;
   }
   return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;

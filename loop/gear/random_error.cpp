@@ -186,7 +186,7 @@ class ScannedFlanks {
     of_few(variances);
     if (squares.empty()) return result;
     const double each = values / wholes;
-    result.usual = median(squares) * mean_over_median(each);
+    result.usual = usual_of(squares, each);
     result.variance = common.lost * median(variances) * mean_over_median(each - kForms);
     return result;
   }
@@ -194,6 +194,24 @@ class ScannedFlanks {
  private:
   static constexpr std::size_t kFewest = 12;
   static constexpr int kForms = 6, kParts = 12;
+
+  /// The mean of mean squares as the usual one tells it. On thin flanks errors that hang together
+  /// cannot be told from a form of each flank, and make fewer degrees of freedom than values: as few
+  /// as the logarithms scatter, by their median.
+  static double usual_of(std::vector<double>& squares, double each) {
+    constexpr double kThin = 60.0;  // five times what errors hang together over at most (flank_waves.cpp)
+    const double usual = median(squares);
+    if (!(usual > 0.0)) return 0.0;
+    double degrees = each;
+    if (each < kThin) {
+      std::vector<double> off;
+      for (const double square : squares)
+        off.push_back(std::log(std::max(square, 1e-12 * usual) / usual));
+      const double scatter = robust_sigma(std::move(off));
+      degrees = 2.0 / std::max(scatter * scatter, 2.0 / each);
+    }
+    return usual * mean_over_median(degrees);
+  }
 
   /// What all flanks of a side have in common, place by place; how much variance it costs to take
   /// it off.

@@ -161,14 +161,20 @@ class SpotSearch {
     return all;
   }
 
-  /// A flank that scatters more than the usual one from point to point is measured against itself.
+  /// A flank that scatters more than the usual one of its side from point to point is measured
+  /// against itself.
   void tell_loud_flanks() {
     constexpr double kByChance = 1.5;
-    std::vector<float> scatters;
-    for (const auto& [key, field] : fields_) scatters.push_back(static_cast<float>(field.loud));
-    const double usual = robust_sigma(std::move(scatters)) / kSigmaOfMedianSize;
-    for (auto& [key, field] : fields_)
-      field.loud = usual > 0.0 && field.loud > kByChance * usual ? field.loud / usual : 1.0;
+    std::array<std::vector<float>, 2> scatters;
+    for (const auto& [key, field] : fields_)
+      scatters[side_index(key.second)].push_back(static_cast<float>(field.loud));
+    std::array<double, 2> usual{};
+    for (std::size_t side = 0; side < 2; ++side)
+      usual[side] = robust_sigma(std::move(scatters[side])) / kSigmaOfMedianSize;
+    for (auto& [key, field] : fields_) {
+      const double of_side = usual[side_index(key.second)];
+      field.loud = of_side > 0.0 && field.loud > kByChance * of_side ? field.loud / of_side : 1.0;
+    }
   }
 
   [[nodiscard]] std::size_t corners() const {

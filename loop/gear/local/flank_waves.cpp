@@ -316,30 +316,67 @@ class Spectrum {
     return squares;
   }
 
-  /// Heights of the flanks against the longest waves within them, whichever way these are larger.
+  /// What the errors alone make of the heights of the flanks.
+  struct LevelOfHeights {
+    double level = 0.0;    ///< 0: not bounded
+    double degrees = 0.0;  ///< how well it is known, as of a chi-square
+  };
+
+  /// Told by one and two waves along one direction. No spectrum of errors that hang together over
+  /// some length rises further towards long waves than one of which each error keeps a share of the
+  /// last: its inverse is a straight line over the square of the frequency.
+  [[nodiscard]] LevelOfHeights extended_level(double one, double two) const {
+    const double inverse = (4.0 / one - 1.0 / two) / 3.0;
+    const double variance = (16.0 / (one * one) + 1.0 / (two * two)) / 9.0 / (kToldByWaves * known_);
+    if (!(inverse > 0.0) || !std::isfinite(inverse)) return {};
+    return {1.0 / inverse, 2.0 * inverse * inverse / variance};
+  }
+
+  /// The most it can be where errors hang together over no more than so many values in a row: a
+  /// slower one is a form of each flank.
+  [[nodiscard]] LevelOfHeights most_level(double one, double two, double values) const {
+    constexpr double kHangTogether = 12.0;
+    const double x = std::pow(kTwoPi * kHangTogether / values, 2);
+    return {0.5 * (one * (1.0 + x) + two * (1.0 + 4.0 * x)), kToldByWaves * known_};
+  }
+
+  /// Heights of the flanks against the longest waves within them, over the face and over the
+  /// profile: the direction that allows more.
   std::optional<TeethApart> apart() const {
-    double level = 0.0;
-    for (const auto& waves : {std::array<std::array<int, 2>, 2>{{{0, 2}, {0, 4}}},
-                              std::array<std::array<int, 2>, 2>{{{2, 0}, {4, 0}}}}) {
-      double sum = 0.0;
-      for (const auto& [a, b] : waves) sum += median(squares_at(a, b)) / std::log(2.0);
-      level = std::max(level, sum / static_cast<double>(waves.size()));
-    }
     constexpr double kMedianOfSquare = 0.4549, kClearly = 1.6;
     // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the
     // values.
     constexpr double kToldByMedian = 0.37;
-    const double height = median(squares_at(0, 0)) / kMedianOfSquare;
-    if (!(level > 0.0) || height < kClearly * level) return {};
-    TeethApart found;
-    found.p_value = f_tail(height / level, kToldByMedian * known_, known_);
-    const std::vector<double> squares = squares_at(0, 0);
+    std::vector<double> squares = squares_at(0, 0);
+    const double height = median(squares) / kMedianOfSquare;
     double values = 0.0, sum = 0.0;
     for (const Flank& flank : flanks_) values += flank.count;
     for (const double square : squares) sum += square;
+    TeethApart found;
+    found.p_value = 0.0;
+    double level = 0.0;
+    for (const auto& [a, b] : {std::array{0, 2}, std::array{2, 0}}) {
+      const double one = median(squares_at(a, b)) / std::log(2.0),
+                   two = median(squares_at(2 * a, 2 * b)) / std::log(2.0);
+      double least = 1.0, of_least = 0.0;
+      for (const LevelOfHeights& errors : {extended_level(one, two), most_level(one, two, values / known_)}) {
+        if (!(errors.level > 0.0) || height < kClearly * errors.level) continue;
+        // Either bound holds: two tests.
+        const double p = 2.0 * f_tail(height / errors.level, kToldByMedian * known_, errors.degrees);
+        if (p >= least) continue;
+        least = p;
+        of_least = errors.level;
+      }
+      if (least >= 1.0) return {};
+      found.p_value = std::max(found.p_value, least);
+      level = std::max(level, of_least);
+    }
     found.spread_um = std::sqrt(std::max(0.0, sum / known_ - level)) / std::sqrt(values / known_);
     return found;
   }
+
+  /// A median of exponentials is known as well as a mean of so many of them.
+  static constexpr double kToldByWaves = 0.48;
 
   int teeth_, known_ = 0;
   std::vector<Flank> flanks_;

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
@@ -358,19 +359,25 @@ class PatchMaker {
     }
   }
 
-  /// Variance of a patch mean of each kind, from neighbours: effects hardly change between them.
-  [[nodiscard]] double variance_of(int kind, int source, const std::vector<int>& members) const {
+  /// Variances of the patch means of one kind and source: of all, and of those of either side.
+  struct Variances {
+    double all = 0.0;
+    std::array<double, 2> of_side{};
+  };
+
+  /// From neighbours: effects hardly change between them. A probe may be noisier on one side: where
+  /// that is more than chance the sides have variances of their own.
+  [[nodiscard]] Variances variances_of(ObservationKind kind, const std::vector<int>& members) const {
+    std::vector<double> squares;
+    std::array<std::vector<double>, 2> of_side;
+    if (is_single(kind)) return {};
     std::map<Key, int> at;
     for (const int i : members) at[keys_[i]] = i;
-    std::vector<double> squares;
+    const int axis = kind == ObservationKind::kHelix || kind == ObservationKind::kScanBore      ? 6
+                     : kind == ObservationKind::kProfile || kind == ObservationKind::kScanFlank ? 5
+                                                                                                : 3;
     for (const int i : members) {
       Key right = keys_[i], left = keys_[i];
-      const auto single = static_cast<ObservationKind>(kind);
-      if (is_single(single)) continue;
-      const int axis =
-          single == ObservationKind::kHelix || single == ObservationKind::kScanBore      ? 6
-          : single == ObservationKind::kProfile || single == ObservationKind::kScanFlank ? 5
-                                                                                         : 3;
       ++right[axis];
       --left[axis];
       const auto r = at.find(right), l = at.find(left);
@@ -378,9 +385,23 @@ class PatchMaker {
       const double d = result_.patches[l->second].mean_um - 2.0 * result_.patches[i].mean_um +
                        result_.patches[r->second].mean_um;
       squares.push_back(d * d / 6.0);
+      of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / 6.0);
     }
-    static_cast<void>(source);
-    return robust_variance(squares);
+    const std::array<std::size_t, 2> counts{of_side[0].size(), of_side[1].size()};
+    Variances result{robust_variance(squares), {robust_variance(of_side[0]), robust_variance(of_side[1])}};
+    if (!are_apart(result.of_side, counts)) result.of_side = {result.all, result.all};
+    return result;
+  }
+
+  /// True where one of two variances, medians of so many squares, is larger by more than chance.
+  static bool are_apart(const std::array<double, 2>& variance, const std::array<std::size_t, 2>& counts) {
+    // A median tells as much as 0.37 of the squares, neighbours share two values of three.
+    constexpr double kTold = 0.37 / 2.0, kSure = 1e-4;
+    constexpr std::size_t kFewest = 40;
+    if (std::min(counts[0], counts[1]) < kFewest || !(variance[0] > 0.0 && variance[1] > 0.0)) return false;
+    const std::size_t larger = variance[1] > variance[0] ? 1 : 0;
+    return f_tail(variance[larger] / variance[1 - larger], kTold * static_cast<double>(counts[larger]),
+                  kTold * static_cast<double>(counts[1 - larger])) < kSure;
   }
 
   /// Of values one a tooth: second differences around the gear, each flank apart, but no more than
@@ -420,18 +441,21 @@ class PatchMaker {
       classes[{keys_[i][0], keys_[i][1]}].push_back(static_cast<int>(i));
     for (const auto& [key, members] : classes) {
       const auto kind = static_cast<ObservationKind>(key.first);
-      double variance = kind == ObservationKind::kIndex || kind == ObservationKind::kRadial
-                            ? variance_around(members)
-                            : variance_of(key.first, key.second, members);
+      Variances variances = variances_of(kind, members);
+      if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial)
+        variances.of_side.fill(variance_around(members));
       double mean_count = 0.0;
       for (const int i : members)
         mean_count += result_.patches[i].count / static_cast<double>(members.size());
       // Tip and root circles are turned, not cut with the teeth: trusted to a few um only.
-      if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot)
-        variance = std::max(variance, 1.0) * static_cast<double>(members.size()) / 8.0;
-      if (!(variance > 1e-6)) variance = 1e-6;
+      for (double& variance : variances.of_side) {
+        if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot)
+          variance = std::max(variances.all, 1.0) * static_cast<double>(members.size()) / 8.0;
+        if (!(variance > 1e-6)) variance = 1e-6;
+      }
       for (const int i : members) {
         Patches::Patch& patch = result_.patches[i];
+        const double variance = variances.of_side[keys_[i][4] > 0 ? 1 : 0];
         const double own = is_single(kind) ? 1.0 : 2.0 * patch.count / (patch.count + mean_count);
         patch.weight = own / variance;
       }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/loop/gear/local/patches.h"
+
+// Errors that hang together far, have long tails or differ from side to side, and nothing else.
+namespace trueflank::test {
+namespace {
+
+int alarms_of_thin_scans(int teeth, double correlation, unsigned count) {
+  const MadeGear gear = spur(teeth);
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= count; ++seed) {
+    ScanOptions options{.points = 4000, .noise_um = 4.0, .correlation = correlation};
+    options.seed = seed;
+    alarms += close(gear, scan_of(gear, {}, options), true).verdict != loop::Verdict::kNoEffect;
+  }
+  return alarms;
+}
+
+TEST(NothingHidden, ErrorsThatHangTogetherAlongThinFlanksAreNoHeightsOfTheFlanks) {
+  EXPECT_LE(alarms_of_thin_scans(67, 0.9, 6), 1);
+}
+
+TEST(NothingHidden, LongTailsOfAnIndexBesideTracesAreNoStructure) {
+  const MadeGear gear = spur(19);
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    InspectionOptions options{.points = 40, .noise_um = 0.8};
+    options.seed = seed;
+    loop::InspectionData data = inspection_of(gear, {}, options);
+    std::mt19937_64 random(seed);
+    std::student_t_distribution<double> tails(4.0);
+    for (loop::InspectionRow& row : data.rows)
+      if (row.record == loop::RecordKind::kIndex)
+        row.deviation_um = options.noise_um * tails(random) / std::sqrt(2.0);
+    const auto result = close(gear, data);
+    alarms += result.verdict == loop::Verdict::kPartlyExplained && result.effects.empty();
+  }
+  EXPECT_LE(alarms, 1);
+}
+
+/// Patches of a scan whose errors on the left are so many times as large.
+loop::Patches patches_of_louder_left(double times) {
+  const MadeGear gear = spur(29);
+  ScanOptions options{.points = 6000, .noise_um = 2.0};
+  loop::MeasuredData data;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal(0.0, 2.0 * std::sqrt(times * times - 1.0));
+  const auto louder =
+      grown([&](auto&, const FlankSpot& s, auto&) { return s.side > 0 ? normal(random) : 0.0; });
+  data.scans.push_back(scan_of(gear, {louder}, options));
+  const loop::FlankGeometry geometry = geometry_of(gear);
+  return make_patches(geometry, *make_observations(geometry, std::move(data), {.aligned = true}));
+}
+
+/// Mean weight of the patches of the left over those of the right.
+double weight_of_left(const loop::Patches& patches) {
+  std::array<double, 2> sum{}, count{};
+  for (const auto& patch : patches.patches) {
+    if (patch.kind != loop::ObservationKind::kScanFlank) continue;
+    const std::size_t side = patch.places.front().place.side > 0 ? 1 : 0;
+    sum[side] += patch.weight;
+    count[side] += 1.0;
+  }
+  return sum[1] / count[1] / (sum[0] / count[0]);
+}
+
+TEST(NothingHidden, ASideThatIsMeasuredWorseWeighsLess) {
+  EXPECT_NEAR(weight_of_left(patches_of_louder_left(2.0)), 0.25, 0.06);
+}
+
+TEST(NothingHidden, SidesThatDifferByChanceWeighAlike) {
+  EXPECT_NEAR(weight_of_left(patches_of_louder_left(1.0)), 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace trueflank::test
