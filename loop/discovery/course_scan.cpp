@@ -117,7 +117,9 @@ class CourseScan {
   void clip() {
     std::vector<double> all;
     for (const MatrixXd& set : sets_) all.insert(all.end(), set.data(), set.data() + set.size());
-    const double limit = kClip * robust_sigma(std::move(all));
+    const double limit = kClip * robust_sigma(all);
+    for (double& value : all) value = std::clamp(value, -limit, limit);
+    excess_ = excess_kurtosis(all);
     for (const MatrixXd& set : sets_) {
       clipped_.push_back(set.cwiseMax(-limit).cwiseMin(limit));
       mean_.push_back(set.cols() > 0 ? VectorXd(set.rowwise().mean()) : VectorXd::Zero(m_));
@@ -328,7 +330,7 @@ class CourseScan {
         Index row = 0, column = 0;
         if (windows[s].size() == 0) continue;
         const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);
-        const double p = std::erfc(most / spread / std::sqrt(2.0));
+        const double p = normal_two_sided(most / spread, excess_ / static_cast<double>(width));
         if (!(p < best.p_value)) continue;
         best.p_value = p;
         best.set = s;
@@ -347,6 +349,7 @@ class CourseScan {
   std::vector<MatrixXd> clipped_;
   std::vector<VectorXd> mean_;
   VectorXd spectrum_;
+  double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
   CourseFinding step_{CourseKind::kStep}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;

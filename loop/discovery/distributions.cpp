@@ -45,6 +45,13 @@ double minus_log_chi_square_tail(double x, int degrees) {
   return half - std::log(scaled);
 }
 
+double normal_two_sided(double z, double excess) {
+  const double square = z * z, root_of_two = std::sqrt(2.0);
+  const double beyond = excess > 0.0 && square > 3.0 ? excess / 24.0 * std::abs(z) * (square - 3.0) : 0.0;
+  return std::min(1.0, std::erfc(std::abs(z) / root_of_two) +
+                           2.0 * beyond * std::exp(-0.5 * square) / std::sqrt(kTwoPi));
+}
+
 double student_two_sided(double t, double degrees) {
   return boost::math::ibeta(0.5 * degrees, 0.5, degrees / (degrees + t * t), Quiet());
 }

@@ -13,6 +13,10 @@ namespace trueflank::loop {
 /// t with P(|Student t| <= t) = 0.95.
 [[nodiscard]] double student_95(double degrees);
 
+/// P(|a normal variable| > z), or of a mean whose excess kurtosis is above 0: Edgeworth's first term
+/// in it, for tails longer than normal.
+[[nodiscard]] double normal_two_sided(double z, double excess = 0.0);
+
 /// P(F with these degrees of freedom > f). Accuracy: 1e-10.
 [[nodiscard]] double f_tail(double f, double degrees, double degrees_below);
 /// How likely chance alone sets the largest of sizes so far beyond the others, where the tail of such sizes falls

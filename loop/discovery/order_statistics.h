@@ -42,4 +42,17 @@ template <class T>
   return kSigmaOfMedianSize * static_cast<double>(median(values));
 }
 
+/// Fourth moment over the square of the second, less the 3 of normal values; of values about zero.
+/// 0 where there are none.
+template <class T>
+[[nodiscard]] double excess_kurtosis(const std::vector<T>& values) {
+  double squares = 0.0, fourths = 0.0;
+  for (const T& value : values) {
+    const double square = static_cast<double>(value) * static_cast<double>(value);
+    squares += square;
+    fourths += square * square;
+  }
+  return squares > 0.0 ? fourths * static_cast<double>(values.size()) / (squares * squares) - 3.0 : 0.0;
+}
+
 }  // namespace trueflank::loop

@@ -14,12 +14,6 @@
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
-namespace {
-
-/// Level of a second effect, and of a part's own beside what is of all.
-constexpr double kNextLevel = 0.01;
-
-}  // namespace
 
 PartLoop::PartLoop(const FlankGeometry& geometry, SharedTable table, Options options)
     : geometry_(geometry),
@@ -79,6 +73,7 @@ void PartLoop::run() {
   constexpr int kRounds = 4, kMostBans = 6;
   for (int round = 0; scan_for_more && round < kRounds && take_up_remainder(); ++round) explain();
   if (scan_for_more && drop_idle_forms()) explain();
+  for (int round = 0; scan_for_more && round < kRounds && drop_doubtful_orders(); ++round) explain();
   for (int round = 0; scan_for_more && round < kMostBans && ban_what_forms_explain(); ++round)
     explain();
   if (scan_for_more) hold_to_single_values();

@@ -16,6 +16,9 @@
 
 namespace trueflank::loop {
 
+/// Level of a second effect, and of a part's own beside what is of all.
+inline constexpr double kNextLevel = 0.01;
+
 /// The procedure on one table: selection, shapes off the grid, finite displacements, single teeth.
 class PartLoop {
  public:
@@ -80,6 +83,9 @@ class PartLoop {
   void take_up(const RemainderFinding& finding);
   [[nodiscard]] bool ban_what_forms_explain();
   [[nodiscard]] bool drop_idle_forms();
+  [[nodiscard]] bool drop_doubtful_orders();
+  [[nodiscard]] bool is_order_of_all_data(std::size_t e);
+  [[nodiscard]] bool is_likeliest_order(const Effect& wave, const std::vector<Effect>& beside);
   [[nodiscard]] bool ban_alike(const Effect& effect);
   void veto();
   const std::vector<RemainderFinding>& remainder_of(const std::vector<Effect>& effects,

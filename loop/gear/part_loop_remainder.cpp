@@ -8,8 +8,10 @@
 #include <map>
 
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
+#include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
@@ -43,6 +45,8 @@ void PartLoop::nominate() {
     });
     if (wave == findings.end()) break;
     const Effect& seen = *wave->effect;
+    // Beside larger effects that are not fitted yet it may stay where it was.
+    if (!is_told_apart(seen, options_.given)) break;
     const bool possible = can_have(options_.makings, *seen.family);
     const Effect as_form{find_form(seen.family->form_word), seen.flank, seen.shape};
     RemainderFinding taken = *wave;
@@ -202,6 +206,66 @@ bool PartLoop::drop_idle_forms() {
     any = true;
   }
   return any;
+}
+
+/// Machine's orders are many: one that was learnt from four fifths of the data, or before the other
+/// effects, must be the likeliest of its kind in all of the data beside these. True where one is not.
+bool PartLoop::drop_doubtful_orders() {
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  bool any = false;
+  for (std::size_t e = effects_.size(); e-- > told;) {
+    const EffectFamily& family = *effects_[e].family;
+    if (!family.named || !family.tells_order_along_profile || is_order_of_all_data(e)) continue;
+    any = true;
+    if (e < options_.given.size()) {
+      options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(e));
+      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(e - told));
+      discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(e));
+      effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(e));
+      continue;
+    }
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g] == effects_[e]) banned_[g] = true;
+  }
+  return any;
+}
+
+bool PartLoop::is_order_of_all_data(std::size_t e) {
+  constexpr double kSame = 2.0;
+  const Effect wave = effects_[e];
+  std::vector<Effect> beside = effects_;
+  beside.erase(beside.begin() + static_cast<std::ptrdiff_t>(e));
+  if (std::find(candidates_.begin(), candidates_.end(), wave) != candidates_.end())
+    return is_likeliest_order(wave, beside);
+  // No candidate: found in the traces.
+  const auto row_um = fit_of(beside)->residuals_um();
+  std::vector<bool> used(table_->rows.size());
+  for (std::size_t i = 0; i < used.size(); ++i) used[i] = patches_.patch_of_row[i] >= 0;
+  const RotationWave found = likeliest_rotation_wave(geometry_, table_, *row_um, used);
+  return found.p_value <= kRemainderLevel && std::abs(found.order - wave.order()) <= kSame;
+}
+
+/// By flips of all the data, against the other orders of its family on its flanks.
+bool PartLoop::is_likeliest_order(const Effect& wave, const std::vector<Effect>& beside) {
+  constexpr double kSame = 2.0;
+  DiscoveryProblem& problem = candidates_problem();
+  const Eigen::Index of_pose = problem.nuisance.cols();
+  if (!beside.empty()) add_nuisance(problem, make_problem(geometry_, table_, patches_, beside));
+  const std::vector<int> folds = problem.fold;
+  std::replace(problem.fold.begin(), problem.fold.end(), 0, 1);
+  DiscoveryOptions options;
+  options.most_effects = 0;
+  options.banned.assign(candidates_.size(), true);
+  for (std::size_t g = 0; g < candidates_.size(); ++g)
+    if (candidates_[g].family == wave.family && candidates_[g].flank == wave.flank)
+      options.banned[g] = banned_[g] && !(candidates_[g] == wave);
+  const DiscoveryResult all = discover(problem, options);
+  problem.fold = folds;
+  problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
+  if (all.p_left > kNextLevel / options_.tables || all.likest_left < 0) return false;
+  // On few teeth orders look alike.
+  const Effect& likest = candidates_[static_cast<std::size_t>(all.likest_left)];
+  return std::abs(likest.order() - wave.order()) <= kSame || !is_told_apart(likest, {wave});
 }
 
 /// Bans a family on these flanks; true where that is new.

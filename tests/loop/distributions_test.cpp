@@ -25,6 +25,19 @@ TEST(Distributions, StudentsTailsAgreeWithClosedForms) {
   EXPECT_NEAR(student_95(10.0), 2.2281388520, 1e-9);
 }
 
+TEST(Distributions, LongTailsRaiseTheNormalTailAsAMixtureOfSpreadsDoes) {
+  for (double z : {0.3, 2.0, 5.0, 9.0}) EXPECT_NEAR(normal_two_sided(z), std::erfc(z / std::sqrt(2.0)), 1e-16);
+  // Normal values of two spreads, as often of the one as of the other: variance 1, kurtosis 3 (1 + d^2).
+  const double d = 0.2, excess = 3.0 * d * d;
+  for (double z : {2.5, 3.0, 3.5}) {
+    const double mixed = 0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 - d))) + 0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 + d)));
+    EXPECT_NEAR(normal_two_sided(z, excess), mixed, 0.15 * mixed) << z;
+    EXPECT_GT(normal_two_sided(z, excess), 1.05 * normal_two_sided(z)) << z;
+  }
+  // Short tails are taken as normal.
+  EXPECT_EQ(normal_two_sided(4.0, -1.0), normal_two_sided(4.0));
+}
+
 // F with 2 degrees above: (1 + 2 f / n)^(-n / 2).
 TEST(Distributions, TheFTailAgreesWithItsClosedForm) {
   for (double f : {0.1, 1.0, 7.0, 300.0})

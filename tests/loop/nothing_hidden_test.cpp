@@ -6,6 +6,7 @@
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/local/patches.h"
+#include "trueflank/loop/gear/local/remainder_courses.h"
 
 // Errors that hang together far, have long tails or differ from side to side, and nothing else.
 namespace trueflank::test {
@@ -76,6 +77,27 @@ TEST(NothingHidden, ASideThatIsMeasuredWorseWeighsLess) {
 
 TEST(NothingHidden, SidesThatDifferByChanceWeighAlike) {
   EXPECT_NEAR(weight_of_left(patches_of_louder_left(1.0)), 1.0, 0.02);
+}
+
+TEST(NothingHidden, PlacesOfAScanRunOverWhereValuesStand) {
+  loop::Courses courses;
+  courses.low = 0.0;
+  courses.high = 10.0;
+  courses.open(0, 1);
+  for (int i = 0; i < 4000; ++i) {
+    const double at = 1.0 + 8.0 * (i + 0.5) / 4000.0;  // none in the first and the last millimetre
+    loop::Courses::add_to_cell(courses.of_flank[0].at(1), at / 10.0, at);
+  }
+  courses.count_cells();
+  std::vector<int> members;
+  const int places = courses.places(true);
+  const Eigen::MatrixXd means = courses.matrix(0, places, members);
+  ASSERT_EQ(members.size(), 1u);
+  // Each place has values of its own, and says where it is.
+  for (int i = 0; i < places; ++i)
+    EXPECT_NEAR(means(i, 0) + 5.0, courses.place((i + 0.5) / places, places), 0.1) << i;
+  for (int i = 1; i < places; ++i)
+    EXPECT_NEAR(means(i, 0) - means(i - 1, 0), 8.0 / places, 0.02) << i;
 }
 
 }  // namespace

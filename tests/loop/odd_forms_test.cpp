@@ -127,6 +127,22 @@ TEST(OddForms, AGhostOrderAboveThreeATooth) {
   }
 }
 
+TEST(OddForms, AFineGhostOrderBesideLobingIsOneOrder) {
+  const MadeGear gear = spur(31);
+  const auto ghost = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+    const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+    return 1.2 * std::cos(131.0 * (2.0 * M_PI * (s.tooth - 1) / g.teeth - s.side * turned));
+  };
+  InspectionOptions options = sheet_of_all(8);
+  options.common_zero = true;
+  const auto result = close(gear, inspection_of(gear, {out_of_round(3, 25.0, 40.0), grown(ghost)}, options));
+  ASSERT_EQ(result.effects.size(), 2U) << list(result);
+  ASSERT_NE(find(result, "lobing"), nullptr) << list(result);
+  ASSERT_NE(find(result, "ghost_order"), nullptr) << list(result);
+  EXPECT_EQ(parameter(*find(result, "ghost_order"), "order").value, 131.0);
+}
+
 TEST(OddForms, AProfileThatIsCutOtherwiseAboveAHeightIsNoTwist) {
   const MadeGear gear = spur(19);
   const auto cut = [](auto&, const FlankSpot& s, auto&) { return s.v > 0.1 ? 30.0 * s.u : 0.0; };

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/far_points.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
@@ -61,7 +62,10 @@ class SpotSearch {
       um.reserve(points / 2);
       for (std::size_t flank = side; flank < flanks; flank += 2)
         rows.for_each(flank, [&](std::size_t i) { um.push_back(row_um[i]); });
-      limits[side] = kClip * robust_sigma(std::move(um));
+      limits[side] = kClip * robust_sigma(um);
+      const auto limit = static_cast<float>(limits[side]);
+      for (float& value : um) value = std::clamp(value, -limit, limit);
+      excess_[side] = excess_kurtosis(um);
     });
     std::vector<Field*> fields(flanks, nullptr);
     for (std::size_t flank = 0; flank < flanks; ++flank)
@@ -225,7 +229,7 @@ class SpotSearch {
     each([&](const auto& key, const Field& field, int u, int v, double count, double score) {
       const double spread = spreads[side_index(key.second)];
       if (!(spread > 0.0)) return;
-      const double p = std::erfc(std::abs(score) / spread / std::sqrt(2.0));
+      const double p = normal_two_sided(score / spread, excess_[side_index(key.second)] / count);
       OfFlank& found = best[key];
       const double sum = within(field.plain, u, v, du, dv), square = sum * sum / count;
       const bool fuller = p < kBeyondDoubt && square > found.square;
@@ -248,6 +252,7 @@ class SpotSearch {
 
   const FlankGeometry& geometry_;
   int cells_ = 0;
+  std::array<double, 2> excess_{};  ///< kurtosis of single values of a side
   std::map<std::pair<int, int>, Field> fields_;
   std::vector<FlankSpot> together_;  ///< points that lie far off
 };

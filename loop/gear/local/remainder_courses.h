@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -37,6 +38,7 @@ struct Courses {
   std::array<std::map<int, int>, 2> tooth_of;
   double low = 1e300, high = -1e300;
   std::size_t samples = 0;
+  bool scanned = false;
 
   void add(int side, int course, int tooth, double at, double um) {
     of_flank[side][course].push_back({at, um});
@@ -50,6 +52,7 @@ struct Courses {
   void open(int side, int course) {
     std::vector<RemainderSample>& cells = of_flank[side][course];
     if (!cells.empty()) return;
+    scanned = true;
     cells.resize(kCells);
     for (int i = 0; i < kCells; ++i)
       cells[static_cast<std::size_t>(i)] = {low + (high - low) * (i + 0.5) / kCells, 0.0, 0.0};
@@ -61,12 +64,26 @@ struct Courses {
     cell.um += um;
     cell.count += 1.0;
   }
+  /// Places run over where values stand: at the ends of the flank a scan has none, and one value
+  /// would be told of several places.
   void count_cells() {
-    double count = 0.0;
+    constexpr double kBeyond = 0.002;  // of the values: stray ones
+    std::vector<double> counts(kCells, 0.0);
     for (const auto& flank : of_flank)
       for (const auto& [course, cells] : flank)
-        for (const RemainderSample& cell : cells) count += cell.count;
+        for (std::size_t i = 0; i < cells.size(); ++i) counts[i] += cells[i].count;
+    const double count = std::accumulate(counts.begin(), counts.end(), 0.0);
     samples = static_cast<std::size_t>(count);
+    const auto empty_before = [&](auto first, auto last) {
+      double passed = 0.0;
+      int cells = 0;
+      for (; first != last && passed + *first <= kBeyond * count; ++first, ++cells) passed += *first;
+      return cells;
+    };
+    const double cell = (high - low) / kCells;
+    const double first = low + cell * empty_before(counts.begin(), counts.end());
+    high -= cell * empty_before(counts.rbegin(), counts.rend());
+    low = first;
   }
 
   [[nodiscard]] int places(bool scan) const {
@@ -88,8 +105,9 @@ struct Courses {
       for (const RemainderSample& sample : list) {
         // The first and the last of a trace stand at the middle of the end places.
         const double share = (sample.at - low) / (high - low);
-        const int i =
-            std::clamp(static_cast<int>(std::lround(share * (places - 1))), 0, places - 1);
+        const int i = std::clamp(scanned ? static_cast<int>(std::floor(share * places))
+                                         : static_cast<int>(std::lround(share * (places - 1))),
+                                 0, places - 1);
         sum[static_cast<std::size_t>(i)] += sample.um;
         count[static_cast<std::size_t>(i)] += sample.count;
       }
@@ -102,10 +120,11 @@ struct Courses {
   }
 
   [[nodiscard]] double place(double share, int places) const {
+    if (scanned) return low + (high - low) * share;
     return low + (high - low) * (share * places - 0.5) / (places - 1.0);
   }
   [[nodiscard]] double length(double share, int places) const {
-    return (high - low) * share * places / (places - 1.0);
+    return (high - low) * share * (scanned ? 1.0 : places / (places - 1.0));
   }
 
  private:
