@@ -209,7 +209,7 @@ bool PartLoop::drop_idle_forms() {
 }
 
 /// Machine's orders are many: one that was learnt from four fifths of the data, or before the other
-/// effects, must be the likeliest of its kind in all of the data beside these. True where one is not.
+/// effects, must stand out of its kind in all of the data beside these. True where one does not.
 bool PartLoop::drop_doubtful_orders() {
   const std::size_t told = options_.given.size() - given_p_values_.size();
   bool any = false;
@@ -231,7 +231,6 @@ bool PartLoop::drop_doubtful_orders() {
 }
 
 bool PartLoop::is_order_of_all_data(std::size_t e) {
-  constexpr double kSame = 2.0;
   const Effect wave = effects_[e];
   std::vector<Effect> beside = effects_;
   beside.erase(beside.begin() + static_cast<std::ptrdiff_t>(e));
@@ -241,13 +240,18 @@ bool PartLoop::is_order_of_all_data(std::size_t e) {
   const auto row_um = fit_of(beside)->residuals_um();
   std::vector<bool> used(table_->rows.size());
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = patches_.patch_of_row[i] >= 0;
-  const RotationWave found = likeliest_rotation_wave(geometry_, table_, *row_um, used);
-  return found.p_value <= kRemainderLevel && std::abs(found.order - wave.order()) <= kSame;
+  const double sense = geometry_.sense();
+  const RotationWave asked{.order = static_cast<int>(std::lround(wave.order())),
+                           .side = wave.flank == FlankChoice::kBoth                     ? 0
+                                   : (wave.flank == FlankChoice::kLeft) == (sense > 0.0) ? 1
+                                                                                         : -1,
+                           .backwards = wave.family->of_traces_only};
+  return chance_of_rotation_wave(geometry_, table_, *row_um, used, asked) <= kRemainderLevel;
 }
 
 /// By flips of all the data, against the other orders of its family on its flanks.
 bool PartLoop::is_likeliest_order(const Effect& wave, const std::vector<Effect>& beside) {
-  constexpr double kSame = 2.0;
+  constexpr double kSame = 2.0, kOwn = 0.8;
   DiscoveryProblem& problem = candidates_problem();
   const Eigen::Index of_pose = problem.nuisance.cols();
   if (!beside.empty()) add_nuisance(problem, make_problem(geometry_, table_, patches_, beside));
@@ -263,9 +267,11 @@ bool PartLoop::is_likeliest_order(const Effect& wave, const std::vector<Effect>&
   problem.fold = folds;
   problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
   if (all.p_left > kNextLevel / options_.tables || all.likest_left < 0) return false;
-  // On few teeth orders look alike.
   const Effect& likest = candidates_[static_cast<std::size_t>(all.likest_left)];
-  return std::abs(likest.order() - wave.order()) <= kSame || !is_told_apart(likest, {wave});
+  if (std::abs(likest.order() - wave.order()) <= kSame) return true;
+  // On few teeth, or over short profiles, orders look alike.
+  const PointFit both(geometry_, table_, patches_, {likest, wave});
+  return both.retained(both.first_column(1)) < kOwn;
 }
 
 /// Bans a family on these flanks; true where that is new.

@@ -375,14 +375,18 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
 }
 
 /// The same of values that were spread over their steps: medians of what stands on a few levels say
-/// little.
+/// little. What was added is most of the spread, so the rest is known badly: where nothing was found
+/// and what is left is no more than three errors above, that is it.
 double variance_of_readings(const Class& of, Gathered& data, const ReadingSteps& steps,
                             bool nothing_left) {
+  constexpr double kErrors = 3.0, kToldByMedian = 0.37;
   const double plain = data.squares / data.count, added = steps.wide_variance(of.kind, of.source);
   if (!(added > 0.0)) return variance_of(of.kind, data, nothing_left);
+  const double error = kErrors * std::sqrt(2.0 / (kToldByMedian * data.count));
   data.squares += data.count * added;
-  const double variance = variance_of(of.kind, data, nothing_left) - added;
-  return variance > 0.0 ? variance : plain;
+  const double spread = variance_of(of.kind, data, nothing_left);
+  if (!(spread > added) || (nothing_left && plain < spread * (1.0 + error) - added)) return plain;
+  return spread - added;
 }
 
 /// Takes a value of a trace, or one of a tooth, to those of its kind.

@@ -8,6 +8,8 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "blind"))
 import blind  # noqa: E402
+import nothing  # noqa: E402
+import shop_floor  # noqa: E402
 import trial  # noqa: E402
 
 SEED = int(os.environ.get("TRUEFLANK_BLIND_SEED", "1"))
@@ -41,6 +43,14 @@ class BlindTrial(unittest.TestCase):
     def test_orders_that_chance_made_of_four_fifths_of_the_data_are_not_told(self):
         # Beside a lobing and beside a taper: these were told with ghost orders.
         self.assertEqual(self.wrong_of("named", [blind.Case("named", i, 77011, "") for i in (2, 30)]), 0)
+
+    def test_orders_of_either_flank_that_look_like_others_on_eleven_teeth_are_told(self):
+        self.assertEqual(self.wrong_of("shop", [shop_floor.Case(22, 1, 180002)]), 0)
+
+    def test_coarse_readings_are_no_more_than_their_noise(self):
+        # Four of 60 that were: the noise is known badly beside steps of 2.5 times its size.
+        cases = [nothing.Case(i, 4008, "all teeth coarse", nothing.kinds()["all teeth coarse"]) for i in (30, 32, 34, 38)]
+        self.assertEqual(self.wrong_of("nothing", cases), 0)
 
     def test_what_has_no_name_is_seen_and_not_misnamed(self):
         self.assertLessEqual(*((self.run_cases("unnamed", 39), 7) if CAMPAIGN else (self.run_cases("unnamed", 13), 2)))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -96,30 +97,36 @@ OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most,
   return sums;
 }
 
-/// The order that stands out most among as many as the gear has teeth; p value of one order alone.
-RotationWave likeliest(const OrderSums& sums, int least, int teeth) {
+/// By chance this order stands out so far among as many as the gear has teeth; 1 where too few are
+/// beside it.
+double p_among_orders(const OrderSums& sums, int least, int order, int teeth) {
   constexpr int kFewestBeside = 6;
   const int most = least + static_cast<int>(sums.size()) - 1;
-  const auto power_of = [&](int order) {
-    return std::norm(sums[static_cast<std::size_t>(order - least)]);
-  };
-  RotationWave best;
-  for (int n = least; n <= most; ++n) {
-    if (n % teeth == 0) continue;  // the same on every tooth: a form of the flank
-    const int from = std::clamp(n - teeth / 2, least, std::max(least, most - teeth + 1));
-    double beside = 0.0;
-    int count = 0;
-    for (int other = from; other <= std::min(most, from + teeth - 1); ++other) {
-      if (other == n || other % teeth == 0) continue;
-      beside += power_of(other);
-      ++count;
-    }
-    if (count < kFewestBeside || !(beside > 0.0)) continue;
-    const double p = std::pow(1.0 + power_of(n) / beside, -count);
-    if (p < best.p_value) best = {.order = n, .p_value = p};
+  if (order % teeth == 0) return 1.0;  // the same on every tooth: a form of the flank
+  const auto power_of = [&](int n) { return std::norm(sums[static_cast<std::size_t>(n - least)]); };
+  const int from = std::clamp(order - teeth / 2, least, std::max(least, most - teeth + 1));
+  double beside = 0.0;
+  int count = 0;
+  for (int other = from; other <= std::min(most, from + teeth - 1); ++other) {
+    if (other == order || other % teeth == 0) continue;
+    beside += power_of(other);
+    ++count;
   }
+  if (count < kFewestBeside || !(beside > 0.0)) return 1.0;
+  return std::pow(1.0 + power_of(order) / beside, -count);
+}
+
+/// The order that stands out most; p value of one order alone.
+RotationWave likeliest(const OrderSums& sums, int least, int teeth) {
+  RotationWave best;
+  for (int n = least; n < least + static_cast<int>(sums.size()); ++n)
+    if (const double p = p_among_orders(sums, least, n, teeth); p < best.p_value)
+      best = {.order = n, .p_value = p};
   return best;
 }
+
+/// Orders, flanks and ways of counting.
+double looks_at(int least, int most) { return 4.0 * (most - least + 1); }
 
 }  // namespace
 
@@ -157,8 +164,24 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
       best = wave;
     }
   }
-  best.p_value = std::min(1.0, best.p_value * 4.0 * (most - least + 1));
+  best.p_value = std::min(1.0, best.p_value * looks_at(least, most));
   return best;
+}
+
+double chance_of_rotation_wave(const FlankGeometry& geometry, const Observations& table,
+                               const std::vector<float>& row_um, const std::vector<bool>& used,
+                               const RotationWave& wave) {
+  ProfileTraces traces = gathered(geometry, table, row_um, used);
+  const auto [least, most] = orders_of(traces);
+  if (wave.order < least || wave.order > most) return 0.0;
+  for (auto& [key, trace] : traces.of) take_slow_part(trace);
+  OrderSums sums(static_cast<std::size_t>(most - least + 1));
+  for (const int side : {1, -1}) {
+    if (wave.side != 0 && wave.side != side) continue;
+    const OrderSums of_side = order_sums(traces, side, least, most, wave.backwards);
+    std::transform(sums.begin(), sums.end(), of_side.begin(), sums.begin(), std::plus<>());
+  }
+  return std::min(1.0, p_among_orders(sums, least, wave.order, geometry.teeth()) * looks_at(least, most));
 }
 
 }  // namespace trueflank::loop

@@ -30,4 +30,12 @@ struct RotationWave {
                                                    const std::vector<float>& row_um,
                                                    const std::vector<bool>& used);
 
+/// By chance the wave of this order, side and way stands out so far, corrected for all that
+/// likeliest_rotation_wave asks; 0 where these traces cannot be asked about its order.
+[[nodiscard]] double chance_of_rotation_wave(const FlankGeometry& geometry,
+                                             const Observations& table,
+                                             const std::vector<float>& row_um,
+                                             const std::vector<bool>& used,
+                                             const RotationWave& wave);
+
 }  // namespace trueflank::loop
