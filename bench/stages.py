@@ -40,7 +40,7 @@ STAGES = {
     "cure of corner contact": r"trueflank::.*corner_contact_cure|trueflank::.*cure_of_corner",
     "meshing": r"trueflank::part_mesh\(",
     "measuring meshes": r"trueflank::measure_accuracy\(",
-    "meshes turned through": r"std::__future_base::_Async_state_impl<.*mesh_states.*::_M_run",
+    "meshes turned through": r"trueflank::mesh_states\((?!.*\{lambda)|" + BESIDE + r"trueflank::mesh_states",
     "packing": r"trueflank::io::deflated?\(|trueflank::io::packed",
     "reading back": r"trueflank::io::visit_facets\(",
     "unpacking": r"libdeflate_(zlib|deflate)_decompress_ex",

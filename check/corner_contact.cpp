@@ -40,7 +40,7 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshPla
                         },
                     .quick =
                         [](const GearPair& changed) {
-                          return tip_driving_clearance_mm(changed) + tolerance::kTouch_mm;
+                          return tips_clear_driving(changed, -tolerance::kTouch_mm);
                         }});
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/mesh_clearance.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "trueflank/base/contract.h"
@@ -12,11 +14,22 @@
 #include "trueflank/train/mesh_face.h"
 
 namespace trueflank {
+namespace {
+
+/// Polygons that tell whether the teeth cross, of the module: never finer, and never coarser.
+constexpr double kFinestChords = 2e-5, kCoarsestChords = 5e-3;
+/// Both polygons together are within a quarter of the clearance that they confirm.
+constexpr double kChordsOfClearance = 0.125;
+
+}  // namespace
 
 void add_exact_verdict(const GearPair& pair, MeshClearance& result) {
+  const double m = pair.gear1().normal_module_mm;
+  const double tolerance = std::clamp(kChordsOfClearance * std::abs(result.clearance_mm),
+                                      kFinestChords * m, kCoarsestChords * m);
   const Point2 axis2(pair.internal() ? -pair.centre_distance_mm : pair.centre_distance_mm, 0.0);
   const ToothCrossing crossing =
-      teeth_cross(pair, result.place.rotation1_rad, result.place.rotation2_rad, axis2);
+      teeth_cross(pair, result.place.rotation1_rad, result.place.rotation2_rad, axis2, tolerance);
   result.exact = crossing.cross ? ExactVerdict::kCross : ExactVerdict::kApart;
   result.chord_error_mm = crossing.chord_error_mm;
 }
@@ -75,9 +88,8 @@ MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_
 
 /// Gear 2 turned towards the counter-clockwise flank of gear 1; a ring's own counter-clockwise flank
 /// touches on the other side.
-MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn,
-                     SweptPlaces places = SweptPlaces::kAll) {
-  return sweep_both(pair, d.gear1, d.gear2, pair.internal() ? -turn : turn, turn, places);
+MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn) {
+  return sweep_both(pair, d.gear1, d.gear2, pair.internal() ? -turn : turn, turn);
 }
 
 /// By which gear 2 turns from the middle of its play to its end; 0 without play.
@@ -91,10 +103,27 @@ MeshClearance driving(const GearPair& pair, const PairDistances& d) {
   return turn > 0.0 ? closed(pair, d, turn) : MeshClearance{};
 }
 
-double tip_clearance_mm(const GearPair& pair, double turn_rad) {
+/// Fillets are measured roughly, and to their full accuracy where that decides.
+bool tips_clear(const GearPair& pair, double turn_rad, double least_mm) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
+  constexpr double kRough_mm = 1e-7, kDoubt_mm = 2.0 * kRough_mm;
+  const double turn_of_gear1 = pair.internal() ? -turn_rad : turn_rad;
+  const double rough_mm = tips_swept_mm(pair, kRough_mm, turn_of_gear1, turn_rad, least_mm - kDoubt_mm);
+  if (std::abs(rough_mm - least_mm) > kDoubt_mm) return rough_mm > least_mm;
+  return tips_swept_mm(pair, CurveSpline::kError, turn_of_gear1, turn_rad, least_mm) >= least_mm;
+}
+
+/// The mesh turned, without radial removal.
+MeshState turned_through(const GearTrain& train, const TrainMesh& mesh) {
+  if (is_modified(train, mesh)) return modified_state(train, mesh);
+  const GearPair pair = train.pair(mesh);
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-  return closed(pair, d, turn_rad, SweptPlaces::kTips).clearance_mm;
+  return {centred(pair, d, 0.0), driving(pair, d), std::nullopt};
+}
+
+RadialRemoval removal_of(const GearTrain& train, const TrainMesh& mesh) {
+  return is_modified(train, mesh) ? modified_removal(train, mesh)
+                                  : radial_removal({train.pair(mesh)}, twist_over_face_rad(train, mesh));
 }
 
 const char* piece_text(PieceKind kind) {
@@ -129,9 +158,11 @@ double sweep_clearance_mm(const GearPair& pair) {
   return swept(pair, d, 0.0).clearance_mm;
 }
 
-double tip_sweep_clearance_mm(const GearPair& pair) { return tip_clearance_mm(pair, 0.0); }
+bool tips_clear(const GearPair& pair, double least_mm) { return tips_clear(pair, 0.0, least_mm); }
 
-double tip_driving_clearance_mm(const GearPair& pair) { return tip_clearance_mm(pair, closing_rad(pair)); }
+bool tips_clear_driving(const GearPair& pair, double least_mm) {
+  return tips_clear(pair, closing_rad(pair), least_mm);
+}
 
 MeshClearance driving_clearance(const GearPair& pair) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
@@ -164,29 +195,18 @@ std::string place_text(const MeshPlace& place, const std::string& name1, const s
 }
 
 std::vector<MeshState> mesh_states(const GearTrain& train) {
-  // Meshes do not know of each other: all at once, as many as there are processors.
-  std::vector<std::future<MeshState>> turned;
-  std::vector<std::future<RadialRemoval>> removals;
-  for (const TrainMesh& mesh : train.meshes) {
-    const GearPair pair = train.pair(mesh);
-    const bool modified = is_modified(train, mesh);
-    turned.push_back(begun_beside([pair, modified, &train, &mesh] {
-      if (modified) return modified_state(train, mesh);
-      const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
-      return MeshState{centred(pair, d, 0.0), driving(pair, d), std::nullopt};
-    }));
-    removals.emplace_back();
-    if (pair.internal())
-      removals.back() = begun_beside([pair, modified, &train, &mesh] {
-        return modified ? modified_removal(train, mesh)
-                        : radial_removal({pair}, twist_over_face_rad(train, mesh));
-      });
-  }
-  std::vector<MeshState> states;
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    states.push_back(turned[i].get());
-    if (removals[i].valid()) states.back().removal = removals[i].get();
-  }
+  // Meshes do not know of each other: they are shared out among the processors, the long work first.
+  const std::size_t meshes = train.meshes.size();
+  std::vector<MeshState> states(meshes);
+  std::vector<std::optional<RadialRemoval>> removals(meshes);
+  for_each_piece(2 * meshes, [&](std::size_t i) {
+    const TrainMesh& mesh = train.meshes[i % meshes];
+    if (i < meshes)
+      states[i] = turned_through(train, mesh);
+    else if (train.pair(mesh).internal())
+      removals[i - meshes] = removal_of(train, mesh);
+  });
+  for (std::size_t i = 0; i < meshes; ++i) states[i].removal = std::move(removals[i]);
   return states;
 }
 

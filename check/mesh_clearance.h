@@ -34,7 +34,7 @@ struct MeshClearance {
   double clearance_mm = kNaN;  ///< smallest distance; negative: deepest penetration
   MeshPlace place;
   double z_mm = kNaN;  ///< height in the assembly, where the teeth differ along the face
-  ExactVerdict exact = ExactVerdict::kApart;  ///< at `place`
+  ExactVerdict exact = ExactVerdict::kApart;  ///< at `place`; the polygons are as fine as the clearance asks for
   double chord_error_mm = kNaN;               ///< of the polygons behind `exact`
 
   [[nodiscard]] double minimum_clearance_mm() const { return clearance_mm > 0.0 ? clearance_mm : 0.0; }
@@ -54,11 +54,11 @@ struct MeshClearance {
 /// The clearance alone, without the exact verdict; for solvers.
 [[nodiscard]] double sweep_clearance_mm(const GearPair& pair);
 
-/// The same of the tip corners alone (or their roundings): a small part of the work, and never below the
-/// clearance of all places. For bisections that verify their answer.
-[[nodiscard]] double tip_sweep_clearance_mm(const GearPair& pair);
+/// Whether the tip corners alone (or their roundings) clear the mate by at least so much: a small part of
+/// the work, and true where all places do. For bisections that verify their answer.
+[[nodiscard]] bool tips_clear(const GearPair& pair, double least_mm);
 /// The same as one gear drives the other; centred where there is no backlash to take up.
-[[nodiscard]] double tip_driving_clearance_mm(const GearPair& pair);
+[[nodiscard]] bool tips_clear_driving(const GearPair& pair, double least_mm);
 
 /// The clearance with gear 2 turned until the flanks of the left side of gear 1 touch as they do when
 /// driving. Below 0: something else touches first (a tip corner in a root fillet), and the teeth

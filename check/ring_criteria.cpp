@@ -108,10 +108,10 @@ struct OutlineHalves {
 };
 
 /// Outline of the teeth of a gear whose middles lie within an angle from +x, but for those that lie
-/// below the line of centres as a whole: only the upper half is looked at.
-std::vector<Edge> outline_near_mesh(const OutlineHalves& halves, int teeth, double rotation_rad,
-                                    double reach_rad, const Point2& centre_mm) {
-  std::vector<Edge> edges;
+/// below the line of centres as a whole: only the upper half is looked at. Takes the place of `edges`.
+void place_near_mesh(const OutlineHalves& halves, int teeth, double rotation_rad, double reach_rad,
+                     const Point2& centre_mm, std::vector<Edge>& edges) {
+  edges.clear();
   const double pitch = kTwoPi / teeth;
   const double lowest_rad = std::max(-reach_rad, -pitch);
   const int first = static_cast<int>(std::ceil((lowest_rad - rotation_rad) / pitch));
@@ -140,25 +140,38 @@ std::vector<Edge> outline_near_mesh(const OutlineHalves& halves, int teeth, doub
       last_point = next;
     }
   }
-  return edges;
 }
 
 /// The edges of the pinion where +x enters it (they run down), by their height above the line of centres.
 class EntryWalls {
  public:
-  EntryWalls(const std::vector<Edge>& pinion, double bin_mm) : bin_mm_(bin_mm) {
+  explicit EntryWalls(double bin_mm) : bin_mm_(bin_mm) {}
+
+  /// Takes the place of the walls before.
+  void stand(const std::vector<Edge>& pinion) {
+    first_.assign(1, 0);
     for (const Edge& edge : pinion) {
-      if (!(edge.a.y() > edge.b.y()) || edge.a.y() < 0.0) continue;
-      const std::size_t from = bin(std::max(edge.b.y(), 0.0)), to = bin(edge.a.y());
-      if (bins_.size() <= to) bins_.resize(to + 1);
-      for (std::size_t k = from; k <= to; ++k) bins_[k].push_back(edge);
+      if (!enters(edge)) continue;
+      if (first_.size() <= bin(edge.a.y()) + 1) first_.resize(bin(edge.a.y()) + 2, 0);
+      for (std::size_t k = lowest_bin(edge); k <= bin(edge.a.y()); ++k) ++first_[k];
+    }
+    std::size_t last = 0;
+    for (std::size_t& count : first_) count = last += count;
+    walls_.resize(last);
+    for (auto edge = pinion.rbegin(); edge != pinion.rend(); ++edge) {
+      if (!enters(*edge)) continue;
+      for (std::size_t k = lowest_bin(*edge); k <= bin(edge->a.y()); ++k) walls_[--first_[k]] = *edge;
     }
   }
 
+  /// Above which no wall stands.
+  [[nodiscard]] double top_mm() const { return bin_mm_ * static_cast<double>(first_.size() - 1); }
+
   /// Whether a wall stands within `travel_mm` of a point in +x.
   [[nodiscard]] bool ahead(const Point2& from, double travel_mm) const {
-    if (from.y() < 0.0 || bin(from.y()) >= bins_.size()) return false;
-    for (const Edge& wall : bins_[bin(from.y())]) {
+    if (from.y() < 0.0 || bin(from.y()) + 1 >= first_.size()) return false;
+    for (std::size_t i = first_[bin(from.y())]; i < first_[bin(from.y()) + 1]; ++i) {
+      const Edge& wall = walls_[i];
       if (!(wall.a.y() > from.y() && wall.b.y() <= from.y())) continue;
       const double u = (from.y() - wall.a.y()) / (wall.b.y() - wall.a.y());
       const double x = wall.a.x() + u * (wall.b.x() - wall.a.x());
@@ -168,9 +181,12 @@ class EntryWalls {
   }
 
  private:
+  [[nodiscard]] static bool enters(const Edge& edge) { return edge.a.y() > edge.b.y() && edge.a.y() >= 0.0; }
   [[nodiscard]] std::size_t bin(double y) const { return static_cast<std::size_t>(y / bin_mm_); }
+  [[nodiscard]] std::size_t lowest_bin(const Edge& edge) const { return bin(std::max(edge.b.y(), 0.0)); }
   double bin_mm_;
-  std::vector<std::vector<Edge>> bins_;
+  std::vector<Edge> walls_;         // bin by bin
+  std::vector<std::size_t> first_;  // of each bin, and the end of the last
 };
 
 /// Does pinion material stand beyond the ring's edge, seen in +x, so that it cannot move in -x? Looks at
@@ -178,7 +194,9 @@ class EntryWalls {
 /// Edges run counter-clockwise; the ring's space is on the left of its edges.
 bool blocked(const EntryWalls& pinion, const std::vector<Edge>& ring, double travel_mm,
              double seen_mm) {
+  const double lowest_mm = -1.001 * seen_mm, highest_mm = pinion.top_mm() + 1.001 * seen_mm;
   for (const Edge& edge : ring) {
+    if (edge.a.y() < lowest_mm || edge.a.y() > highest_mm) continue;
     const Point2 along = edge.b - edge.a;
     const double length = along.norm();
     if (length == 0.0) continue;
@@ -202,13 +220,14 @@ std::vector<bool> blocked_above(const GearPair& pair) {
   const OutlineHalves half1(*pair.profile1, kRemovalChord * m);
   const OutlineHalves half2(*pair.profile2, kRemovalChord * m);
   std::vector<bool> upper(kRotations);
+  std::vector<Edge> pinion, ring;
+  EntryWalls walls(0.1 * m);
   for (int i = 0; i < kRotations; ++i) {
     const double turn = pitch1 * i / kRotations;
-    const auto pinion = outline_near_mesh(half1, z1, turn, reach1, Point2::Zero());
-    const auto ring = outline_near_mesh(half2, z2, turn * z1 / z2 + 0.5 * pitch2, reach2,
-                                        Point2(-a, 0.0));
-    upper[static_cast<std::size_t>(i)] =
-        blocked(EntryWalls(pinion, 0.1 * m), ring, travel, kSeenOverhang * m);
+    place_near_mesh(half1, z1, turn, reach1, Point2::Zero(), pinion);
+    place_near_mesh(half2, z2, turn * z1 / z2 + 0.5 * pitch2, reach2, Point2(-a, 0.0), ring);
+    walls.stand(pinion);
+    upper[static_cast<std::size_t>(i)] = blocked(walls, ring, travel, kSeenOverhang * m);
   }
   return upper;
 }

@@ -11,7 +11,6 @@
 namespace trueflank {
 namespace {
 
-constexpr double kSplineError = 1e-9;  // of the curve's size, or mm
 constexpr int kFewestPieces = 24, kMostPieces = 1024;
 
 /// Value and derivatives of a cubic Hermite piece at s in [0, 1].
@@ -84,18 +83,21 @@ class CurveSpline::Nodes {
   std::vector<std::optional<Node>> nodes_;
 };
 
-CurveSpline::CurveSpline(const Curve& curve) {
+CurveSpline::CurveSpline(const Curve& curve, double error) {
   const double scale = (curve.end_point() - curve.start_point()).norm();
   double worst = 0.0;  // where on the curve the last cut was too coarse
   for (int n = kFewestPieces;; n *= 2) {
     Nodes nodes(curve, n);
-    if (n < kMostPieces && nodes.piece_beyond(kSplineError * std::min(scale, 1.0), worst)) continue;
+    if (n < kMostPieces && nodes.piece_beyond(error * std::min(scale, 1.0), worst)) continue;
     nodes.move_to(*this);
     break;
   }
   const auto [low_x, high_x] = std::minmax_element(x_.begin(), x_.end());
   const auto [low_y, high_y] = std::minmax_element(y_.begin(), y_.end());
   keep_radii();
+  for (std::size_t i = 1; i < x_.size(); ++i)
+    longest_mm_ = std::max(longest_mm_, std::hypot(x_[i] - x_[i - 1], y_[i] - y_[i - 1]));
+  steps_per_mm_ = (1.0 - 1e-9) / longest_mm_;
   low_x_ = *low_x, high_x_ = *high_x, low_y_ = *low_y, high_y_ = *high_y;
 }
 
@@ -107,7 +109,8 @@ void CurveSpline::keep_radii() {
   if (step != radius_mm_.end()) radius_mm_.clear();
 }
 
-/// Exact: a node whose radius differs from the point's by more than another's distance is farther.
+/// Exact: a node whose radius differs from the point's by more than another's distance is farther, and
+/// from node to node a distance changes by no more than the nodes are apart.
 std::size_t CurveSpline::nearest_node(const Point2& q) const {
   const auto square = [&](std::size_t i) {
     const double dx = x_[i] - q.x(), dy = y_[i] - q.y();
@@ -122,23 +125,42 @@ std::size_t CurveSpline::nearest_node(const Point2& q) const {
     return node;
   }
   const double radius = std::copysign(q.norm(), radius_mm_.back());
-  const auto may_be_nearer = [&](std::size_t i) {
-    return std::pow(radius_mm_[i] - radius, 2) < nearest;
-  };
   const auto at = std::lower_bound(radius_mm_.begin(), radius_mm_.end(), radius);
   const auto above = static_cast<std::size_t>(at - radius_mm_.begin());
-  for (std::size_t i = above; i < n && may_be_nearer(i); ++i)
-    if (const double s = square(i); s < nearest) nearest = s, node = i;
-  for (std::size_t i = above; i-- > 0 && may_be_nearer(i);)
-    if (const double s = square(i); s < nearest) nearest = s, node = i;
+  // how many nodes on the next one is that may be nearer
+  const auto look_at = [&](std::size_t i) {
+    const double s = square(i);
+    if (s < nearest) {
+      nearest = s, node = i;
+      return std::size_t{1};
+    }
+    const double steps = (std::sqrt(s) - std::sqrt(nearest)) * steps_per_mm_;
+    return std::max<std::size_t>(1, static_cast<std::size_t>(steps));
+  };
+  const auto may_be_nearer = [&](std::size_t i) {
+    const double off = radius_mm_[i] - radius;
+    return off * off < nearest;
+  };
+  for (std::size_t i = above; i < n && may_be_nearer(i);) i += look_at(i);
+  for (std::size_t i = above; i > 0 && may_be_nearer(i - 1);) i -= std::min(i, look_at(i - 1));
   return node;
 }
 
-std::optional<CurveSpline::Foot> CurveSpline::foot(const Point2& q, double limit_mm) const {
+CurveSpline::Search CurveSpline::search(const Point2& q, double limit_mm) const {
   const double off_x = std::max({low_x_ - q.x(), q.x() - high_x_, 0.0});
   const double off_y = std::max({low_y_ - q.y(), q.y() - high_y_, 0.0});
-  if (off_x * off_x + off_y * off_y > limit_mm * limit_mm) return std::nullopt;
-  const std::size_t n = x_.size(), node = nearest_node(q);
+  const double off_square = off_x * off_x + off_y * off_y;
+  // a piece bulges out of the box of its ends by less than it is long
+  if (off_square > limit_mm * limit_mm) return {std::nullopt, std::sqrt(off_square) - longest_mm_};
+  const std::size_t node = nearest_node(q);
+  // every place of the curve is nearer to a node than its piece is long
+  return {foot_beside(node, q, limit_mm),
+          (q - Point2(x_[node], y_[node])).norm() - longest_mm_};
+}
+
+std::optional<CurveSpline::Foot> CurveSpline::foot_beside(std::size_t node, const Point2& q,
+                                                          double limit_mm) const {
+  const std::size_t n = x_.size();
   // the distance falls towards the side of the node where the foot lies
   const double slope = (x_[node] - q.x()) * dx_[node] + (y_[node] - q.y()) * dy_[node];
   if ((slope < 0.0 && node + 1 == n) || (slope > 0.0 && node == 0)) return std::nullopt;

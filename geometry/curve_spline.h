@@ -14,23 +14,35 @@ namespace trueflank {
 /// curve; tested in tests/geometry/curve_spline_test.cpp.
 class CurveSpline {
  public:
-  explicit CurveSpline(const Curve& curve);
+  static constexpr double kError = 1e-9;
+
+  /// `error`: what pieces may be off by across the curve, where the accuracy above is more than is asked for.
+  explicit CurveSpline(const Curve& curve, double error = kError);
 
   struct Foot {
     Point2 point = Point2::Zero();
     double distance_mm = 0.0;
     bool on_left = false;  ///< the point measured lies left of the direction of travel
   };
+  struct Search {
+    std::optional<Foot> foot;
+    double least_mm = 0.0;  ///< nowhere is the curve nearer to the point than this
+  };
   /// The foot of the perpendicular near the nearest node; nothing where that is beyond an end, or
   /// not nearer than the limit.
-  [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const;
+  [[nodiscard]] Search search(const Point2& point, double limit_mm) const;
+  [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const {
+    return search(point, limit_mm).foot;
+  }
 
  private:
   class Nodes;
   void keep_radii();
   [[nodiscard]] std::size_t nearest_node(const Point2& point) const;
+  [[nodiscard]] std::optional<Foot> foot_beside(std::size_t node, const Point2& point, double limit_mm) const;
   std::vector<double> x_, y_, dx_, dy_;  ///< nodes at equal steps of the parameter, derivatives a step
   std::vector<double> radius_mm_;  ///< of the nodes where it rises all the way, negative where it falls
+  double longest_mm_ = 0.0, steps_per_mm_ = 0.0;  ///< between neighbouring nodes; how many at least
   double low_x_ = 0.0, high_x_ = 0.0, low_y_ = 0.0, high_y_ = 0.0;
 };
 

@@ -327,6 +327,15 @@ ResultAll<std::vector<TrainGear>> made_gears(const GearTrain& train, const std::
 }  // namespace
 
 ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
+  auto train = lay_out_teeth(design);
+  if (!train || !train->stages.empty()) return train;
+  train->speeds = member_speeds(design.topology, signed_teeth(design));
+  train->assembly = assembly_condition(*train);
+  train->phases = phases_in_mesh(*train);
+  return train;
+}
+
+ResultAll<GearTrain> lay_out_teeth(const GearboxDesign& design) {
   if (Errors wrong = gear_errors(design); !wrong.empty()) return fail_all(std::move(wrong));
   if (design.topology.stage_count() > 1) return lay_out_stages(design);
   GearTrain train;
@@ -363,9 +372,6 @@ ResultAll<GearTrain> lay_out(const GearboxDesign& design) {
     mesh.largest_backlash_mm = backlash_at_limits_mm(train, mesh, &ThinningLimits::most_mm);
   }
   stack_layers(train);
-  train.speeds = member_speeds(design.topology, signed_teeth(design));
-  train.assembly = assembly_condition(train);
-  train.phases = phases_in_mesh(train);
   return train;
 }
 

@@ -129,6 +129,8 @@ struct GearTrain {
 /// Solves and places a design. Errors: all at once; every key is the design file's.
 /// A design that does not fit or turn is not an error: the checks tell.
 [[nodiscard]] ResultAll<GearTrain> lay_out(const GearboxDesign& design);
+/// The same without speeds, assembly and phases of a single stage, for solvers that ask for its teeth alone.
+[[nodiscard]] ResultAll<GearTrain> lay_out_teeth(const GearboxDesign& design);
 
 /// The gear at an end of its thickness allowance.
 [[nodiscard]] Gear thinned(Gear gear, double thinning_mm);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "trueflank/base/always_inline.h"
 #include "trueflank/base/units.h"
 
 namespace trueflank {
@@ -18,6 +19,8 @@ double rough_angle_rad(double x, double y) {
   return t * (0.995354 + square * (-0.288679 + square * 0.079331));
 }
 constexpr double kRoughAngle_rad = 1e-3;
+constexpr double kSameDirection = 1e-9;  // far above rounding
+constexpr double kSlack_mm = 1e-9;       // for the rounding of what a point moves by
 
 auto shape_of(const RackTrochoid& c) {
   return std::tie(c.pitch_radius_mm, c.corner_depth_mm, c.corner_offset_mm, c.corner_radius_mm,
@@ -50,31 +53,33 @@ bool same_curve(const Curve& a, const Curve& b) {
 /// A curve's spline. The search for a cure asks for one gear after the other that differ in their
 /// tips alone and have one fillet: the last few splines of a thread are kept. They depend on the
 /// curve and on nothing else.
-std::shared_ptr<const CurveSpline> spline_of(const Curve& curve) {
+std::shared_ptr<const CurveSpline> spline_of(const Curve& curve, double error) {
   struct Kept {
     Curve curve;
+    double error = 0.0;
     std::shared_ptr<const CurveSpline> spline;
   };
   thread_local std::array<Kept, 4> kept;
   thread_local std::size_t oldest = 0;
   for (const Kept& one : kept)
-    if (one.spline && same_curve(one.curve, curve)) return one.spline;
+    if (one.spline && one.error == error && same_curve(one.curve, curve)) return one.spline;
   Kept& next = kept[oldest++ % kept.size()];
-  next = {curve, std::make_shared<const CurveSpline>(curve)};
+  next = {curve, error, std::make_shared<const CurveSpline>(curve, error)};
   return next.spline;
 }
 
 }  // namespace
 
-GearDistance::GearDistance(const ToothProfile& profile)
+GearDistance::GearDistance(const ToothProfile& profile, double spline_error)
     : pitch_rad_(kTwoPi / profile.gear().teeth),
       outward_(profile.gear().kind == GearKind::kExternal ? 1.0 : -1.0),
-      half_(half_of(profile.pieces())) {
+      half_(half_of(profile.pieces(), spline_error)) {
   for (int k = 0; k < profile.gear().teeth; ++k) axes_.push_back(unit_vector(k * pitch_rad_));
-  if (!profile.symmetric()) clockwise_ = half_of(profile.clockwise_pieces());
+  if (!profile.symmetric()) clockwise_ = half_of(profile.clockwise_pieces(), spline_error);
 }
 
-GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces) const {
+GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces,
+                                         double spline_error) const {
   Half half;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Curve& curve = pieces[i].curve;
@@ -83,18 +88,21 @@ GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces
       // run counter-clockwise, the circle's inside is on the left
       const double sign = (curve.end > curve.begin ? 1.0 : -1.0) * outward_;
       half.arcs.push_back({arc->centre, arc->radius_mm, std::min(curve.begin, curve.end),
-                           std::max(curve.begin, curve.end), sign, index});
+                           std::max(curve.begin, curve.end), sign,
+                           unit_vector(std::min(curve.begin, curve.end)),
+                           unit_vector(std::max(curve.begin, curve.end)), index});
     } else if (const auto* involute = std::get_if<Involute>(&curve.shape)) {
       half.flanks.push_back({involute->base_radius_mm, involute->base_half_angle_rad,
                              static_cast<double>(involute->sense), std::min(curve.begin, curve.end),
-                             std::max(curve.begin, curve.end), index});
+                             std::max(curve.begin, curve.end), curve.start_point(),
+                             curve.end_point(), index});
     } else if (const auto* line = std::get_if<StraightLine>(&curve.shape)) {
       const double sign = curve.end > curve.begin ? 1.0 : -1.0;
       const double scale = line->direction.norm();
       half.lines.push_back({point_at(curve, curve.begin), sign * line->direction / scale, 0.0,
                             std::abs(curve.end - curve.begin) * scale, index});
     } else {
-      half.splines.push_back({spline_of(curve), index});
+      half.splines.push_back({spline_of(curve, spline_error), index});
     }
   }
   add_joints(pieces, half);
@@ -121,7 +129,7 @@ void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& hal
 
 /// The tooth in whose pitch a point lies. A mesh is turned on the mate's +x side: there a rough
 /// angle tells the tooth of all points but those next to the middle of a gap.
-int GearDistance::tooth_at(const Point2& point) const {
+TRUEFLANK_ALWAYS_INLINE inline int GearDistance::tooth_at(const Point2& point) const {
   if (point.x() > std::abs(point.y())) {
     const double pitches = rough_angle_rad(point.x(), point.y()) / pitch_rad_;
     const int tooth = static_cast<int>(pitches + std::copysign(0.5, pitches));
@@ -130,19 +138,40 @@ int GearDistance::tooth_at(const Point2& point) const {
   return static_cast<int>(std::nearbyint(polar_angle_rad(point) / pitch_rad_));
 }
 
-GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
+TRUEFLANK_ALWAYS_INLINE inline Point2 GearDistance::folded(const Point2& point, bool& clockwise) const {
   const auto teeth = static_cast<int>(axes_.size());
   const int tooth = tooth_at(point);
   const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth) % teeth)];
   const double across = cross(axis, point);
-  bool clockwise = across < 0.0;
-  const Point2 q(axis.dot(point), std::abs(across));
+  clockwise = across < 0.0;
+  return {axis.dot(point), std::abs(across)};
+}
 
+GearDistance::Nearest GearDistance::nearest(const Point2& point) const {
+  Before nothing;
+  return nearest(point, nothing);
+}
+
+GearDistance::Nearest GearDistance::nearest(const Point2& point, Before& before) const {
+  bool clockwise = false;
+  const Point2 q = folded(point, clockwise);
   Best best{std::numeric_limits<double>::infinity(), 0.0, -1, Point2::Zero()};
   if (!clockwise_) {
-    measure(half_, q, best);
+    // folding brings no two points farther apart
+    const double moved_mm = (point - before.point_).norm() + kSlack_mm;
+    before.point_ = point;
+    before.nearest_mm_ += moved_mm;
+    for (double& least : before.least_mm_) least -= moved_mm;
+    measure(half_, q, best, before);
+    if (best.magnitude > before.nearest_mm_) {  // what was found before was not the nearest
+      before = {};
+      before.point_ = point;
+      measure(half_, q, best, before);
+    }
+    before.nearest_mm_ = best.magnitude;
   } else {
-    measure(clockwise ? *clockwise_ : half_, q, best);
+    Before nothing;
+    measure(clockwise ? *clockwise_ : half_, q, best, nothing);
     measure_neighbours(q, best, clockwise);
   }
   return {best.signed_mm, best.piece, best.corner, clockwise, best.point};
@@ -157,7 +186,8 @@ void GearDistance::measure_neighbours(const Point2& q, Best& best, bool& clockwi
     const double away = along > 0.0 ? std::abs(cross(ray, q)) : q.norm();
     if (!(away < best.magnitude)) return;
     const double before = best.magnitude;
-    measure(other, 2.0 * along * ray - q, best);
+    Before nothing;
+    measure(other, 2.0 * along * ray - q, best, nothing);
     taken = taken || best.magnitude < before;
   };
   look_across(Point2::UnitX());
@@ -165,71 +195,103 @@ void GearDistance::measure_neighbours(const Point2& q, Best& best, bool& clockwi
   clockwise = clockwise != taken;
 }
 
-void GearDistance::measure(const Half& half, const Point2& q, Best& best) const {
-  for (const Flank& flank : half.flanks) measure_flank(flank, q, best);
-  for (const Arc& arc : half.arcs) measure_arc(arc, q, best);
-  for (const Line& line : half.lines) measure_line(line, q, best);
-  for (const Spline& spline : half.splines) measure_spline(spline, q, best);
+TRUEFLANK_ALWAYS_INLINE inline void GearDistance::measure(const Half& half, const Point2& q, Best& best, Before& before) const {
+  const auto each = [&](const auto& pieces, const auto& measured) {
+    for (const auto& piece : pieces) {
+      const auto k = static_cast<std::size_t>(piece.piece);
+      if (k >= Before::kPieces)
+        measured(piece);
+      else if (before.least_mm_[k] <= before.nearest_mm_)
+        before.least_mm_[k] = measured(piece);
+    }
+  };
+  each(half.flanks, [&](const Flank& flank) { return measure_flank(flank, q, best); });
+  each(half.arcs, [&](const Arc& arc) { return measure_arc(arc, q, best); });
+  each(half.lines, [&](const Line& line) { return measure_line(line, q, best); });
+  each(half.splines, [&](const Spline& spline) { return measure_spline(spline, q, best); });
+  if (before.least_mm_.back() <= before.nearest_mm_) measure_joints(half, q, best, before);
+}
+
+void GearDistance::measure_joints(const Half& half, const Point2& q, Best& best, Before& before) const {
+  double least = std::numeric_limits<double>::infinity();
   for (const Joint& joint : half.joints) {
     const Point2 away = q - joint.at;
     const double square = away.squaredNorm();
+    least = std::min(least, square);
     // a joint within rounding of a foot on a piece leaves the piece its better sign
     if (!(square < best.magnitude * best.magnitude * (1.0 - 1e-9))) continue;
     const double distance = std::sqrt(square);
     best = {distance, away.dot(joint.outward) < 0.0 ? -distance : distance, joint.piece, joint.at,
             true};
   }
+  before.least_mm_.back() = std::sqrt(least);
 }
 
-void GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) const {
+/// Between the directions of the arc's ends; the angle itself decides where a direction is near one.
+bool GearDistance::in_angle(const Arc& arc, const Point2& from_centre) {
+  if (arc.to - arc.from < 3.0) {
+    const double near = kSameDirection * from_centre.lpNorm<1>();
+    const double first = cross(arc.first, from_centre), last = cross(from_centre, arc.last);
+    if (first < -near || last < -near) return false;
+    if (first > near && last > near) return true;
+  }
+  const double angle = std::atan2(from_centre.y(), from_centre.x());
+  return !(wrapped_rad(angle - arc.from) > arc.to - arc.from);
+}
+
+TRUEFLANK_ALWAYS_INLINE inline double GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) const {
   const Point2 from_centre = q - arc.centre;
   const double radial = from_centre.norm();
   const double distance = std::abs(radial - arc.radius);
-  if (!(distance < best.magnitude)) return;
-  const double angle = std::atan2(from_centre.y(), from_centre.x());
-  const double past = wrapped_rad(angle - arc.from);
-  if (past > arc.to - arc.from) return;
-  best = {distance, arc.inside_sign * (radial - arc.radius), arc.piece,
-          arc.centre + from_centre * (radial > 0.0 ? arc.radius / radial : 0.0)};
+  if (distance < best.magnitude && in_angle(arc, from_centre))
+    best = {distance, arc.inside_sign * (radial - arc.radius), arc.piece,
+            arc.centre + from_centre * (radial > 0.0 ? arc.radius / radial : 0.0)};
+  return distance;
 }
 
 /// The rough angle tells it of most points whose foot is not on the flank.
-bool GearDistance::surely_outside(const Point2& e, const Flank& flank) {
+TRUEFLANK_ALWAYS_INLINE inline bool GearDistance::surely_outside(const Point2& e, const Flank& flank) {
   if (!(e.x() > std::abs(e.y()))) return false;
   const double roll = flank.sense * (rough_angle_rad(e.x(), e.y()) - flank.half_angle);
   return roll < flank.from - kRoughAngle_rad || roll > flank.to + kRoughAngle_rad;
 }
 
-void GearDistance::measure_flank(const Flank& flank, const Point2& q, Best& best) const {
+TRUEFLANK_ALWAYS_INLINE inline double GearDistance::measure_flank(const Flank& flank, const Point2& q, Best& best) const {
+  // without a foot of its own one of its ends is nearest
+  const auto to_ends = [&] {
+    return std::sqrt(std::min((q - flank.first).squaredNorm(), (q - flank.last).squaredNorm()));
+  };
   const double r_b = flank.base_radius, square = q.squaredNorm();
-  if (square < r_b * r_b) return;
+  if (square < r_b * r_b) return to_ends();
   // the normal through the point touches the base circle in the direction e, at tau
   const double r = std::sqrt(square), length = std::sqrt((r - r_b) * (r + r_b));
   const Point2 e = (r_b * q + flank.sense * length * perpendicular(q)) / square;
-  if (surely_outside(e, flank)) return;
+  if (surely_outside(e, flank)) return to_ends();
   const double roll = flank.sense * (polar_angle_rad(e) - flank.half_angle);
-  if (roll < flank.from || roll > flank.to) return;
+  if (roll < flank.from || roll > flank.to) return to_ends();
   const double beyond = -flank.sense * (length - r_b * roll);
   const double distance = std::abs(beyond);
-  if (!(distance < best.magnitude)) return;
+  if (!(distance < best.magnitude)) return std::min(distance, to_ends());
   best = {distance, beyond, flank.piece, r_b * (e - flank.sense * roll * perpendicular(e))};
+  return distance;
 }
 
-void GearDistance::measure_line(const Line& line, const Point2& q, Best& best) const {
+double GearDistance::measure_line(const Line& line, const Point2& q, Best& best) const {
   const Point2 from_start = q - line.start;
   const double along = from_start.dot(line.direction);
-  if (along < line.from || along > line.to) return;
   const double left = cross(line.direction, from_start);
-  if (!(std::abs(left) < best.magnitude)) return;
-  best = {std::abs(left), -outward_ * left, line.piece, line.start + along * line.direction};
+  if (along >= line.from && along <= line.to && std::abs(left) < best.magnitude)
+    best = {std::abs(left), -outward_ * left, line.piece, line.start + along * line.direction};
+  return std::abs(left);
 }
 
-void GearDistance::measure_spline(const Spline& spline, const Point2& q, Best& best) const {
-  const auto foot = spline.curve->foot(q, best.magnitude);
-  if (!foot) return;
-  best = {foot->distance_mm,
-          (outward_ > 0.0) == foot->on_left ? -foot->distance_mm : foot->distance_mm, spline.piece,
-          foot->point};
+double GearDistance::measure_spline(const Spline& spline, const Point2& q, Best& best) const {
+  const CurveSpline::Search search = spline.curve->search(q, best.magnitude);
+  if (const auto& foot = search.foot)
+    best = {foot->distance_mm,
+            (outward_ > 0.0) == foot->on_left ? -foot->distance_mm : foot->distance_mm,
+            spline.piece, foot->point};
+  return search.least_mm;
 }
 
 }  // namespace trueflank

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,10 +30,23 @@ class GearDistance {
     Point2 point = Point2::Zero();  ///< nearest point, folded into the first half tooth's wedge
   };
 
-  /// Copies what it needs.
-  explicit GearDistance(const ToothProfile& profile);
+  /// What the point measured before told of the pieces. The distance of a piece changes by no more than
+  /// the point moves: pieces that were far away need not be measured again where the next point is near.
+  class Before {
+   private:
+    friend class GearDistance;
+    static constexpr std::size_t kPieces = 7;  // of a half tooth; any further one is always measured
+    Point2 point_ = Point2::Zero();
+    double nearest_mm_ = std::numeric_limits<double>::infinity();
+    std::array<double, kPieces + 1> least_mm_{};  // none of a piece is nearer; last: of all joints
+  };
+
+  /// Copies what it needs. `spline_error`: CurveSpline's, of trochoids.
+  explicit GearDistance(const ToothProfile& profile, double spline_error = CurveSpline::kError);
 
   [[nodiscard]] Nearest nearest(const Point2& point) const;
+  /// The same to the last digit, sooner where the point lies near the one measured before.
+  [[nodiscard]] Nearest nearest(const Point2& point, Before& before) const;
 
  private:
   struct Joint {
@@ -42,10 +57,12 @@ class GearDistance {
   struct Arc {
     Point2 centre;
     double radius, from, to, inside_sign;  // inside_sign: +1 where space is outside the circle
+    Point2 first, last;                    // directions of the ends
     int piece;
   };
   struct Flank {
     double base_radius, half_angle, sense, from, to;
+    Point2 first, last;  // its ends
     int piece;
   };
   struct Line {
@@ -74,16 +91,21 @@ class GearDistance {
   };
 
   [[nodiscard]] int tooth_at(const Point2& point) const;
-  [[nodiscard]] Half half_of(const std::vector<ProfilePiece>& pieces) const;
+  [[nodiscard]] Half half_of(const std::vector<ProfilePiece>& pieces, double spline_error) const;
   void add_joints(const std::vector<ProfilePiece>& pieces, Half& half) const;
   [[nodiscard]] static bool surely_outside(const Point2& e, const Flank& flank);
-  /// Takes over what lies nearer than `best`.
-  void measure(const Half& half, const Point2& q, Best& best) const;
+  [[nodiscard]] static bool in_angle(const Arc& arc, const Point2& from_centre);
+  /// The tooth's wedge, and the point folded into it; whether it lay on the clockwise side.
+  [[nodiscard]] Point2 folded(const Point2& point, bool& clockwise) const;
+  /// Takes over what lies nearer than `best`, passing over what `before` knows to be farther away.
+  void measure(const Half& half, const Point2& q, Best& best, Before& before) const;
+  void measure_joints(const Half& half, const Point2& q, Best& best, Before& before) const;
   void measure_neighbours(const Point2& q, Best& best, bool& clockwise) const;
-  void measure_arc(const Arc& arc, const Point2& q, Best& best) const;
-  void measure_flank(const Flank& flank, const Point2& q, Best& best) const;
-  void measure_line(const Line& line, const Point2& q, Best& best) const;
-  void measure_spline(const Spline& spline, const Point2& q, Best& best) const;
+  // Each takes over its foot if that is nearer than `best`, and returns what no part of it is nearer than.
+  double measure_arc(const Arc& arc, const Point2& q, Best& best) const;
+  double measure_flank(const Flank& flank, const Point2& q, Best& best) const;
+  double measure_line(const Line& line, const Point2& q, Best& best) const;
+  double measure_spline(const Spline& spline, const Point2& q, Best& best) const;
 
   double pitch_rad_;
   std::vector<Point2> axes_;  // directions of the teeth

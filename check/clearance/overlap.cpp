@@ -42,7 +42,7 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
            [less_mm](const GearPair& changed) { return sweep_clearance_mm(changed) + less_mm; },
        .quick =
            [less_mm](const GearPair& changed) {
-             return tip_sweep_clearance_mm(changed) + less_mm;
+             return tips_clear(changed, -less_mm);
            }});
 }
 

@@ -18,8 +18,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double kChordError = 2e-5;  // of the module
-
 struct Edge {
   Point2 a, b;
   double low_x, high_x, low_y, high_y;
@@ -94,10 +92,9 @@ bool any_meet(std::vector<Edge>& first, std::vector<Edge>& second) {
 }  // namespace
 
 ToothCrossing teeth_cross(const GearPair& pair, double rotation1_rad, double rotation2_rad,
-                          const Point2& centre2_mm) {
-  const double tolerance = kChordError * pair.gear1().normal_module_mm;
-  const SectionPolygon section1 = section_polygon(*pair.profile1, tolerance);
-  const SectionPolygon section2 = section_polygon(*pair.profile2, tolerance);
+                          const Point2& centre2_mm, double tolerance_mm) {
+  const SectionPolygon section1 = section_polygon(*pair.profile1, tolerance_mm);
+  const SectionPolygon section2 = section_polygon(*pair.profile2, tolerance_mm);
   const PlacedSection one = placed(section1, rotation1_rad, Point2::Zero());
   const PlacedSection two = placed(section2, rotation2_rad, centre2_mm);
   auto first = edges_near(one, two), second = edges_near(two, one);

@@ -13,8 +13,10 @@ struct ToothCrossing {
 
 /// The teeth around the mesh as polygons with vertices on the curves; no rounding decides: whether
 /// two segments meet is answered exactly for their coordinates.
-/// Frame: see MeshPlace. `centre2_mm`: axis of gear 2.
+/// Frame: see MeshPlace. `centre2_mm`: axis of gear 2. `tolerance_mm`: how far either polygon may be from
+/// its curves.
 [[nodiscard]] ToothCrossing teeth_cross(const GearPair& pair, double rotation1_rad,
-                                        double rotation2_rad, const Point2& centre2_mm);
+                                        double rotation2_rad, const Point2& centre2_mm,
+                                        double tolerance_mm);
 
 }  // namespace trueflank

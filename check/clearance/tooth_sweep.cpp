@@ -24,6 +24,8 @@ constexpr double kFlankStep = 0.1;    // of the module, along the involute
 // A valley with a radius of curvature of 0.1 module lies at most 0.003 module below its grid.
 constexpr double kRefineBand = 0.01;  // of the module above the lowest grid value
 constexpr std::size_t kMostRefined = 24;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 /// Clearances and angles this near are equal, far above rounding and below what anybody reads.
 constexpr double kSame_mm = 1e-9, kSame_rad = 1e-7;
 
@@ -113,7 +115,12 @@ class Sweep {
     double angle = 0.0;
   };
 
-  [[nodiscard]] Place lowest(SweptPlaces places) const;
+  /// Of all places of the mover's half tooth.
+  [[nodiscard]] Place lowest() const { return lowest(samples_of(mover_), -kUnlimited); }
+  /// The clearance of its tips; any value below `enough_mm` where it is below that.
+  [[nodiscard]] double lowest_of_tips_mm(double enough_mm) const {
+    return lowest(tips_of(mover_), enough_mm).clearance;
+  }
   [[nodiscard]] static bool comes_first(const Place& a, const Place& b);
   [[nodiscard]] MeshPlace describe(const Place& place) const;
 
@@ -132,10 +139,11 @@ class Sweep {
     const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
     return {c2 * x - s2 * y, s2 * x + c2 * y};
   }
-  [[nodiscard]] double clearance(const Point2& p, const Position& at) const {
-    return mate_.nearest(in_mate(p, at)).distance_mm;
+  [[nodiscard]] double clearance(const Point2& p, const Position& at, GearDistance::Before& before) const {
+    return mate_.nearest(in_mate(p, at), before).distance_mm;
   }
   [[nodiscard]] double reach_rad() const;
+  [[nodiscard]] Place lowest(const std::vector<Sample>& samples, double enough_mm) const;
   [[nodiscard]] Place refined(const Place& start, double step) const;
 
   const ToothProfile& mover_;
@@ -208,10 +216,8 @@ bool Sweep::comes_first(const Place& a, const Place& b) {
   return rank(a) < rank(b);
 }
 
-Sweep::Place Sweep::lowest(SweptPlaces places) const {
+Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm) const {
   const double m = mover_.gear().normal_module_mm;
-  const std::vector<Sample> samples =
-      places == SweptPlaces::kTips ? tips_of(mover_) : samples_of(mover_);
   const double reach = reach_rad();
   // relative speed = relative turning times the distance from the pitch point
   const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
@@ -224,20 +230,29 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
 
-  std::vector<double> grid(samples.size() * columns, std::numeric_limits<double>::infinity());
+  // The valleys along the paths of corners are sought in their values, at every column.
+  std::vector<std::size_t> row_of(samples.size());
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    row_of[i] = samples[i].low == samples[i].high ? rows++ : kNoRow;
+  std::vector<double> grid(rows * columns, std::numeric_limits<double>::infinity());
   const std::size_t mate_pieces =
       std::max(mate_profile_.pieces().size(), mate_profile_.clockwise_pieces().size());
   std::vector<Place> best_of_kind(mover_.pieces().size() * mate_pieces * 4);
   // A low value from the start saves columns that others would have to show to be no use.
   double lowest = std::numeric_limits<double>::infinity();
   const Position at_centres = position_at(-reach + step * static_cast<double>(columns / 2));
+  GearDistance::Before along_profile;
   for (const Sample& sample : samples)
-    lowest = std::min(lowest, clearance(sample.point, at_centres));
+    lowest = std::min(lowest, clearance(sample.point, at_centres, along_profile));
   const double mate_tip = mate_profile_.tip_radius_mm();
   const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
   // A distance falls by no more than its point moves: columns within which it cannot come down to
   // what is looked for are passed over, with a value that is surely too high.
   DueSamples due_samples(samples.size(), columns);
+  std::vector<double> growth_mm;  // of what a point moves by, a column
+  for (const Sample& sample : samples) growth_mm.push_back(step * step * turning * sample.point.norm());
+  std::vector<GearDistance::Before> before(samples.size());
   for (std::size_t j = 0; j < columns; ++j) {
     const std::vector<std::size_t>& due = due_samples.in(j);
     if (due.empty()) continue;
@@ -245,26 +260,29 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
     const Position at = position_at(angle);
     const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
     for (const std::size_t i : due) {
-      double& value = grid[i * columns + j];
+      const auto keep = [&](double value) {
+        if (row_of[i] != kNoRow) grid[row_of[i] * columns + j] = value;
+      };
       const Point2& p = samples[i].point;
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
       const double from_pitch_point = norm_of(x + axis_ - pitch_radius, y);
       const auto pass_over = [&](double distance_mm) {
         const std::size_t passed =
             columns_without(distance_mm - (lowest + kRefineBand * m),
-                            step * turning * from_pitch_point, step * step * turning * p.norm());
+                            step * turning * from_pitch_point, growth_mm[i]);
         due_samples.put_off(i, j + 1 + passed);
       };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
       const double beyond = mate_outward * (norm_of(x, y) - mate_tip);
       if (beyond > lowest + kRefineBand * m) {
-        value = beyond;
+        keep(beyond);
         pass_over(beyond);
         continue;
       }
-      const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y});
-      value = near.distance_mm;
+      const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y}, before[i]);
+      keep(near.distance_mm);
       lowest = std::min(lowest, near.distance_mm);
+      if (lowest < enough_mm) return {.clearance = lowest};
       pass_over(near.distance_mm);
       const std::size_t kind = (static_cast<std::size_t>(samples[i].piece) * mate_pieces +
                                 static_cast<std::size_t>(near.piece)) *
@@ -277,13 +295,14 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   }
 
   std::vector<Place> starts;
+  const double highest = lowest + kRefineBand * m;
   for (const Place& place : best_of_kind)
-    if (std::isfinite(place.clearance)) starts.push_back(place);
+    if (place.clearance <= highest) starts.push_back(place);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples[i].low != samples[i].high) continue;
+    if (row_of[i] == kNoRow) continue;
     for (std::size_t j = 1; j + 1 < columns; ++j) {  // every valley along a corner's path
-      const double* f = &grid[i * columns + j];
-      if (f[0] <= f[-1] && f[0] < f[1])
+      const double* f = &grid[row_of[i] * columns + j];
+      if (f[0] <= f[-1] && f[0] < f[1] && f[0] <= highest)
         starts.push_back({f[0], samples[i], -reach + step * static_cast<double>(j)});
     }
   }
@@ -291,7 +310,6 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
   Place best;
   double least_mm = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < std::min(starts.size(), kMostRefined); ++k) {
-    if (starts[k].clearance > lowest + kRefineBand * m) break;
     Place place = refined(starts[k], step);
     least_mm = std::min(least_mm, place.clearance);
     // along a path of contact all clearances are equal: there the search went where rounding led it
@@ -305,13 +323,14 @@ Sweep::Place Sweep::lowest(SweptPlaces places) const {
 Sweep::Place Sweep::refined(const Place& start, double step) const {
   const Curve& curve = mover_.pieces()[static_cast<std::size_t>(start.sample.piece)].curve;
   Place best = start;
+  GearDistance::Before before;
   const auto at_angle = [&](double angle) {
     const Position at = position_at(angle);
-    if (start.sample.low == start.sample.high) return clearance(start.sample.point, at);
+    if (start.sample.low == start.sample.high) return clearance(start.sample.point, at, before);
     const double low = std::min(start.sample.low, start.sample.high);
     const double high = std::max(start.sample.low, start.sample.high);
     const ScalarMinimum inner =
-        find_minimum([&](double u) { return clearance(point_at(curve, u), at); }, low, high,
+        find_minimum([&](double u) { return clearance(point_at(curve, u), at, before); }, low, high,
                      1e-6 * (high - low));
     if (inner.value < best.clearance) {
       best.clearance = inner.value;
@@ -371,21 +390,45 @@ MeshPlace Sweep::describe(const Place& place) const {
 
 }  // namespace
 
-MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2,
-                         double turn_rad, double turn_for_gear2_moving_rad, SweptPlaces places) {
-  const Sweep first(pair, gear2, true, turn_rad);
-  // seen from gear 2, gear 1 is turned back by the same motion at the pitch circle
+namespace {
+
+/// Seen from gear 2, gear 1 is turned back by the same motion at the pitch circle.
+double turned_back_rad(const GearPair& pair, double gear2_turn_rad) {
   const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth;
-  const double back = (pair.internal() ? -1.0 : 1.0) * turn_for_gear2_moving_rad * z2 / z1;
-  const Sweep second(pair, gear1, false, back);
-  const auto place1 = first.lowest(places);
-  const auto place2 = second.lowest(places);
+  return (pair.internal() ? -1.0 : 1.0) * gear2_turn_rad * z2 / z1;
+}
+
+}  // namespace
+
+MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2,
+                         double turn_rad, double turn_for_gear2_moving_rad) {
+  const Sweep first(pair, gear2, true, turn_rad);
+  const Sweep second(pair, gear1, false, turned_back_rad(pair, turn_for_gear2_moving_rad));
+  const auto place1 = first.lowest();
+  const auto place2 = second.lowest();
   MeshClearance result;
   const bool use_first = place1.clearance <= place2.clearance + kSame_mm;
   result.clearance_mm = std::min(place1.clearance, place2.clearance);
   if (std::abs(result.clearance_mm) < kZero_mm) result.clearance_mm = 0.0;
   result.place = use_first ? first.describe(place1) : second.describe(place2);
   return result;
+}
+
+double tips_swept_mm(const GearPair& pair, double spline_error, double turn_rad,
+                     double turn_for_gear2_moving_rad, double enough_mm) {
+  const auto of_gear1 = [&] {
+    const GearDistance mate(*pair.profile2, spline_error);
+    return Sweep(pair, mate, true, turn_rad).lowest_of_tips_mm(enough_mm);
+  };
+  const auto of_gear2 = [&] {
+    const GearDistance mate(*pair.profile1, spline_error);
+    return Sweep(pair, mate, false, turned_back_rad(pair, turn_for_gear2_moving_rad))
+        .lowest_of_tips_mm(enough_mm);
+  };
+  // a ring's tips reach into fillets sooner than its pinion's
+  const double first = pair.internal() ? of_gear2() : of_gear1();
+  if (first < enough_mm) return first;
+  return std::min(first, pair.internal() ? of_gear1() : of_gear2());
 }
 
 }  // namespace trueflank

@@ -12,11 +12,11 @@ namespace trueflank {
 /// How far a pair is on the good side; a cure is where this becomes 0. NaN counts as bad.
 using PairMargin = std::function<double(const GearPair&)>;
 
-/// A margin that is costly to ask, with one that is quick and never below it: the quick one seeks, the costly
-/// one verifies what was found, and seeks itself only where it disagrees.
+/// A margin that is costly to ask, with a quick answer that is true wherever the margin is not negative: the
+/// quick one seeks, the costly one verifies what was found, and seeks itself only where it disagrees.
 struct CureMargin {
   PairMargin exact;
-  PairMargin quick = {};  ///< empty: the exact one is quick
+  std::function<bool(const GearPair&)> quick = {};  ///< empty: the exact one is quick
 };
 
 /// Tip circle radius nearest to the present one at which the margin is not negative, found by

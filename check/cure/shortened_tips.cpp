@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/cure/interference_cure.h"
@@ -12,7 +11,6 @@
 namespace trueflank {
 namespace {
 
-constexpr double kOpen = std::numeric_limits<double>::infinity();
 constexpr double kWantedTipClearance = 0.1;  // of the module
 constexpr double kWrittenTips_per_mm = 1e3;  // tip diameters are written so
 
@@ -101,8 +99,8 @@ bool shorten_in_the_way(const GearTrain& laid, int layer, ContactJudge& judge, i
             },
         .quick =
             [&](const GearPair& pair) {
-              const double open = asked > 0.0 ? tip_sweep_clearance_mm(pair) - asked : kOpen;
-              return std::min(tip_driving_clearance_mm(pair), open) + less_mm;
+              return tips_clear_driving(pair, -less_mm) &&
+                     (!(asked > 0.0) || tips_clear(pair, asked - less_mm));
             }};
     for (const bool of_gear1 : {c.tip_of_gear1, !c.tip_of_gear1}) {
       const auto radius = tip_radius_cure_mm(laid.pair(mesh), of_gear1, margin);

@@ -94,8 +94,8 @@ TEST(CornerContact, TipsAloneAreNeverNearerThanAllPlaces) {
     if (!train || train->meshes.size() != 1) continue;
     const GearPair pair = train->pair(train->meshes.front());
     const double centred = sweep_clearance_mm(pair), driving = driving_clearance(pair).clearance_mm;
-    EXPECT_GE(tip_sweep_clearance_mm(pair), centred - 1e-8) << seed;
-    EXPECT_GE(tip_driving_clearance_mm(pair), (std::isnan(driving) ? centred : driving) - 1e-8) << seed;
+    EXPECT_TRUE(tips_clear(pair, centred - 1e-8)) << seed;
+    EXPECT_TRUE(tips_clear_driving(pair, (std::isnan(driving) ? centred : driving) - 1e-8)) << seed;
     ++meshes;
     if (driving < -1e-6) ++touching;
   }
@@ -105,7 +105,7 @@ TEST(CornerContact, TipsAloneAreNeverNearerThanAllPlaces) {
 TEST(CornerContact, SeekingWithTheTipsAloneFindsTheSameCure) {
   const auto exact = [](const GearPair& pair) { return driving_clearance(pair).clearance_mm + 1e-6; };
   const CureMargin all{exact};
-  const CureMargin tips{exact, [](const GearPair& pair) { return tip_driving_clearance_mm(pair) + 1e-6; }};
+  const CureMargin tips{exact, [](const GearPair& pair) { return tips_clear_driving(pair, -1e-6); }};
   int tip_cures = 0, shift_cures = 0;
   const GearTrain paper = laid_out(test::paper_design());
   for (const GearTrain& train : {digging(), paper})

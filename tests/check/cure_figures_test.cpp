@@ -659,12 +659,12 @@ TEST(InterferenceCure, OfATipIsWhereTheMarginBecomesZero) {
   EXPECT_LE(told(false, second), 2.0 * *radius2 + 1e-3);
   const PairMargin never = [](const GearPair&) { return -1.0; };
   EXPECT_FALSE(tip_radius_cure_mm(pair, true, {.exact = never}));
-  // what the quick margin finds is taken where the exact one agrees, and sought again where not
-  const PairMargin generous = [&](const GearPair& p) { return first(p) + 0.1; };
+  // what the quick answer finds is taken where the exact one agrees, and sought again where not
+  const auto generous = [&](const GearPair& p) { return first(p) + 0.1 >= 0.0; };
   const auto sought = tip_radius_cure_mm(pair, true, {.exact = first, .quick = generous});
   ASSERT_TRUE(sought);
   EXPECT_NEAR(*sought, tip1, 5e-4);
-  EXPECT_FALSE(tip_radius_cure_mm(pair, true, {.exact = first, .quick = never}));
+  EXPECT_FALSE(tip_radius_cure_mm(pair, true, {.exact = first, .quick = [](const GearPair&) { return false; }}));
 }
 
 TEST(InterferenceCure, OfAShiftIsTheSmallestOfBothDirectionsAndMovesTheLayer) {
