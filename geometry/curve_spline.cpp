@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "trueflank/base/always_inline.h"
 #include "trueflank/geometry/point2.h"
 
 namespace trueflank {
@@ -97,7 +98,6 @@ CurveSpline::CurveSpline(const Curve& curve, double error) {
   keep_radii();
   for (std::size_t i = 1; i < x_.size(); ++i)
     longest_mm_ = std::max(longest_mm_, std::hypot(x_[i] - x_[i - 1], y_[i] - y_[i - 1]));
-  steps_per_mm_ = (1.0 - 1e-9) / longest_mm_;
   low_x_ = *low_x, high_x_ = *high_x, low_y_ = *low_y, high_y_ = *high_y;
 }
 
@@ -109,9 +109,8 @@ void CurveSpline::keep_radii() {
   if (step != radius_mm_.end()) radius_mm_.clear();
 }
 
-/// Exact: a node whose radius differs from the point's by more than another's distance is farther, and
-/// from node to node a distance changes by no more than the nodes are apart.
-std::size_t CurveSpline::nearest_node(const Point2& q) const {
+/// Exact: a node whose radius differs from the point's by more than another's distance is farther.
+TRUEFLANK_ALWAYS_INLINE inline std::size_t CurveSpline::nearest_node(const Point2& q) const {
   const auto square = [&](std::size_t i) {
     const double dx = x_[i] - q.x(), dy = y_[i] - q.y();
     return dx * dx + dy * dy;
@@ -127,29 +126,30 @@ std::size_t CurveSpline::nearest_node(const Point2& q) const {
   const double radius = std::copysign(q.norm(), radius_mm_.back());
   const auto at = std::lower_bound(radius_mm_.begin(), radius_mm_.end(), radius);
   const auto above = static_cast<std::size_t>(at - radius_mm_.begin());
-  // how many nodes on the next one is that may be nearer
-  const auto look_at = [&](std::size_t i) {
-    const double s = square(i);
-    if (s < nearest) {
-      nearest = s, node = i;
-      return std::size_t{1};
-    }
-    const double steps = (std::sqrt(s) - std::sqrt(nearest)) * steps_per_mm_;
-    return std::max<std::size_t>(1, static_cast<std::size_t>(steps));
-  };
   const auto may_be_nearer = [&](std::size_t i) {
-    const double off = radius_mm_[i] - radius;
-    return off * off < nearest;
+    return std::pow(radius_mm_[i] - radius, 2) < nearest;
   };
-  for (std::size_t i = above; i < n && may_be_nearer(i);) i += look_at(i);
-  for (std::size_t i = above; i > 0 && may_be_nearer(i - 1);) i -= std::min(i, look_at(i - 1));
+  for (std::size_t i = above; i < n && may_be_nearer(i); ++i)
+    if (const double s = square(i); s < nearest) nearest = s, node = i;
+  for (std::size_t i = above; i-- > 0 && may_be_nearer(i);)
+    if (const double s = square(i); s < nearest) nearest = s, node = i;
   return node;
 }
 
-CurveSpline::Search CurveSpline::search(const Point2& q, double limit_mm) const {
+/// Squared distance from the box of the nodes.
+TRUEFLANK_ALWAYS_INLINE inline double CurveSpline::square_to_box(const Point2& q) const {
   const double off_x = std::max({low_x_ - q.x(), q.x() - high_x_, 0.0});
   const double off_y = std::max({low_y_ - q.y(), q.y() - high_y_, 0.0});
-  const double off_square = off_x * off_x + off_y * off_y;
+  return off_x * off_x + off_y * off_y;
+}
+
+std::optional<CurveSpline::Foot> CurveSpline::foot(const Point2& q, double limit_mm) const {
+  if (square_to_box(q) > limit_mm * limit_mm) return std::nullopt;
+  return foot_beside(nearest_node(q), q, limit_mm);
+}
+
+CurveSpline::Search CurveSpline::search(const Point2& q, double limit_mm) const {
+  const double off_square = square_to_box(q);
   // a piece bulges out of the box of its ends by less than it is long
   if (off_square > limit_mm * limit_mm) return {std::nullopt, std::sqrt(off_square) - longest_mm_};
   const std::size_t node = nearest_node(q);
@@ -158,8 +158,8 @@ CurveSpline::Search CurveSpline::search(const Point2& q, double limit_mm) const 
           (q - Point2(x_[node], y_[node])).norm() - longest_mm_};
 }
 
-std::optional<CurveSpline::Foot> CurveSpline::foot_beside(std::size_t node, const Point2& q,
-                                                          double limit_mm) const {
+TRUEFLANK_ALWAYS_INLINE inline std::optional<CurveSpline::Foot> CurveSpline::foot_beside(
+    std::size_t node, const Point2& q, double limit_mm) const {
   const std::size_t n = x_.size();
   // the distance falls towards the side of the node where the foot lies
   const double slope = (x_[node] - q.x()) * dx_[node] + (y_[node] - q.y()) * dy_[node];

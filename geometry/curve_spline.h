@@ -31,18 +31,17 @@ class CurveSpline {
   /// The foot of the perpendicular near the nearest node; nothing where that is beyond an end, or
   /// not nearer than the limit.
   [[nodiscard]] Search search(const Point2& point, double limit_mm) const;
-  [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const {
-    return search(point, limit_mm).foot;
-  }
+  [[nodiscard]] std::optional<Foot> foot(const Point2& point, double limit_mm) const;
 
  private:
   class Nodes;
   void keep_radii();
+  [[nodiscard]] double square_to_box(const Point2& point) const;
   [[nodiscard]] std::size_t nearest_node(const Point2& point) const;
   [[nodiscard]] std::optional<Foot> foot_beside(std::size_t node, const Point2& point, double limit_mm) const;
   std::vector<double> x_, y_, dx_, dy_;  ///< nodes at equal steps of the parameter, derivatives a step
   std::vector<double> radius_mm_;  ///< of the nodes where it rises all the way, negative where it falls
-  double longest_mm_ = 0.0, steps_per_mm_ = 0.0;  ///< between neighbouring nodes; how many at least
+  double longest_mm_ = 0.0;  ///< between neighbouring nodes
   double low_x_ = 0.0, high_x_ = 0.0, low_y_ = 0.0, high_y_ = 0.0;
 };
 

@@ -35,7 +35,7 @@ TEST(GearDistanceFigures, APointNearTheOneBeforeIsMeasuredToTheSameDigits) {
       const GearDistance distance(gear.profile);
       const double tip = gear.profile.tip_radius_mm(), root = gear.profile.root_radius_mm();
       GearDistance::Before before;
-      Point2 point, stride;
+      Point2 point = Point2::Zero(), stride = Point2::Zero();
       int piece = -1;
       for (int i = 0; i < 8000; ++i) {
         // straight on for a while, as along a path; then anywhere
