@@ -7,6 +7,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
 #include <functional>
@@ -295,6 +297,30 @@ TEST(Scans, ATextStlCutShortIsUsedForWhatItHolds) {
   ASSERT_TRUE(scan) << scan.error().message;
   EXPECT_EQ(scan->mesh.triangles.size(), 2U);
   ASSERT_EQ(scan->notes.size(), 1U);
+}
+
+TEST(Scans, VerticesOfABinaryPlyAreReadInPiecesWithOtherNumbersBetween) {
+  constexpr int kVertices = 70'001;  // more than one piece, the last cut short
+  std::string content = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kVertices) +
+                        "\nproperty double x\nproperty uchar red\nproperty float y\nproperty short z\nend_header\n";
+  const auto add = [&](auto value) {
+    content.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (int i = 0; i < kVertices; ++i) {
+    add(0.1 * i);
+    add(std::uint8_t{200});
+    add(0.5f * static_cast<float>(i));
+    add(static_cast<std::int16_t>(i % 1000 - 500));
+  }
+  content.pop_back();
+  const auto scan = parse_scan(content, ".ply");
+  ASSERT_TRUE(scan);
+  ASSERT_EQ(scan->mesh.vertices.size(), std::size_t{kVertices - 1});
+  for (int i = 0; i < kVertices - 1; ++i)
+    ASSERT_EQ(scan->mesh.vertices[static_cast<std::size_t>(i)],
+              (std::array<double, 3>{0.1 * i, 0.5 * i, static_cast<double>(i % 1000 - 500)}));
+  ASSERT_EQ(scan->notes.size(), 1u);
+  EXPECT_NE(scan->notes.front().find("70001 of 70001"), std::string::npos) << scan->notes.front();
 }
 
 TEST(Scans, APlyCutShortIsUsedForWhatItHolds) {
