@@ -134,7 +134,7 @@ class RingScan {
     return kind == at(RingKind::kArc)    ? n * static_cast<double>(n_ / 2 - 1)
            : kind == at(RingKind::kWave) ? static_cast<double>(orders_)
            : kind == at(RingKind::kRamp) ? static_cast<double>(ramps_.rows())
-                                     : static_cast<double>(combs_.rows());
+                                         : static_cast<double>(combs_.rows());
   }
   /// F test of what the best of so many takes out of a series, whose squares sum to n.
   [[nodiscard]] double p_by_size(double square, std::size_t kind) const {
@@ -155,19 +155,19 @@ class RingScan {
       const VectorXd parts = waves_ * placed;
       for (Index k = 0; k < orders_; ++k)
         improve(best[at(RingKind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
-                                        .series = static_cast<int>(s),
-                                        .order = static_cast<int>(k + 1)});
+                                            .series = static_cast<int>(s),
+                                            .order = static_cast<int>(k + 1)});
       const VectorXd ramps = ramps_ * placed, combs = combs_ * placed;
       for (Index k = 0; k < ramps.size(); ++k)
         improve(best[at(RingKind::kRamp)], {.square = ramps[k] * ramps[k],
-                                        .series = static_cast<int>(s),
-                                        .first = ramp_at_[static_cast<std::size_t>(k)]});
+                                            .series = static_cast<int>(s),
+                                            .first = ramp_at_[static_cast<std::size_t>(k)]});
       for (Index k = 0; k < combs.size(); ++k) {
         const auto [every, first] = comb_at_[static_cast<std::size_t>(k)];
         improve(best[at(RingKind::kComb)], {.square = combs[k] * combs[k],
-                                        .series = static_cast<int>(s),
-                                        .first = first,
-                                        .count = every});
+                                            .series = static_cast<int>(s),
+                                            .first = first,
+                                            .count = every});
       }
     }
     return best;
