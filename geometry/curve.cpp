@@ -16,7 +16,8 @@ struct Contact {
   double turn_rad;
 };
 
-Contact contact_of(const RackTrochoid& c, double t) {
+/// Not inlined: where branches for other shapes use the same angle, g++ takes sine and cosine one by one.
+[[gnu::noinline]] Contact contact_of(const RackTrochoid& c, double t) {
   // Rack frame: pitch point at (r, 0), rack tooth entering towards -x, its -y corner cuts tooth 1.
   const double sin_t = std::sin(t), cos_t = std::cos(t);
   const double depth = c.corner_depth_mm + c.corner_radius_mm * sin_t;

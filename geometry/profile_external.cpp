@@ -137,7 +137,7 @@ Status ProfileBuilder::build_external() {
                          "a larger profile shift, more teeth or a larger tip diameter"));
   // narrowest place of the foot: looked at closely only where it may be none
   double waist = kPi;
-  for (const int steps : {16, 64}) {
+  for (const int steps : {4, 16, 64}) {
     double last = polar_angle_rad(point_at(fillet, fillet.begin)), widest_step = 0.0;
     waist = last;
     for (int i = 1; i <= steps; ++i) {
@@ -147,7 +147,7 @@ Status ProfileBuilder::build_external() {
       widest_step = std::max(widest_step, std::abs(angle - last));
       last = angle;
     }
-    if (waist > widest_step) break;
+    if (waist > 2.0 * widest_step) break;
   }
   if (waist <= 0.0 || root_end <= 0.0)
     return fail(no_tooth("shift", g().shift, "the tool cuts the tooth off at its foot",

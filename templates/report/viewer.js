@@ -53,7 +53,7 @@ class Viewer {
     this.takeHash();
     this.resize();
     new ResizeObserver(() => this.resize()).observe(this.stage);
-    new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; this.wake(); }).observe(this.stage);
+    new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; if (this.playing) this.wake(); }).observe(this.stage);
     window.addEventListener('beforeprint', () => this.picture());
     window.addEventListener('hashchange', () => this.takeHash());
     this.pose();
@@ -373,8 +373,11 @@ class Viewer {
     this.camera.updateProjectionMatrix();
   }
   resize() {
-    this.view = {width: this.stage.clientWidth || 300, height: this.stage.clientHeight || 300};
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
+    const view = {width: this.stage.clientWidth || 300, height: this.stage.clientHeight || 300, ratio: Math.min(2, devicePixelRatio || 1)};
+    // an observer's first call tells the size that is drawn already: a frame of a housed gearbox is expensive
+    if (this.view && Object.keys(view).every((key) => view[key] === this.view[key])) return;
+    this.view = view;
+    this.renderer.setPixelRatio(view.ratio);
     this.renderer.setSize(this.view.width, this.view.height, false);
     this.wake();
   }
