@@ -96,10 +96,14 @@ TEST(Protuberance, IsWhatTheRollingToolCutsForRandomGears) {
   };
   int made = 0, with_side = 0, undercut = 0;
   for (int i = 0; i < 60; ++i) {
+    // one after the other: in a call each compiler would draw them in an order of its own
     const double amount = uniform(0.005, 0.12);
-    Gear gear = gear_of(static_cast<int>(std::exp(uniform(std::log(8.0), std::log(200.0)))),
-                        uniform(-0.4, 0.9), amount, uniform(3.0, 18.0),
-                        i % 2 == 0 ? 0.0 : uniform(0.0, 0.8) * amount, uniform(0.0, 0.4));
+    const double rho = uniform(0.0, 0.4);
+    const double stock = i % 2 == 0 ? 0.0 : uniform(0.0, 0.8) * amount;
+    const double angle_deg = uniform(3.0, 18.0);
+    const double shift = uniform(-0.4, 0.9);
+    const int teeth = static_cast<int>(std::exp(uniform(std::log(8.0), std::log(200.0))));
+    Gear gear = gear_of(teeth, shift, amount, angle_deg, stock, rho);
     gear.rack.dedendum = uniform(1.2, 1.5);
     gear.normal_module_mm = std::exp(uniform(-1.0, 1.0));
     gear.thinning_mm = uniform(0.0, 0.05);
