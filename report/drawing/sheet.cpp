@@ -113,12 +113,12 @@ std::vector<int> dimension_rows(const std::vector<Dimension>& dimensions) {
   std::vector<int> rows;
   std::vector<std::vector<std::pair<double, double>>> taken;
   for (const Dimension& d : dimensions) {
-    const auto [from, to] = reach_of(d);
+    const std::pair<double, double> own = reach_of(d);
     std::size_t row = 0;
-    const auto free = [&](const std::pair<double, double>& other) { return to < other.first + 1e-6 || from > other.second - 1e-6; };
+    const auto free = [&](const std::pair<double, double>& other) { return own.second < other.first + 1e-6 || own.first > other.second - 1e-6; };
     while (row < taken.size() && !std::all_of(taken[row].begin(), taken[row].end(), free)) ++row;
     if (row == taken.size()) taken.emplace_back();
-    taken[row].emplace_back(from, to);
+    taken[row].push_back(own);
     rows.push_back(static_cast<int>(row));
   }
   return rows;
