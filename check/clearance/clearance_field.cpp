@@ -121,14 +121,11 @@ double ClearanceField::clearance_mm(double distance_mm, double thickness_mm) {
     return half > 0.0 ? 0.5 * kSteps * (std::clamp(value / half, -1.0, 1.0) + 1.0) : 0.5 * kSteps;
   };
   const double x = steps_at(distance_mm, distance_mm_), y = steps_at(thickness_mm, thickness1_mm_ + thickness2_mm_);
-  const auto first_of = [](double steps, int low, int high, int size) {
-    return steps >= low + size && low + size < high ? low + size : low;
-  };
+  const auto first_of = [](double steps, int low, int size) { return steps >= low + size ? low + size : low; };
   Cell cell{0, 0, kSteps};
   do {
     const int size = cell.size / 2;
-    cell = {first_of(x, cell.distance, cell.distance + cell.size, size),
-            first_of(y, cell.thickness, cell.thickness + cell.size, size), size};
+    cell = {first_of(x, cell.distance, size), first_of(y, cell.thickness, size), size};
   } while (worth_halving(cell));
   return interpolated(cell, (x - cell.distance) / cell.size, (y - cell.thickness) / cell.size);
 }

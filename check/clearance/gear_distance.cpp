@@ -122,9 +122,8 @@ void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& hal
                                outward(pieces[i], pieces[i].curve.begin),
                            static_cast<int>(i)});
   const Point2 last = outward(pieces.back(), pieces.back().curve.end);
-  const Point2 image = 2.0 * last.dot(gap) * gap - last;
   half.joints.push_back(
-      {pieces.back().curve.end_point(), last + image, static_cast<int>(pieces.size()) - 1});
+      {pieces.back().curve.end_point(), last.dot(gap) * gap, static_cast<int>(pieces.size()) - 1});
 }
 
 /// The tooth in whose pitch a point lies. A mesh is turned on the mate's +x side: there a rough
@@ -163,11 +162,6 @@ GearDistance::Nearest GearDistance::nearest(const Point2& point, Before& before)
     before.nearest_mm_ += moved_mm;
     for (double& least : before.least_mm_) least -= moved_mm;
     measure(half_, q, best, before);
-    if (best.magnitude > before.nearest_mm_) {  // what was found before was not the nearest
-      before = {};
-      before.point_ = point;
-      measure(half_, q, best, before);
-    }
     before.nearest_mm_ = best.magnitude;
   } else {
     Before nothing;

@@ -41,12 +41,12 @@ std::vector<double> decisive_heights(const GearTrain& train, const TrainMesh& me
   std::vector<std::vector<double>> fields;
   for (double z : heights) fields.push_back(material(train, mesh, z));
   const auto outdone_by = [&](std::size_t i, std::size_t j) {
-    bool equal = true;
+    bool outdone = j < i;  // of equal ones the first decides
     for (std::size_t k = 0; k < fields[i].size(); ++k) {
       if (fields[i][k] > fields[j][k] + 1e-12) return false;
-      equal = equal && std::abs(fields[i][k] - fields[j][k]) <= 1e-12;
+      if (fields[i][k] < fields[j][k] - 1e-12) outdone = true;
     }
-    return !equal || j < i;
+    return outdone;
   };
   std::vector<double> kept;
   for (std::size_t i = 0; i < heights.size(); ++i) {

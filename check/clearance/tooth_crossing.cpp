@@ -40,9 +40,9 @@ PlacedSection placed(const SectionPolygon& section, double rotation_rad, const P
     least = std::min(least, p.squaredNorm());
     largest = std::max(largest, p.squaredNorm());
   }
-  // chords of a circle dip below it by no more than the chord error
-  result.least_radius_mm = std::sqrt(least) - 2.0 * section.chord_error_mm;
-  result.largest_radius_mm = std::sqrt(largest) + 2.0 * section.chord_error_mm;
+  // chords of a circle dip below it by no more than the chord error; none reaches beyond its ends
+  result.least_radius_mm = std::sqrt(least) - section.chord_error_mm;
+  result.largest_radius_mm = std::sqrt(largest);
   return result;
 }
 
@@ -54,10 +54,9 @@ std::vector<Edge> edges_near(const PlacedSection& section, const PlacedSection& 
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 &a = section.points[i == 0 ? n - 1 : i - 1], &b = section.points[i];
     const double to_a_mm = last_mm, to_b_mm = last_mm = (b - other.centre_mm).norm();
-    // no point of the edge is nearer or farther than its ends by more than half its length
-    const double half_mm = 0.5 * (b - a).norm();
-    if (std::max(to_a_mm, to_b_mm) + half_mm < other.least_radius_mm ||
-        std::min(to_a_mm, to_b_mm) - half_mm > other.largest_radius_mm)
+    // no point of the edge is farther than its ends, or nearer than them by more than its length
+    if (std::max(to_a_mm, to_b_mm) < other.least_radius_mm ||
+        std::min(to_a_mm, to_b_mm) - (b - a).norm() > other.largest_radius_mm)
       continue;
     edges.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x()), std::min(a.y(), b.y()),
                      std::max(a.y(), b.y())});

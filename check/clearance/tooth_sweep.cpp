@@ -31,12 +31,7 @@ constexpr double kSame_mm = 1e-9, kSame_rad = 1e-7;
 
 double norm_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// A point of the half tooth that is swept.
-struct Sample {
-  Point2 point;
-  int piece;
-  double parameter, low, high;  // neighbours on the piece, for refinement; equal for a corner
-};
+using Sample = SweepSample;
 
 Sample corner_sample(const Curve& curve, std::size_t piece, double at) {
   return {point_at(curve, at), static_cast<int>(piece), at, at, at};
@@ -47,15 +42,17 @@ void add_samples(const ToothProfile& profile, std::size_t k, std::vector<Sample>
   const double m = profile.gear().normal_module_mm;
   const Curve& curve = profile.pieces()[k].curve;
   double length = 0.0;
+  Point2 last = curve.start_point();
   constexpr int kRough = 16;
-  for (int i = 0; i < kRough; ++i) {
-    const double u = curve.begin + (curve.end - curve.begin) * i / kRough;
-    length += (point_at(curve, u + (curve.end - curve.begin) / kRough) - point_at(curve, u)).norm();
+  for (int i = 1; i <= kRough; ++i) {
+    const Point2 next = point_at(curve, curve.begin + (curve.end - curve.begin) * i / kRough);
+    length += (next - last).norm();
+    last = next;
   }
   const double wanted = profile.pieces()[k].kind == PieceKind::kInvolute ? kFlankStep : kGridStep;
   const double sag = chord_error_mm(curve, curve.begin, curve.end);
-  const int n = static_cast<int>(std::clamp(
-      std::ceil(std::max(length / (wanted * m), std::sqrt(sag / (kSagOfGrid * m)))), 2.0, 400.0));
+  const double pieces = std::max(length / (wanted * m), std::sqrt(sag / (kSagOfGrid * m)));
+  const int n = std::clamp(static_cast<int>(std::ceil(pieces)), 2, 400);
   const double step = (curve.end - curve.begin) / n;
   for (int i = 0; i <= n; ++i) {
     const double u = i == n ? curve.end : curve.begin + step * i;
@@ -64,7 +61,9 @@ void add_samples(const ToothProfile& profile, std::size_t k, std::vector<Sample>
   }
 }
 
-std::vector<Sample> samples_of(const ToothProfile& profile) {
+}  // namespace
+
+std::vector<SweepSample> sweep_samples(const ToothProfile& profile) {
   std::vector<Sample> samples;
   const auto& pieces = profile.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -75,8 +74,7 @@ std::vector<Sample> samples_of(const ToothProfile& profile) {
   return samples;
 }
 
-/// Tip corners, and the pieces that stand in their place.
-std::vector<Sample> tips_of(const ToothProfile& profile) {
+std::vector<SweepSample> tip_samples(const ToothProfile& profile) {
   std::vector<Sample> samples;
   const auto& pieces = profile.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -88,6 +86,8 @@ std::vector<Sample> tips_of(const ToothProfile& profile) {
   }
   return samples;
 }
+
+namespace {
 
 /// Sweep of one gear's half tooth (the mover) against the other gear (the mate).
 class Sweep {
@@ -102,7 +102,7 @@ class Sweep {
         mate_turn_(mate_turn_rad),
         distance_(pair.centre_distance_mm) {
     const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
-    ratio_ = (internal_ ? 1.0 : -1.0) * z / z_mate;
+    ratio_ = (internal_ ? z : -z) / z_mate;
     half_pitch_mate_ = kPi / z_mate;
     // axis of the mate as the mover sees it, and the direction from the mate's axis to the mesh
     axis_ = internal_ && gear1_moves_ ? -distance_ : distance_;
@@ -116,10 +116,10 @@ class Sweep {
   };
 
   /// Of all places of the mover's half tooth.
-  [[nodiscard]] Place lowest() const { return lowest(samples_of(mover_), -kUnlimited); }
+  [[nodiscard]] Place lowest() const { return lowest(sweep_samples(mover_), -kUnlimited); }
   /// The clearance of its tips; any value below `enough_mm` where it is below that.
   [[nodiscard]] double lowest_of_tips_mm(double enough_mm) const {
-    return lowest(tips_of(mover_), enough_mm).clearance;
+    return lowest(tip_samples(mover_), enough_mm).clearance;
   }
   [[nodiscard]] static bool comes_first(const Place& a, const Place& b);
   [[nodiscard]] MeshPlace describe(const Place& place) const;
@@ -160,14 +160,14 @@ double Sweep::reach_rad() const {
   const double r = mover_.tip_radius_mm(), a = distance_;
   const bool mate_is_ring = mate_profile_.gear().kind == GearKind::kInternal;
   const double r_mate =
-      mate_profile_.tip_radius_mm() + (mate_is_ring ? -1.0 : 1.0) * kReachMargin * m;
+      mate_profile_.tip_radius_mm() + (mate_is_ring ? -kReachMargin : kReachMargin) * m;
   double cosine = (a * a + r * r - r_mate * r_mate) / (2.0 * a * r);
   if (mate_is_ring) cosine = -cosine;  // near where the distance from the ring's axis is large
   return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover_.gear().teeth, kPi);
 }
 
-/// How many columns ahead a distance stays above a limit that it exceeds by `above_mm`, where its
-/// point moves by `first_mm` a column at first and by at most `growth_mm` more with every column.
+}  // namespace
+
 std::size_t columns_without(double above_mm, double first_mm, double growth_mm) {
   if (!(above_mm > 0.0)) return 0;
   // k columns: k first + k^2 growth / 2
@@ -175,6 +175,8 @@ std::size_t columns_without(double above_mm, double first_mm, double growth_mm) 
       (std::sqrt(first_mm * first_mm + 2.0 * growth_mm * above_mm) - first_mm) / growth_mm;
   return static_cast<std::size_t>(std::clamp(std::floor(k * (1.0 - 1e-9)), 0.0, 1e6));
 }
+
+namespace {
 
 /// Which samples are looked at in which column: most columns are of use to few of them.
 class DueSamples {
@@ -246,7 +248,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   for (const Sample& sample : samples)
     lowest = std::min(lowest, clearance(sample.point, at_centres, along_profile));
   const double mate_tip = mate_profile_.tip_radius_mm();
-  const double mate_outward = mate_profile_.gear().kind == GearKind::kExternal ? 1.0 : -1.0;
+  const bool mate_is_ring = mate_profile_.gear().kind == GearKind::kInternal;
   // A distance falls by no more than its point moves: columns within which it cannot come down to
   // what is looked for are passed over, with a value that is surely too high.
   DueSamples due_samples(samples.size(), columns);
@@ -273,7 +275,8 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
         due_samples.put_off(i, j + 1 + passed);
       };
       // farther beyond the mate's tip circle than the lowest place so far: cannot matter
-      const double beyond = mate_outward * (norm_of(x, y) - mate_tip);
+      const double radius = norm_of(x, y);
+      const double beyond = mate_is_ring ? mate_tip - radius : radius - mate_tip;
       if (beyond > lowest + kRefineBand * m) {
         keep(beyond);
         pass_over(beyond);
@@ -388,14 +391,10 @@ MeshPlace Sweep::describe(const Place& place) const {
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// Seen from gear 2, gear 1 is turned back by the same motion at the pitch circle.
 double turned_back_rad(const GearPair& pair, double gear2_turn_rad) {
   const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth;
-  return (pair.internal() ? -1.0 : 1.0) * gear2_turn_rad * z2 / z1;
+  return (pair.internal() ? -gear2_turn_rad : gear2_turn_rad) * z2 / z1;
 }
 
 }  // namespace

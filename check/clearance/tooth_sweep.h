@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/mesh_clearance.h"
 
@@ -22,5 +25,23 @@ inline constexpr double kZero_mm = 1e-9;
 /// than sweep_both()'s. Any value below `enough_mm` where it is below that. `spline_error`: GearDistance's.
 [[nodiscard]] double tips_swept_mm(const GearPair& pair, double spline_error, double turn_rad,
                                    double turn_for_gear2_moving_rad, double enough_mm);
+
+/// A point of the half tooth that is swept.
+struct SweepSample {
+  Point2 point;
+  int piece;
+  double parameter, low, high;  ///< neighbours on the piece, for refinement; equal for a corner
+};
+
+/// All ends of pieces as corners, and on every piece, in the order of the profile, places that lie evenly in its
+/// parameter, ends included: as many as parts of a twentieth of the module (of an involute a tenth) and of a sag
+/// of 2e-4 of the module ask for.
+[[nodiscard]] std::vector<SweepSample> sweep_samples(const ToothProfile& profile);
+/// Of those the tip corners, and the pieces that stand in their place.
+[[nodiscard]] std::vector<SweepSample> tip_samples(const ToothProfile& profile);
+
+/// How many columns ahead a distance stays above a limit that it exceeds by `above_mm`, where its
+/// point moves by `first_mm` a column at first and by at most `growth_mm` more with every column.
+[[nodiscard]] std::size_t columns_without(double above_mm, double first_mm, double growth_mm);
 
 }  // namespace trueflank

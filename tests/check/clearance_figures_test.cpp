@@ -247,6 +247,16 @@ TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
   }
   EXPECT_GT(clockwise, 10);
   EXPECT_LT(clockwise, 30);
+  // signed, and beside the rays that part the halves
+  constexpr double kTolerance_mm = 1e-5;
+  const SectionPolygon polygon = section_polygon(profile, kTolerance_mm);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = kPi / 19.0 * (i % 7 + (i % 3 == 0 ? share() : 0.06 * (share() - 0.5)));
+    const Point2 p =
+        std::lerp(profile.root_radius_mm() - 0.5, profile.tip_radius_mm() + 0.5, share()) * unit_vector(angle);
+    EXPECT_NEAR(gear_distance.nearest(p).distance_mm, distance_of_polygon(polygon.points, p), 2.0 * kTolerance_mm)
+        << p.transpose();
+  }
 }
 
 TEST(ToothCrossing, IsToldWhereCornersOfOneLieInTheMaterialOfTheOther) {

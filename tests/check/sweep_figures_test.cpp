@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "tests/check/check_designs.h"
+#include "tests/check/random_pairs.h"
+#include "tests/support/sample_gears.h"
+#include "trueflank/base/tolerance.h"
+#include "trueflank/check/clearance/clearance_field.h"
+#include "trueflank/check/clearance/gear_distance.h"
+#include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/clearance/tooth_crossing.h"
+#include "trueflank/check/clearance/tooth_sweep.h"
+#include "trueflank/check/mesh_clearance.h"
+#include "trueflank/geometry/polyline.h"
+#include "trueflank/train/mesh_face.h"
+
+// What the sweep of a tooth asks, where, and what it says of the place, each by its definition.
+namespace trueflank::test {
+namespace {
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double operator()(double low, double high) {
+    return std::lerp(low, high, static_cast<double>(random_() >> 8) * 0x1p-24);
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+/// Parts of a piece that its length and its bend ask for.
+int parts_by_hand(const ProfilePiece& piece, double module_mm) {
+  const Curve& curve = piece.curve;
+  double length = 0.0;
+  for (int i = 0; i < 2000; ++i)
+    length += (point_at(curve, std::lerp(curve.begin, curve.end, (i + 1) / 2000.0)) -
+               point_at(curve, std::lerp(curve.begin, curve.end, i / 2000.0)))
+                  .norm();
+  const double step = piece.kind == PieceKind::kInvolute ? 0.1 : 0.05;
+  const double sag = chord_error_mm(curve, curve.begin, curve.end);
+  const double parts = std::max(length / (step * module_mm), std::sqrt(sag / (2e-4 * module_mm)));
+  return std::clamp(static_cast<int>(std::ceil(parts)), 2, 400);
+}
+
+TEST(SweepSamples, AreTheEndsOfAllPiecesAndEvenPartsOfThem) {
+  int fewest = 1000, asked_by_bend = 0;
+  for (const SampleGear& sample : sample_gears()) {
+    SCOPED_TRACE(sample.name);
+    const auto profile = ToothProfile::make(sample.gear);
+    ASSERT_TRUE(profile);
+    const std::vector<SweepSample> all = sweep_samples(*profile);
+    std::size_t at = 0;
+    const auto expect_next = [&](std::size_t piece, double parameter, double low, double high) {
+      ASSERT_LT(at, all.size());
+      const SweepSample& s = all[at++];
+      const Curve& curve = profile->pieces()[piece].curve;
+      const double near = 1e-12 * (1.0 + std::abs(curve.begin) + std::abs(curve.end));
+      EXPECT_EQ(s.piece, static_cast<int>(piece));
+      EXPECT_NEAR(s.parameter, parameter, near);
+      EXPECT_NEAR(s.low, low, near);
+      EXPECT_NEAR(s.high, high, near);
+      EXPECT_EQ(s.point, point_at(curve, s.parameter));
+    };
+    for (std::size_t k = 0; k < profile->pieces().size(); ++k) {
+      const Curve& curve = profile->pieces()[k].curve;
+      const int n = parts_by_hand(profile->pieces()[k], profile->gear().normal_module_mm);
+      fewest = std::min(fewest, n);
+      if (n > 2 && k + 1 == profile->pieces().size()) ++asked_by_bend;
+      const auto place = [&](int i) {
+        return std::lerp(curve.begin, curve.end, std::clamp(i, 0, n) / static_cast<double>(n));
+      };
+      expect_next(k, curve.begin, curve.begin, curve.begin);
+      for (int i = 0; i <= n; ++i) expect_next(k, place(i), place(i - 1), place(i + 1));
+    }
+    const std::size_t last = profile->pieces().size() - 1;
+    const double end = profile->pieces()[last].curve.end;
+    expect_next(last, end, end, end);
+    EXPECT_EQ(at, all.size());
+  }
+  EXPECT_EQ(fewest, 2);
+  EXPECT_GT(asked_by_bend, 0);
+}
+
+TEST(SweepSamples, OfTipsAreTheirCornersAndWhatStandsInTheirPlace) {
+  int rounded = 0, sharp = 0;
+  for (const SampleGear& sample : sample_gears()) {
+    SCOPED_TRACE(sample.name);
+    const auto profile = ToothProfile::make(sample.gear);
+    ASSERT_TRUE(profile);
+    const auto& pieces = profile->pieces();
+    std::vector<SweepSample> wanted;
+    for (const SweepSample& s : sweep_samples(*profile)) {
+      const auto piece = static_cast<std::size_t>(s.piece);
+      const bool corner = s.low == s.high;
+      const bool at_tip = std::abs(s.point.norm() - profile->tip_radius_mm()) < 1e-6;
+      const bool begins = s.parameter == pieces[piece].curve.begin;
+      const PieceKind kind = pieces[piece].kind;
+      const bool in_place = kind == PieceKind::kTipRounding || kind == PieceKind::kTrim;
+      if (corner ? at_tip && begins : in_place) wanted.push_back(s);
+      (in_place ? rounded : sharp) += 1;
+    }
+    const std::vector<SweepSample> found = tip_samples(*profile);
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].piece, wanted[i].piece);
+      EXPECT_EQ(found[i].parameter, wanted[i].parameter);
+      EXPECT_EQ(found[i].low, wanted[i].low);
+      EXPECT_EQ(found[i].high, wanted[i].high);
+    }
+  }
+  EXPECT_GT(rounded, 0);
+  EXPECT_GT(sharp, 0);
+}
+
+TEST(ColumnsWithout, AreAsManyAsTheDistanceSurelyStaysAboveItsLimit) {
+  Draw draw(3);
+  EXPECT_EQ(columns_without(0.0, 0.1, 0.01), 0u);
+  EXPECT_EQ(columns_without(-1.0, 0.1, 0.01), 0u);
+  for (int i = 0; i < 200; ++i) {
+    const double above = std::exp(draw(-6.0, 2.0)),
+                 first = i % 5 == 0 ? 0.0 : std::exp(draw(-8.0, -1.0)),
+                 growth = std::exp(draw(-12.0, -3.0));
+    const auto k = static_cast<double>(columns_without(above, first, growth));
+    const auto moved = [&](double columns) {
+      return columns * first + 0.5 * columns * columns * growth;
+    };
+    EXPECT_LE(moved(k), above);
+    EXPECT_GT(moved(k + 1.0), above * (1.0 - 1e-8));
+  }
+  EXPECT_EQ(columns_without(1e6, 0.0, 1e-9), 1000000u);
+}
+
+/// Whether a place of a profile is an end of a piece, and of which kind it is there.
+struct PlaceByHand {
+  double distance_mm;
+  bool corner, end;
+  PieceKind kind;
+};
+PlaceByHand place_of(const ToothProfile& profile, const Point2& p) {
+  const auto near = GearDistance(profile).nearest(p);
+  double to_end = 1e300;
+  const auto& pieces = near.clockwise_half ? profile.clockwise_pieces() : profile.pieces();
+  for (const ProfilePiece& piece : pieces)
+    to_end = std::min({to_end, (piece.curve.start_point() - near.point).norm(),
+                       (piece.curve.end_point() - near.point).norm()});
+  const bool end = to_end < 1e-7;
+  const bool at_tip = std::abs(near.point.norm() - profile.tip_radius_mm()) < 1e-6;
+  return {near.distance_mm, near.corner, end,
+          end && at_tip ? PieceKind::kTip : pieces[static_cast<std::size_t>(near.piece)].kind};
+}
+
+void expect_place_is_true(const GearPair& pair, const MeshClearance& found, double turn_rad) {
+  const MeshPlace& place = found.place;
+  const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth;
+  const bool ring = pair.internal();
+  // the gears run together, gear 2 turned out of the middle of its play
+  const double together =
+      ring ? place.rotation1_rad * z1 / z2 : kPi - place.rotation1_rad * z1 / z2;
+  EXPECT_NEAR(std::remainder(place.rotation2_rad - together - kPi / z2 - turn_rad, kTwoPi / z2),
+              0.0, 1e-9);
+  const Point2 axis2(ring ? -pair.centre_distance_mm : pair.centre_distance_mm, 0.0);
+  const Point2 in1 = rotated(place.point_mm, -place.rotation1_rad),
+               in2 = rotated(Point2(place.point_mm - axis2), -place.rotation2_rad);
+  EXPECT_GT(place.point_mm.x(), 0.0);
+  const PlaceByHand at1 = place_of(*pair.profile1, in1), at2 = place_of(*pair.profile2, in2);
+  // the point lies on one of the profiles, and the other one is as far away as is said
+  const bool on1 = std::abs(at1.distance_mm) < std::abs(at2.distance_mm);
+  EXPECT_NEAR(on1 ? at1.distance_mm : at2.distance_mm, 0.0, 1e-9);
+  EXPECT_NEAR(on1 ? at2.distance_mm : at1.distance_mm, found.clearance_mm, 2e-9);
+  if (std::abs(found.clearance_mm) < 1e-6) return;  // which of both is the nearer says rounding
+  // a foot at the end of a piece is no corner of the other one
+  EXPECT_EQ(place.corner1, on1 ? at1.end : at1.corner);
+  EXPECT_EQ(place.corner2, on1 ? at2.corner : at2.end);
+  EXPECT_EQ(place.piece1, at1.kind);
+  EXPECT_EQ(place.piece2, at2.kind);
+  EXPECT_NEAR(place.radius1_mm, in1.norm(), on1 ? 1e-9 : std::abs(found.clearance_mm) + 1e-9);
+  EXPECT_NEAR(place.radius2_mm, in2.norm(), on1 ? std::abs(found.clearance_mm) + 1e-9 : 1e-9);
+  const double beside = std::remainder(std::atan2(in1.y(), in1.x()), kTwoPi / z1);
+  if (on1 && kPi / z1 - std::abs(beside) > 1e-6 && std::abs(beside) > 1e-6) {
+    EXPECT_EQ(place.flank1, beside > 0.0 ? Flank::kLeft : Flank::kRight);
+  }
+}
+
+TEST(MeshPlace, IsWhereTheProfilesAreAsNearAsTheClearanceSays) {
+  int meshes = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto train = lay_out(random_design(seed));
+    if (!train) continue;
+    SCOPED_TRACE(seed);
+    const GearPair pair = train->pair(train->meshes[0]);
+    expect_place_is_true(pair, mesh_clearance(pair), 0.0);
+    expect_place_is_true(pair, mesh_clearance(pair, 0.002), 0.002);
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 30);
+}
+
+TEST(TipsClear, AsksTheTipsAlone) {
+  GearboxDesign design = pair_design(23, 37, false, 0.0);
+  const auto pair_of = [&](const PairSection& section) {
+    GearPair pair = section.pair();
+    pair.centre_distance_mm -= 0.02;
+    return pair;
+  };
+  const GearTrain plain = laid_out(design);
+  const PairSection unmodified = mesh_section(plain, plain.meshes[0], 5.0);
+  EXPECT_LT(sweep_clearance_mm(pair_of(unmodified)), -5e-3);
+  EXPECT_FALSE(tips_clear(pair_of(unmodified), 0.0));
+  // with their tips and roots taken back the flanks penetrate in their middles
+  for (const char* name : {"pinion", "wheel"})
+    gear(design, name).modifications.profile_crowning_um = 40.0;
+  const GearTrain crowned = laid_out(design);
+  const PairSection section = mesh_section(crowned, crowned.meshes[0], 5.0);
+  EXPECT_LT(sweep_clearance_mm(pair_of(section)), -5e-3);
+  EXPECT_TRUE(tips_clear(pair_of(section), 0.0));
+  EXPECT_FALSE(tips_clear(pair_of(section), 0.1));
+}
+
+bool segments_cross(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  using Exact = long double;
+  const auto side = [](const Point2& p, const Point2& q, const Point2& r) {
+    return (Exact(q.x()) - Exact(p.x())) * (Exact(r.y()) - Exact(p.y())) -
+           (Exact(q.y()) - Exact(p.y())) * (Exact(r.x()) - Exact(p.x()));
+  };
+  if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) ||
+      std::max(c.x(), d.x()) < std::min(a.x(), b.x()))
+    return false;
+  return side(a, b, c) * side(a, b, d) <= 0.0L && side(c, d, a) * side(c, d, b) <= 0.0L;
+}
+
+std::vector<Point2> placed_polygon(const ToothProfile& profile, double tolerance_mm,
+                                   double turn_rad, const Point2& centre_mm) {
+  std::vector<Point2> points = section_polygon(profile, tolerance_mm).points;
+  const Point2 axis = unit_vector(turn_rad);
+  for (Point2& p : points) p = Point2(centre_mm + p.x() * axis + p.y() * perpendicular(axis));
+  return points;
+}
+
+bool polygons_cross(const std::vector<Point2>& one, const std::vector<Point2>& two) {
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (std::size_t k = 0; k < two.size(); ++k)
+      if (segments_cross(one[i], one[(i + 1) % one.size()], two[k], two[(k + 1) % two.size()]))
+        return true;
+  return false;
+}
+
+TEST(ToothCrossing, IsThatOfAllEdgesWithAllOthersWhereTipsJustMeet) {
+  Draw draw(12);
+  constexpr double kTolerance_mm = 5e-3;  // a tip land is one edge
+  std::array<int, 2> seen{};
+  for (const bool internal : {false, true}) {
+    const GearTrain train = laid_out(pair_design(15, internal ? 34 : 19, internal, 0.2));
+    const GearPair pair = train.pair(train.meshes[0]);
+    const double tips_mm = internal
+                               ? pair.profile2->tip_radius_mm() - pair.profile1->tip_radius_mm()
+                               : pair.profile1->tip_radius_mm() + pair.profile2->tip_radius_mm();
+    for (int i = 0; i < 80; ++i) {
+      const double direction = draw(0.0, kTwoPi), depth = draw(-6e-3, i % 2 == 0 ? 0.01 : 0.1);
+      const Point2 centre2 =
+          (internal ? -(tips_mm + depth) : tips_mm - depth) * unit_vector(direction);
+      const double turn1 = direction + draw(-0.03, 0.03),
+                   turn2 = direction + (internal ? 0.0 : kPi) + draw(-0.03, 0.03);
+      const bool expected =
+          polygons_cross(placed_polygon(*pair.profile1, kTolerance_mm, turn1, Point2::Zero()),
+                         placed_polygon(*pair.profile2, kTolerance_mm, turn2, centre2));
+      EXPECT_EQ(teeth_cross(pair, turn1, turn2, centre2, kTolerance_mm).cross, expected)
+          << internal << ' ' << i << ' ' << depth;
+      ++seen[expected ? 1 : 0];
+    }
+  }
+  EXPECT_GT(seen[0], 20);
+  EXPECT_GT(seen[1], 20);
+}
+
+/// The field as it is described: of turned teeth at the corners of cells, a cell's plane where none
+/// of them jams or all do, or where it is true in the middle.
+class FieldByHand {
+ public:
+  FieldByHand(const GearPair& pair, double distance_mm, double thickness1_mm, double thickness2_mm)
+      : pair_(pair),
+        distance_mm_(distance_mm),
+        thickness1_mm_(thickness1_mm),
+        thickness2_mm_(thickness2_mm) {}
+
+  double at(int i, int k) {
+    const auto [found, is_new] = turned_.try_emplace({i, k}, 0.0);
+    if (!is_new) return found->second;
+    const double u = i / 4.0 - 1.0, v = k / 4.0 - 1.0;
+    Gear gear1 = pair_.gear1(), gear2 = pair_.gear2();
+    gear1.thinning_mm -= v * thickness1_mm_;
+    gear2.thinning_mm -= v * thickness2_mm_;
+    const auto profile1 = ToothProfile::make(gear1), profile2 = ToothProfile::make(gear2);
+    const GearPair other{&*profile1, &*profile2, pair_.centre_distance_mm + u * distance_mm_};
+    backlash_[{i, k}] = circumferential_backlash_mm(other);
+    return found->second = sweep_clearance_mm(other);
+  }
+  double backlash(int i, int k) { return at(i, k), backlash_[{i, k}]; }
+
+  double clearance(double distance_mm, double thickness_mm) {
+    const double x = 4.0 * (1.0 + std::clamp(distance_mm / distance_mm_, -1.0, 1.0)),
+                 y = 4.0 * (1.0 + std::clamp(thickness_mm / (thickness1_mm_ + thickness2_mm_), -1.0,
+                                             1.0));
+    for (int size = 4;; size /= 2) {
+      const int i = std::min(static_cast<int>(x / size), 8 / size - 1) * size,
+                k = std::min(static_cast<int>(y / size), 8 / size - 1) * size;
+      const double a = at(i, k), b = at(i + size, k), c = at(i, k + size),
+                   d = at(i + size, k + size);
+      const auto jammed = (a < -1e-6) + (b < -1e-6) + (c < -1e-6) + (d < -1e-6);
+      if (size > 1 && jammed > 0 && jammed < 4 &&
+          std::abs(at(i + size / 2, k + size / 2) - 0.25 * (a + b + c + d)) > 1e-5) {
+        ++halved;
+        continue;
+      }
+      return std::lerp(std::lerp(a, c, (y - k) / size), std::lerp(b, d, (y - k) / size),
+                       (x - i) / size);
+    }
+  }
+  int halved = 0;
+
+ private:
+  const GearPair& pair_;
+  double distance_mm_, thickness1_mm_, thickness2_mm_;
+  std::map<std::pair<int, int>, double> turned_, backlash_;
+};
+
+TEST(ClearanceField, IsThatOfTurnedTeethAtTheCornersOfItsCellsAndPlaneBetweenThem) {
+  static_assert(tolerance::kTouch_mm == 1e-6);
+  const GearTrain train = laid_out(pair_design(13, 19, false, 0.05));
+  const TrainMesh& mesh = train.meshes[0];
+  const GearPair pair = train.pair(mesh);
+  const GearSpread spread1{.thickness_mm = 0.02, .eccentricity_mm = 0.06, .pitch_mm = 0.01},
+      spread2{.thickness_mm = 0.015, .eccentricity_mm = 0.05, .pitch_mm = 0.005};
+  auto field = ClearanceField::make(train, mesh, spread1, spread2, 0.4);
+  ASSERT_TRUE(field);
+  FieldByHand hand(pair, 0.51, 0.03, 0.02);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(field->at(i, k).clearance_mm, hand.at(4 * i, 4 * k), 1e-12);
+      EXPECT_NEAR(field->at(i, k).backlash_mm, hand.backlash(4 * i, 4 * k), 1e-12);
+    }
+  Draw draw(31);
+  for (int i = 0; i < 150; ++i) {
+    const double distance = draw(-0.6, 0.6), thickness = draw(-0.06, 0.06);
+    EXPECT_NEAR(field->clearance_mm(distance, thickness), hand.clearance(distance, thickness),
+                1e-12)
+        << distance << ' ' << thickness;
+  }
+  EXPECT_GT(hand.halved, 20);
+  EXPECT_LT(hand.halved, 280);
+}
+
+TEST(ClearanceField, WithoutWidthIsOnePlace) {
+  const GearTrain train = laid_out(pair_design(13, 19, false, 0.05));
+  const GearPair pair = train.pair(train.meshes[0]);
+  auto point = ClearanceField::make(train, train.meshes[0], {}, {}, 0.0);
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->clearance_mm(0.0, 0.0), sweep_clearance_mm(pair));
+  EXPECT_EQ(point->clearance_mm(0.3, -0.2), sweep_clearance_mm(pair));
+  // of one width alone: half way between the places turned
+  auto line = ClearanceField::make(train, train.meshes[0], {}, {}, 0.02);
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->clearance_mm(0.01, 0.0),
+              0.5 * (line->at(1, 1).clearance_mm + line->at(2, 1).clearance_mm), 1e-12);
+  EXPECT_GT(line->at(2, 0).clearance_mm, line->at(1, 2).clearance_mm + 1e-3);
+}
+
+TEST(ClearanceField, OfModifiedTeethIsThatOfTheirSections) {
+  GearboxDesign design = pair_design(23, 37, false, 0.05);
+  gear(design, "wheel").modifications.crowning_um = 20.0;
+  gear(design, "pinion").modifications.profile_slope_um = 12.0;
+  const GearTrain train = laid_out(design);
+  const TrainMesh& mesh = train.meshes[0];
+  auto field =
+      ClearanceField::make(train, mesh, {.thickness_mm = 0.01}, {.thickness_mm = 0.02}, 0.03);
+  ASSERT_TRUE(field);
+  EXPECT_NEAR(field->at(1, 1).clearance_mm, modified_clearance_mm(train, mesh), 1e-9);
+  EXPECT_NEAR(field->at(1, 1).backlash_mm, modified_mesh(train, mesh).backlash_mm, 1e-9);
+  // what thicker teeth take is what the distance gives: along the normal of the flanks both gears'
+  // halves
+  const double cosine = std::cos(working_pressure_angle_rad(train.pair(mesh)));
+  EXPECT_NEAR(field->at(1, 1).clearance_mm - field->at(1, 2).clearance_mm, 0.5 * 0.03 * cosine,
+              2e-4);
+  EXPECT_GT(field->at(2, 1).clearance_mm, field->at(1, 1).clearance_mm + 5e-3);
+}
+
+TEST(DecisiveSections, OfEqualHeightsAreTheFirst) {
+  GearboxDesign design = pair_design(23, 37, false, 0.1);
+  gear(design, "wheel").modifications.crowning_um = -20.0;  // hollow: both ends stand out alike
+  const GearTrain train = laid_out(design);
+  const auto sections = decisive_sections(train, train.meshes[0]);
+  ASSERT_EQ(sections.size(), 1u);
+  EXPECT_EQ(sections[0].z_mm, 0.0);
+}
+
+}  // namespace
+}  // namespace trueflank::test
