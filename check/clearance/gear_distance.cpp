@@ -19,7 +19,6 @@ double rough_angle_rad(double x, double y) {
   return t * (0.995354 + square * (-0.288679 + square * 0.079331));
 }
 constexpr double kRoughAngle_rad = 1e-3;
-constexpr double kSameDirection = 1e-9;  // far above rounding
 constexpr double kSlack_mm = 1e-9;       // for the rounding of what a point moves by
 
 auto shape_of(const RackTrochoid& c) {
@@ -87,10 +86,8 @@ GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces
     if (const auto* arc = std::get_if<CircularArc>(&curve.shape)) {
       // run counter-clockwise, the circle's inside is on the left
       const double sign = (curve.end > curve.begin ? 1.0 : -1.0) * outward_;
-      half.arcs.push_back({arc->centre, arc->radius_mm, std::min(curve.begin, curve.end),
-                           std::max(curve.begin, curve.end), sign,
-                           unit_vector(std::min(curve.begin, curve.end)),
-                           unit_vector(std::max(curve.begin, curve.end)), index});
+      const auto [from, to] = std::minmax(curve.begin, curve.end);
+      half.arcs.push_back({arc->centre, arc->radius_mm, sign, unit_vector(from), unit_vector(to), index});
     } else if (const auto* involute = std::get_if<Involute>(&curve.shape)) {
       half.flanks.push_back({involute->base_radius_mm, involute->base_half_angle_rad,
                              static_cast<double>(involute->sense), std::min(curve.begin, curve.end),
@@ -221,16 +218,9 @@ void GearDistance::measure_joints(const Half& half, const Point2& q, Best& best,
   before.least_mm_.back() = std::sqrt(least);
 }
 
-/// Between the directions of the arc's ends; the angle itself decides where a direction is near one.
+/// Between the directions of the arc's ends. No arc of a half tooth is half a circle.
 bool GearDistance::in_angle(const Arc& arc, const Point2& from_centre) {
-  if (arc.to - arc.from < 3.0) {
-    const double near = kSameDirection * from_centre.lpNorm<1>();
-    const double first = cross(arc.first, from_centre), last = cross(from_centre, arc.last);
-    if (first < -near || last < -near) return false;
-    if (first > near && last > near) return true;
-  }
-  const double angle = std::atan2(from_centre.y(), from_centre.x());
-  return !(wrapped_rad(angle - arc.from) > arc.to - arc.from);
+  return cross(arc.first, from_centre) >= 0.0 && cross(from_centre, arc.last) >= 0.0;
 }
 
 TRUEFLANK_ALWAYS_INLINE inline double GearDistance::measure_arc(const Arc& arc, const Point2& q, Best& best) const {

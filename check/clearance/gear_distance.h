@@ -56,8 +56,8 @@ class GearDistance {
   };
   struct Arc {
     Point2 centre;
-    double radius, from, to, inside_sign;  // inside_sign: +1 where space is outside the circle
-    Point2 first, last;                    // directions of the ends
+    double radius, inside_sign;  // inside_sign: +1 where space is outside the circle
+    Point2 first, last;          // directions of the ends, counter-clockwise
     int piece;
   };
   struct Flank {

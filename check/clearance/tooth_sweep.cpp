@@ -6,6 +6,7 @@
 #include "trueflank/check/clearance/tooth_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -142,7 +143,6 @@ class Sweep {
   [[nodiscard]] double clearance(const Point2& p, const Position& at, GearDistance::Before& before) const {
     return mate_.nearest(in_mate(p, at), before).distance_mm;
   }
-  [[nodiscard]] double reach_rad() const;
   [[nodiscard]] Place lowest(const std::vector<Sample>& samples, double enough_mm) const;
   [[nodiscard]] Place refined(const Place& start, double step) const;
 
@@ -154,19 +154,26 @@ class Sweep {
   double ratio_ = 0.0, half_pitch_mate_ = 0.0, axis_ = 0.0, mate_faces_ = 0.0;
 };
 
-/// Angle on either side of the line of centres within which the tooth is near the mate's teeth.
-double Sweep::reach_rad() const {
-  const double m = mover_.gear().normal_module_mm;
-  const double r = mover_.tip_radius_mm(), a = distance_;
-  const bool mate_is_ring = mate_profile_.gear().kind == GearKind::kInternal;
-  const double r_mate =
-      mate_profile_.tip_radius_mm() + (mate_is_ring ? -kReachMargin : kReachMargin) * m;
+}  // namespace
+
+SweepGrid sweep_grid(const ToothProfile& mover, const ToothProfile& mate, double distance_mm) {
+  const double m = mover.gear().normal_module_mm;
+  const double r = mover.tip_radius_mm(), a = distance_mm;
+  const bool mate_is_ring = mate.gear().kind == GearKind::kInternal;
+  const bool internal = mate_is_ring || mover.gear().kind == GearKind::kInternal;
+  const double r_mate = mate.tip_radius_mm() + (mate_is_ring ? -kReachMargin : kReachMargin) * m;
   double cosine = (a * a + r * r - r_mate * r_mate) / (2.0 * a * r);
   if (mate_is_ring) cosine = -cosine;  // near where the distance from the ring's axis is large
-  return std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover_.gear().teeth, kPi);
+  const double reach = std::min(std::acos(std::clamp(cosine, -1.0, 1.0)) + kPi / mover.gear().teeth, kPi);
+  // relative speed = relative turning times the distance from the pitch point
+  const double z = mover.gear().teeth, z_mate = mate.gear().teeth;
+  const double pitch_radius = a * z / (internal ? std::abs(z_mate - z) : z + z_mate);
+  const double lever = (r * unit_vector(reach) - Point2(pitch_radius, 0.0)).norm() + m;
+  const double turning = std::abs(1.0 - (internal ? z : -z) / z_mate);
+  const int steps = static_cast<int>(
+      std::clamp(std::ceil(2.0 * reach * turning * lever / (kGridStep * m)), 48.0, 4000.0));
+  return {reach, pitch_radius, turning, steps};
 }
-
-}  // namespace
 
 std::size_t columns_without(double above_mm, double first_mm, double growth_mm) {
   if (!(above_mm > 0.0)) return 0;
@@ -220,15 +227,7 @@ bool Sweep::comes_first(const Place& a, const Place& b) {
 
 Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm) const {
   const double m = mover_.gear().normal_module_mm;
-  const double reach = reach_rad();
-  // relative speed = relative turning times the distance from the pitch point
-  const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
-  const double pitch_radius = distance_ * z / (internal_ ? std::abs(z_mate - z) : z + z_mate);
-  const double lever =
-      (mover_.tip_radius_mm() * unit_vector(reach) - Point2(pitch_radius, 0.0)).norm() + m;
-  const double turning = std::abs(1.0 - ratio_);
-  const int n = static_cast<int>(
-      std::clamp(std::ceil(2.0 * reach * turning * lever / (kGridStep * m)), 48.0, 4000.0));
+  const auto [reach, pitch_radius, turning, n] = sweep_grid(mover_, mate_profile_, distance_);
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
 
@@ -238,9 +237,11 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   for (std::size_t i = 0; i < samples.size(); ++i)
     row_of[i] = samples[i].low == samples[i].high ? rows++ : kNoRow;
   std::vector<double> grid(rows * columns, std::numeric_limits<double>::infinity());
-  const std::size_t mate_pieces =
-      std::max(mate_profile_.pieces().size(), mate_profile_.clockwise_pieces().size());
-  std::vector<Place> best_of_kind(mover_.pieces().size() * mate_pieces * 4);
+  // of each piece of the mover against each of the mate, its corners and its halves apart
+  using OfPiece = std::array<std::array<Place, 2>, 2>;
+  std::vector<std::vector<OfPiece>> best_of_kind(mover_.pieces().size());
+  for (auto& against : best_of_kind)
+    against.resize(mate_profile_.pieces().size() + mate_profile_.clockwise_pieces().size());
   // A low value from the start saves columns that others would have to show to be no use.
   double lowest = std::numeric_limits<double>::infinity();
   const Position at_centres = position_at(-reach + step * static_cast<double>(columns / 2));
@@ -287,11 +288,8 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
       lowest = std::min(lowest, near.distance_mm);
       if (lowest < enough_mm) return {.clearance = lowest};
       pass_over(near.distance_mm);
-      const std::size_t kind = (static_cast<std::size_t>(samples[i].piece) * mate_pieces +
-                                static_cast<std::size_t>(near.piece)) *
-                                   4 +
-                               (near.corner ? 2u : 0u) + (near.clockwise_half ? 1u : 0u);
-      Place& best = best_of_kind[kind];
+      OfPiece& against = best_of_kind[static_cast<std::size_t>(samples[i].piece)][static_cast<std::size_t>(near.piece)];
+      Place& best = against[near.corner][near.clockwise_half];
       if (near.distance_mm < best.clearance - kSame_mm)
         best = {near.distance_mm, samples[i], angle};
     }
@@ -299,8 +297,11 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
 
   std::vector<Place> starts;
   const double highest = lowest + kRefineBand * m;
-  for (const Place& place : best_of_kind)
-    if (place.clearance <= highest) starts.push_back(place);
+  for (const auto& against : best_of_kind)
+    for (const OfPiece& piece : against)
+      for (const auto& halves : piece)
+        for (const Place& place : halves)
+          if (place.clearance <= highest) starts.push_back(place);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (row_of[i] == kNoRow) continue;
     for (std::size_t j = 1; j + 1 < columns; ++j) {  // every valley along a corner's path

@@ -40,6 +40,15 @@ struct SweepSample {
 /// Of those the tip corners, and the pieces that stand in their place.
 [[nodiscard]] std::vector<SweepSample> tip_samples(const ToothProfile& profile);
 
+/// The positions at which a tooth is looked at, and what moves how far between them.
+struct SweepGrid {
+  double reach_rad = 0.0;  ///< on either side of the line of centres; beyond it the tooth is clear of the mate's teeth
+  double pitch_radius_mm = 0.0;  ///< of the mover: about that point of the line of centres the mate turns
+  double turning = 0.0;          ///< of the mate against the mover, of the mover's own turning
+  int steps = 0;  ///< no point of the tooth moves by much more than a twentieth of the module a step
+};
+[[nodiscard]] SweepGrid sweep_grid(const ToothProfile& mover, const ToothProfile& mate, double distance_mm);
+
 /// How many columns ahead a distance stays above a limit that it exceeds by `above_mm`, where its
 /// point moves by `first_mm` a column at first and by at most `growth_mm` more with every column.
 [[nodiscard]] std::size_t columns_without(double above_mm, double first_mm, double growth_mm);

@@ -11,6 +11,7 @@
 #include "tests/check/random_pairs.h"
 #include "tests/support/sample_gears.h"
 #include "trueflank/base/tolerance.h"
+#include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/clearance/clearance_field.h"
 #include "trueflank/check/clearance/gear_distance.h"
 #include "trueflank/check/clearance/modified_clearance.h"
@@ -117,6 +118,52 @@ TEST(SweepSamples, OfTipsAreTheirCornersAndWhatStandsInTheirPlace) {
   }
   EXPECT_GT(rounded, 0);
   EXPECT_GT(sharp, 0);
+}
+
+TEST(SweepGrid, EndsWhereTheToothIsClearAndMovesByAboutATwentiethOfTheModule) {
+  for (const bool ring : {false, true})
+    for (const bool gear1_moves : {true, false})
+      for (const int teeth : {12, 19, 31}) {
+        SCOPED_TRACE(std::to_string(ring) + std::to_string(gear1_moves) + ' ' +
+                     std::to_string(teeth));
+        const GearTrain train = laid_out(pair_design(teeth, ring ? 2 * teeth + 9 : 41, ring, 0.05));
+        const GearPair pair = train.pair(train.meshes[0]);
+        const ToothProfile& mover = gear1_moves ? *pair.profile1 : *pair.profile2;
+        const ToothProfile& mate = gear1_moves ? *pair.profile2 : *pair.profile1;
+        const double a = pair.centre_distance_mm, z = mover.gear().teeth,
+                     z_mate = mate.gear().teeth;
+        const bool mate_is_ring = ring && gear1_moves;
+        const SweepGrid grid = sweep_grid(mover, mate, a);
+        const Point2 axis(mate_is_ring ? -a : a, 0.0);
+        // the tip at the near end of the tooth is as far from the mate's as the margin of 0.3
+        // modules
+        const double away =
+            (mover.tip_radius_mm() * unit_vector(grid.reach_rad - kPi / z) - axis).norm();
+        EXPECT_NEAR(away, mate.tip_radius_mm() + (mate_is_ring ? -0.3 : 0.3), 1e-9);
+        // a point that moves with the mover, in the frame of the mate
+        const double ratio = (ring ? 1.0 : -1.0) * z / z_mate;
+        const auto seen = [&](const Point2& p, double angle) {
+          return rotated(Point2(rotated(p, angle) - axis), -ratio * angle);
+        };
+        const double step = 2.0 * grid.reach_rad / grid.steps;
+        double most = 0.0, most_turned = 0.0;
+        for (const SweepSample& sample : sweep_samples(mover))
+          for (int k = -grid.steps; k < grid.steps; k += 3) {
+            const double angle = 0.5 * k * step;
+            const double moved =
+                (seen(sample.point, angle + 0.5 * step) - seen(sample.point, angle - 0.5 * step))
+                    .norm();
+            const Point2 placed = rotated(sample.point, angle);
+            most = std::max(most, moved);
+            most_turned =
+                std::max(most_turned,
+                         std::abs(moved - step * grid.turning *
+                                              (placed - Point2(grid.pitch_radius_mm, 0.0)).norm()));
+          }
+        EXPECT_LE(most, 0.057);
+        EXPECT_GE(most, 0.042);
+        EXPECT_LT(most_turned, 1e-4);
+      }
 }
 
 TEST(ColumnsWithout, AreAsManyAsTheDistanceSurelyStaysAboveItsLimit) {
@@ -356,6 +403,14 @@ TEST(ClearanceField, IsThatOfTurnedTeethAtTheCornersOfItsCellsAndPlaneBetweenThe
   EXPECT_LT(hand.halved, 280);
 }
 
+TEST(ClearanceField, ThatReachesWhereTeethNoLongerMeshSaysSo) {
+  const GearTrain train = laid_out(pair_design(13, 19, false, 0.05));
+  const auto field = ClearanceField::make(train, train.meshes[0], {}, {}, 2.0);
+  ASSERT_FALSE(field);
+  EXPECT_EQ(field.error().message.substr(0, 22), "at centre distance 14 ") << field.error().message;
+  EXPECT_NE(field.error().message.find("the teeth no longer mesh"), std::string::npos);
+}
+
 TEST(ClearanceField, WithoutWidthIsOnePlace) {
   const GearTrain train = laid_out(pair_design(13, 19, false, 0.05));
   const GearPair pair = train.pair(train.meshes[0]);
@@ -388,6 +443,89 @@ TEST(ClearanceField, OfModifiedTeethIsThatOfTheirSections) {
   EXPECT_NEAR(field->at(1, 1).clearance_mm - field->at(1, 2).clearance_mm, 0.5 * 0.03 * cosine,
               2e-4);
   EXPECT_GT(field->at(2, 1).clearance_mm, field->at(1, 1).clearance_mm + 5e-3);
+}
+
+TEST(OverlapFigures, TheTipThatGoesTooDeepIsTheOneToShorten) {
+  for (const bool ring : {false, true})
+    for (const char* name : {"pinion", "wheel"}) {
+      GearboxDesign design = pair_design(25, ring ? 60 : 40, ring, 0.3);
+      const GearTrain before = laid_out(design);
+      const bool first = std::string(name) == "pinion";
+      const double standard = before.gears[first ? 0 : 1].profile.tip_radius_mm();
+      gear(design, name).tip_diameter_mm = 2.0 * standard + (ring && !first ? -0.9 : 0.9);
+      const Finding overlap = only(check_gearbox(laid_out(design)), "overlap");
+      ASSERT_EQ(overlap.status, CheckStatus::kFail) << ring << name;
+      EXPECT_EQ(overlap.cure.find(std::string("tip diameter of ") + name), 0u) << overlap.cure;
+    }
+}
+
+TEST(OverlapFigures, AShorterTipAlsoMakesUpForWhatModificationsCost) {
+  GearboxDesign design = pair_design(25, 40, false, 0.3);
+  const double standard = laid_out(design).gears[1].profile.tip_radius_mm();
+  gear(design, "wheel").tip_diameter_mm = 2.0 * standard + 0.9;
+  const auto cured_um = [&] {
+    const Finding overlap = only(check_gearbox(laid_out(design)), "overlap");
+    EXPECT_EQ(overlap.status, CheckStatus::kFail);
+    GearboxDesign cured = design;
+    gear(cured, "wheel").tip_diameter_mm = told(overlap.cure, "tip diameter of wheel ");
+    const Finding after = only(check_gearbox(laid_out(cured)), "overlap");
+    EXPECT_EQ(after.status, CheckStatus::kPass) << overlap.cure << '\n' << after.message;
+    return after.value;
+  };
+  EXPECT_LT(cured_um(), 1.0);
+  gear(design, "pinion").modifications.profile_slope_um = 60.0;
+  EXPECT_LT(cured_um(), 60.0);
+}
+
+TEST(MeshSection, IsThatOfTheGearsWhereTheyStand) {
+  GearboxDesign design = pair_design(23, 37, false, 0.1);
+  gear(design, "pinion").modifications.helix_slope_um = 15.0;
+  gear(design, "wheel").modifications.helix_slope_um = -25.0;
+  const GearTrain train = laid_out(design);
+  GearTrain raised = train;
+  raised.gears[0].z_lower_mm += 3.0;
+  raised.gears[1].z_lower_mm += 3.0;
+  const auto sections = decisive_sections(train, train.meshes[0]);
+  const auto higher = decisive_sections(raised, train.meshes[0]);
+  ASSERT_EQ(sections.size(), higher.size());
+  ASSERT_GT(sections.size(), 1u);
+  const auto flank_at = [](const ToothProfile& profile) {
+    for (const ProfilePiece& piece : profile.pieces())
+      if (piece.kind == PieceKind::kInvolute)
+        return point_at(piece.curve, 0.5 * (piece.curve.begin + piece.curve.end));
+    return Point2(0.0, 0.0);
+  };
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    EXPECT_NEAR(higher[i].z_mm, sections[i].z_mm + 3.0, 1e-12);
+    EXPECT_LT((flank_at(higher[i].profile1) - flank_at(sections[i].profile1)).norm(), 1e-12);
+    EXPECT_LT((flank_at(higher[i].profile2) - flank_at(sections[i].profile2)).norm(), 1e-12);
+    if (i > 0) {
+      EXPECT_GT((flank_at(sections[i].profile2) - flank_at(sections[0].profile2)).norm(), 1e-3);
+    }
+  }
+}
+
+TEST(GearDistance, IsTheSameOnBothSidesOfTheMiddleOfAGap) {
+  Draw draw(41);
+  for (const bool ring : {false, true}) {
+    const GearTrain train = laid_out(pair_design(17, 46, ring, 0.05));
+    for (const TrainGear& gear : train.gears) {
+      const GearDistance distance(gear.profile);
+      const double z = gear.profile.gear().teeth, tip = gear.profile.tip_radius_mm(),
+                   root = gear.profile.root_radius_mm();
+      for (int i = 0; i < 200; ++i) {
+        const double middle = kPi / z * (2.0 * std::floor(draw(-3.0, 3.0)) + 1.0),
+                     beside = draw(0.0, 2e-3);
+        const double radius = std::lerp(root, tip, draw(-0.2, 0.6));
+        const auto left = distance.nearest(radius * unit_vector(middle + beside)),
+                   right = distance.nearest(radius * unit_vector(middle - beside));
+        EXPECT_NEAR(left.distance_mm, right.distance_mm, 1e-9)
+            << middle << ' ' << beside << ' ' << radius;
+        EXPECT_TRUE(left.clockwise_half);
+        EXPECT_FALSE(right.clockwise_half);
+      }
+    }
+  }
 }
 
 TEST(DecisiveSections, OfEqualHeightsAreTheFirst) {
