@@ -236,7 +236,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   std::size_t rows = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)
     row_of[i] = samples[i].low == samples[i].high ? rows++ : kNoRow;
-  std::vector<double> grid(rows * columns, std::numeric_limits<double>::infinity());
+  std::vector<std::vector<double>> grid(rows, std::vector<double>(columns, std::numeric_limits<double>::infinity()));
   // of each piece of the mover against each of the mate, its corners and its halves apart
   using OfPiece = std::array<std::array<Place, 2>, 2>;
   std::vector<std::vector<OfPiece>> best_of_kind(mover_.pieces().size());
@@ -264,7 +264,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
     const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
     for (const std::size_t i : due) {
       const auto keep = [&](double value) {
-        if (row_of[i] != kNoRow) grid[row_of[i] * columns + j] = value;
+        if (row_of[i] != kNoRow) grid[row_of[i]][j] = value;
       };
       const Point2& p = samples[i].point;
       const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
@@ -305,7 +305,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (row_of[i] == kNoRow) continue;
     for (std::size_t j = 1; j + 1 < columns; ++j) {  // every valley along a corner's path
-      const double* f = &grid[row_of[i] * columns + j];
+      const double* f = &grid[row_of[i]][j];
       if (f[0] <= f[-1] && f[0] < f[1] && f[0] <= highest)
         starts.push_back({f[0], samples[i], -reach + step * static_cast<double>(j)});
     }
@@ -367,15 +367,14 @@ MeshPlace Sweep::describe(const Place& place) const {
                                  : Point2(axis2 + rotated(place.sample.point, mover_angle));
   const auto& pieces = mover_.pieces();
   const Curve& curve = pieces[static_cast<std::size_t>(place.sample.piece)].curve;
-  const double end = 1e-6 * std::abs(curve.end - curve.begin);
-  const bool at_begin = std::abs(place.sample.parameter - curve.begin) < end;
-  const bool at_end = std::abs(place.sample.parameter - curve.end) < end;
+  // a search that is lowest at an end says so exactly
+  const bool at_end = place.sample.parameter == curve.begin || place.sample.parameter == curve.end;
   // the corner between tip circle and flank is the tip's
   const auto kind_of = [](const ProfilePiece& piece, bool corner, double from_tip_mm) {
     return corner && std::abs(from_tip_mm) < tolerance::kTouch_mm ? PieceKind::kTip : piece.kind;
   };
   const PieceKind mover_piece =
-      kind_of(pieces[static_cast<std::size_t>(place.sample.piece)], at_begin || at_end,
+      kind_of(pieces[static_cast<std::size_t>(place.sample.piece)], at_end,
               place.sample.point.norm() - mover_.tip_radius_mm());
   const auto& mate_half =
       near.clockwise_half ? mate_profile_.clockwise_pieces() : mate_profile_.pieces();
@@ -383,7 +382,7 @@ MeshPlace Sweep::describe(const Place& place) const {
                                        near.point.norm() - mate_profile_.tip_radius_mm());
   (gear1_moves_ ? result.piece1 : result.piece2) = mover_piece;
   (gear1_moves_ ? result.piece2 : result.piece1) = mate_piece;
-  (gear1_moves_ ? result.corner1 : result.corner2) = at_begin || at_end;
+  (gear1_moves_ ? result.corner1 : result.corner2) = at_end;
   (gear1_moves_ ? result.corner2 : result.corner1) = near.corner;
   (gear1_moves_ ? result.radius1_mm : result.radius2_mm) = place.sample.point.norm();
   (gear1_moves_ ? result.radius2_mm : result.radius1_mm) = near.point.norm();

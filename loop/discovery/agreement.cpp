@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -251,12 +250,9 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
       one.fitted += statistics.unit(unit).model_model(model.columns, model.columns);
     fitted.push_back(std::move(one));
   }
-  // Groups do not ask each other: the same sums on any number of processors.
-  constexpr std::size_t kPanelsOfWork = 4;
-  const std::vector<PanelColumns>& panels = statistics.panels();
-  for_each_piece((panels.size() + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
-    const std::size_t from = piece * kPanelsOfWork;
-    for (std::size_t p = from; p < std::min(panels.size(), from + kPanelsOfWork); ++p)
+  constexpr std::size_t kAtOnce = 4;
+  share_out(statistics.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+    for (std::size_t p = from; p < to; ++p)
       add_wholes(fitted, {problem, statistics, model, projected, observable}, p, sums);
   });
   const double within = scatter_within(problem, statistics);

@@ -6,15 +6,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "trueflank/base/threads.h"
 #include "trueflank/base/widest_registers.h"
 
 namespace trueflank::loop {
-namespace {
-
-constexpr std::size_t kGroupsOfWork = 128;
-
-}  // namespace
 
 BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
     : problem_(problem),
@@ -103,11 +97,8 @@ void BlockStatistics::sum_candidates() {
   const std::size_t groups = problem_.groups.size();
   group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
   zero_loss_.resize(groups);
-  // Groups do not ask each other: the same sums on any number of processors.
-  for_each_piece((groups + kGroupsOfWork - 1) / kGroupsOfWork, [&](std::size_t piece) {
-    const std::size_t from = piece * kGroupsOfWork;
-    sum_groups(from, std::min(groups, from + kGroupsOfWork), trace_weight);
-  });
+  constexpr std::size_t kAtOnce = 128;
+  share_out(groups, kAtOnce, [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
 }
 
 namespace {
@@ -276,13 +267,10 @@ void BlockStatistics::add_model_sums(int first) {
       sums->model_value.tail(added) += part_value;
     }
   }
-  // Candidates do not ask each other: the same sums on any number of processors. Some panels at a
-  // time, so that what is read of a row of the candidates lies together.
-  constexpr std::size_t kPanelsOfWork = 8;
-  for_each_piece((panels_.size() + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
-    const std::size_t from = piece * kPanelsOfWork;
-    add_candidate_sums(parts, first, from, std::min(panels_.size(), from + kPanelsOfWork));
-  });
+  // Some panels at a time, so that what is read of a row of the candidates lies together.
+  constexpr std::size_t kAtOnce = 8;
+  share_out(panels_.size(), kAtOnce,
+            [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
@@ -55,7 +54,7 @@ FoldErrors CrossValidation::base_errors() const {
 std::vector<FoldErrors> CrossValidation::errors_with(const std::vector<int>& groups) const {
   std::vector<FoldErrors> errors(groups.size(),
                                  FoldErrors(static_cast<Eigen::Index>(folds_.size())));
-  // As many groups at a time as a panel holds; they do not ask each other.
+  // As many groups at a time as a panel holds.
   std::vector<std::size_t> starts;
   int columns = kPanelColumns;
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -68,11 +67,9 @@ std::vector<FoldErrors> CrossValidation::errors_with(const std::vector<int>& gro
     columns += own;
   }
   starts.push_back(groups.size());
-  constexpr std::size_t kPanelsOfWork = 4;
-  const std::size_t panels = starts.size() - 1;
-  for_each_piece((panels + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
-    for (std::size_t k = piece * kPanelsOfWork; k < std::min(panels, (piece + 1) * kPanelsOfWork);
-         ++k)
+  constexpr std::size_t kAtOnce = 4;
+  share_out(starts.size() - 1, kAtOnce, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k)
       add_errors(groups.data() + starts[k], starts[k + 1] - starts[k], errors.data() + starts[k]);
   });
   return errors;

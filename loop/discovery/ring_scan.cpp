@@ -260,7 +260,7 @@ double chance_of_agreement(const VectorXd& a, const VectorXd& b) {
   const VectorXd from_a = a.array() - a.mean(), from_b = b.array() - b.mean();
   const double squares = from_a.squaredNorm() * from_b.squaredNorm();
   if (!(squares > 0.0)) return 1.0;
-  const double r = std::min(1.0, std::abs(from_a.dot(from_b)) / std::sqrt(squares));
+  const double r = std::abs(from_a.dot(from_b)) / std::sqrt(squares);
   const auto degrees = static_cast<double>(n - 2);
   const double left = std::max(1.0 - r * r, 1e-12);
   return student_two_sided(r * std::sqrt(degrees / left), degrees);
