@@ -13,7 +13,7 @@
 namespace trueflank {
 namespace {
 
-/// Whose tip it is that goes too deep: the piece nearer to its own tip circle.
+/// Whose tip it is that goes too deep: the piece nearer to its own tip circle; of equals that of gear 2.
 bool tip_is_of_gear1(const GearPair& pair, const MeshPlace& place) {
   const double depth1 = std::abs(place.radius1_mm - pair.profile1->tip_radius_mm());
   const double depth2 = std::abs(place.radius2_mm - pair.profile2->tip_radius_mm());

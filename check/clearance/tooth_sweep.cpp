@@ -267,8 +267,8 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
         if (row_of[i] != kNoRow) grid[row_of[i]][j] = value;
       };
       const Point2& p = samples[i].point;
-      const double x = c * p.x() - s * p.y() - axis_, y = s * p.x() + c * p.y();
-      const double from_pitch_point = norm_of(x + axis_ - pitch_radius, y);
+      const double along = c * p.x() - s * p.y(), x = along - axis_, y = s * p.x() + c * p.y();
+      const double from_pitch_point = norm_of(along - pitch_radius, y);
       const auto pass_over = [&](double distance_mm) {
         const std::size_t passed =
             columns_without(distance_mm - (lowest + kRefineBand * m),

@@ -122,7 +122,7 @@ class RingScan {
       for (int first = 0; first < every; ++first) {
         VectorXd comb(n_);
         for (Index i = 0; i < n_; ++i)
-          comb[i] = place[static_cast<std::size_t>(i)] % every == first ? 1.0 : 0.0;
+          comb[i] = static_cast<double>(place[static_cast<std::size_t>(i)] % every == first);
         // Of every other place one half says what the other does.
         if ((every > 2 || first == 0) && comb.sum() >= 2.0 && add(combs_, comb))
           comb_at_.emplace_back(every, first);

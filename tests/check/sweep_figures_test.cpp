@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <tuple>
 
 #include "tests/check/check_designs.h"
 #include "tests/check/random_pairs.h"
@@ -247,6 +248,49 @@ TEST(MeshPlace, IsWhereTheProfilesAreAsNearAsTheClearanceSays) {
     ++meshes;
   }
   EXPECT_GT(meshes, 30);
+}
+
+/// The least distance of all samples of both gears at all positions of their grids.
+double least_of_all_mm(const GearPair& pair) {
+  const double z1 = pair.gear1().teeth, z2 = pair.gear2().teeth, a = pair.centre_distance_mm;
+  const bool ring = pair.internal();
+  const Point2 axis2(ring ? -a : a, 0.0);
+  const GearDistance distance1(*pair.profile1), distance2(*pair.profile2);
+  double least = 1e300;
+  const SweepGrid grid1 = sweep_grid(*pair.profile1, *pair.profile2, a),
+                  grid2 = sweep_grid(*pair.profile2, *pair.profile1, a);
+  for (int k = 0; k <= grid1.steps; ++k) {
+    const double turn1 = grid1.reach_rad * (2.0 * k / grid1.steps - 1.0);
+    const double turn2 = (ring ? turn1 * z1 / z2 : kPi - turn1 * z1 / z2) + kPi / z2;
+    for (const SweepSample& s : sweep_samples(*pair.profile1))
+      least = std::min(
+          least,
+          distance2.nearest(rotated(Point2(rotated(s.point, turn1) - axis2), -turn2)).distance_mm);
+  }
+  for (int k = 0; k <= grid2.steps; ++k) {
+    const double turn2 = grid2.reach_rad * (2.0 * k / grid2.steps - 1.0) + (ring ? 0.0 : kPi);
+    const double turn1 = (ring ? turn2 - kPi / z2 : kPi + kPi / z2 - turn2) * z2 / z1;
+    for (const SweepSample& s : sweep_samples(*pair.profile2))
+      least = std::min(
+          least,
+          distance1.nearest(rotated(Point2(rotated(s.point, turn2) + axis2), -turn1)).distance_mm);
+  }
+  return least;
+}
+
+TEST(SweepClearance, IsNoMoreThanThatOfAnySampleInAnyColumn) {
+  for (const auto& [teeth1, teeth2, ring] : {std::tuple(11, 17, false),
+                                             {17, 12, false},
+                                             {12, 40, true},
+                                             {24, 30, true},
+                                             {27, 30, true}}) {
+    SCOPED_TRACE(std::to_string(teeth1) + ' ' + std::to_string(teeth2));
+    const GearTrain train = laid_out(pair_design(teeth1, teeth2, ring, 0.05));
+    const GearPair pair = train.pair(train.meshes[0]);
+    const double least = least_of_all_mm(pair), swept = sweep_clearance_mm(pair);
+    EXPECT_LE(swept, least + 1e-9);
+    EXPECT_GE(swept, least - 3e-3);
+  }
 }
 
 TEST(TipsClear, AsksTheTipsAlone) {

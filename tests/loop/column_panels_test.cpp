@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <random>
 
 #include "trueflank/loop/discovery/agreement.h"
@@ -189,6 +191,93 @@ TEST(Agreement, OfWholesIsAnFTestOfWhatEachSaysByItself) {
     constexpr double kDegrees = 15.0 - 1.0 - 5.0;
     EXPECT_NEAR(p[g], f_tail(explained / ((total - explained) / kDegrees), 1.0, kDegrees), 1e-9)
         << "group " << g;
+  }
+}
+
+TEST(Agreement, OfGroupsOfColumnsCountsTheDirectionsThatAWholeHolds) {
+  const DiscoveryProblem problem = problem_of_wholes(1);
+  const SeenByHand seen(problem);
+  const std::vector<double> p = seen.agreement();
+  int asked = 0;
+  for (std::size_t g = 1; g < 21; ++g) {
+    const int columns = problem.groups[g].columns;
+    if (columns == 1) continue;
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
+    Eigen::VectorXd score = Eigen::VectorXd::Zero(columns);
+    double total = 0.0;
+    int degrees = 0;
+    for (int whole = 0; whole < 15; ++whole) {
+      std::vector<Eigen::Index> rows;
+      for (std::size_t r = 0; r < seen.statistics.used().size(); ++r)
+        if (seen.statistics.used()[r] % 15 == whole) rows.push_back(static_cast<Eigen::Index>(r));
+      const Eigen::VectorXd root = seen.weight(rows).cwiseSqrt();
+      const Eigen::MatrixXd x =
+          root.asDiagonal() *
+          seen.beside(rows, Eigen::all).middleCols(problem.groups[g].first_column, columns);
+      const Eigen::VectorXd y = root.cwiseProduct(seen.left(rows));
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(x, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
+        const double s = svd.singularValues()[k], along = svd.matrixU().col(k).dot(y);
+        if (!(s * s > 1e-3 * seen.projected[g].trace() / 15.0)) continue;
+        const Eigen::VectorXd direction = svd.matrixV().col(k);
+        gram += s * s * direction * direction.transpose();
+        score += s * along * direction;
+        total += along * along;
+        ++degrees;
+      }
+    }
+    const double explained = score.dot(gram.inverse() * score);
+    const double below = degrees - columns - 5.0;
+    EXPECT_NEAR(p[g], f_tail(explained / columns / ((total - explained) / below), columns, below),
+                1e-7)
+        << g;
+    ++asked;
+  }
+  EXPECT_GT(asked, 10);
+}
+
+TEST(Agreement, IsAskedOfFourToTwentyFourWholes) {
+  for (const int wholes : {3, 4, 24, 25, 96, 97}) {
+    DiscoveryProblem problem = random_problem(5);
+    if (wholes > 30) {  // one value of each, and another of some
+      const Eigen::Index n = 2 * wholes;
+      std::mt19937 random(9);
+      std::normal_distribution<double> normal;
+      const auto any = [&] { return normal(random); };
+      problem.value = Eigen::VectorXd::NullaryExpr(n, any);
+      problem.weight = Eigen::VectorXd::Ones(n);
+      problem.nuisance = Eigen::MatrixXd::NullaryExpr(n, 5, any);
+      problem.candidates = Eigen::MatrixXf::NullaryExpr(n, problem.candidates.cols(),
+                                                        [&] { return static_cast<float>(any()); });
+      // groups 0 and 3 live in the first 24 and 25 wholes
+      for (Eigen::Index i = 0; i < n; ++i) {
+        problem.candidates(i, 0) *= i % wholes < 24 ? 1.0f : 0.0f;
+        problem.candidates(i, 6) *= i % wholes < 25 ? 1.0f : 0.0f;
+      }
+      problem.nuisance.setZero();
+      problem.nuisance.leftCols(5).topRows(5).setIdentity();
+    }
+    const auto n = static_cast<std::size_t>(problem.value.size());
+    problem.unit.assign(n, 0);
+    problem.fold.assign(n, 0);
+    problem.zero.assign(n, -1);
+    for (std::size_t i = 0; i < n; ++i) {
+      const int whole = static_cast<int>(i) % wholes;
+      problem.whole.push_back(whole);
+      problem.unit[i] = whole;
+      problem.fold[i] = 1 + whole % 4;
+    }
+    const std::vector<double> p = SeenByHand(problem).agreement();
+    EXPECT_EQ(p.empty(), wholes < 4 || wholes > 96) << wholes;
+    if (p.empty()) continue;
+    if (wholes < 10) {
+      EXPECT_EQ(p[0], 1.0);  // 4 wholes less 5 fitted columns are none
+    } else if (wholes < 30) {
+      EXPECT_EQ(p[0] < 1.0, wholes == 24);
+    } else {
+      EXPECT_LT(p[0], 1.0);
+      EXPECT_EQ(p[3], 1.0);
+    }
   }
 }
 

@@ -440,6 +440,13 @@ TEST(RingScanFigures, OfACombAreItsHeightAndItsFTest) {
       1e-9);
 }
 
+TEST(RingScanFigures, OfSeriesWithoutSpreadAreNothingAndOfEqualsTheFirstKind) {
+  const RingFinding found = scan_ring(Eigen::MatrixXd::Constant(12, 2, 3.0), places(12), 12);
+  EXPECT_EQ(found.p_value, 1.0);
+  EXPECT_EQ(found.series, -1);
+  EXPECT_EQ(found.kind, RingFinding::Kind::kArc);
+}
+
 TEST(ChanceOfAgreement, IsStudentsOfTheCorrelation) {
   Eigen::VectorXd a(6), b(6);
   a << 1.0, 4.0, 2.0, 7.0, 5.0, 3.0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -196,6 +197,20 @@ std::string of_seed(int seed) {
                            : seed % 3 == 1 ? of_ring(seed / 3)
                                            : of_courses(seed / 3);
   return text.substr(std::min(text.size(), text.find_first_not_of("; ")));
+}
+
+TEST(CourseScan, ASetWithoutCoursesSaysNothing) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd set = Eigen::MatrixXd::NullaryExpr(30, 4, [&] { return normal(random); });
+  const auto alone = scan_courses({set}), beside = scan_courses({set, Eigen::MatrixXd(30, 0)});
+  ASSERT_EQ(alone.size(), beside.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(beside[i].kind, alone[i].kind);
+    EXPECT_EQ(beside[i].set, alone[i].set);
+    EXPECT_EQ(beside[i].amount, alone[i].amount);
+    EXPECT_FALSE(std::isnan(beside[i].p_value));
+  }
 }
 
 TEST(DiscoveryFigures, OfRandomProblemsRingsAndCoursesAreThoseWrittenDown) {

@@ -119,6 +119,14 @@ TEST(Selection, WhatAnotherPredictsBetterIsReplaced) {
   EXPECT_EQ(p.chosen(2), (Groups{kA, kB}));
 }
 
+TEST(Selection, AnEffectIsReplacedByItselfAtAnotherShape) {
+  Problem p(1.0, 1.0, 400.0);
+  p.column(kD) = p.column(kA) + p.column(kB) + 1.2f * p.column(kD);
+  p.group(kD).kin = p.group(kB).kin = 1;  // B does not enter beside D
+  EXPECT_EQ(p.chosen(), (Groups{kA, kB}));
+  EXPECT_EQ(p.chosen(1), Groups{kD});
+}
+
 TEST(Selection, OfEquallyGoodOnesPreferenceThenColumnsThenSimplicityThenGainThenOrderDecide) {
   const auto twins = [] {
     Problem p(1.0, 0.0, 400.0);
