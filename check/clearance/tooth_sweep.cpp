@@ -227,7 +227,9 @@ bool Sweep::comes_first(const Place& a, const Place& b) {
 
 Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm) const {
   const double m = mover_.gear().normal_module_mm;
-  const auto [reach, pitch_radius, turning, n] = sweep_grid(mover_, mate_profile_, distance_);
+  const SweepGrid positions = sweep_grid(mover_, mate_profile_, distance_);
+  const double reach = positions.reach_rad, pitch_radius = positions.pitch_radius_mm, turning = positions.turning;
+  const int n = positions.steps;
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
 
