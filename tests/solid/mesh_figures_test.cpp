@@ -86,7 +86,15 @@ GearboxDesign chosen_design(int number) {
   design.topology = train_topology("gear");
   GearDesign gear{.name = "gear", .face_width_mm = 8.0};
   design.helix_angle_rad = rad_from_deg(number % 2 == 0 ? 20.0 : -12.0);
-  if (number < 20) {
+  if (number >= 100) {  // steep, with few teeth
+    design.helix_angle_rad = rad_from_deg((number % 2 == 0 ? 1.0 : -1.0) * (25.0 + 3.0 * (number % 7)));
+    gear.teeth = 5 + number % 11;
+    gear.shift = std::max(0.0, (14.0 - gear.teeth) / 17.0);
+    gear.face_width_mm = 8.0 + 4.0 * (number % 3);
+    design.rack.root_radius = 0.1 * (number % 4);
+    if (number % 4 == 1) gear.modifications.edge_chamfer_mm = 0.1 + 0.1 * (number % 3);
+    if (number % 5 == 2) gear.modifications.crowning_um = 25.0;
+  } else if (number < 20) {
     gear.teeth = 6 + number;
     gear.shift = std::max(0.0, (17.0 - gear.teeth) / 17.0) + 0.1 * (number % 3);
   } else if (number < 30) {
@@ -133,14 +141,18 @@ std::string figures_of_chosen(int number) {
   };
   if (number == 51 || number == 52) outline.displacement = &displacement;
   if (number == 16) outline.displacement = &step;
-  std::vector<double> levels{0.0, 8.0};
+  std::vector<double> levels{0.0, number < 100 ? 8.0 : outline.twist.face_width_mm};
+  const double tolerance_mm = number < 100      ? number % 3 == 2 ? 3e-4 : 2e-3
+                              : number % 6 == 0 ? 3e-4
+                              : number % 6 < 4  ? 3e-3
+                                                : 0.02;
   if (number == 49) {
     levels.clear();
     for (int k = 0; k <= 70; ++k) levels.push_back(8.0 * k / 70.0);
   }
   return figures_of(ToothingGrid(
-      outline, levels, number % 3 == 2 ? 3e-4 : 2e-3,
-      number < 54 || (number >= 66 && number % 2 == 0) ? GridKind::kFewest : GridKind::kRows));
+      outline, levels, tolerance_mm,
+      number < 54 || number >= 100 || (number >= 66 && number % 2 == 0) ? GridKind::kFewest : GridKind::kRows));
 }
 
 std::string figures_of_seed(int seed) {
