@@ -23,12 +23,6 @@ const MeshClearance& closed_state(const MeshState& state) {
   return std::isnan(state.driving.clearance_mm) ? state.centred : state.driving;
 }
 
-/// Without play the centred position is the driving one.
-double closed_clearance_mm(const GearPair& pair) {
-  const double driving = driving_clearance(pair).clearance_mm;
-  return std::isnan(driving) ? sweep_clearance_mm(pair) : driving;
-}
-
 std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshPlace& place) {
   const GearPair pair = train.pair(mesh);
   const bool tip_of_gear1 = std::abs(place.radius1_mm - pair.profile1->tip_radius_mm()) <
@@ -36,7 +30,7 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshPla
   return cure_text(train, mesh, tip_of_gear1,
                    {.exact =
                         [](const GearPair& changed) {
-                          return closed_clearance_mm(changed) + tolerance::kTouch_mm;
+                          return clears_driving(changed, -tolerance::kTouch_mm) ? 0.0 : -1.0;
                         },
                     .quick =
                         [](const GearPair& changed) {

@@ -86,10 +86,12 @@ MeshClearance centred(const GearPair& pair, const PairDistances& d, double turn_
   return result;
 }
 
-/// Gear 2 turned towards the counter-clockwise flank of gear 1; a ring's own counter-clockwise flank
-/// touches on the other side.
+/// By which gear 2 is turned where it is turned towards the counter-clockwise flank of gear 1: a ring's own
+/// counter-clockwise flank touches on the other side.
+double turn_for_gear1_rad(const GearPair& pair, double turn) { return pair.internal() ? -turn : turn; }
+
 MeshClearance closed(const GearPair& pair, const PairDistances& d, double turn) {
-  return sweep_both(pair, d.gear1, d.gear2, pair.internal() ? -turn : turn, turn);
+  return sweep_both(pair, d.gear1, d.gear2, turn_for_gear1_rad(pair, turn), turn);
 }
 
 /// By which gear 2 turns from the middle of its play to its end; 0 without play.
@@ -107,7 +109,7 @@ MeshClearance driving(const GearPair& pair, const PairDistances& d) {
 bool tips_clear(const GearPair& pair, double turn_rad, double least_mm) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
   constexpr double kRough_mm = 1e-7, kDoubt_mm = 2.0 * kRough_mm;
-  const double turn_of_gear1 = pair.internal() ? -turn_rad : turn_rad;
+  const double turn_of_gear1 = turn_for_gear1_rad(pair, turn_rad);
   const double rough_mm = tips_swept_mm(pair, kRough_mm, turn_of_gear1, turn_rad, least_mm - kDoubt_mm);
   if (std::abs(rough_mm - least_mm) > kDoubt_mm) return rough_mm > least_mm;
   return tips_swept_mm(pair, CurveSpline::kError, turn_of_gear1, turn_rad, least_mm) >= least_mm;
@@ -168,6 +170,14 @@ MeshClearance driving_clearance(const GearPair& pair) {
   TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
   const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
   return driving(pair, d);
+}
+
+bool clears_driving(const GearPair& pair, double least_mm) {
+  TRUEFLANK_EXPECTS(pair.profile1 && pair.profile2 && pair.centre_distance_mm > 0.0);
+  const double turn = closing_rad(pair);
+  if (!(turn > 0.0)) return sweep_clearance_mm(pair) >= least_mm;
+  const PairDistances d{GearDistance(*pair.profile1), GearDistance(*pair.profile2)};
+  return both_clear(pair, d.gear1, d.gear2, turn_for_gear1_rad(pair, turn), turn, least_mm);
 }
 
 MeshState mesh_state(const GearPair& pair, double left_rad, double right_rad) {

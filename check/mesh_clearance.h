@@ -65,6 +65,9 @@ struct MeshClearance {
 /// cannot run conjugate there. NaN where there is no backlash to take up.
 [[nodiscard]] MeshClearance driving_clearance(const GearPair& pair);
 
+/// Whether driving_clearance() is at least so much; the centred clearance where there is no backlash to take up.
+[[nodiscard]] bool clears_driving(const GearPair& pair, double least_mm);
+
 /// What stands at a place, in words: "tip corner of sun (diameter 14.2 mm) at the root fillet of ...".
 [[nodiscard]] std::string place_text(const MeshPlace& place, const std::string& name1,
                                      const std::string& name2);

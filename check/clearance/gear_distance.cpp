@@ -103,7 +103,18 @@ GearDistance::Half GearDistance::half_of(const std::vector<ProfilePiece>& pieces
     }
   }
   add_joints(pieces, half);
+  set_order(half);
   return half;
+}
+
+void GearDistance::set_order(Half& half) {
+  const auto add = [&](Shape shape, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) half.order.push_back({shape, i});
+  };
+  add(Shape::kFlank, half.flanks.size());
+  add(Shape::kArc, half.arcs.size());
+  add(Shape::kLine, half.lines.size());
+  add(Shape::kSpline, half.splines.size());
 }
 
 void GearDistance::add_joints(const std::vector<ProfilePiece>& pieces, Half& half) const {
@@ -186,21 +197,24 @@ void GearDistance::measure_neighbours(const Point2& q, Best& best, bool& clockwi
   clockwise = clockwise != taken;
 }
 
-TRUEFLANK_ALWAYS_INLINE inline void GearDistance::measure(const Half& half, const Point2& q, Best& best, Before& before) const {
-  const auto each = [&](const auto& pieces, const auto& measured) {
-    for (const auto& piece : pieces) {
-      const auto k = static_cast<std::size_t>(piece.piece);
-      if (k >= Before::kPieces)
-        measured(piece);
-      else if (before.least_mm_[k] <= before.nearest_mm_)
-        before.least_mm_[k] = measured(piece);
-    }
-  };
-  each(half.flanks, [&](const Flank& flank) { return measure_flank(flank, q, best); });
-  each(half.arcs, [&](const Arc& arc) { return measure_arc(arc, q, best); });
-  each(half.lines, [&](const Line& line) { return measure_line(line, q, best); });
-  each(half.splines, [&](const Spline& spline) { return measure_spline(spline, q, best); });
-  if (before.least_mm_.back() <= before.nearest_mm_) measure_joints(half, q, best, before);
+TRUEFLANK_ALWAYS_INLINE inline double GearDistance::measure_piece(const Half& half, const Measured& piece, const Point2& q, Best& best) const {
+  switch (piece.shape) {
+    case Shape::kFlank: return measure_flank(half.flanks[piece.index], q, best);
+    case Shape::kArc: return measure_arc(half.arcs[piece.index], q, best);
+    case Shape::kLine: return measure_line(half.lines[piece.index], q, best);
+    case Shape::kSpline: break;
+  }
+  return measure_spline(half.splines[piece.index], q, best);
+}
+
+void GearDistance::measure(const Half& half, const Point2& q, Best& best, Before& before) const {
+  const double nearest_mm = before.nearest_mm_;
+  const std::size_t pieces = half.order.size(), bounded = std::min(pieces, Before::kPieces);
+  for (std::size_t k = 0; k < bounded; ++k)
+    if (before.least_mm_[k] <= nearest_mm)
+      before.least_mm_[k] = measure_piece(half, half.order[k], q, best);
+  for (std::size_t k = bounded; k < pieces; ++k) measure_piece(half, half.order[k], q, best);
+  if (before.least_mm_.back() <= nearest_mm) measure_joints(half, q, best, before);
 }
 
 void GearDistance::measure_joints(const Half& half, const Point2& q, Best& best, Before& before) const {

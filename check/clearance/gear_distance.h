@@ -35,7 +35,7 @@ class GearDistance {
   class Before {
    private:
     friend class GearDistance;
-    static constexpr std::size_t kPieces = 7;  // of a half tooth; any further one is always measured
+    static constexpr std::size_t kPieces = 7;  // of a half tooth, first to be measured; any further one always is
     Point2 point_ = Point2::Zero();
     double nearest_mm_ = std::numeric_limits<double>::infinity();
     std::array<double, kPieces + 1> least_mm_{};  // none of a piece is nearer; last: of all joints
@@ -81,6 +81,11 @@ class GearDistance {
     bool corner = false;
   };
 
+  enum class Shape { kFlank, kArc, kLine, kSpline };
+  struct Measured {
+    Shape shape;
+    std::size_t index;  // among those of its shape
+  };
   /// The pieces of one half tooth, in the counter-clockwise wedge.
   struct Half {
     std::vector<Joint> joints;
@@ -88,6 +93,7 @@ class GearDistance {
     std::vector<Flank> flanks;
     std::vector<Line> lines;
     std::vector<Spline> splines;
+    std::vector<Measured> order;  // of all pieces: by shape, flanks first, which are nearest most often
   };
 
   [[nodiscard]] int tooth_at(const Point2& point) const;
@@ -101,6 +107,8 @@ class GearDistance {
   void measure(const Half& half, const Point2& q, Best& best, Before& before) const;
   void measure_joints(const Half& half, const Point2& q, Best& best, Before& before) const;
   void measure_neighbours(const Point2& q, Best& best, bool& clockwise) const;
+  static void set_order(Half& half);
+  double measure_piece(const Half& half, const Measured& piece, const Point2& q, Best& best) const;
   // Each takes over its foot if that is nearer than `best`, and returns what no part of it is nearer than.
   double measure_arc(const Arc& arc, const Point2& q, Best& best) const;
   double measure_flank(const Flank& flank, const Point2& q, Best& best) const;

@@ -13,18 +13,31 @@ struct ScalarMinimum {
 
 /// Golden section with parabolic steps (Brent). Finds the minimum of a function with one valley in
 /// [low, high], one of several otherwise; ends included.
-/// Accuracy: `tolerance` of the argument, at most 60 evaluations.
-template <class Function>
-[[nodiscard]] ScalarMinimum find_minimum(const Function& f, double low, double high,
-                                         double tolerance) {
+/// `done`: told the lowest value so far, those of both ends, and how far from its place the search may still look;
+/// true where that is answer enough. `aside`: the function again, at a place that the answer is not taken from.
+/// Accuracy: `tolerance` of the argument, at most 61 evaluations.
+template <class Function, class Done, class Aside>
+[[nodiscard]] ScalarMinimum find_minimum(const Function& f, double low, double high, double tolerance,
+                                         const Done& done, const Aside& aside) {
+  constexpr double kNearEnd = 0.1;   // of the range
+  constexpr double kRising = 1e-10;  // far above what distances [mm] found by such a search are off by
   constexpr double kGolden = 0.3819660112501051;
   double x = low + kGolden * (high - low), w = x, v = x;
   double fx = f(x), fw = fx, fv = fx, step = 0.0, last = 0.0;
   const double end_low = f(low), end_high = f(high);
   double a = low, b = high;
+  bool end_tried = false;
   for (int i = 0; i < 58; ++i) {
     const double mid = 0.5 * (a + b);
     if (std::abs(x - mid) <= 2.0 * tolerance - 0.5 * (b - a)) break;
+    if (done(fx, end_low, end_high, x < mid ? b - x : x - a)) break;
+    // Golden section takes thirty steps to an end. Where a narrow range is left beside it and the function rises
+    // from it, that is where they lead.
+    if (!end_tried && b - a < kNearEnd * (high - low) && (a == low || b == high)) {
+      end_tried = true;
+      const double end = a == low ? end_low : end_high;
+      if (end < fx && aside(a == low ? low + 2.0 * tolerance : high - 2.0 * tolerance) > end + kRising) break;
+    }
     bool golden = true;
     if (std::abs(last) > tolerance) {
       const double r = (x - w) * (fx - fv), q0 = (x - v) * (fx - fw);
@@ -65,6 +78,10 @@ template <class Function>
   if (end_low < fx && end_low <= end_high) return {low, end_low};
   if (end_high < fx) return {high, end_high};
   return {x, fx};
+}
+template <class Function>
+[[nodiscard]] ScalarMinimum find_minimum(const Function& f, double low, double high, double tolerance) {
+  return find_minimum(f, low, high, tolerance, [](double, double, double, double) { return false; }, f);
 }
 
 }  // namespace trueflank

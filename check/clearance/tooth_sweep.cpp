@@ -104,12 +104,18 @@ class Sweep {
         distance_(pair.centre_distance_mm) {
     const double z = mover_.gear().teeth, z_mate = mate_profile_.gear().teeth;
     ratio_ = (internal_ ? z : -z) / z_mate;
+    positions_ = sweep_grid(mover_, mate_profile_, distance_);
     half_pitch_mate_ = kPi / z_mate;
     // axis of the mate as the mover sees it, and the direction from the mate's axis to the mesh
     axis_ = internal_ && gear1_moves_ ? -distance_ : distance_;
     mate_faces_ = internal_ ? 0.0 : kPi;
   }
 
+  /// How much of the lowest place is asked for.
+  struct Wanted {
+    double enough_mm = -kUnlimited;  // below it any value will do
+    double ample_mm = kUnlimited;    // above it any value will do
+  };
   struct Place {
     double clearance = std::numeric_limits<double>::infinity();
     Sample sample{};
@@ -117,12 +123,17 @@ class Sweep {
   };
 
   /// Of all places of the mover's half tooth.
-  [[nodiscard]] Place lowest() const { return lowest(sweep_samples(mover_), -kUnlimited); }
+  [[nodiscard]] Place lowest() const { return lowest(sweep_samples(mover_), {}); }
+  [[nodiscard]] bool clears(double least_mm) const {
+    const Wanted wanted{.enough_mm = least_mm - kSame_mm, .ample_mm = least_mm + kSame_mm};
+    return lowest(sweep_samples(mover_), wanted).clearance >= least_mm;
+  }
   /// The clearance of its tips; any value below `enough_mm` where it is below that.
   [[nodiscard]] double lowest_of_tips_mm(double enough_mm) const {
-    return lowest(tip_samples(mover_), enough_mm).clearance;
+    return lowest(tip_samples(mover_), {.enough_mm = enough_mm}).clearance;
   }
   [[nodiscard]] static bool comes_first(const Place& a, const Place& b);
+  [[nodiscard]] static bool same_place(const Place& a, const Place& b);
   [[nodiscard]] MeshPlace describe(const Place& place) const;
 
  private:
@@ -143,14 +154,16 @@ class Sweep {
   [[nodiscard]] double clearance(const Point2& p, const Position& at, GearDistance::Before& before) const {
     return mate_.nearest(in_mate(p, at), before).distance_mm;
   }
-  [[nodiscard]] Place lowest(const std::vector<Sample>& samples, double enough_mm) const;
-  [[nodiscard]] Place refined(const Place& start, double step) const;
+  [[nodiscard]] Place lowest(const std::vector<Sample>& samples, const Wanted& wanted) const;
+  [[nodiscard]] Place refined(const Place& start, double step, double lost_mm) const;
+  [[nodiscard]] double fastest_mm_per_rad(const Place& start, double step) const;
 
   const ToothProfile& mover_;
   const ToothProfile& mate_profile_;
   const GearDistance& mate_;
   bool internal_, gear1_moves_;
   double mate_turn_, distance_;
+  SweepGrid positions_;
   double ratio_ = 0.0, half_pitch_mate_ = 0.0, axis_ = 0.0, mate_faces_ = 0.0;
 };
 
@@ -225,11 +238,16 @@ bool Sweep::comes_first(const Place& a, const Place& b) {
   return rank(a) < rank(b);
 }
 
-Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm) const {
+/// Where the search from one ends, the other's does.
+bool Sweep::same_place(const Place& a, const Place& b) {
+  return a.sample.piece == b.sample.piece && a.sample.parameter == b.sample.parameter &&
+         a.sample.low == b.sample.low && a.sample.high == b.sample.high && a.angle == b.angle;
+}
+
+Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, const Wanted& wanted) const {
   const double m = mover_.gear().normal_module_mm;
-  const SweepGrid positions = sweep_grid(mover_, mate_profile_, distance_);
-  const double reach = positions.reach_rad, pitch_radius = positions.pitch_radius_mm, turning = positions.turning;
-  const int n = positions.steps;
+  const double reach = positions_.reach_rad, turning = positions_.turning;
+  const int n = positions_.steps;
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
 
@@ -270,7 +288,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
       };
       const Point2& p = samples[i].point;
       const double along = c * p.x() - s * p.y(), x = along - axis_, y = s * p.x() + c * p.y();
-      const double from_pitch_point = norm_of(along - pitch_radius, y);
+      const double from_pitch_point = norm_of(along - positions_.pitch_radius_mm, y);
       const auto pass_over = [&](double distance_mm) {
         const std::size_t passed =
             columns_without(distance_mm - (lowest + kRefineBand * m),
@@ -288,7 +306,7 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
       const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y}, before[i]);
       keep(near.distance_mm);
       lowest = std::min(lowest, near.distance_mm);
-      if (lowest < enough_mm) return {.clearance = lowest};
+      if (lowest < wanted.enough_mm) return {.clearance = lowest};
       pass_over(near.distance_mm);
       OfPiece& against = best_of_kind[static_cast<std::size_t>(samples[i].piece)][static_cast<std::size_t>(near.piece)];
       Place& best = against[near.corner][near.clockwise_half];
@@ -316,8 +334,10 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   Place best;
   double least_mm = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < std::min(starts.size(), kMostRefined); ++k) {
-    Place place = refined(starts[k], step);
+    if (k > 0 && same_place(starts[k], starts[k - 1])) continue;
+    Place place = refined(starts[k], step, std::min(best.clearance + 2.0 * kSame_mm, wanted.ample_mm));
     least_mm = std::min(least_mm, place.clearance);
+    if (least_mm < wanted.enough_mm) break;
     // along a path of contact all clearances are equal: there the search went where rounding led it
     if (place.clearance > starts[k].clearance - kSame_mm) place = starts[k];
     if (comes_first(place, best)) best = place;
@@ -326,8 +346,44 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, double enough_mm)
   return best;
 }
 
-Sweep::Place Sweep::refined(const Place& start, double step) const {
+/// Points of a curve at parameters that a search asks for again and again: find_minimum() begins with the
+/// same four wherever it is given the same ends.
+class PointsOfSearch {
+ public:
+  explicit PointsOfSearch(const Curve& curve) : curve_(curve) {}
+  void begin() { asked_ = 0; }
+  [[nodiscard]] Point2 at(double parameter) {
+    const std::size_t k = asked_++;
+    if (k >= first_.size()) return point_at(curve_, parameter);
+    if (first_[k].parameter != parameter) first_[k] = {parameter, point_at(curve_, parameter)};
+    return first_[k].point;
+  }
+
+ private:
+  struct Known {
+    double parameter = std::numeric_limits<double>::quiet_NaN();
+    Point2 point = Point2::Zero();
+  };
+  const Curve& curve_;
+  std::array<Known, 4> first_;
+  std::size_t asked_ = 0;
+};
+
+/// How fast a place within a start's range moves in the mate, at most: the relative turning about the pitch point.
+double Sweep::fastest_mm_per_rad(const Place& start, double step) const {
+  const Point2& p = start.sample.point;
   const Curve& curve = mover_.pieces()[static_cast<std::size_t>(start.sample.piece)].curve;
+  // an arc is less than twice as long as its chord
+  const double along = 2.0 * std::max((point_at(curve, start.sample.low) - p).norm(),
+                                      (point_at(curve, start.sample.high) - p).norm());
+  const double from_pitch_point = (rotated(p, start.angle) - Point2(positions_.pitch_radius_mm, 0.0)).norm();
+  return positions_.turning * (from_pitch_point + along + step * p.norm());
+}
+
+/// `lost_mm`: where no value can come below that, any above it will do.
+Sweep::Place Sweep::refined(const Place& start, double step, double lost_mm) const {
+  const Curve& curve = mover_.pieces()[static_cast<std::size_t>(start.sample.piece)].curve;
+  PointsOfSearch points(curve);
   Place best = start;
   GearDistance::Before before;
   const auto at_angle = [&](double angle) {
@@ -335,9 +391,9 @@ Sweep::Place Sweep::refined(const Place& start, double step) const {
     if (start.sample.low == start.sample.high) return clearance(start.sample.point, at, before);
     const double low = std::min(start.sample.low, start.sample.high);
     const double high = std::max(start.sample.low, start.sample.high);
-    const ScalarMinimum inner =
-        find_minimum([&](double u) { return clearance(point_at(curve, u), at, before); }, low, high,
-                     1e-6 * (high - low));
+    points.begin();
+    const ScalarMinimum inner = find_minimum(
+        [&](double u) { return clearance(points.at(u), at, before); }, low, high, 1e-6 * (high - low));
     if (inner.value < best.clearance) {
       best.clearance = inner.value;
       best.angle = angle;
@@ -346,8 +402,18 @@ Sweep::Place Sweep::refined(const Place& start, double step) const {
     }
     return inner.value;
   };
+  const double fastest = fastest_mm_per_rad(start, step);
+  const auto lost = [&](double value, double low, double high, double reach) {
+    return value - fastest * reach > lost_mm && low > lost_mm && high > lost_mm;
+  };
+  const auto aside = [&](double angle) {
+    const Place kept = best;
+    const double value = at_angle(angle);
+    best = kept;
+    return value;
+  };
   const ScalarMinimum outer =
-      find_minimum(at_angle, start.angle - step, start.angle + step, 1e-6 * step);
+      find_minimum(at_angle, start.angle - step, start.angle + step, 1e-6 * step, lost, aside);
   if (outer.value < best.clearance) {
     best.clearance = outer.value;
     best.angle = outer.at;
@@ -413,6 +479,12 @@ MeshClearance sweep_both(const GearPair& pair, const GearDistance& gear1, const 
   if (std::abs(result.clearance_mm) < kZero_mm) result.clearance_mm = 0.0;
   result.place = use_first ? first.describe(place1) : second.describe(place2);
   return result;
+}
+
+bool both_clear(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2, double turn_rad,
+                double turn_for_gear2_moving_rad, double least_mm) {
+  return Sweep(pair, gear2, true, turn_rad).clears(least_mm) &&
+         Sweep(pair, gear1, false, turned_back_rad(pair, turn_for_gear2_moving_rad)).clears(least_mm);
 }
 
 double tips_swept_mm(const GearPair& pair, double spline_error, double turn_rad,

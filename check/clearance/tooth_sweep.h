@@ -21,6 +21,10 @@ inline constexpr double kZero_mm = 1e-9;
                                        const GearDistance& gear2, double turn_rad,
                                        double turn_for_gear2_moving_rad);
 
+/// Whether sweep_both()'s clearance is at least so much: less work where it is, and much less where it is not.
+[[nodiscard]] bool both_clear(const GearPair& pair, const GearDistance& gear1, const GearDistance& gear2,
+                              double turn_rad, double turn_for_gear2_moving_rad, double least_mm);
+
 /// The clearance of tip corners alone, or what stands in their place (rounding, trimmed corner): never less
 /// than sweep_both()'s. Any value below `enough_mm` where it is below that. `spline_error`: GearDistance's.
 [[nodiscard]] double tips_swept_mm(const GearPair& pair, double spline_error, double turn_rad,

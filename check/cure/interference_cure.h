@@ -9,7 +9,8 @@
 
 namespace trueflank {
 
-/// How far a pair is on the good side; a cure is where this becomes 0. NaN counts as bad.
+/// How far a pair is on the good side; a cure is where this becomes 0. NaN counts as bad. Cures ask for its sign
+/// alone: one that knows no more may tell 0 and -1.
 using PairMargin = std::function<double(const GearPair&)>;
 
 /// A margin that is costly to ask, with a quick answer that is true wherever the margin is not negative: the

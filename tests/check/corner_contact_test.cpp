@@ -102,6 +102,24 @@ TEST(CornerContact, TipsAloneAreNeverNearerThanAllPlaces) {
   EXPECT_GT(touching, 5);
 }
 
+TEST(CornerContact, ClearsWhatTheDrivingClearanceIsAtLeast) {
+  int meshes = 0, touching = 0;
+  for (std::uint64_t seed = 300; meshes < 30; ++seed) {
+    const auto train = lay_out(test::random_design(seed));
+    if (!train || train->meshes.size() != 1) continue;
+    const GearPair pair = train->pair(train->meshes.front());
+    const double driving = driving_clearance(pair).clearance_mm;
+    const double clearance = std::isnan(driving) ? sweep_clearance_mm(pair) : driving;
+    for (const double less_mm : {1e-2, 1e-5, 1e-7}) {
+      EXPECT_TRUE(clears_driving(pair, clearance - less_mm)) << seed << ", " << less_mm;
+      EXPECT_FALSE(clears_driving(pair, clearance + less_mm)) << seed << ", " << less_mm;
+    }
+    ++meshes;
+    if (driving < -1e-6) ++touching;
+  }
+  EXPECT_GT(touching, 2);
+}
+
 TEST(CornerContact, SeekingWithTheTipsAloneFindsTheSameCure) {
   const auto exact = [](const GearPair& pair) { return driving_clearance(pair).clearance_mm + 1e-6; };
   const CureMargin all{exact};

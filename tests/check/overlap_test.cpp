@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "tests/check/check_designs.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/clearance/gear_distance.h"
+#include "trueflank/check/clearance/scalar_minimum.h"
 #include "trueflank/check/ring_criteria.h"
 
 namespace trueflank::test {
@@ -16,6 +18,46 @@ namespace {
 MeshClearance clearance_of(const GearboxDesign& design, std::size_t mesh = 0) {
   const GearTrain train = laid_out(design);
   return mesh_clearance(train.pair(train.meshes[mesh]));
+}
+
+/// Where a function is lowest in [0, 1], to 1e-6, and how often it was asked for that.
+template <class Function>
+std::pair<ScalarMinimum, int> searched(const Function& f) {
+  int asked = 0;
+  const auto counted = [&](double x) { return ++asked, f(x); };
+  const ScalarMinimum found = find_minimum(counted, 0.0, 1.0, 1e-6);
+  return {found, asked};
+}
+
+TEST(ScalarMinimum, OfARisingFunctionIsItsFirstEndAfterATenthOfTheRange) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto [found, asked] = searched([&](double x) { return std::exp(sign * x); });
+    EXPECT_EQ(found.at, sign > 0.0 ? 0.0 : 1.0);
+    EXPECT_EQ(found.value, sign > 0.0 ? 1.0 : std::exp(-1.0));
+    EXPECT_LE(asked, 12);  // 33 by golden section alone
+  }
+}
+
+TEST(ScalarMinimum, BesideAnEndIsNotTakenForTheEnd) {
+  for (const double at : {1e-5, 0.02, 0.3, 0.98, 1.0 - 1e-5}) {
+    const auto [found, asked] = searched([&](double x) { return (x - at) * (x - at) * (1.0 + x); });
+    EXPECT_NEAR(found.at, at, 3e-6) << at;
+  }
+}
+
+TEST(ScalarMinimum, SearchIsEndedWhereItsCallerKnowsEnough) {
+  const auto cone = [](double x) { return 1.0 + std::abs(x - 0.6); };  // changes by no more than x does
+  int asked = 0;
+  const auto counted = [&](double x) { return ++asked, cone(x); };
+  const auto above = [](double limit) {
+    return [=](double value, double low, double high, double reach) {
+      return value - reach > limit && low > limit && high > limit;
+    };
+  };
+  const ScalarMinimum ended = find_minimum(counted, 0.0, 1.0, 1e-6, above(0.8), cone);
+  EXPECT_GT(ended.value, 0.8);
+  EXPECT_LE(asked, 8);
+  EXPECT_NEAR(find_minimum(cone, 0.0, 1.0, 1e-6, above(1.5), cone).at, 0.6, 2e-6);  // it may yet come below
 }
 
 TEST(GearDistance, IsZeroOnTheProfileAndHasTheSignOfTheSide) {
