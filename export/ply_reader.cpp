@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/export/mesh_parsers.h"
 
 namespace trueflank::io {
@@ -127,13 +128,30 @@ class Body {
     }
     const std::size_t size = bytes_of(type);
     if (content_.size() < size) return false;
-    char bytes[8];
-    std::memcpy(bytes, content_.data(), size);
-    const bool little = coding_ == Coding::kLittleEndian;
-    if (little != (std::endian::native == std::endian::little)) std::reverse(bytes, bytes + size);
+    value = value_of(content_.data(), type);
     content_.remove_prefix(size);
-    value = converted(bytes, type);
     return true;
+  }
+
+  /// Of an element, the same for all of them; 0: of text and of lists it is not.
+  [[nodiscard]] std::size_t bytes_of_each(const Element& element) const {
+    if (coding_ == Coding::kText) return 0;
+    std::size_t bytes = 0;
+    for (const Property& property : element.properties) {
+      if (property.count_type) return 0;
+      bytes += bytes_of(property.type);
+    }
+    return bytes;
+  }
+  [[nodiscard]] const char* data() const { return content_.data(); }
+  void skip(std::size_t bytes) { content_.remove_prefix(bytes); }
+  /// Of the bytes there.
+  [[nodiscard]] double value_of(const char* at, Type type) const {
+    const bool little = coding_ == Coding::kLittleEndian;
+    if (little == (std::endian::native == std::endian::little)) return converted(at, type);
+    char bytes[8];
+    std::reverse_copy(at, at + bytes_of(type), bytes);
+    return converted(bytes, type);
   }
 
  private:
@@ -174,7 +192,9 @@ class ElementReader {
                         .message = "triangle strips in a PLY file are not read"});
     if (element.properties.empty()) return true;  // occupies nothing, however often
     if (auto status = choose_properties(element); !status) return fail(status.error());
-    for (std::uint64_t i = 0; i < element.count; ++i) {
+    const auto read = read_plain_vertices(element);
+    if (!read) return fail(read.error());
+    for (std::uint64_t i = *read; i < element.count; ++i) {
       const bool whole = read_one(element);
       if (!whole) return cut_off(element, i);
       if (has_impossible_corner_ && !reading_.notes_damage())
@@ -204,6 +224,36 @@ class ElementReader {
     if (is_vertex && !(has_axis[0] && has_axis[1] && has_axis[2]))
       return syntax_error("the vertices of the PLY file have no x, y and z");
     return {};
+  }
+
+  /// Vertices whose properties all take the same bytes, as many as the body holds whole, on all
+  /// processors; 0 of other elements. What is left is read one by one.
+  Result<std::uint64_t> read_plain_vertices(const Element& element) {
+    const std::size_t bytes = element.name == "vertex" ? body_.bytes_of_each(element) : 0;
+    if (bytes == 0) return 0;
+    const std::uint64_t count = std::min<std::uint64_t>(element.count, body_.left() / bytes);
+    if (auto status = reading_.take_facets(0, count); !status) return fail(status.error());
+    // Some at a time: the list grows by doubling, and what it leaves behind holds what is made of it later.
+    constexpr std::uint64_t kOfWork = 8192, kAtOnce = 8 * kOfWork;
+    for (std::uint64_t from = 0; from < count; from += kAtOnce) {
+      const std::uint64_t some = std::min(count - from, kAtOnce);
+      const std::size_t before = mesh_.vertices.size();
+      mesh_.vertices.resize(before + some);
+      for_each_piece((some + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
+        for (std::uint64_t i = piece * kOfWork; i < std::min(some, (piece + 1) * kOfWork); ++i)
+          read_plain_vertex(element, body_.data() + i * bytes, mesh_.vertices[before + i]);
+      });
+      body_.skip(some * bytes);
+    }
+    return count;
+  }
+
+  void read_plain_vertex(const Element& element, const char* at, std::array<double, 3>& vertex) const {
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      const Type type = element.properties[k].type;
+      if (places_[k] >= 0) vertex[static_cast<std::size_t>(places_[k])] = body_.value_of(at, type);
+      at += bytes_of(type);
+    }
   }
 
   /// The values of one vertex, face or other; false at the end of the file.

@@ -6,6 +6,7 @@
 #include <deque>
 #include <utility>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -22,6 +23,8 @@ using Eigen::VectorXd;
 constexpr double kDegrees = 24.0, kMostDegrees = 200.0;
 /// Wild points count no more than so many spreads.
 constexpr double kClip = 3.5;
+
+bool is_beyond_doubt(double p_value) { return p_value < 1e-8; }
 
 /// Orthonormal cosines over the rows: errors that hang together are nearly independent in them.
 MatrixXd cosines(Index m) {
@@ -96,7 +99,10 @@ class CourseScan {
       for (int s = 0; s < static_cast<int>(sets_.size()); ++s)
         if (sets_[s].cols() >= 2) asked.push_back(s);
       if (asked.size() > 1) asked.push_back(-1);
-      for (const int set : asked) look_for_common(set);
+      std::vector<Common> commons;
+      for (const int set : asked) commons.push_back(common(set));
+      measure_waves(commons);
+      for (const Common& one : commons) look_for_common(one);
       count_ = static_cast<double>(asked.size());
       // Two kinds of question, localised and wavelike, share the level.
       for (CourseFinding* f : {&step_, &band_}) keep(*f, 2.0 * count_ * forms_);
@@ -150,11 +156,18 @@ class CourseScan {
     }
   }
 
-  [[nodiscard]] VectorXd common(int set, double& courses) const {
-    if (set >= 0) {
-      courses = static_cast<double>(sets_[set].cols());
-      return mean_[set];
-    }
+  /// What the courses of a set, or of all sets, have in common.
+  struct Common {
+    int set = -1;
+    VectorXd mean;
+    double courses = 0.0;
+    std::vector<double> amplitudes;  ///< of kWaveStep apart numbers of waves
+  };
+  static constexpr double kFewestWaves = 2.0, kWaveStep = 0.25;
+  [[nodiscard]] double most_waves() const { return 0.42 * static_cast<double>(m_); }
+
+  [[nodiscard]] Common common(int set) const {
+    if (set >= 0) return {set, mean_[set], static_cast<double>(sets_[set].cols()), {}};
     VectorXd sum = VectorXd::Zero(m_);
     double inverse = 0.0, n = 0.0;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -163,63 +176,89 @@ class CourseScan {
       inverse += 1.0 / static_cast<double>(sets_[s].cols());
       n += 1.0;
     }
-    courses = n * n / inverse;
-    return sum / n;
+    return {set, sum / n, n * n / inverse, {}};
   }
 
-  void look_for_common(int set) {
-    double courses = 0.0;
-    const VectorXd mean = common(set, courses);
-    const VectorXd variance = spectrum_ / courses;
+  /// The cosines and sines of a wave are computed once for all.
+  void measure_waves(std::vector<Common>& commons) {
+    frequencies_ = std::floor((most_waves() - kFewestWaves) / kWaveStep) + 1.0;
+    if (!(frequencies_ > 0.0)) return;
+    const auto waves = static_cast<std::size_t>(frequencies_);
+    for (Common& one : commons) one.amplitudes.resize(waves);
+    constexpr std::size_t kWavesOfWork = 16;
+    for_each_piece((waves + kWavesOfWork - 1) / kWavesOfWork, [&](std::size_t piece) {
+      for (std::size_t k = piece * kWavesOfWork; k < std::min(waves, (piece + 1) * kWavesOfWork); ++k) {
+        const Wave wave = wave_of(kFewestWaves + kWaveStep * static_cast<double>(k));
+        for (Common& one : commons) one.amplitudes[k] = amplitude_of(one.mean, wave);
+      }
+    });
+  }
+
+  void look_for_common(const Common& one) {
+    const VectorXd variance = spectrum_ / one.courses;
     const std::vector<CourseForm>& forms = forms_of_rows(m_).forms;
     forms_ = static_cast<double>(forms.size());
     for (const CourseForm& form : forms)
-      judge(form.kind == CourseKind::kStep ? step_ : band_, form, set, 1.0 / courses, mean, variance);
-    look_for_common_wave(set, 1.0 / courses, mean, variance);
+      judge(form.kind == CourseKind::kStep ? step_ : band_, form, one.set, 1.0 / one.courses, one.mean, variance);
+    look_for_common_wave(one, variance);
   }
 
   /// `scale`: variance of the mean over that of one course.
   void judge(CourseFinding& best, const CourseForm& form, int set, double scale,
              const VectorXd& mean, const VectorXd& variance) {
     const double score = form.values.dot(mean);
-    const double t = score / std::sqrt(form.powers.dot(variance));
-    const double p = student_two_sided(std::abs(t), degrees_);
+    const double t = std::abs(score / std::sqrt(form.powers.dot(variance)));
     const double square = score * score / form.square / scale;
+    // The p-value falls with t: most forms are told from the best one without it.
+    double& best_t = form.kind == CourseKind::kStep ? step_t_ : band_t_;
+    if (is_beyond_doubt(best.p_value) ? square <= best.square : t < best_t * (1.0 - 1e-9)) return;
+    const double p = student_two_sided(t, degrees_);
     if (!is_better(p, square, best.p_value, best.square)) return;
     const double m = static_cast<double>(m_);
     best = {form.kind, p, set, -1, form.at / m, form.width / m, square, score / form.square};
+    best_t = t;
   }
 
-  void look_for_common_wave(int set, double scale, const VectorXd& mean, const VectorXd& variance) {
-    constexpr double kStep = 0.25, kFinest = 0.01;
-    const double most = 0.42 * static_cast<double>(m_);
-    frequencies_ = std::floor((most - 2.0) / kStep) + 1.0;
+  void look_for_common_wave(const Common& one, const VectorXd& variance) {
+    constexpr double kFinest = 0.01;
+    const double scale = 1.0 / one.courses;
     double best = 0.0;
-    const auto judge_wave = [&](double f) {
-      const double amplitude = amplitude_of(mean, f);
+    const auto judge_wave = [&](double f, double amplitude) {
       const double half = 0.5 * static_cast<double>(m_);
       const auto k = std::min<Index>(m_ - 1, std::lround(2.0 * f));
       const double p = f_tail(0.5 * half * amplitude * amplitude / variance[k], 2.0, degrees_);
       const double square = half * amplitude * amplitude / scale;
       if (!is_better(p, square, wave_.p_value, wave_.square)) return;
-      wave_ = {CourseKind::kWave, p, set, -1, 0.0, 1.0 / f, square, amplitude};
+      wave_ = {CourseKind::kWave, p, one.set, -1, 0.0, 1.0 / f, square, amplitude};
       best = f;
     };
-    for (double f = 2.0; f <= most; f += kStep) judge_wave(f);
-    for (double step = 0.5 * kStep; best > 0.0 && step > kFinest; step *= 0.5) {
+    for (std::size_t k = 0; k < one.amplitudes.size(); ++k)
+      judge_wave(kFewestWaves + kWaveStep * static_cast<double>(k), one.amplitudes[k]);
+    for (double step = 0.5 * kWaveStep; best > 0.0 && step > kFinest; step *= 0.5) {
       const double middle = best;
-      judge_wave(middle - step);
-      judge_wave(middle + step);
+      for (const double f : {middle - step, middle + step})
+        judge_wave(f, amplitude_of(one.mean, wave_of(f)));
     }
   }
 
-  [[nodiscard]] double amplitude_of(const VectorXd& mean, double waves) const {
-    double cosine = 0.0, sine = 0.0;
+  struct Wave {
+    VectorXd cosine, sine;
+  };
+  [[nodiscard]] Wave wave_of(double waves) const {
+    Wave wave{VectorXd(m_), VectorXd(m_)};
     for (Index i = 0; i < m_; ++i) {
       const double angle =
           kTwoPi * waves * (static_cast<double>(i) + 0.5) / static_cast<double>(m_);
-      cosine += mean[i] * std::cos(angle);
-      sine += mean[i] * std::sin(angle);
+      wave.cosine[i] = std::cos(angle);
+      wave.sine[i] = std::sin(angle);
+    }
+    return wave;
+  }
+  [[nodiscard]] double amplitude_of(const VectorXd& mean, const Wave& wave) const {
+    double cosine = 0.0, sine = 0.0;
+    for (Index i = 0; i < m_; ++i) {
+      cosine += mean[i] * wave.cosine[i];
+      sine += mean[i] * wave.sine[i];
     }
     return std::hypot(cosine, sine) / (0.5 * static_cast<double>(m_));
   }
@@ -230,11 +269,17 @@ class CourseScan {
     constexpr double kStandsOut = 3.0;
     CourseFinding best{CourseKind::kOwnWaves};
     double tests = 0.0;
+    // One course that is louder than the others would count for all of them.
+    std::vector<VectorXd> louds;
+    std::vector<MatrixXd> evened;
+    for (const MatrixXd& set : sets_) {
+      louds.push_back(loudness_of(set));
+      evened.push_back(set * louds.back().cwiseInverse().asDiagonal());
+    }
+    const std::vector<VectorXd> powers = tapered_powers(evened);
     for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
       if (sets_[s].cols() < 1) continue;
-      // One course that is louder than the others would count for all of them.
-      const VectorXd loud = loudness_of(sets_[s]);
-      const VectorXd power = tapered_power(sets_[s] * loud.cwiseInverse().asDiagonal());
+      const VectorXd &loud = louds[static_cast<std::size_t>(s)], &power = powers[static_cast<std::size_t>(s)];
       const auto n = static_cast<double>(sets_[s].cols());
       for (Index k = 5; k + 4 < power.size(); ++k) {
         tests += 1.0;
@@ -254,21 +299,29 @@ class CourseScan {
     keep(best, tests);
   }
 
-  /// Squared amplitude / 4 of whole numbers of waves, summed over the courses, with a Hann window.
-  [[nodiscard]] VectorXd tapered_power(const MatrixXd& set) const {
+  /// Squared amplitude / 4 of whole numbers of waves, summed over the courses of each set, with a Hann
+  /// window.
+  [[nodiscard]] std::vector<VectorXd> tapered_powers(const std::vector<MatrixXd>& sets) const {
     const auto m = static_cast<double>(m_);
-    VectorXd power = VectorXd::Zero(m_ / 2);
-    for (Index k = 1; k < power.size(); ++k) {
+    std::vector<VectorXd> powers(sets.size(), VectorXd::Zero(m_ / 2));
+    constexpr std::size_t kWavesOfWork = 8;
+    const auto waves = static_cast<std::size_t>(m_ / 2);
+    for_each_piece((waves + kWavesOfWork - 1) / kWavesOfWork, [&](std::size_t piece) {
       VectorXd c(m_), s(m_);
-      for (Index i = 0; i < m_; ++i) {
-        const double x = (static_cast<double>(i) + 0.5) / m;
-        const double taper = (1.0 - std::cos(kTwoPi * x)) / m;
-        c[i] = taper * std::cos(kTwoPi * static_cast<double>(k) * x);
-        s[i] = taper * std::sin(kTwoPi * static_cast<double>(k) * x);
+      for (std::size_t k = std::max<std::size_t>(1, piece * kWavesOfWork);
+           k < std::min(waves, (piece + 1) * kWavesOfWork); ++k) {
+        for (Index i = 0; i < m_; ++i) {
+          const double x = (static_cast<double>(i) + 0.5) / m;
+          const double taper = (1.0 - std::cos(kTwoPi * x)) / m;
+          c[i] = taper * std::cos(kTwoPi * static_cast<double>(k) * x);
+          s[i] = taper * std::sin(kTwoPi * static_cast<double>(k) * x);
+        }
+        for (std::size_t one = 0; one < sets.size(); ++one)
+          powers[one][static_cast<Index>(k)] =
+              ((c.transpose() * sets[one]).squaredNorm() + (s.transpose() * sets[one]).squaredNorm());
       }
-      power[k] = ((c.transpose() * set).squaredNorm() + (s.transpose() * set).squaredNorm());
-    }
-    return power;
+    });
+    return powers;
   }
 
   /// How much louder than the usual course each course of a set is, by its second differences,
@@ -351,6 +404,7 @@ class CourseScan {
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
+  double step_t_ = 0.0, band_t_ = 0.0;  ///< of the best
   CourseFinding step_{CourseKind::kStep}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;
 };
@@ -358,8 +412,7 @@ class CourseScan {
 }  // namespace
 
 bool is_better(double p_value, double square, double than_p_value, double than_square) {
-  constexpr double kBeyondDoubt = 1e-8;
-  const bool sure = p_value < kBeyondDoubt, than_sure = than_p_value < kBeyondDoubt;
+  const bool sure = is_beyond_doubt(p_value), than_sure = is_beyond_doubt(than_p_value);
   return sure && than_sure ? square > than_square : p_value < than_p_value;
 }
 

@@ -20,6 +20,22 @@ constexpr double kAbsorbed = 2e-3;
 /// A column of a group that has less than this of the group's largest is rounding.
 constexpr double kRounding = 1e-6;
 
+/// s' inverse s of every column s; written out for one and two rows, which nearly all groups have.
+Eigen::VectorXd quadratic_forms(const Eigen::MatrixXd& s, const Eigen::MatrixXd& inverse) {
+  if (s.rows() > 2) return s.cwiseProduct(inverse * s).colwise().sum().transpose();
+  Eigen::VectorXd forms(s.cols());
+  if (s.rows() == 1) {
+    for (Eigen::Index k = 0; k < s.cols(); ++k) forms[k] = s(0, k) * (inverse(0, 0) * s(0, k));
+    return forms;
+  }
+  const double a = inverse(0, 0), b = inverse(0, 1), c = inverse(1, 0), d = inverse(1, 1);
+  for (Eigen::Index k = 0; k < s.cols(); ++k) {
+    const double x = s(0, k), y = s(1, k);
+    forms[k] = x * (a * x + b * y) + y * (c * x + d * y);
+  }
+  return forms;
+}
+
 /// Signs of all units in all flips; the same for the same number of units.
 Eigen::MatrixXf flip_signs(int units, int flips) {
   std::mt19937_64 random(20260101);
@@ -44,9 +60,7 @@ StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatist
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const CandidateGroup& group = problem.groups[g];
     const bool is_asked = group.local_family < 0 && (banned.empty() || !banned[g]);
-    asked_at_.push_back(is_asked ? static_cast<Eigen::Index>(asked_columns_.size()) : -1);
-    for (int k = 0; is_asked && k < group.columns; ++k)
-      asked_columns_.push_back(group.first_column + k);
+    asked_.push_back(is_asked);
   }
   project(columns);
   test_by_flips(flips);
@@ -124,7 +138,7 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
   // Needed of the groups that flips judge, which of a gear of many teeth are the smaller part.
   int most = 0;
   for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
-    if (asked_at_[static_cast<std::size_t>(g)] >= 0)
+    if (asked_[static_cast<std::size_t>(g)])
       most = std::max(most, problem_.groups[static_cast<std::size_t>(g)].columns);
   Panel absorbed(m, PanelRow{}), own_rows(m), spread(m);
   for (std::size_t k = 0; k < m; ++k)
@@ -154,7 +168,7 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
     for (std::size_t k = 0; k < taken.rank(); ++k) add_products(lost, 1.0, spread[k]);
   }
   for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
-    if (asked_at_[static_cast<std::size_t>(g)] < 0) continue;
+    if (!asked_[static_cast<std::size_t>(g)]) continue;
     Eigen::MatrixXd& flipped = flipped_[static_cast<std::size_t>(g)];
     const int at = problem_.groups[static_cast<std::size_t>(g)].first_column - panel.first_column;
     for (int a = 0; a < flipped.rows(); ++a)
@@ -187,35 +201,59 @@ void StructureTest::judge_what_can_be_seen() {
 void StructureTest::test_by_flips(int flips) {
   const std::size_t groups = problem_.groups.size();
   group_p_values_.assign(groups, 1.0);
-  const Eigen::MatrixXf scores = unit_scores_(asked_columns_, Eigen::all).cast<float>() *
-                                 flip_signs(statistics_.units(), flips);
+  const Eigen::MatrixXf signs = flip_signs(statistics_.units(), flips);
   const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
   // The tail falls with the statistic: of groups of one size the largest statistic has it.
-  std::map<int, Eigen::VectorXd> largest_of_size;
+  using LargestOfSize = std::map<int, Eigen::VectorXd>;
   std::vector<double> own(groups, -1.0);
-  Eigen::VectorXd statistic(flips);
-  for (std::size_t g = 0; g < groups; ++g) {
+  const auto judge = [&](std::size_t g, const auto& scores, LargestOfSize& largest) {
     const CandidateGroup& group = problem_.groups[g];
-    if (!testable_[g] || asked_at_[g] < 0) continue;
-    const auto seq = Eigen::seqN(group.first_column, group.columns);
     const SymmetricSolver under_flips(flipped_[g]);
-    if (!under_flips.is_positive()) continue;
-    const Eigen::MatrixXd s =
-        scores(Eigen::seqN(asked_at_[g], group.columns), Eigen::all).cast<double>();
+    if (!under_flips.is_positive()) return;
+    const Eigen::MatrixXd s = scores.template cast<double>();
     const Eigen::MatrixXd inverse =
         under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
-    statistic = s.cwiseProduct(inverse * s).colwise().sum().transpose();
-    const Eigen::VectorXd o = observed(seq);
+    const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
+    const Eigen::VectorXd o = observed(Eigen::seqN(group.first_column, group.columns));
     const double t = o.dot(symmetric_solution(projected_[g], o));
     // The group's own scale: correlation within units widens low modes more than high ones.
     const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
-    if (!(scale > 0.0)) continue;
+    if (!(scale > 0.0)) return;
     own[g] = minus_log_chi_square_tail(t / scale, group.columns);
-    Eigen::VectorXd& largest_statistic = largest_of_size[group.columns];
-    if (largest_statistic.size() == 0) largest_statistic = Eigen::VectorXd::Zero(flips);
-    largest_statistic = largest_statistic.cwiseMax(statistic / scale);
-    if (likest_ < 0 || own[g] > own[likest_]) likest_ = static_cast<int>(g);
-  }
+    Eigen::VectorXd& of_size = largest[group.columns];
+    if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(flips);
+    of_size = of_size.cwiseMax(statistic / scale);
+  };
+  // Groups do not ask each other: the same statistics on any number of processors. Each piece takes in
+  // all signs, so there are few.
+  std::vector<std::size_t> asked;
+  for (std::size_t g = 0; g < groups; ++g)
+    if (testable_[g] && asked_[g]) asked.push_back(g);
+  if (asked.empty()) return;
+  constexpr std::size_t kPieces = 4;
+  std::vector<LargestOfSize> largest_of_piece(kPieces);
+  for_each_piece(kPieces, [&](std::size_t piece) {
+    const std::size_t first = asked.size() * piece / kPieces, end = asked.size() * (piece + 1) / kPieces;
+    std::vector<Eigen::Index> columns;
+    for (std::size_t i = first; i < end; ++i)
+      for (int k = 0; k < problem_.groups[asked[i]].columns; ++k)
+        columns.push_back(problem_.groups[asked[i]].first_column + k);
+    const Eigen::MatrixXf scores = unit_scores_(columns, Eigen::all).cast<float>() * signs;
+    Eigen::Index row = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const int own_columns = problem_.groups[asked[i]].columns;
+      judge(asked[i], scores.middleRows(row, own_columns), largest_of_piece[piece]);
+      row += own_columns;
+    }
+  });
+  LargestOfSize largest_of_size = std::move(largest_of_piece.front());
+  for (std::size_t piece = 1; piece < largest_of_piece.size(); ++piece)
+    for (auto& [columns, of_piece] : largest_of_piece[piece]) {
+      const auto [known, is_new] = largest_of_size.try_emplace(columns, of_piece);
+      if (!is_new) known->second = known->second.cwiseMax(of_piece);
+    }
+  for (std::size_t g = 0; g < groups; ++g)
+    if (own[g] >= 0.0 && (likest_ < 0 || own[g] > own[likest_])) likest_ = static_cast<int>(g);
   if (likest_ < 0) return;
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
   for (const auto& [columns, statistics] : largest_of_size)

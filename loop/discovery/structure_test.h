@@ -43,9 +43,7 @@ class StructureTest {
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
-  std::vector<Eigen::Index>
-      asked_columns_;  ///< of the groups that flips judge: neither local nor banned
-  std::vector<Eigen::Index> asked_at_;      ///< per group: its first one among them; -1: not asked
+  std::vector<bool> asked_;                 ///< per group: flips judge it, as neither local nor banned
   Eigen::MatrixXd unit_scores_;             ///< P x units
   Eigen::MatrixXd absorbed_;                ///< M x P: coefficients of the candidates on the model
   Eigen::VectorXd fitted_;                  ///< M: of the value

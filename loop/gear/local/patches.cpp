@@ -71,6 +71,14 @@ class PatchMaker {
   static constexpr int kProfileParts = 12, kTraceParts = 40;
   static constexpr int kFinerParts = 8;  // of the lowest millimetre
   using Key = std::array<int, 7>;        // kind, source, zero, tooth, side, profile part, face part
+  struct HashOfKey {
+    std::size_t operator()(const Key& key) const {
+      std::size_t hash = 0;
+      for (const int part : key)
+        hash = (hash ^ static_cast<std::size_t>(part)) * 0x9E3779B97F4A7C15U;
+      return hash ^ (hash >> 32U);
+    }
+  };
 
   /// Height band; the lowest millimetre is cut finer, because first layers are.
   [[nodiscard]] int face_part(double z) const {
@@ -161,14 +169,6 @@ class PatchMaker {
   }
 
   void number_patches() {
-    struct HashOfKey {
-      std::size_t operator()(const Key& key) const {
-        std::size_t hash = 0;
-        for (const int part : key)
-          hash = (hash ^ static_cast<std::size_t>(part)) * 0x9E3779B97F4A7C15U;
-        return hash ^ (hash >> 32U);
-      }
-    };
     std::unordered_map<Key, int, HashOfKey> numbers;
     std::vector<int> of_flanks;
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
@@ -180,7 +180,7 @@ class PatchMaker {
         if (at >= of_flanks.size()) of_flanks.resize(at + patches_of_flanks(), -1);
         known = &of_flanks[at];
       } else {
-        known = &numbers.emplace(key_of(table_.rows[i], static_cast<int>(i)), -1).first->second;
+        known = &numbers.try_emplace(key_of(table_.rows[i], static_cast<int>(i)), -1).first->second;
       }
       if (*known < 0) *known = add_patch(i);
       patch = *known;
@@ -293,13 +293,13 @@ class PatchMaker {
                    : part_of(geometry_.face_coordinate(place.z_mm), parts);
       }
       const auto [found, is_new] =
-          numbers.emplace(std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
-                          static_cast<int>(numbers.size()));
+          numbers.try_emplace(std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
+                              static_cast<int>(numbers.size()));
       patch.unit = found->second;
       if (is_trace(patch.kind) || patch.kind == ObservationKind::kScanFlank)
         patch.whole = wholes
-                          .emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
-                                   static_cast<int>(wholes.size()))
+                          .try_emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
+                                       static_cast<int>(wholes.size()))
                           .first->second;
     }
     result_.units = static_cast<int>(numbers.size());
@@ -371,7 +371,7 @@ class PatchMaker {
     std::vector<double> squares;
     std::array<std::vector<double>, 2> of_side;
     if (is_single(kind)) return {};
-    std::map<Key, int> at;
+    std::unordered_map<Key, int, HashOfKey> at(members.size());
     for (const int i : members) at[keys_[i]] = i;
     const int axis = kind == ObservationKind::kHelix || kind == ObservationKind::kScanBore      ? 6
                      : kind == ObservationKind::kProfile || kind == ObservationKind::kScanFlank ? 5

@@ -19,10 +19,10 @@ class RowsByClass {
   /// `class_of(row)` is below `classes`; negative: of none.
   template <class ClassOf>
   RowsByClass(std::size_t rows, std::size_t classes, const ClassOf& class_of)
-      : chunks_((rows + kChunk - 1) / kChunk) {
+      : chunk_(rows < kManyRows ? kMostOfChunk / 4 : kMostOfChunk), chunks_((rows + chunk_ - 1) / chunk_) {
     for_each_piece(chunks_.size(), [&](std::size_t c) {
-      const std::size_t from = c * kChunk;
-      chunks_[c] = sorted(from, std::min(rows, from + kChunk), classes, class_of);
+      const std::size_t from = c * chunk_;
+      chunks_[c] = sorted(from, std::min(rows, from + chunk_), classes, class_of);
     });
   }
   /// `visit(row)` for the rows of a class, in order.
@@ -31,7 +31,7 @@ class RowsByClass {
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
       const Chunk& chunk = chunks_[c];
       for (std::size_t k = chunk.first[of_class]; k < chunk.first[of_class + 1]; ++k)
-        visit(c * kChunk + chunk.rows[k]);
+        visit(c * chunk_ + chunk.rows[k]);
     }
   }
   /// The same, with the rows and places to come fetched from memory ahead: where the points of a
@@ -41,12 +41,12 @@ class RowsByClass {
     constexpr std::size_t kRowsAhead = 24, kPlacesAhead = 12;
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
       const Chunk& chunk = chunks_[c];
-      const Observation* const rows = table.rows.data() + c * kChunk;
+      const Observation* const rows = table.rows.data() + c * chunk_;
       const std::size_t end = chunk.first[of_class + 1];
       for (std::size_t k = chunk.first[of_class]; k < end; ++k) {
         if (k + kRowsAhead < end) __builtin_prefetch(rows + chunk.rows[k + kRowsAhead]);
         if (k + kPlacesAhead < end) fetch_place(table, rows[chunk.rows[k + kPlacesAhead]]);
-        visit(c * kChunk + chunk.rows[k]);
+        visit(c * chunk_ + chunk.rows[k]);
       }
     }
   }
@@ -57,7 +57,8 @@ class RowsByClass {
   }
 
  private:
-  static constexpr std::size_t kChunk = 65536;
+  static constexpr std::size_t kMostOfChunk = 65536;
+  static constexpr std::size_t kManyRows = 524288;  // fewer are cut finer, so that processors end together
   struct Chunk {
     std::vector<std::uint32_t> first;  ///< of each class in `rows`, and the end
     std::vector<std::uint16_t> rows;   ///< from the chunk's first on
@@ -87,6 +88,7 @@ class RowsByClass {
     return chunk;
   }
 
+  std::size_t chunk_;  ///< rows
   std::vector<Chunk> chunks_;
 };
 
