@@ -49,8 +49,10 @@ std::string of_problem(int seed) {
   std::mt19937 random(static_cast<unsigned>(seed) * 77u + 5u);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::vector<std::pair<int, double>> groups;
-  for (int k = pick(4); k > 0; --k)
-    groups.emplace_back(pick(seed % 3 == 0 ? 24 : 12), 0.4 + 0.2 * pick(8));
+  for (int k = pick(4); k > 0; --k) {  // drawn one by one: in a call each compiler has an order of its own
+    const double size = 0.4 + 0.2 * pick(8);
+    groups.emplace_back(pick(seed % 3 == 0 ? 24 : 12), size);
+  }
   DiscoveryProblem problem = test::holding(groups, static_cast<unsigned>(seed));
   const int twin = pick(12), of = pick(12);
   if (seed % 4 == 1 && twin != of) {  // nearly the same
@@ -115,8 +117,10 @@ std::string of_hard_problem(int seed) {
         problem.candidates.col(first(a)) + problem.candidates.col(first(b));
   for (const int g : {a, b})
     problem.value += (0.5 + 0.1 * pick(12)) * problem.candidates.col(first(g)).cast<double>();
-  for (int k = pick(5); k > 0; --k)
-    problem.value += 0.1 * pick(12) * problem.candidates.col(first(pick(groups))).cast<double>();
+  for (int k = pick(5); k > 0; --k) {
+    const int group = pick(groups);
+    problem.value += 0.1 * pick(12) * problem.candidates.col(first(group)).cast<double>();
+  }
   const int units = 12 + pick(30);
   for (int i = 0; i < values; ++i) {
     problem.unit.push_back(i * units / values);
