@@ -29,30 +29,29 @@ TEST(GearDistanceFigures, APointNearTheOneBeforeIsMeasuredToTheSameDigits) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
   };
   int elsewhere = 0;  // on another piece than the point before
-  for (const bool ring : {false, true}) {
-    const GearTrain train = laid_out(pair_design(14, 37, ring, 0.05));
-    for (const TrainGear& gear : train.gears) {
-      const GearDistance distance(gear.profile);
-      const double tip = gear.profile.tip_radius_mm(), root = gear.profile.root_radius_mm();
-      GearDistance::Before before;
-      Point2 point = Point2::Zero(), stride = Point2::Zero();
-      int piece = -1;
-      for (int i = 0; i < 8000; ++i) {
-        // straight on for a while, as along a path; then anywhere
-        if (i % 16 == 0) {
-          point = between(std::min(tip, root), std::max(tip, root)) * unit_vector(between(0.0, kTwoPi));
-          stride = std::exp(between(std::log(1e-3), std::log(0.1))) * unit_vector(between(0.0, kTwoPi));
-        }
-        point += stride;
-        const auto known = distance.nearest(point, before), alone = distance.nearest(point);
-        ASSERT_EQ(known.distance_mm, alone.distance_mm) << gear.name << " " << point.transpose();
-        ASSERT_EQ(known.piece, alone.piece);
-        ASSERT_EQ(known.corner, alone.corner);
-        ASSERT_EQ(known.clockwise_half, alone.clockwise_half);
-        ASSERT_EQ(known.point, alone.point);
-        if (known.piece != piece) ++elsewhere;
-        piece = known.piece;
+  for (const SampleGear& gear : sample_gears()) {
+    const auto profile = ToothProfile::make(gear.gear);
+    ASSERT_TRUE(profile);
+    const GearDistance distance(*profile);
+    const double tip = profile->tip_radius_mm(), root = profile->root_radius_mm();
+    GearDistance::Before before;
+    Point2 point = Point2::Zero(), stride = Point2::Zero();
+    int piece = -1;
+    for (int i = 0; i < 2400; ++i) {
+      // straight on for a while, as along a path; then anywhere
+      if (i % 16 == 0) {
+        point = between(std::min(tip, root), std::max(tip, root)) * unit_vector(between(0.0, kTwoPi));
+        stride = std::exp(between(std::log(1e-3), std::log(0.1))) * unit_vector(between(0.0, kTwoPi));
       }
+      point += stride;
+      const auto known = distance.nearest(point, before), alone = distance.nearest(point);
+      ASSERT_EQ(known.distance_mm, alone.distance_mm) << gear.name << " " << point.transpose();
+      ASSERT_EQ(known.piece, alone.piece);
+      ASSERT_EQ(known.corner, alone.corner);
+      ASSERT_EQ(known.clockwise_half, alone.clockwise_half);
+      ASSERT_EQ(known.point, alone.point);
+      if (known.piece != piece) ++elsewhere;
+      piece = known.piece;
     }
   }
   EXPECT_GT(elsewhere, 1000);

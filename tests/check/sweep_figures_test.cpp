@@ -549,6 +549,23 @@ TEST(MeshSection, IsThatOfTheGearsWhereTheyStand) {
   }
 }
 
+TEST(GearDistance, OverTheMiddlesOfTipAndGapIsToTheirArcsNotToTheirEnds) {
+  for (const bool ring : {false, true}) {
+    const GearTrain train = laid_out(pair_design(17, 46, ring, 0.05));
+    for (const TrainGear& gear : train.gears) {
+      const GearDistance distance(gear.profile);
+      const double z = gear.profile.gear().teeth, tip = gear.profile.tip_radius_mm(),
+                   root = gear.profile.root_radius_mm(), out = tip > root ? 0.1 : -0.1;
+      const auto over_tip = distance.nearest(Point2(tip + out, 0.0)),
+                 in_gap = distance.nearest((root + out) * unit_vector(kPi / z));
+      EXPECT_NEAR(over_tip.distance_mm, 0.1, 1e-12);
+      EXPECT_FALSE(over_tip.corner);
+      EXPECT_NEAR(in_gap.distance_mm, 0.1, 1e-9);
+      EXPECT_FALSE(in_gap.corner);
+    }
+  }
+}
+
 TEST(GearDistance, IsTheSameOnBothSidesOfTheMiddleOfAGap) {
   Draw draw(41);
   for (const bool ring : {false, true}) {
