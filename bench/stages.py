@@ -49,11 +49,13 @@ STAGES = {
     "reading measured files": r"trueflank::loop::read_measured_files\(",
     "points to observations": r"trueflank::loop::make_observations\(|" + BESIDE +
                               r"trueflank::loop::\(anonymous namespace\)::(TableBuilder|PoseSearch)",
-    "patches": r"trueflank::loop::make_patches\(",
+    "patches": r"trueflank::loop::make_patches\(|" + BESIDE +
+               r"trueflank::loop::(RowsByClass::RowsByClass<trueflank::loop::)?\(anonymous namespace\)::PatchMaker",
     "columns of candidates": r"trueflank::loop::set_candidates\(|" + BESIDE + r"trueflank::loop::set_candidates",
     "discovery": r"trueflank::loop::discover\(|" + BESIDE +
                  r"trueflank::loop::(BlockStatistics|StructureTest|CrossValidation|agreement_of_wholes)",
-    "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run",
+    "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run|" +
+                    BESIDE + r"trueflank::loop::\(anonymous namespace\)::CourseScan",
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
                      r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",

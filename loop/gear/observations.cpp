@@ -200,18 +200,14 @@ class TableBuilder {
                    !(place.surface == Surface::kFlank && lands.covers(place, p));
       return one;
     };
-    // Placed on all processors, some at a time; then taken in their order.
-    constexpr std::size_t kOfWork = 4096, kAtOnce = 16 * kOfWork;
-    std::vector<Placed> some(std::min(kAtOnce, points.size()));
+    // Placed on all processors, some at a time; meanwhile those before are taken in their order.
+    constexpr std::size_t kOfWork = 2048, kAtOnce = 16 * kOfWork;
+    std::array<std::vector<Placed>, 2> some;
+    for (std::vector<Placed>& one : some) one.resize(std::min(kAtOnce, points.size()));
     std::size_t kept = 0;
-    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
-      const std::size_t count = std::min(kAtOnce, points.size() - from);
-      for_each_piece((count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
-        for (std::size_t k = piece * kOfWork; k < std::min(count, (piece + 1) * kOfWork); ++k)
-          some[k] = placed(from + k);
-      });
-      for (std::size_t k = 0; k < count; ++k) {
-        const Placed& one = some[k];
+    const auto take = [&](const std::vector<Placed>& placed_ones, std::size_t from) {
+      for (std::size_t k = 0; k < std::min(kAtOnce, points.size() - from); ++k) {
+        const Placed& one = placed_ones[k];
         if (!one.usable) continue;
         const double sigma = scan.sigma_um.empty() ? kNaN : scan.sigma_um[from + k];
         Observation& row =
@@ -219,6 +215,17 @@ class TableBuilder {
         add_place(row, one.on.place, 1.0);
         points[kept++] = points[from + k];
       }
+    };
+    const std::size_t times = (points.size() + kAtOnce - 1) / kAtOnce;
+    for (std::size_t time = 0; time <= times && times > 0; ++time) {
+      const std::size_t from = time * kAtOnce, taken = time > 0 ? 1 : 0;  // the first piece takes
+      const std::size_t count = time < times ? std::min(kAtOnce, points.size() - from) : 0;
+      for_each_piece(taken + (count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
+        if (piece < taken) return take(some[(time - 1) % 2], from - kAtOnce);
+        const std::size_t first = (piece - taken) * kOfWork;
+        for (std::size_t k = first; k < std::min(count, first + kOfWork); ++k)
+          some[time % 2][k] = placed(from + k);
+      });
     }
     const std::size_t all = points.size(), unused = all - kept;
     if (10 * unused > 7 * all)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "trueflank/loop/discovery/distributions.h"
@@ -123,7 +124,7 @@ void PartLoop::ban_what_cannot_be_seen() {
   bool along_profile = false, along_face = false;
   // A product of both shows where flanks were scanned, or traced at several heights or diameters.
   constexpr double kSeveral = 0.2;
-  double lowest = 1.0, highest = -1.0;
+  double lowest_mm = std::numeric_limits<double>::infinity(), highest_mm = -lowest_mm;
   double least_u = 1.0, most_u = -1.0, least_v = 1.0, most_v = -1.0;
   bool scanned = false, whole_ring = false;
   std::set<int> traced_teeth;
@@ -132,21 +133,24 @@ void PartLoop::ban_what_cannot_be_seen() {
         whole_ring || row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
     const bool scan = row.kind == ObservationKind::kScanFlank;
     scanned = scanned || scan;
-    const double u = geometry_.profile_coordinate(table_->place(row).roll_mm);
-    const double v = geometry_.face_coordinate(table_->place(row).z_mm);
-    lowest = std::min(lowest, v);
-    highest = std::max(highest, v);
+    const Place& place = table_->place(row);
+    lowest_mm = std::min(lowest_mm, place.z_mm);
+    highest_mm = std::max(highest_mm, place.z_mm);
     if (row.kind == ObservationKind::kHelix) {
+      const double u = geometry_.profile_coordinate(place.roll_mm);
       least_u = std::min(least_u, u);
       most_u = std::max(most_u, u);
     }
     if (row.kind == ObservationKind::kProfile) {
+      const double v = geometry_.face_coordinate(place.z_mm);
       least_v = std::min(least_v, v);
       most_v = std::max(most_v, v);
     }
     along_profile = along_profile || scan || row.kind == ObservationKind::kProfile;
     along_face = along_face || scan || row.kind == ObservationKind::kHelix;
   }
+  const double lowest = std::min(1.0, geometry_.face_coordinate(lowest_mm));
+  const double highest = std::max(-1.0, geometry_.face_coordinate(highest_mm));
   // Between few teeth a wave of a higher order looks like one of a lower, or like what all share,
   // with a name or without; those that are held out tell nothing.
   for (const Patches::Patch& patch : patches_.patches)

@@ -136,7 +136,8 @@ class PatchMaker {
     }
   };
   static constexpr std::size_t kMostSamples = 8;
-  static constexpr int kNoPatch = -1, kByKey = -2;
+  static constexpr int kNoPatch = -1, kByKey = -2;  // and below
+  static constexpr std::size_t kRowsOfWork = 16384;
 
   /// What takes time for every row is done on all processors; patches get their numbers in the order
   /// of the rows.
@@ -146,13 +147,15 @@ class PatchMaker {
     sum_patches();
   }
 
-  /// Patches of scanned flanks, nearly all there are, by their place in a list; into patch_of_row.
+  /// Patches of scanned flanks, nearly all there are, by their place in a list; of other rows by their
+  /// key's number among those of the same piece. Into patch_of_row.
   void find_places_in_lists() {
-    result_.patch_of_row.assign(table_.rows.size(), kNoPatch);
-    const double b = geometry_.face_width_mm();
-    constexpr std::size_t kRowsOfWork = 16384;
     const std::size_t rows = table_.rows.size();
-    for_each_piece((rows + kRowsOfWork - 1) / kRowsOfWork, [&](std::size_t piece) {
+    result_.patch_of_row.assign(rows, kNoPatch);
+    keys_of_pieces_.resize((rows + kRowsOfWork - 1) / kRowsOfWork);
+    const double b = geometry_.face_width_mm();
+    for_each_piece(keys_of_pieces_.size(), [&](std::size_t piece) {
+      std::unordered_map<Key, int, HashOfKey> numbers;
       const std::size_t end = std::min(rows, (piece + 1) * kRowsOfWork);
       for (std::size_t i = piece * kRowsOfWork; i < end; ++i) {
         const Observation& row = table_.rows[i];
@@ -161,9 +164,15 @@ class PatchMaker {
             row.kind == ObservationKind::kScanTip || row.kind == ObservationKind::kScanRoot;
         // Tip and root serve as sizes: taken where face effects are small.
         if (circle && (z < 0.3 * b || z > 0.7 * b)) continue;
-        result_.patch_of_row[i] = row.kind == ObservationKind::kScanFlank
-                                      ? static_cast<int>(place_in_list(key_of(row, 0)))
-                                      : kByKey;
+        const Key key = key_of(row, static_cast<int>(i));
+        if (row.kind == ObservationKind::kScanFlank) {
+          result_.patch_of_row[i] = static_cast<int>(place_in_list(key));
+          continue;
+        }
+        std::vector<Key>& keys = keys_of_pieces_[piece];
+        const auto [known, is_new] = numbers.try_emplace(key, static_cast<int>(keys.size()));
+        if (is_new) keys.push_back(key);
+        result_.patch_of_row[i] = kByKey - known->second;
       }
     });
   }
@@ -171,20 +180,29 @@ class PatchMaker {
   void number_patches() {
     std::unordered_map<Key, int, HashOfKey> numbers;
     std::vector<int> of_flanks;
-    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
-      int& patch = result_.patch_of_row[i];
-      if (patch == kNoPatch) continue;
-      int* known = nullptr;
-      if (patch != kByKey) {
-        const auto at = static_cast<std::size_t>(patch);
-        if (at >= of_flanks.size()) of_flanks.resize(at + patches_of_flanks(), -1);
-        known = &of_flanks[at];
-      } else {
-        known = &numbers.try_emplace(key_of(table_.rows[i], static_cast<int>(i)), -1).first->second;
+    const auto number = [&](int& known, std::size_t row) {
+      if (known < 0) known = add_patch(row);
+      return known;
+    };
+    for (std::size_t piece = 0; piece < keys_of_pieces_.size(); ++piece) {
+      const std::vector<Key>& keys = keys_of_pieces_[piece];
+      std::vector<int> of_keys(keys.size(), -1);
+      const std::size_t end = std::min(table_.rows.size(), (piece + 1) * kRowsOfWork);
+      for (std::size_t i = piece * kRowsOfWork; i < end; ++i) {
+        int& patch = result_.patch_of_row[i];
+        if (patch == kNoPatch) continue;
+        if (patch >= 0) {
+          const auto at = static_cast<std::size_t>(patch);
+          if (at >= of_flanks.size()) of_flanks.resize(at + patches_of_flanks(), -1);
+          patch = number(of_flanks[at], i);
+        } else {
+          const auto at = static_cast<std::size_t>(kByKey - patch);
+          if (of_keys[at] < 0) of_keys[at] = number(numbers.try_emplace(keys[at], -1).first->second, i);
+          patch = of_keys[at];
+        }
       }
-      if (*known < 0) *known = add_patch(i);
-      patch = *known;
     }
+    keys_of_pieces_ = {};
   }
 
   /// Its number.
@@ -461,6 +479,10 @@ class PatchMaker {
       }
     }
     // Single values say their own error; sizes have no neighbours to ask.
+    if (std::none_of(classes.begin(), classes.end(), [](const auto& one) {
+          return is_single(static_cast<ObservationKind>(one.first.first));
+        }))
+      return;
     for (std::size_t row = 0; row < table_.rows.size(); ++row) {
       const Observation& observation = table_.rows[row];
       if (!is_single(observation.kind)) continue;
@@ -476,6 +498,7 @@ class PatchMaker {
   const Observations& table_;
   int face_parts_ = 8;
   std::vector<Key> keys_;
+  std::vector<std::vector<Key>> keys_of_pieces_;  ///< of rows: keys in no list, as they come
   std::vector<Sample> samples_;
   Patches result_;
 };
