@@ -21,6 +21,12 @@ using Eigen::VectorXd;
 
 /// Spectra are smoothed until so many degrees of freedom tell each value.
 constexpr double kDegrees = 24.0, kMostDegrees = 200.0;
+/// Gauges filter their traces. What little stands at the wavelengths that a filter took away, or in
+/// the lobes between them, is no line: it counts from these shares of what errors without a filter
+/// would have at each wavelength, in a wave of all courses and in one that each has by itself. The
+/// longest waves, forms rather than errors, do not say how large those are.
+constexpr double kFilteredAway = 0.1, kInALobe = 1.0;
+constexpr Index kLongest = 2;  // less than so many on the course
 /// Wild points count no more than so many spreads.
 constexpr double kClip = 3.5;
 
@@ -154,6 +160,8 @@ class CourseScan {
       const Index from = std::max<Index>(1, k - half), to = std::min<Index>(m_ - 1, k + half);
       spectrum_[k] = squares.segment(from, to - from + 1).mean() / degrees;
     }
+    const double least = kFilteredAway * spectrum_.tail(m_ - 2 * kLongest).mean();
+    spectrum_ = spectrum_.cwiseMax(least);
   }
 
   /// What the courses of a set, or of all sets, have in common.
@@ -266,7 +274,7 @@ class CourseScan {
   /// Power of all courses at every frequency, against that beside it; a line stands out of any
   /// spectrum that is smooth.
   void look_for_own_waves() {
-    constexpr double kStandsOut = 3.0;
+    constexpr double kStandsOut = 3.0, kAboveEach = 1.5;
     CourseFinding best{CourseKind::kOwnWaves};
     double tests = 0.0;
     // One course that is louder than the others would count for all of them.
@@ -281,11 +289,17 @@ class CourseScan {
       if (sets_[s].cols() < 1) continue;
       const VectorXd &loud = louds[static_cast<std::size_t>(s)], &power = powers[static_cast<std::size_t>(s)];
       const auto n = static_cast<double>(sets_[s].cols());
+      const double least = kInALobe * power.tail(std::max<Index>(1, power.size() - kLongest)).mean();
       for (Index k = 5; k + 4 < power.size(); ++k) {
         tests += 1.0;
+        if (power[k] < least) continue;
         double beside = 0.0;
         for (const Index off : {-4, -3, 3, 4})
           beside += 0.25 * std::log(std::max(power[k + off], 1e-300));
+        // The edge of what a filter lets through stands above one side alone.
+        if (power[k] < kAboveEach * std::max(std::sqrt(power[k - 4] * power[k - 3]),
+                                             std::sqrt(power[k + 3] * power[k + 4])))
+          continue;
         const double ratio = power[k] / std::exp(beside);
         // Four neighbours; the mean of logarithms knows a little less than that of squares.
         const double p = f_tail(ratio, 2.0 * n, 6.0 * n);

@@ -62,6 +62,34 @@ TEST(CourseScan, SeldomAlarmsOnErrorsThatHangTogether) {
   }
 }
 
+/// What a gauge's filter makes of white errors: weights over neighbouring values.
+MatrixXd filtered(Eigen::Index places, int courses, const std::vector<double>& weights,
+                  unsigned seed) {
+  const auto taps = static_cast<Eigen::Index>(weights.size());
+  const MatrixXd white = errors(static_cast<int>(places + taps) - 1, courses, 0.0, seed);
+  MatrixXd out = MatrixXd::Zero(places, courses);
+  for (Eigen::Index k = 0; k < taps; ++k)
+    out += weights[static_cast<std::size_t>(k)] * white.middleRows(k, places);
+  return centred(out);
+}
+
+TEST(CourseScan, WhatAGaugesFilterTookAwayIsNoWave) {
+  const std::vector<std::vector<double>> filters{
+      {0.25, 0.5, 0.25}, {0.2, 0.2, 0.2, 0.2, 0.2}, {0.02, 0.09, 0.23, 0.32, 0.23, 0.09, 0.02}};
+  for (const auto& filter : filters) {
+    int alarms = 0;
+    for (unsigned seed = 1; seed <= 30; ++seed)
+      for (const Eigen::Index places : {48, 80}) {
+        const auto found = scan_courses(
+            {filtered(places, 12, filter, seed), filtered(places, 12, filter, 1000 + seed)});
+        alarms +=
+            std::any_of(found.begin(), found.end(), [](const auto& f) { return f.p_value < 0.01; });
+      }
+    // Three questions at 1 % of 60: six or more come once in 100 such tests.
+    EXPECT_LE(alarms, 5) << filter.size() << " weights";
+  }
+}
+
 TEST(CourseScan, FindsAGrooveAStepAndWavesWhereTheyAre) {
   const MatrixXd right = centred(errors(80, 6, 0.5, 2));
   const auto groove = scan_courses(
