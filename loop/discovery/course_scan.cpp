@@ -9,6 +9,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -281,7 +282,7 @@ class CourseScan {
     std::vector<VectorXd> louds;
     std::vector<MatrixXd> evened;
     for (const MatrixXd& set : sets_) {
-      louds.push_back(loudness_of(set));
+      louds.push_back(loudness(set).by);
       evened.push_back(set * louds.back().cwiseInverse().asDiagonal());
     }
     const std::vector<VectorXd> powers = tapered_powers(evened);
@@ -338,29 +339,23 @@ class CourseScan {
     return powers;
   }
 
-  /// How much louder than the usual course each course of a set is, by its second differences,
-  /// which a spot hardly touches; 1 where that is no more than chance.
-  [[nodiscard]] VectorXd loudness_of(const MatrixXd& set) const {
-    constexpr double kByChance = 1.5;
-    constexpr Index kFewestCourses = 5;
-    VectorXd loud = VectorXd::Ones(set.cols());
-    if (set.cols() < kFewestCourses || m_ < 3) return loud;
+  /// How much louder than the usual course each course of a set is; a quiet one may be so by chance.
+  struct Louder {
+    VectorXd by;
+    double degrees = 0.0;
+  };
+  [[nodiscard]] Louder loudness(const MatrixXd& set) const {
     std::vector<double> scatters;
-    for (Index c = 0; c < set.cols(); ++c) {
-      const VectorXd bends =
-          set.col(c).head(m_ - 2) - 2.0 * set.col(c).segment(1, m_ - 2) + set.col(c).tail(m_ - 2);
-      scatters.push_back(robust_sigma(std::vector(bends.data(), bends.data() + bends.size())));
-      loud[c] = scatters.back();
-    }
-    const double usual = median(scatters);
-    if (!(usual > 0.0)) return VectorXd::Ones(set.cols());
-    loud /= usual;
-    return (loud.array() > kByChance).select(loud, 1.0);
+    for (Index c = 0; c < set.cols(); ++c) scatters.push_back(short_wave_scatter(set.col(c)));
+    const Loudness loud =
+        loudness_of(scatters, std::vector(scatters.size(), static_cast<double>(m_)));
+    return {Eigen::Map<const VectorXd>(loud.factors.data(), set.cols()).cwiseMax(1.0),
+            loud.degrees};
   }
 
   void look_for_spots() {
-    std::vector<VectorXd> louds;
-    for (const MatrixXd& set : sets_) louds.push_back(loudness_of(set));
+    std::vector<Louder> louds;
+    for (const MatrixXd& set : sets_) louds.push_back(loudness(set));
     CourseFinding best{CourseKind::kSpot};
     double tests = 0.0;
     for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
@@ -381,7 +376,7 @@ class CourseScan {
         MatrixXd sums(m_ - width + 1, apart.cols());
         for (Index i = 0; i + width <= m_; ++i)
           sums.row(i) = apart.middleRows(i, width).colwise().mean();
-        sums.array().rowwise() /= louds[s].transpose().array();
+        sums.array().rowwise() /= louds[s].by.transpose().array();
         all.insert(all.end(), sums.data(), sums.data() + sums.size());
         spreads.push_back(static_cast<double>(sums.cols()) * apart_each < kEnough
                               ? 0.0
@@ -397,7 +392,10 @@ class CourseScan {
         Index row = 0, column = 0;
         if (windows[s].size() == 0) continue;
         const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);
-        const double p = normal_two_sided(most / spread, excess_ / static_cast<double>(width));
+        const double normal = normal_two_sided(most / spread, excess_ / static_cast<double>(width));
+        const double p = std::max(
+            normal,
+            least_chance(most / spread, louds[static_cast<std::size_t>(s)].degrees, normal));
         if (!(p < best.p_value)) continue;
         best.p_value = p;
         best.set = s;

@@ -60,12 +60,12 @@ KnownProcess process_of(const MeasuredData& data, const LoopOptions& options) {
   return known;
 }
 
-/// True where the error on held-out data is larger than noise of the size found allows.
-bool is_more_than_noise(const LoopResult& result) {
+/// True where the error on held-out data is larger than noise of the size found there allows.
+bool is_more_than_noise(const LoopResult& result, const RandomError& noise) {
   constexpr double kAllowed = 1.15, kSure = 4.0;
-  if (result.held_out == 0) return result.after.rms > kAllowed * result.noise;
+  if (result.held_out == 0) return result.after.rms > kAllowed * noise.um;
   const double allowed = std::max(kAllowed, 1.0 + kSure / std::sqrt(2.0 * result.held_out));
-  return result.after.held_out_rms > allowed * result.noise;
+  return result.after.held_out_rms > allowed * noise.held_out_um;
 }
 
 LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const PointFit& fit,
@@ -74,8 +74,9 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.observations = fit.observations();
   result.held_out = fit.held_out();
   result.outliers = loop.table().outliers;
-  result.noise =
-      random_error_um(geometry, loop.table(), loop.patches(), left_um, !loop.structure_is_left());
+  const RandomError noise =
+      random_error(geometry, loop.table(), loop.patches(), left_um, !loop.structure_is_left());
+  result.noise = noise.um;
   result.notes = loop.table().notes;
   const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
@@ -103,12 +104,12 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.verdict = Verdict::kPartlyExplained;
   else
     result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
-  if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result)) {
+  if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result, noise)) {
     result.verdict = Verdict::kPartlyExplained;
     result.structure_left = printed(
         "what is left, %.3g um on held-out data, is more than the measurement's own noise of %.3g "
         "um",
-        result.after.held_out_rms, result.noise);
+        result.after.held_out_rms, noise.held_out_um);
   }
   return result;
 }

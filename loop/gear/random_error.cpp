@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
@@ -33,6 +35,12 @@ struct Class {
 
 struct Sample {
   double u = 0.0, v = 0.0, um = 0.0;
+  bool held_out = false;
+};
+
+/// A variance, that of the held-out values and how many they are: these may be louder than the rest.
+struct Variance {
+  double all = 0.0, held_out = 0.0, held_out_count = 0.0;
 };
 
 /// Of one trace.
@@ -66,15 +74,14 @@ double take_common_off(std::vector<Whole*>& wholes, int parts_u, int parts_v) {
 }
 
 /// Squares of the cosine coefficients of one course.
-Eigen::VectorXd spectrum(const Whole& whole) {
-  const auto n = static_cast<Eigen::Index>(whole.size());
+Eigen::VectorXd spectrum(const Eigen::VectorXd& course) {
+  const Eigen::Index n = course.size();
   Eigen::VectorXd result(n);
   const double step = kPi / static_cast<double>(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < n; ++i)
-      sum += whole[static_cast<std::size_t>(i)].um *
-             std::cos(step * static_cast<double>(k) * (static_cast<double>(i) + 0.5));
+      sum += course[i] * std::cos(step * static_cast<double>(k) * (static_cast<double>(i) + 0.5));
     result[k] = sum * sum * (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
   }
   return result;
@@ -102,25 +109,65 @@ double sum_without_lines(const std::vector<double>& level) {
   return sum;
 }
 
-/// Variance of traces over the same wavelengths.
-double variance_of_traces(std::vector<Whole>& wholes, double lost) {
-  constexpr int kBeside = 2;
+/// Traces in pieces, what stands in them side by side.
+struct Pieces {
+  std::vector<Eigen::VectorXd> courses;
+  std::vector<double> values, held_out;  ///< how many
+};
+Pieces pieces_of(std::vector<Whole>& wholes) {
+  constexpr std::size_t kFewest = 12;
   constexpr std::size_t kLongest =
       256;  // longer ones are cut: what varies slower is no neighbourhood
-  std::vector<Eigen::VectorXd> spectra;
-  std::size_t shortest = kLongest;
+  Pieces pieces;
   for (Whole& whole : wholes) {
     std::sort(whole.begin(), whole.end(),
               [](const auto& a, const auto& b) { return a.u + a.v < b.u + b.v; });
     for (std::size_t from = 0; from < whole.size(); from += kLongest) {
       const std::size_t to = std::min(whole.size(), from + kLongest);
-      if (to - from < 12) continue;
-      spectra.push_back(spectrum(Whole(whole.begin() + static_cast<std::ptrdiff_t>(from),
-                                       whole.begin() + static_cast<std::ptrdiff_t>(to))));
-      shortest = std::min(shortest, to - from);
+      if (to - from < kFewest) continue;
+      Eigen::VectorXd& piece = pieces.courses.emplace_back(static_cast<Eigen::Index>(to - from));
+      pieces.values.push_back(static_cast<double>(to - from));
+      pieces.held_out.push_back(0.0);
+      for (std::size_t i = from; i < to; ++i) {
+        piece[static_cast<Eigen::Index>(i - from)] = whole[i].um;
+        pieces.held_out.back() += whole[i].held_out ? 1.0 : 0.0;
+      }
     }
   }
-  if (spectra.empty()) return 0.0;
+  return pieces;
+}
+
+/// What the usual member's variance becomes if some are louder.
+Variance of_louder(double variance, const std::vector<double>& loud,
+                   const std::vector<double>& values, const std::vector<double>& held_out) {
+  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out_count = 0.0;
+  for (std::size_t i = 0; i < loud.size(); ++i) {
+    sum += values[i] * loud[i] * loud[i];
+    count += values[i];
+    held_out_sum += held_out[i] * loud[i] * loud[i];
+    held_out_count += held_out[i];
+  }
+  Variance result{.all = count > 0.0 ? variance * sum / count : variance,
+                  .held_out_count = held_out_count};
+  result.held_out = held_out_count > 0.0 ? variance * held_out_sum / held_out_count : result.all;
+  return result;
+}
+
+/// Variance of traces over the same wavelengths; some may be measured worse than others.
+Variance variance_of_traces(std::vector<Whole>& wholes, double lost) {
+  constexpr int kBeside = 2;
+  const Pieces pieces = pieces_of(wholes);
+  if (pieces.courses.empty()) return {};
+  std::vector<double> scatters;
+  Eigen::Index shortest = pieces.courses.front().size();
+  for (const Eigen::VectorXd& piece : pieces.courses) {
+    scatters.push_back(short_wave_scatter(piece));
+    shortest = std::min(shortest, piece.size());
+  }
+  const std::vector<double> loud = loudness_of(scatters, pieces.values).factors;
+  std::vector<Eigen::VectorXd> spectra;
+  for (std::size_t i = 0; i < loud.size(); ++i)
+    spectra.push_back(spectrum(pieces.courses[i] / loud[i]));
   // Wavelengths in shares of the shortest course; k = 0 is the trace's zero.
   const auto n = static_cast<int>(shortest);
   std::vector<double> level;
@@ -134,7 +181,7 @@ double variance_of_traces(std::vector<Whole>& wholes, double lost) {
       }
     level.push_back(median(squares) / kMedianOfSquare);
   }
-  return lost * sum_without_lines(level) / (n - 1);
+  return of_louder(lost * sum_without_lines(level) / (n - 1), loud, pieces.values, pieces.held_out);
 }
 
 /// The flanks of a scan, whose values are many: nothing is kept of them but where they stand.
@@ -145,6 +192,7 @@ class ScannedFlanks {
       : geometry_(geometry),
         table_(table),
         row_um_(row_um),
+        patches_(patches),
         rows_(table.rows.size(), 2 * static_cast<std::size_t>(geometry.teeth()),
               [&, flank_of = flanks_of(geometry, patches, source)](std::size_t i) {
                 const int patch = patches.patch_of_row[i];
@@ -158,7 +206,8 @@ class ScannedFlanks {
   /// Variance of the random error of one side, and mean square of its usual flank, whatever its
   /// form.
   struct Side {
-    double variance = 0.0, usual = 0.0, count = 0.0;
+    Variance variance;
+    double usual = 0.0, count = 0.0;
   };
   [[nodiscard]] Side side(std::size_t side) const {
     Side result;
@@ -172,11 +221,21 @@ class ScannedFlanks {
       wholes += 1.0;
     }
     const Common common = common_of(flanks);
-    std::vector<double> squares(flanks.size()), variances(flanks.size());
+    std::vector<double> squares(flanks.size()), variances(flanks.size()), scatters(flanks.size()),
+        counts(flanks.size()), held_out(flanks.size());
     for_each_piece(flanks.size(), [&](std::size_t k) {
       squares[k] = mean_square(flanks[k]);
-      variances[k] = variance_of_flank(flanks[k], common);
+      const OfFlank own = of_flank(flanks[k], common);
+      variances[k] = own.variance;
+      scatters[k] = own.scatter;
+      counts[k] = static_cast<double>(rows_.count(flanks[k]));
+      held_out[k] = held_out_of(flanks[k]);
     });
+    const std::vector<double> loud = loudness_of(scatters, counts).factors;
+    for (std::size_t k = 0; k < flanks.size(); ++k) {
+      squares[k] /= loud[k] * loud[k];
+      variances[k] /= loud[k] * loud[k];
+    }
     const auto of_few = [&](std::vector<double>& figures) {
       for (std::size_t k = flanks.size(); k-- > 0;)
         if (rows_.count(flanks[k]) < kFewest)
@@ -186,8 +245,9 @@ class ScannedFlanks {
     of_few(variances);
     if (squares.empty()) return result;
     const double each = values / wholes;
-    result.usual = usual_of(squares, each);
-    result.variance = common.lost * median(variances) * mean_over_median(each - kForms);
+    result.variance = of_louder(common.lost * median(variances) * mean_over_median(each - kForms),
+                                loud, counts, held_out);
+    result.usual = of_louder(usual_of(squares, each), loud, counts, held_out).all;
     return result;
   }
 
@@ -266,6 +326,15 @@ class ScannedFlanks {
     return common;
   }
 
+  [[nodiscard]] double held_out_of(std::size_t flank) const {
+    double count = 0.0;
+    rows_.for_each(flank, [&](std::size_t i) {
+      const auto patch = static_cast<std::size_t>(patches_.patch_of_row[i]);
+      count += patches_.patches[patch].fold == 0 ? 1.0 : 0.0;
+    });
+    return count;
+  }
+
   [[nodiscard]] double mean_square(std::size_t flank) const {
     double sum = 0.0;
     rows_.for_each(flank, [&](std::size_t i) {
@@ -275,8 +344,15 @@ class ScannedFlanks {
     return sum / static_cast<double>(rows_.count(flank));
   }
 
+  struct OfFlank {
+    double variance = 0.0;
+    double scatter = 0.0;  ///< of values that stand close by each other
+  };
+  using Forms = std::array<double, kForms>;
+  static Forms forms_at(double u, double v) { return {1.0, u, v, u * u, u * v, v * v}; }
+
   /// Of what a bent and twisted plane leaves.
-  [[nodiscard]] double variance_of_flank(std::size_t flank, const Common& common) const {
+  [[nodiscard]] OfFlank of_flank(std::size_t flank, const Common& common) const {
     using Matrix = Eigen::Matrix<double, kForms, kForms>;
     using Vector = Eigen::Matrix<double, kForms, 1>;
     const auto n = static_cast<double>(rows_.count(flank));
@@ -285,7 +361,7 @@ class ScannedFlanks {
     double squares = 0.0;
     for_each(flank, [&](double u, double v, double value) {
       const double um = value - common.um[cell_of(u, v)];
-      const std::array<double, kForms> form{1.0, u, v, u * u, u * v, v * v};
+      const Forms form = forms_at(u, v);
       for (int a = 0; a < kForms; ++a) {
         const double own = form[static_cast<std::size_t>(a)];
         for (int b = 0; b <= a; ++b) gram(a, b) += own * form[static_cast<std::size_t>(b)];
@@ -295,13 +371,37 @@ class ScannedFlanks {
     });
     gram.diagonal().array() += 1e-9 * n;
     const Eigen::VectorXd score = right;
-    const double left = squares - score.dot(symmetric_solution(gram, score));
-    return std::max(0.0, left) / std::max(1.0, n - kForms);
+    const Eigen::VectorXd plane = symmetric_solution(gram, score);
+    const double left = squares - score.dot(plane);
+    return {std::max(0.0, left) / std::max(1.0, n - kForms), close_by(flank, common, plane)};
+  }
+
+  /// Of differences between values that stand in one small part of the flank.
+  [[nodiscard]] double close_by(std::size_t flank, const Common& common,
+                                const Eigen::VectorXd& plane) const {
+    constexpr double kInAPart = 3.0, kMostParts = 64.0;
+    const double parts = std::clamp(
+        std::floor(std::sqrt(static_cast<double>(rows_.count(flank)) / kInAPart)), 1.0, kMostParts);
+    const auto part_of = [&](double c) {
+      return static_cast<std::size_t>(std::clamp(0.5 * (c + 1.0) * parts, 0.0, parts - 1.0));
+    };
+    constexpr double kEmpty = std::numeric_limits<double>::infinity();
+    std::vector<double> last(static_cast<std::size_t>(parts * parts), kEmpty), steps;
+    for_each(flank, [&](double u, double v, double value) {
+      const Forms form = forms_at(u, v);
+      double um = value - common.um[cell_of(u, v)];
+      for (int k = 0; k < kForms; ++k) um -= plane[k] * form[static_cast<std::size_t>(k)];
+      double& before = last[part_of(u) * static_cast<std::size_t>(parts) + part_of(v)];
+      if (before != kEmpty) steps.push_back(um - before);
+      before = um;
+    });
+    return robust_sigma(std::move(steps));
   }
 
   const FlankGeometry& geometry_;
   const Observations& table_;
   const std::vector<float>& row_um_;
+  const Patches& patches_;
   RowsByClass rows_;
   std::array<std::vector<std::size_t>, 2> of_side_;
 };
@@ -322,37 +422,61 @@ double variance_around(const std::map<int, double>& by_tooth) {
 struct Gathered {
   std::map<std::pair<int, int>, Whole> wholes;  ///< traces, of side and trace or tooth
   std::array<std::map<int, double>, 2> around;
-  double squares = 0.0, count = 0.0;
+  double squares = 0.0, count = 0.0, held_out = 0.0;
+
+  /// The same variance of all values.
+  [[nodiscard]] Variance even(double variance) const { return {variance, variance, held_out}; }
 };
 
-double variance_of_scan(const ScannedFlanks& flanks, double plain, bool nothing_left) {
+/// Sums over sides of a class.
+struct SumOfSides {
+  double sum = 0.0, count = 0.0, held_out_sum = 0.0, held_out = 0.0;
+  void add(const Variance& of, double values) {
+    sum += values * of.all;
+    count += values;
+    held_out_sum += of.held_out_count * of.held_out;
+    held_out += of.held_out_count;
+  }
+  [[nodiscard]] Variance mean() const {
+    const double all = sum / count;
+    return {all, held_out > 0.0 ? held_out_sum / held_out : all, held_out};
+  }
+};
+
+Variance variance_of_scan(const ScannedFlanks& flanks, const Gathered& data, bool nothing_left) {
+  const double plain = data.squares / data.count;
   std::array<ScannedFlanks::Side, 2> sides;
   for_each_piece(2, [&](std::size_t side) { sides[side] = flanks.side(side); });
   // Either flank by itself: a probe may be noisier on one.
-  double sum = 0.0, values = 0.0, usual = 0.0;
+  SumOfSides sum;
+  double usual = 0.0;
   for (const ScannedFlanks::Side& side : sides) {
     if (!(side.count > 0.0)) continue;
     usual += side.count * side.usual;
-    if (!(side.variance > 0.0)) return plain;
-    sum += side.count * side.variance;
-    values += side.count;
+    if (!(side.variance.all > 0.0)) return data.even(plain);
+    sum.add(side.variance, side.count);
   }
-  if (!(values > 0.0)) return plain;
+  if (!(sum.count > 0.0)) return data.even(plain);
+  Variance variance = sum.mean();
   // What stands on a few flanks is in their mean square and not in the usual flank.
   constexpr double kUsual = 1.21;
-  return nothing_left && plain < kUsual * usual / values ? plain : sum / values;
+  if (nothing_left && plain < kUsual * usual / sum.count) {
+    variance.held_out *= plain / variance.all;
+    variance.all = plain;
+  }
+  return variance;
 }
 
-double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
+Variance variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
   const double plain = data.squares / data.count;
   if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial) {
     const double around = 0.5 * (variance_around(data.around[0]) + variance_around(data.around[1]));
-    return nothing_left || !(around > 0.0) ? plain : std::min(plain, around);
+    return data.even(nothing_left || !(around > 0.0) ? plain : std::min(plain, around));
   }
   std::array<std::vector<Whole*>, 2> of_flank;
   for (auto& [key, whole] : data.wholes)
     of_flank[static_cast<std::size_t>(key.first)].push_back(&whole);
-  double sum = 0.0, values = 0.0;
+  SumOfSides sum;
   for (std::vector<Whole*>& flank : of_flank) {
     if (flank.empty()) continue;
     std::size_t longest = 0;
@@ -366,32 +490,32 @@ double variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
                                                           : take_common_off(flank, 1, places);
     std::vector<Whole> wholes;
     for (Whole* whole : flank) wholes.push_back(std::move(*whole));
-    const double variance = variance_of_traces(wholes, lost);
-    if (!(variance > 0.0)) return plain;
-    sum += count * variance;
-    values += count;
+    const Variance variance = variance_of_traces(wholes, lost);
+    if (!(variance.all > 0.0)) return data.even(plain);
+    sum.add(variance, count);
   }
-  return values > 0.0 ? sum / values : plain;
+  return sum.count > 0.0 ? sum.mean() : data.even(plain);
 }
 
 /// The same of values that were spread over their steps: medians of what stands on a few levels say
 /// little. What was added is most of the spread, so the rest is known badly: where nothing was found
 /// and what is left is no more than three errors above, that is it.
-double variance_of_readings(const Class& of, Gathered& data, const ReadingSteps& steps,
-                            bool nothing_left) {
+Variance variance_of_readings(const Class& of, Gathered& data, const ReadingSteps& steps,
+                              bool nothing_left) {
   constexpr double kErrors = 3.0, kToldByMedian = 0.37;
   const double plain = data.squares / data.count, added = steps.wide_variance(of.kind, of.source);
   if (!(added > 0.0)) return variance_of(of.kind, data, nothing_left);
   const double error = kErrors * std::sqrt(2.0 / (kToldByMedian * data.count));
   data.squares += data.count * added;
-  const double spread = variance_of(of.kind, data, nothing_left);
-  if (!(spread > added) || (nothing_left && plain < spread * (1.0 + error) - added)) return plain;
-  return spread - added;
+  const double spread = variance_of(of.kind, data, nothing_left).all;
+  if (!(spread > added) || (nothing_left && plain < spread * (1.0 + error) - added))
+    return data.even(plain);
+  return data.even(spread - added);
 }
 
 /// Takes a value of a trace, or one of a tooth, to those of its kind.
 void add_to(Gathered& data, const FlankGeometry& geometry, const Observation& row,
-            const Place& place, double um) {
+            const Place& place, double um, bool held_out) {
   const auto side = static_cast<std::size_t>(place.side > 0 ? 1 : 0);
   if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial) {
     data.around[side][place.tooth] = um;
@@ -401,7 +525,7 @@ void add_to(Gathered& data, const FlankGeometry& geometry, const Observation& ro
   const bool helix = row.kind == ObservationKind::kHelix;
   data.wholes[{static_cast<int>(side), row.trace >= 0 ? row.trace : place.tooth}].push_back(
       {helix ? 0.0 : geometry.profile_coordinate(place.roll_mm),
-       helix ? geometry.face_coordinate(place.z_mm) : 0.0, um});
+       helix ? geometry.face_coordinate(place.z_mm) : 0.0, um, held_out});
 }
 
 }  // namespace
@@ -428,34 +552,44 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     const double um = row_um[i];
     data.squares += um * um;
     data.count += 1.0;
+    const bool held_out = patches.patches[static_cast<std::size_t>(patch)].fold == 0;
+    data.held_out += held_out ? 1.0 : 0.0;
     if (patches.patches[static_cast<std::size_t>(patch)].kind != ObservationKind::kScanFlank)
       add_to(data, geometry, table.rows[i], table.place(table.rows[i]),
-             um + steps.wide_spread_um(table, i));
+             um + steps.wide_spread_um(table, i), held_out);
   }
   std::map<ObservationKind, KindError> errors;
   for (auto& [key, data] : classes) {
     KindError& error = errors[key.kind];
     error.count += data.count;
     error.square += data.squares;
-    const double variance = key.kind == ObservationKind::kScanFlank
-                                ? variance_of_scan({geometry, table, patches, row_um, key.source},
-                                                   data.squares / data.count, nothing_left)
-                                : variance_of_readings(key, data, steps, nothing_left);
-    error.random_square += data.count * variance;
+    const Variance variance =
+        key.kind == ObservationKind::kScanFlank
+            ? variance_of_scan({geometry, table, patches, row_um, key.source}, data, nothing_left)
+            : variance_of_readings(key, data, steps, nothing_left);
+    error.random_square += data.count * variance.all;
+    error.held_out_count += data.held_out;
+    error.held_out_random_square += data.held_out * variance.held_out;
   }
   return errors;
 }
 
-double random_error_um(const FlankGeometry& geometry, const Observations& table,
-                       const Patches& patches, const std::vector<float>& row_um,
-                       bool nothing_left) {
-  double sum = 0.0, count = 0.0;
+RandomError random_error(const FlankGeometry& geometry, const Observations& table,
+                         const Patches& patches, const std::vector<float>& row_um,
+                         bool nothing_left) {
+  KindError all;
   for (const auto& [kind, error] :
        errors_of_kinds(geometry, table, patches, row_um, nothing_left)) {
-    sum += error.random_square;
-    count += error.count;
+    all.random_square += error.random_square;
+    all.count += error.count;
+    all.held_out_random_square += error.held_out_random_square;
+    all.held_out_count += error.held_out_count;
   }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  RandomError result{.um = all.count > 0.0 ? std::sqrt(all.random_square / all.count) : 0.0};
+  result.held_out_um = all.held_out_count > 0.0
+                           ? std::sqrt(all.held_out_random_square / all.held_out_count)
+                           : result.um;
+  return result;
 }
 
 }  // namespace trueflank::loop

@@ -8,6 +8,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/far_points.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
@@ -130,12 +131,13 @@ class SpotSearch {
 
   /// Points that lie far off together, on flanks where no window is as sure.
   void add_far_points(std::vector<FlankSpot>& spots) const {
+    constexpr double kLoud = 1.3;  // points lie further off there
     for (const FlankSpot& together : together_) {
       const auto same = std::find_if(spots.begin(), spots.end(), [&](const FlankSpot& spot) {
         return spot.tooth == together.tooth && spot.side == together.side;
       });
       const auto field = fields_.find({together.tooth, together.side});
-      if (field != fields_.end() && field->second.loud > 1.0) continue;
+      if (field != fields_.end() && field->second.loud > kLoud) continue;
       if (same == spots.end())
         spots.push_back(together);
       else if (same->p_value > together.p_value)
@@ -166,18 +168,21 @@ class SpotSearch {
   }
 
   /// A flank that scatters more than the usual one of its side from point to point is measured
-  /// against itself.
+  /// against itself; a quiet one may be so by chance.
   void tell_loud_flanks() {
-    constexpr double kByChance = 1.5;
-    std::array<std::vector<float>, 2> scatters;
-    for (const auto& [key, field] : fields_)
-      scatters[side_index(key.second)].push_back(static_cast<float>(field.loud));
-    std::array<double, 2> usual{};
-    for (std::size_t side = 0; side < 2; ++side)
-      usual[side] = robust_sigma(std::move(scatters[side])) / kSigmaOfMedianSize;
-    for (auto& [key, field] : fields_) {
-      const double of_side = usual[side_index(key.second)];
-      field.loud = of_side > 0.0 && field.loud > kByChance * of_side ? field.loud / of_side : 1.0;
+    for (const int side : {-1, 1}) {
+      std::vector<Field*> of_side;
+      std::vector<double> scatters, values;
+      for (auto& [key, field] : fields_) {
+        if (key.second != side) continue;
+        of_side.push_back(&field);
+        scatters.push_back(field.loud);
+        values.push_back(field.count.back());
+      }
+      const Loudness loud = loudness_of(scatters, values);
+      degrees_[side_index(side)] = loud.degrees;
+      for (std::size_t k = 0; k < of_side.size(); ++k)
+        of_side[k]->loud = std::max(1.0, loud.factors[k]);
     }
   }
 
@@ -229,7 +234,9 @@ class SpotSearch {
     each([&](const auto& key, const Field& field, int u, int v, double count, double score) {
       const double spread = spreads[side_index(key.second)];
       if (!(spread > 0.0)) return;
-      const double p = normal_two_sided(score / spread, excess_[side_index(key.second)] / count);
+      const std::size_t side = side_index(key.second);
+      const double normal = normal_two_sided(score / spread, excess_[side] / count);
+      const double p = std::max(normal, least_chance(score / spread, degrees_[side], normal));
       OfFlank& found = best[key];
       const double sum = within(field.plain, u, v, du, dv), square = sum * sum / count;
       const bool fuller = p < kBeyondDoubt && square > found.square;
@@ -253,6 +260,7 @@ class SpotSearch {
   const FlankGeometry& geometry_;
   int cells_ = 0;
   std::array<double, 2> excess_{};  ///< kurtosis of single values of a side
+  std::array<double, 2> degrees_{};  ///< with which the flanks' loudness is known
   std::map<std::pair<int, int>, Field> fields_;
   std::vector<FlankSpot> together_;  ///< points that lie far off
 };
