@@ -141,6 +141,30 @@ TEST(BenchFile, SwappedDirectionsAreNamedAndPutRight) {
   EXPECT_THAT(closed->result.effects.front().description, HasSubstr("forward and backward"));
 }
 
+TEST(BenchFile, ASensorThatReadsMoreInEitherSenseIsNoSwappedDirection) {
+  struct Row {
+    char direction[20];
+    double rpm = 0.0, in = 0.0, out = 0.0;
+    explicit Row(const std::string& l) {
+      std::sscanf(l.c_str(), "%19[^,],%lf,%lf,%lf", direction, &rpm, &in, &out);
+    }
+  };
+  std::vector<std::string> lines = clean_lines();
+  double most_lost_nm = 0.0;  // at the output
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    most_lost_nm = std::max(most_lost_nm, std::abs(bench_model().ratio * Row(lines[i]).in - Row(lines[i]).out));
+  const auto closed = close_bench_text(changed([&](const std::string& l, std::size_t) {
+    const Row row(l);
+    const double more = (l.starts_with("forward") ? 1.2 : -1.2) * most_lost_nm;
+    char text[120];
+    std::snprintf(text, sizeof text, "%s,%g,%.9g,%.9g", row.direction, row.rpm, row.in, row.out + more);
+    return row.out + more > 0.0 ? std::string(text) : l;
+  }));
+  ASSERT_TRUE(closed);
+  for (const auto& effect : closed->result.effects) EXPECT_NE(effect.id, "swapped_side");
+  EXPECT_EQ(closed->result.verdict, loop::Verdict::kPartlyExplained);
+}
+
 TEST(BenchFile, BadRowsAreLeftOutAndTold) {
   std::vector<std::string> lines = clean_lines();
   lines[3] = "sideways,100,0.1,8";
