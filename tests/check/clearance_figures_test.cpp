@@ -208,6 +208,46 @@ TEST(GearDistance, IsThatOfTheFinePolygonNearTheTeeth) {
   }
 }
 
+TEST(GearDistance, IsThatOfTheFinePolygonAroundEveryEndOfAPiece) {
+  constexpr double kTolerance_mm = 1e-5;
+  for (const SampleGear& sample : sample_gears()) {
+    SCOPED_TRACE(sample.name);
+    const auto profile = ToothProfile::make(sample.gear);
+    ASSERT_TRUE(profile);
+    if (profile->gear().teeth > 40) continue;
+    const GearDistance gear(*profile);
+    const SectionPolygon polygon = section_polygon(*profile, kTolerance_mm);
+    const double sense = profile->gear().kind == GearKind::kInternal ? -1.0 : 1.0;
+    for (const ProfilePiece& piece : profile->pieces())
+      for (int i = 0; i < 8; ++i) {
+        const Point2 p = piece.curve.start_point() + (i % 2 == 0 ? 0.003 : 0.02) * unit_vector(0.1 + kTwoPi * i / 8.0);
+        EXPECT_NEAR(gear.nearest(p).distance_mm, sense * distance_of_polygon(polygon.points, p), 2.0 * kTolerance_mm)
+            << p.transpose();
+      }
+  }
+}
+
+TEST(GearDistance, KeepsASplineForItsOwnErrorAndItsOwnEndsAlone) {
+  const GearTrain train = laid_out(pair_design(19, 37, false, 0.1));
+  const ToothProfile& profile = train.gears[0].profile;
+  std::size_t fillet = 0;
+  while (profile.pieces()[fillet].kind != PieceKind::kFillet) ++fillet;
+  const Curve curve = profile.pieces()[fillet].curve;
+  const auto at = [&](double share) { return point_at(curve, std::lerp(curve.begin, curve.end, share)); };
+  const GearDistance rough(profile, 1e-2), exact(profile);
+  double worst = 0.0;
+  for (int i = 1; i < 20; ++i) worst = std::max(worst, std::abs(rough.nearest(at(i / 20.0)).distance_mm));
+  EXPECT_GT(worst, 1e-7);
+  for (int i = 1; i < 20; ++i) EXPECT_NEAR(exact.nearest(at(i / 20.0)).distance_mm, 0.0, 2e-9);
+  for (const bool first_half : {false, true}) {
+    std::vector<ProfilePiece> pieces = profile.pieces();
+    (first_half ? pieces[fillet].curve.end : pieces[fillet].curve.begin) = 0.5 * (curve.begin + curve.end);
+    const GearDistance half(profile.with_pieces(pieces, {}));
+    EXPECT_LT(std::abs(half.nearest(at(first_half ? 0.4 : 0.6)).distance_mm), 2e-9);
+    EXPECT_GT(std::abs(half.nearest(at(first_half ? 0.7 : 0.3)).distance_mm), 1e-3);
+  }
+}
+
 TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
   GearboxDesign design = pair_design(19, 37, false, 0.1);
   gear(design, "pinion").modifications.helix_slope_um = 60.0;
