@@ -46,14 +46,24 @@ class AroundSearch {
     }
   }
 
-  /// Slopes and bows of traces that differ from tooth to tooth, alike or opposite on both flanks of
-  /// each: noise knows of one trace only, however it hangs together within it.
+  /// What one kind of record shows of a tooth by itself.
+  static std::vector<int> own_forms(MomentsOf what) {
+    switch (what) {
+      case MomentsOf::kProfiles: return {1, 3};
+      case MomentsOf::kHelices: return {2, 4};
+      case MomentsOf::kOthers: return {0};
+      default: return {};
+    }
+  }
+
+  /// Heights in an index, slopes and bows of traces that differ from tooth to tooth, alike or
+  /// opposite on both flanks of each: noise knows of one value or trace only, however it hangs
+  /// together within it.
   void look_at_flanks_of_teeth() {
     constexpr int kForms = 2;  // of a trace's own direction
     const auto looks = static_cast<double>(kForms * moments_.size());
-    for (const auto& [key, of_teeth] : moments_) {
-      if (key.first != MomentsOf::kProfiles && key.first != MomentsOf::kHelices) continue;
-      for (const int form : key.first == MomentsOf::kProfiles ? std::array{1, 3} : std::array{2, 4}) {
+    for (const auto& [key, of_teeth] : moments_)
+      for (const int form : own_forms(key.first)) {
         const auto [right, left] = values_of_both_flanks(of_teeth, form);
         const double p_value = std::min(1.0, looks * chance_of_agreement(right, left));
         if (p_value > kRemainderLevel) continue;
@@ -61,14 +71,21 @@ class AroundSearch {
             (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) < 0.0;
         const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
         const double spread = std::sqrt((common.array() - common.mean()).square().mean());
-        add_text(p_value,
-                 printed("a %s over the %s of its own on every tooth, %s both its flanks, with a "
-                         "standard deviation of %.3g um",
-                         form < 3 ? "slope" : "bow", key.first == MomentsOf::kProfiles ? "profile" : "face",
-                         opposite ? "opposite on" : "alike on", (form < 3 ? 2.0 : 1.0) * spread),
-                 (form < 3 ? 2.0 : 1.0) * spread);
+        add_text(p_value, words_of_own(form, key.first, opposite, spread),
+                 (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
       }
-    }
+  }
+
+  static std::string words_of_own(int form, MomentsOf what, bool opposite, double spread_um) {
+    const char* on = opposite ? "opposite on" : "alike on";
+    if (form == 0)
+      return printed("a place of its own of every tooth, %s both its flanks, with a standard "
+                     "deviation of %.3g um",
+                     on, spread_um);
+    return printed("a %s over the %s of its own on every tooth, %s both its flanks, with a "
+                   "standard deviation of %.3g um",
+                   form < 3 ? "slope" : "bow", what == MomentsOf::kProfiles ? "profile" : "face", on,
+                   (form < 3 ? 2.0 : 1.0) * spread_um);
   }
 
   /// A form of the teeth of which both flanks were measured.

@@ -91,6 +91,26 @@ loop::InspectionData wild_index(const MadeGear& gear, unsigned seed, double toot
   return data;
 }
 
+TEST(SingleValues, PlacesThatBothFlanksOfEachToothShareAreNoNoise) {
+  const MadeGear gear = spur(14);
+  int called_noise = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.seed = seed;
+    loop::InspectionData data = inspection_of(gear, {}, options);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> pitch(0.0, 2.0);
+    std::vector<double> ahead_um(static_cast<std::size_t>(gear.teeth) + 1);
+    for (double& um : ahead_um) um = pitch(random);
+    for (loop::InspectionRow& row : data.rows)
+      row.deviation_um += (row.flank == Flank::kLeft ? 1.0 : -1.0) *
+                          (ahead_um[static_cast<std::size_t>(row.tooth)] - ahead_um[1]);
+    called_noise += close(gear, data).verdict == loop::Verdict::kNoEffect ? 1 : 0;
+  }
+  EXPECT_EQ(called_noise, 0);
+}
+
 TEST(SingleValues, ErrorsWithLongTailsAreSeldomATooth) {
   int alarms = 0;
   for (unsigned seed = 1; seed <= 40; ++seed)
