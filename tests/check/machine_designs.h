@@ -17,6 +17,10 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text.replace(at, what.size(), by);
 }
 
+inline bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// The teeth of examples/printed_actuator.
 inline const std::string k3k = R"(format = 1
 name = "actuator"

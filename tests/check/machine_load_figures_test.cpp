@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loads, lives and seats of bearings and the grip of a shaft, by hand: a layout with round heights in place of the
-// design's own.
+// Loads, lives and seats of bearings and the grip of a shaft, by hand: a layout with round heights
+// in place of the design's own.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 /// A design laid out, whose layout a test may change.
 struct LaidOut {
-  explicit LaidOut(const std::string& text) : train(*lay_out(design_of(text))), m(*machine_layout(train)) {}
+  explicit LaidOut(const std::string& text)
+      : train(*lay_out(design_of(text))), m(*machine_layout(train)) {}
   [[nodiscard]] MachineDesign& machine() { return *train.design.machine; }
   [[nodiscard]] Finding bearing(const std::string& id, const std::string& where) const {
     for (const Finding& f : check_bearings(train, m))
@@ -33,7 +34,6 @@ double balls_h(double dynamic_n, double load_n, double rpm) {
   return std::pow(dynamic_n / load_n, 3.0) * 1e6 / 60.0 / rpm;
 }
 double cos_deg(double angle) { return std::cos(rad_from_deg(angle)); }
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // ------------------------------------------------------------------------------------ life
 
@@ -42,14 +42,23 @@ TEST(BearingLifeFigures, FactorsAreThoseOfTheTableAndOnLinesBetween) {
   struct Case {
     double ratio, e, y;
   };
-  for (const Case& c : std::array<Case, 13>{{{0.005, 0.19, 2.30}, {0.014, 0.19, 2.30}, {0.021, 0.205, 2.145},
-                                             {0.028, 0.22, 1.99}, {0.042, 0.24, 1.85}, {0.056, 0.26, 1.71},
-                                             {0.084, 0.28, 1.55}, {0.11, 0.30, 1.45}, {0.17, 0.34, 1.31},
-                                             {0.225, 0.36, 1.23}, {0.28, 0.38, 1.15}, {0.56, 0.44, 1.00},
+  for (const Case& c : std::array<Case, 13>{{{0.005, 0.19, 2.30},
+                                             {0.014, 0.19, 2.30},
+                                             {0.021, 0.205, 2.145},
+                                             {0.028, 0.22, 1.99},
+                                             {0.042, 0.24, 1.85},
+                                             {0.056, 0.26, 1.71},
+                                             {0.084, 0.28, 1.55},
+                                             {0.11, 0.30, 1.45},
+                                             {0.17, 0.34, 1.31},
+                                             {0.225, 0.36, 1.23},
+                                             {0.28, 0.38, 1.15},
+                                             {0.56, 0.44, 1.00},
                                              {0.8, 0.44, 1.00}}}) {
     const double along = c.ratio * 10000.0;
     const auto at = [&](double across) {
-      return bearing_life(bearing, {.radial_n = across, .axial_n = along, .speed_rpm = 10}).equivalent_n;
+      return bearing_life(bearing, {.radial_n = across, .axial_n = along, .speed_rpm = 10})
+          .equivalent_n;
     };
     const double most = 1.001 * along / c.e, less = 0.9 * along / c.e;
     EXPECT_NEAR(at(most), most, 1e-9) << c.ratio;
@@ -61,14 +70,16 @@ TEST(BearingLifeFigures, AnAxialLoadNeverMakesTheEquivalentOneLessThanTheRadial)
   // at 0.014: 0.56 + 0.19 * 2.30 = 0.997 of the radial load just beyond the limit
   const Bearing bearing{.name = "x", .dynamic_n = 10000, .static_n = 10000};
   const double across = 140.0 / 0.1901;
-  EXPECT_NEAR(bearing_life(bearing, {.radial_n = across, .axial_n = 140, .speed_rpm = 1}).equivalent_n,
-              across, 1e-9);
+  EXPECT_NEAR(
+      bearing_life(bearing, {.radial_n = across, .axial_n = 140, .speed_rpm = 1}).equivalent_n,
+      across, 1e-9);
 }
 
 TEST(BearingLifeFigures, TheStaticLoadIsTheLargerOfBothFormulas) {
   const Bearing bearing{.name = "x", .dynamic_n = 10000, .static_n = 2000};
   // 0.6 * 100 + 0.5 * 60 = 90 < 100; 60 + 0.5 * 300 = 210
-  EXPECT_NEAR(bearing_life(bearing, {.radial_n = 100, .axial_n = 60}).static_equivalent_n, 100, 1e-9);
+  EXPECT_NEAR(bearing_life(bearing, {.radial_n = 100, .axial_n = 60}).static_equivalent_n, 100,
+              1e-9);
   const BearingLife life = bearing_life(bearing, {.radial_n = 100, .axial_n = 300});
   EXPECT_NEAR(life.static_equivalent_n, 210, 1e-9);
   EXPECT_NEAR(life.static_safety, 2000.0 / 210.0, 1e-9);
@@ -90,7 +101,10 @@ TEST(BearingLifeFigures, WithoutRatingThereIsNoLifeAndAtRestItIsWithoutEnd) {
 }
 
 TEST(BearingLifeFigures, CrossedRollersHaveTheirOwnFormulas) {
-  Bearing bearing{.name = "x", .bore_mm = 30, .outer_mm = 50, .dynamic_n = 5000,
+  Bearing bearing{.name = "x",
+                  .bore_mm = 30,
+                  .outer_mm = 50,
+                  .dynamic_n = 5000,
                   .kind = BearingKind::kCrossedRollers};
   // d_pw = 40: 2 * 4000 / 40 = 200 N; 300 across; 1.5 * 300 = 450 along is still mostly across
   const BearingLoad load{.radial_n = 100, .axial_n = 450, .tilting_nmm = 4000, .speed_rpm = 20};
@@ -110,9 +124,11 @@ TEST(MachineLoadFigures, OfAThreeRingTrainFollowFromItsToothNumbers) {
   made.machine().motor.torque_nm = 0.3;
   const MachineLoads loads = machine_loads(made.train);
   EXPECT_NEAR(loads.output_torque_nm, 0.3 * ratio, 1e-9);
-  // against the carrier a planet turns 90 / 39 times as fast as that; the output 1 - 90 32 / (39 81) times
+  // against the carrier a planet turns 90 / 39 times as fast as that; the output 1 - 90 32 / (39
+  // 81) times
   EXPECT_NEAR(loads.planet_speed_rpm, 6.0 * 90.0 / 39.0 / (1.0 - 2880.0 / 3159.0), 1e-9);
-  // the carrier is free: across the radius the forces are in balance, and each mesh pushes the planet along it
+  // the carrier is free: across the radius the forces are in balance, and each mesh pushes the
+  // planet along it
   const double a = made.train.centre_distance_mm;
   const auto push = [&](double torque_nm, double teeth, double planet, double sign) {
     const double across = 1000.0 * torque_nm / 3.0 / (a * teeth / std::abs(teeth + sign * planet));
@@ -131,7 +147,8 @@ TEST(MachineLoadFigures, OfAPairWithHelicalTeethTiltTheWheelAtItsPitchCircle) {
   EXPECT_NEAR(loads.output_torque_nm, 0.3 * 60.0 / 18.0, 1e-9);
   EXPECT_TRUE(std::isnan(loads.pin_force_n));
   // no profile shift: the pitch circle is the reference circle
-  const double pitch = 30.0 / cos_deg(20.0), transverse = std::atan(std::tan(rad_from_deg(20.0)) / cos_deg(20.0));
+  const double pitch = 30.0 / cos_deg(20.0),
+               transverse = std::atan(std::tan(rad_from_deg(20.0)) / cos_deg(20.0));
   const WheelForces forces = wheel_forces(made.train, 5.0);
   EXPECT_NEAR(forces.across_n, 5000.0 / pitch / std::cos(transverse), 1e-3);
   EXPECT_NEAR(forces.along_n, 5000.0 / pitch * std::tan(rad_from_deg(20.0)), 1e-3);
@@ -159,7 +176,8 @@ TEST(BearingFigures, TheOutputsCarryTheLoadByItsLever) {
   made.machine().bearings.output = *find_element(standard_elements().bearings, "RB3010");
   const double across = 40.0 + 2.0 * 40.0 * 15.0 / 42.5;
   const Finding rollers = made.bearing("bearing_load", "output");
-  EXPECT_NEAR(rollers.value, std::pow(7350.0 / (across + 1.35), 10.0 / 3.0) * 1e6 / 360.0, 1e-6 * rollers.value);
+  EXPECT_NEAR(rollers.value, std::pow(7350.0 / (across + 1.35), 10.0 / 3.0) * 1e6 / 360.0,
+              1e-6 * rollers.value);
   EXPECT_EQ(rollers.status, CheckStatus::kPass);
   EXPECT_EQ(rollers.cure, "");
 }
@@ -182,7 +200,8 @@ TEST(BearingFigures, AreToldWithTheLifeThatIsWanted) {
   // a tenth of C: 1000 million turns, 1 666 667 h
   made.machine().bearings.life_h = 2e6;
   const Finding told = made.bearing("bearing_load", "output");
-  EXPECT_EQ(told.message, "bearing 6806 carries 449 N at 10 rpm: 1666667 h (ISO 281), wanted 2000000 h");
+  EXPECT_EQ(told.message,
+            "bearing 6806 carries 449 N at 10 rpm: 1666667 h (ISO 281), wanted 2000000 h");
   EXPECT_NEAR(told.margin, 1e10 / 6000.0 - 2e6, 1e-3);
   EXPECT_EQ(told.status, CheckStatus::kFail);
   // at rest nothing lasts shorter
@@ -209,12 +228,14 @@ TEST(BearingFigures, WithoutRatingSayWhatTheyCarry) {
   made.m.plate = {41.0, 50.0};
   const Finding told = made.bearing("bearing_load", "output");
   EXPECT_EQ(told.status, CheckStatus::kNotApplicable);
-  EXPECT_EQ(told.message, "bearing 6806 has no load rating; it carries 117 N at 6.2 rpm");  // 40 (13.5 + 7) / 7
+  EXPECT_EQ(told.message,
+            "bearing 6806 has no load rating; it carries 117 N at 6.2 rpm");  // 40 (13.5 + 7) / 7
   EXPECT_TRUE(std::isnan(told.value));
 }
 
 TEST(BearingFigures, OfAPlanetCarryHalfThePinEach) {
-  // simple, ring held: T_carrier / 3 a on a pin; the planet turns 72 / 27 times as fast against the carrier
+  // simple, ring held: T_carrier / 3 a on a pin; the planet turns 72 / 27 times as fast against the
+  // carrier
   LaidOut made(kSimple + kMachine + "[output]\ntorque_nm = 6\nspeed_rpm = 9\n");
   const double half = 6000.0 / 3.0 / made.train.centre_distance_mm / 2.0;
   const Finding planet = made.bearing("bearing_load", "planet");
@@ -241,7 +262,8 @@ TEST(BearingFigures, OfACompoundPlanetHaveTheHeightOfBothItsGears) {
   EXPECT_NEAR(made.bearing("bearing_seat", "planet").value, 14.0 + 10.0 - 3.0 - 1.0, 1e-9);
 }
 
-/// A helical pair under a load, its wheel's middle at 6 mm, the lid's bearing around 43.5, the floor's at 4.
+/// A helical pair under a load, its wheel's middle at 6 mm, the lid's bearing around 43.5, the
+/// floor's at 4.
 LaidOut helical_pair() {
   LaidOut made(replaced(kPair, "module_mm = 1", "module_mm = 1\nhelix_angle_deg = 20") + kBox +
                "[output]\ntorque_nm = 5\nspeed_rpm = 12\nradial_load_n = 50\naxial_load_n = 30\n");
@@ -269,10 +291,12 @@ TEST(BearingFigures, OfAWheelBetweenTwoFollowFromTheLever) {
   const Finding output = made.bearing("bearing_load", "output");
   EXPECT_NEAR(output.value, balls_h(4490, with_axial(3450, lid, along), 12), 1e-6 * output.value);
   const Finding wheel = made.bearing("bearing_load", "wheel");
-  EXPECT_NEAR(wheel.value, balls_h(3450, floor, 12), 1e-6 * wheel.value);  // along the axis it carries nothing
+  EXPECT_NEAR(wheel.value, balls_h(3450, floor, 12),
+              1e-6 * wheel.value);  // along the axis it carries nothing
   made.machine().bearings.outputs = 2;
   const Finding shared = made.bearing("bearing_load", "output");
-  EXPECT_NEAR(shared.value, balls_h(4490, with_axial(3450, 0.5 * lid, along), 12), 1e-6 * shared.value);
+  EXPECT_NEAR(shared.value, balls_h(4490, with_axial(3450, 0.5 * lid, along), 12),
+              1e-6 * shared.value);
 }
 
 TEST(BearingFigures, OfAWheelInTheLidAloneAreTheOuterOnesOfSeveral) {
@@ -282,18 +306,21 @@ TEST(BearingFigures, OfAWheelInTheLidAloneAreTheOuterOnesOfSeveral) {
   made.m.bearings = {40.0, 61.0};  // middles at 43.5 and 57.5
   made.m.plate = {62.0, 70.0};
   const WheelForces gear = wheel_forces(made.train, 5.0);
-  const double first = (gear.across_n * 51.5 + 50.0 * 12.5) / 14.0, last = (gear.across_n * 37.5 + 50.0 * 26.5) / 14.0;
+  const double first = (gear.across_n * 51.5 + 50.0 * 12.5) / 14.0,
+               last = (gear.across_n * 37.5 + 50.0 * 26.5) / 14.0;
   ASSERT_GT(first, last);
   const auto told_at = [&] { return made.bearing("bearing_load", "output"); };
   const double along = 30.0 + gear.along_n;
-  EXPECT_NEAR(told_at().value, balls_h(4490, with_axial(3450, first + gear.tilting_nmm / 14.0, along), 12),
+  EXPECT_NEAR(told_at().value,
+              balls_h(4490, with_axial(3450, first + gear.tilting_nmm / 14.0, along), 12),
               1e-6 * told_at().value);
   // a long arm of the load makes it the last
   made.m.plate.upper_mm = 157.5;
   made.machine().output.radial_load_n = 300.0;
   const double far = (gear.across_n * 37.5 + 300.0 * 114.0) / 14.0;
   ASSERT_GT(far, (gear.across_n * 51.5 + 300.0 * 100.0) / 14.0);
-  EXPECT_NEAR(told_at().value, balls_h(4490, with_axial(3450, far + gear.tilting_nmm / 14.0, along), 12),
+  EXPECT_NEAR(told_at().value,
+              balls_h(4490, with_axial(3450, far + gear.tilting_nmm / 14.0, along), 12),
               1e-6 * told_at().value);
 }
 
@@ -313,7 +340,8 @@ TEST(BearingFigures, OfAWheelInOneAloneTiltIt) {
   const double tilting = gear.tilting_nmm + gear.across_n * 37.5 + 50.0 * 16.5;
   const double all = across + 2.0 * tilting / 42.5;
   const Finding rollers = made.bearing("bearing_load", "output");
-  EXPECT_NEAR(rollers.value, std::pow(7350.0 / (all + 0.45 * along), 10.0 / 3.0) * 1e6 / 720.0, 1e-6 * rollers.value);
+  EXPECT_NEAR(rollers.value, std::pow(7350.0 / (all + 0.45 * along), 10.0 / 3.0) * 1e6 / 720.0,
+              1e-6 * rollers.value);
   EXPECT_EQ(rollers.status, CheckStatus::kPass);
 }
 
@@ -387,7 +415,8 @@ TEST(ShaftGripFigures, ASetScrewOnAFlatSaysHowFarItsEdgeIsFromWhereThatBegins) {
   made.m.set_screw.axis_mm = 7.0;
   // M3: 7 - 1.5 - 2
   const Finding told = shaft_grip(made.train, made.m);
-  EXPECT_TRUE(says(told.message, "bears on its flat, 3.5 mm from where that begins")) << told.message;
+  EXPECT_TRUE(says(told.message, "bears on its flat, 3.5 mm from where that begins"))
+      << told.message;
   EXPECT_TRUE(says(told.message, "its flat holds about")) << told.message;
   made.m.gripped.upper_mm = made.m.gripped.lower_mm;
   EXPECT_FALSE(says(shaft_grip(made.train, made.m).message, "flat"));
@@ -401,7 +430,8 @@ TEST(ShaftGripFigures, AShaftGoesIntoABoreThatIsWiderOrPressesIntoItsClass) {
   EXPECT_FALSE(fails());
   bore = 5.0;
   EXPECT_TRUE(fails());
-  EXPECT_TRUE(says(shaft_grip(made.train, made.m).message, "5 mm does not go into the bore of 5 mm"));
+  EXPECT_TRUE(
+      says(shaft_grip(made.train, made.m).message, "5 mm does not go into the bore of 5 mm"));
   // 5 N7 is -16 to -4: 4.99 in the middle
   made.m.fits.shaft.hole = "N7";
   EXPECT_FALSE(fails());
