@@ -162,6 +162,39 @@ class Editor {
   const DesignFile& file_;
 };
 
+/// Of each table without a header that loses all the keys that the file gives it: one that says that it is still there.
+std::vector<DesignKeyChange> keys_of_lost_tables(std::string_view text, const DesignFile& file, const GearboxDesign& after,
+                                                 const std::vector<DesignKeyChange>& changes) {
+  const std::vector<std::string> lines = lines_of(text);
+  const auto is_lost = [&](const std::string& dotted) {
+    return std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
+      const std::string inches = c.dotted().ends_with("_mm") ? c.dotted().substr(0, c.dotted().size() - 3) + "_in" : "";
+      return c.after.empty() && (c.dotted() == dotted || inches == dotted);
+    });
+  };
+  const auto stays = [&](const std::string& table) {
+    return std::any_of(file.lines.begin(), file.lines.end(), [&](const auto& entry) {
+      const std::string& line = lines.at(static_cast<std::size_t>(std::max(entry.second, 1) - 1));
+      const auto first = line.find_first_not_of(" \t");
+      if (entry.first == table) return first != std::string::npos && line[first] == '[';
+      return entry.first.starts_with(table + ".") && !is_lost(entry.first);
+    });
+  };
+  std::vector<DesignKeyChange> keys;
+  for (const WrittenKey& key : written_keys(after)) {
+    const bool touched = std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
+      return c.table == key.table && !c.after.empty();
+    });
+    const bool loses = std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
+      return c.table == key.table && c.after.empty();
+    });
+    const bool known = !keys.empty() && keys.back().table == key.table;
+    if (!key.table.empty() && loses && !touched && !known && !stays(key.table))
+      keys.push_back({key.table, key.key, "", key.value});
+  }
+  return keys;
+}
+
 }  // namespace
 
 std::vector<DesignKeyChange> design_changes(const GearboxDesign& before, const GearboxDesign& after) {
@@ -185,17 +218,26 @@ std::vector<DesignKeyChange> design_changes(const GearboxDesign& before, const G
   return changes;
 }
 
-ResultAll<std::string> edited_design_text(std::string_view text, const std::string& file,
-                                          const GearboxDesign& after) {
+ResultAll<EditedDesign> edited_design(std::string_view text, const std::string& file, const GearboxDesign& after) {
   const auto read = read_design_file_text(text, file);
   if (!read) return fail_all(read.error());
+  std::vector<DesignKeyChange> changes = design_changes(read->design, after);
+  const std::vector<DesignKeyChange> written_out = keys_of_lost_tables(text, *read, after, changes);
+  changes.insert(changes.begin(), written_out.begin(), written_out.end());  // beside keys that stand yet
   Editor editor(text, *read);
   bool edited = true;
-  for (const DesignKeyChange& change : design_changes(read->design, after)) edited = editor.apply(change) && edited;
+  for (const DesignKeyChange& change : changes) edited = editor.apply(change) && edited;
   const std::string result = editor.text();
   const auto again = read_design_file_text(result, file);
-  if (edited && again && again->design == after) return result;
-  return design_file_text(after);
+  if (edited && again && again->design == after) return EditedDesign{result, written_out};
+  return EditedDesign{design_file_text(after), {}};
+}
+
+ResultAll<std::string> edited_design_text(std::string_view text, const std::string& file,
+                                          const GearboxDesign& after) {
+  auto edited = edited_design(text, file, after);
+  if (!edited) return fail_all(edited.error());
+  return std::move(edited->text);
 }
 
 }  // namespace trueflank

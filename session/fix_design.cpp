@@ -27,19 +27,22 @@ ResultAll<Findings> machine_findings(const Gearbox& gearbox) {
   return gearbox.train().design.machine ? check_machine(gearbox.train(), *parts) : Findings{};
 }
 
-std::string headline(const GearTrain& before, const JointCure& cure) {
+std::string headline(const GearTrain& before, const JointCure& cure, const std::vector<DesignKeyChange>& written_out) {
   const std::string& name = before.design.name;
-  if (cure.changed)
+  if (cure.changed) {
+    io::ReportedCure reported = reported_cure_of(before, cure);
+    for (const DesignKeyChange& key : written_out) reported.changes.push_back({key.dotted(), key.before, key.after});
     return name +
            (cure.cured() ? ": every check passes with\n"
                          : ": the nearest that was found, which still fails\n") +
-           io::cure_table(reported_cure_of(before, cure));
+           io::cure_table(reported);
+  }
   return name + (cure.cured() ? ": no check fails, nothing is changed\n"
                               : ": no change near this design mends it\n");
 }
 
-std::string result_text(const GearTrain& before, const JointCure& cure) {
-  std::string text = headline(before, cure);
+std::string result_text(const GearTrain& before, const JointCure& cure, const std::vector<DesignKeyChange>& written_out) {
+  std::string text = headline(before, cure, written_out);
   if (cure.cured()) {
     const std::string warnings = findings_text(cure.findings, CheckStatus::kWarn);
     return text + (warnings.empty() ? "" : "warnings that stay\n" + warnings);
@@ -66,10 +69,11 @@ ResultAll<FixedDesign> fixed_design(const std::string& path, const FixOptions& o
       fails(findings) || options.warnings
           ? joint_cure(train, findings, {}, findings_around)
           : JointCure{.design = train.design, .findings = findings, .conflict = {}};
-  auto fixed = cure.changed ? edited_design_text(*text, path, cure.design) : ResultAll<std::string>(*text);
+  auto fixed = cure.changed ? edited_design(*text, path, cure.design) : ResultAll<EditedDesign>(EditedDesign{*text, {}});
   if (!fixed) return fail_all(fixed.error());
-  return FixedDesign{
-      .cured = cure.cured(), .design_text = std::move(*fixed), .summary = result_text(train, cure)};
+  return FixedDesign{.cured = cure.cured(),
+                     .design_text = std::move(fixed->text),
+                     .summary = result_text(train, cure, fixed->written_out)};
 }
 
 }  // namespace trueflank

@@ -70,6 +70,27 @@ TEST(DesignEdit, KeysThatNameTheirTableStayInTheirLine) {
             "wheel.face_width_mm = 10\r\nwheel.tip_diameter_mm = 41.875\r\n");
 }
 
+TEST(DesignEdit, ATableThatLosesItsOnlyKeyIsKeptByAnotherKey) {
+  const std::string dotted =
+      "format = 1\ngearbox.kind = \"simple\" # of three\ngearbox.module_mm = 2\ngearbox.planets = 3\nsun.teeth = 26\n"
+      "sun.face_width_mm = 20\nplanet.teeth = 13\nplanet.face_width_mm = 20\nring.teeth = 52\n"
+      "ring.face_width_mm = 20\nmade.process = \"fdm-0.4\"\nmotor.name = \"nema17\"\nbearings.output = \"6808\"\n"
+      "bearings.planet = \"625\"\noutput.speed_rpm = 6\ngearbox.output = \"ring\"\nhousing.outer_diameter_mm=129.5 # as the frame has it\n";
+  const auto whole = read_design_text(dotted, "edited.toml");
+  ASSERT_TRUE(whole.has_value()) << whole.error()[0].message;
+  GearboxDesign design = *whole;
+  ASSERT_TRUE(design.machine.has_value());
+  design.machine->housing.outer_diameter_mm.reset();
+  const auto edited = edited_design(dotted, "edited.toml", design);
+  ASSERT_TRUE(edited.has_value());
+  EXPECT_NE(edited->text.find("# of three"), std::string::npos);
+  EXPECT_NE(edited->text.find("# housing.outer_diameter_mm=129.5 # as the frame has it\n"), std::string::npos);
+  ASSERT_EQ(edited->written_out.size(), 1u);
+  EXPECT_EQ(edited->written_out[0].table, "housing");
+  EXPECT_NE(edited->text.find(edited->written_out[0].key + " = " + edited->written_out[0].after), std::string::npos);
+  EXPECT_TRUE(read(edited->text) == design);
+}
+
 TEST(DesignEdit, NewKeysNameTheirTableBesideInchesToo) {
   const std::string dotted =
       "format = 1\ngearbox.kind = \"pair\"\ngearbox.module_in = 0.05\npinion.teeth = 20\npinion.face_width_in = 0.4\n"
