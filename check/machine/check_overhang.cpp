@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/check/machine/check_overhang.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "trueflank/base/number_text.h"
 #include "trueflank/check/machine/check_bearings.h"
 #include "trueflank/check/quantity_text.h"
@@ -15,7 +18,7 @@ struct Judged {
   double value = 0.0, limit = 0.0;
   const char* unit = "mm";
   std::string message, cure;
-  [[nodiscard]] double share() const { return limit > 0.0 ? value / limit : 0.0; }
+  [[nodiscard]] double share() const { return value / limit; }
 };
 
 Judged ledge(const Overhang& hangs, const Process& process) {
@@ -42,6 +45,13 @@ Judged lean(const Overhang& hangs, const Process& process) {
           .cure = "a smaller helix_angle_deg"};
 }
 
+/// Of those that have a limit, of which there is one at least.
+Judged worst_of(std::vector<Judged> ways) {
+  std::erase_if(ways, [](const Judged& way) { return !(way.limit > 0.0); });
+  return *std::max_element(ways.begin(), ways.end(),
+                           [](const Judged& a, const Judged& b) { return a.share() < b.share(); });
+}
+
 /// A planet whose upper teeth stand out over the neck.
 bool is_stacked(const GearTrain& train, const PartShape& part) {
   return part.member != kNoMember && train.topology().is_planet(part.member) &&
@@ -50,22 +60,22 @@ bool is_stacked(const GearTrain& train, const PartShape& part) {
 
 /// Teeth and the foot of a set screw stand out over the hub between them.
 bool has_set_screw(const GearTrain& train, const PartShape& part) {
+  if (part.member != train.topology().input) return false;
   const auto layout = machine_layout(train);
-  return layout && layout->set_screw.is_there() && part.member == train.topology().input;
+  return layout && layout->set_screw.is_there();
 }
 
 Finding judge_part(const GearTrain& train, const PartShape& part, const Process& process) {
   const Overhang hangs = overhang(part, part.upside_down, process);
-  Judged worst = ledge(hangs, process);
-  for (Judged other : {bridge(hangs, process), lean(hangs, process)})
-    if (other.share() > worst.share()) worst = std::move(other);
-  if (is_stacked(train, part) && worst.share() > 1.0 && worst.value == hangs.ledge_mm)
+  Judged worst = worst_of({ledge(hangs, process), bridge(hangs, process), lean(hangs, process)});
+  // one that is not needed is not told
+  if (is_stacked(train, part) && worst.value == hangs.ledge_mm)
     worst.cure =
         "teeth of planet1 and planet2 so far apart in number that one lies inside the other's "
         "roots, "
         "and straight; or " +
         worst.cure;
-  if (worst.share() > 1.0 && has_set_screw(train, part))
+  if (has_set_screw(train, part))
     worst.cure =
         "set_screw = \"never\" in [fasteners], with a flat filed on the shaft (flat_mm and "
         "flat_length_mm in [motor]); or " +

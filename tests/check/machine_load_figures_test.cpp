@@ -75,6 +75,12 @@ TEST(BearingLifeFigures, AnAxialLoadNeverMakesTheEquivalentOneLessThanTheRadial)
       across, 1e-9);
 }
 
+TEST(BearingLifeFigures, AnAxialLoadAtItsLimitDoesNotCountYet) {
+  // 0.26 * 1000 of 260 / 0.056: 0.56 * 1000 + 1.71 * 260 would be 1004.6
+  const Bearing bearing{.name = "x", .dynamic_n = 10000, .static_n = 260.0 / 0.056};
+  EXPECT_NEAR(bearing_life(bearing, {.radial_n = 1000, .axial_n = 260}).equivalent_n, 1000, 1e-9);
+}
+
 TEST(BearingLifeFigures, TheStaticLoadIsTheLargerOfBothFormulas) {
   const Bearing bearing{.name = "x", .dynamic_n = 10000, .static_n = 2000};
   // 0.6 * 100 + 0.5 * 60 = 90 < 100; 60 + 0.5 * 300 = 210
@@ -112,6 +118,13 @@ TEST(BearingLifeFigures, CrossedRollersHaveTheirOwnFormulas) {
   EXPECT_NEAR(life.equivalent_n, 300 + 0.45 * 450, 1e-9);
   EXPECT_NEAR(life.life_h, std::pow(5000 / 502.5, 10.0 / 3.0) * 1e6 / 1200.0, 1e-6);
   EXPECT_TRUE(std::isnan(life.static_safety));
+  // both formulas say the same at that limit, and not below and beyond it
+  const auto along = [&](double axial) {
+    return bearing_life(bearing, {.radial_n = 100, .axial_n = axial, .tilting_nmm = 4000})
+        .equivalent_n;
+  };
+  EXPECT_NEAR(along(310), 300 + 0.45 * 310, 1e-9);
+  EXPECT_NEAR(along(600), 0.67 * 900, 1e-9);
   bearing.static_n = 6000;
   EXPECT_NEAR(bearing_life(bearing, load).static_safety, 6000 / (300 + 0.44 * 450), 1e-9);
 }
@@ -138,6 +151,25 @@ TEST(MachineLoadFigures, OfAThreeRingTrainFollowFromItsToothNumbers) {
   const double sun = 0.3, out = 0.3 * ratio, held = out - sun;
   const double along = push(sun, 12, 39, 1.0) - push(held, 90, 39, -1.0) - push(out, 81, 32, -1.0);
   EXPECT_NEAR(loads.pin_force_n, std::abs(along), 1e-3 * std::abs(along));
+}
+
+TEST(MachineLoadFigures, OfASunThatIdlesPushNoPlanet) {
+  // the carrier drives: each planet has the forces of its two rings alone
+  LaidOut made(idle_sun(k3k + kMachine) + "[output]\ntorque_nm = 6\nspeed_rpm = 5\n");
+  const MachineLoads loads = machine_loads(made.train);
+  const double a = made.train.centre_distance_mm, ratio = 1.0 / (1.0 - 2880.0 / 3159.0);
+  const double held = 6.0 - 6.0 / ratio;
+  const auto across = [&](double torque_nm, double teeth, double planet) {
+    return 1000.0 * torque_nm / 3.0 / (a * teeth / (teeth - planet));
+  };
+  const auto tangent = [&](double teeth, double planet) {
+    const double cosine = 0.4 * (teeth - planet) * cos_deg(20.0) / a;
+    return std::sqrt(1.0 - cosine * cosine) / cosine;
+  };
+  const double one = across(held, 90, 39), other = across(6.0, 81, 32);
+  const double along = one * tangent(90, 39) + other * tangent(81, 32);
+  EXPECT_NEAR(loads.pin_force_n, std::hypot(other - one, along), 1e-3 * along);
+  EXPECT_NEAR(loads.planet_speed_rpm, 5.0 * 90.0 / 39.0 * ratio, 1e-9);
 }
 
 TEST(MachineLoadFigures, OfAPairWithHelicalTeethTiltTheWheelAtItsPitchCircle) {
@@ -216,7 +248,7 @@ TEST(BearingFigures, AStaticRatingThatIsExceededFailsWhateverTheLife) {
   const Finding told = made.bearing("bearing_load", "output");
   EXPECT_TRUE(says(told.message, "static rating is exceeded by 2 times")) << told.message;
   made.machine().bearings.outputs = 1;
-  made.machine().output.radial_load_n = 3300.0;  // 1.045: not exceeded
+  made.machine().output.radial_load_n = 3450.0;  // reached, not exceeded
   EXPECT_FALSE(says(made.bearing("bearing_load", "output").message, "static rating"));
 }
 
@@ -453,6 +485,16 @@ TEST(ShaftGripFigures, ARoundBoreOnAShaftWithAFlatIsGluedAsWell) {
   EXPECT_TRUE(says(shaft_grip(made.train, made.m).message, "torque; no room"));
   made.m.gripped.upper_mm = made.m.gripped.lower_mm;
   EXPECT_FALSE(says(shaft_grip(made.train, made.m).message, "no room"));
+}
+
+TEST(ShaftGripFigures, ARoundShaftWithoutASetScrewHasNoFlatToTellOf) {
+  LaidOut made(k3k + kMachine);
+  made.machine().motor.flat_mm = 0.0;
+  made.train.design.gears[0].bore.kind = BoreKind::kRound;
+  made.m.set_screw.missing = "no room";
+  const Finding told = shaft_grip(made.train, made.m);
+  EXPECT_TRUE(says(told.message, "glue alone carries the torque; no room"));
+  EXPECT_FALSE(says(told.message, "flat")) << told.message;
 }
 
 }  // namespace

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits, overhangs, keys, walls, collisions and order by hand: bodies of a few discs in place of a
+// Overhangs, walls, screws, collisions and order by hand: bodies of a few discs in place of a
 // gearbox's parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "tests/check/machine_bodies.h"
 #include "tests/check/machine_designs.h"
-#include "trueflank/check/machine/check_access.h"
-#include "trueflank/check/machine/check_fits.h"
 #include "trueflank/check/machine/check_overhang.h"
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/solid/measure/overhang.h"
@@ -17,180 +15,13 @@
 namespace trueflank {
 namespace {
 
-const Finding* find(const Findings& findings, const std::string& id, const std::string& where) {
-  for (const Finding& f : findings)
-    if (f.id == id && f.where == where) return &f;
-  return nullptr;
-}
-Finding one(const Findings& findings, const std::string& id, const std::string& where) {
-  const Finding* found = find(findings, id, where);
-  if (!found) throw std::runtime_error("no finding " + id + " of " + where);
-  return *found;
-}
-CircleOutline round(double radius_mm, double x = 0.0, double y = 0.0) {
-  return {.centre = {x, y}, .radius_mm = radius_mm};
-}
-PartShape disc(const std::string& name, double lower, double upper, CircleOutline outer,
-               std::vector<Outline> holes = {}) {
-  return {.name = name, .slabs = {{lower, upper, outer, std::move(holes)}}};
-}
-/// A body a part, where the part is.
-PartShapes bodies(std::vector<PartShape> parts) {
-  PartShapes shapes{.parts = std::move(parts)};
-  for (std::size_t i = 0; i < shapes.parts.size(); ++i)
-    shapes.assembly.push_back({.part = static_cast<int>(i), .name = shapes.parts[i].name});
-  return shapes;
-}
-
-// ----------------------------------------------------------------------------------------- fits
-
-const std::string kFitted = machined(k3k + kMachine);
-
-TEST(FitFigures, ClearancesOfBearingsFollowFromIsoClassesAndRings) {
-  GearTrain train = *lay_out(design_of(kFitted));
-  struct Case {
-    double size;
-    const char* clearance;
-  };
-  // H7 is 0 to IT7, the ring up to so much below its size (ISO 492, class Normal)
-  for (const Case& c : std::array<Case, 9>{{{16, "+0 to +26"},
-                                            {18, "+0 to +26"},
-                                            {30, "+0 to +30"},
-                                            {50, "+0 to +36"},
-                                            {80, "+0 to +43"},
-                                            {120, "+0 to +50"},
-                                            {150, "+0 to +58"},
-                                            {180, "+0 to +65"},
-                                            {250, "+0 to +76"}}}) {
-    train.design.machine->bearings.output.outer_mm = c.size;
-    EXPECT_TRUE(says(one(check_fits(train), "fits", "output").message,
-                     std::string("clearance ") + c.clearance))
-        << c.size << one(check_fits(train), "fits", "output").message;
-  }
-  train.design.machine->bearings.output.outer_mm = 260.0;
-  const Finding large = one(check_fits(train), "fits", "output");
-  EXPECT_EQ(large.status, CheckStatus::kWarn);
-  EXPECT_EQ(large.margin, -1.0);
-  EXPECT_TRUE(std::isnan(large.value));
-  EXPECT_TRUE(says(large.message, "above 250 mm"));
-  train.design.machine->bearings.output.outer_mm = 180.0;
-  // g6
-  for (const Case& c : std::array<Case, 6>{{{18, "-2 to +17"},
-                                            {30, "-3 to +20"},
-                                            {50, "-3 to +25"},
-                                            {80, "-5 to +29"},
-                                            {120, "-8 to +34"},
-                                            {180, "-11 to +39"}}}) {
-    train.design.machine->bearings.output.bore_mm = c.size;
-    EXPECT_TRUE(says(one(check_fits(train), "fits", "output").message,
-                     std::string("clearance ") + c.clearance))
-        << c.size << one(check_fits(train), "fits", "output").message;
-  }
-}
-
-TEST(FitFigures, TightJournalsLeaveOfEachBoresClearanceWhatTheRacewayDoesNotTake) {
-  GearTrain train =
-      *lay_out(design_of(replaced(kFitted, "[bearings]", "[bearings]\noutput_fit = \"H7/k6\"")));
-  Bearing& bearing = train.design.machine->bearings.output;
-  bearing.outer_mm = 180.0;
-  struct Case {
-    double bore, left_um;
-  };
-  // the middle of group N less 0.8 of k6's middle over that of the bore
-  for (const Case& c : std::array<Case, 8>{{{10, -0.1},
-                                            {18, 2.1},
-                                            {30, 1.7},
-                                            {40, 0.2},
-                                            {50, 1.7},
-                                            {65, 2.8},
-                                            {80, 4.8},
-                                            {100, 4.8}}}) {
-    bearing.bore_mm = c.bore;
-    const Finding told = one(check_fits(train), "fits", "output");
-    EXPECT_EQ(told.status, c.left_um < 0.0 ? CheckStatus::kWarn : CheckStatus::kPass) << c.bore;
-    const std::string left = c.left_um == -0.1 ? "-0.1" : std::to_string(c.left_um).substr(0, 3);
-    EXPECT_TRUE(says(told.message, "they leave " + left + " um in the middle")) << told.message;
-    if (c.left_um < 0.0) {
-      EXPECT_NEAR(told.value, -0.0001, 1e-12);
-      EXPECT_EQ(told.margin, told.value);
-      EXPECT_EQ(told.limit, 0.0);
-    }
-  }
-  bearing.bore_mm = 101.0;
-  EXPECT_FALSE(says(one(check_fits(train), "fits", "output").message, "5753"));
-  bearing.bore_mm = 30.0;
-  bearing.kind = BearingKind::kCrossedRollers;
-  EXPECT_FALSE(says(one(check_fits(train), "fits", "output").message, "5753"));
-}
-
-TEST(FitFigures, ATightSeatOfAPlanetSqueezesItsBallsToo) {
-  // 16 N7 is -23 to -5, the ring -8 to 0: 10 um; a bore of 5 mm has 2 to 13
-  GearTrain train =
-      *lay_out(design_of(replaced(kFitted, "[bearings]", "[bearings]\nplanet_fit = \"N7\"")));
-  const Finding told = one(check_fits(train), "fits", "planet");
-  EXPECT_NEAR(told.value, (7.5 - 8.0) / 1000.0, 1e-12);
-  EXPECT_EQ(told.status, CheckStatus::kWarn);
-  // plastic moves no ring
-  train.design.made.process->layer_mm = 0.2;
-  EXPECT_FALSE(says(one(check_fits(train), "fits", "planet").message, "5753"));
-}
-
-TEST(FitFigures, TheFirstLimitsAreTheValueAndPrintersDoNotHoldThem) {
-  GearTrain train = *lay_out(design_of(kFitted));
-  const Finding held = one(check_fits(train), "fits", "output");
-  EXPECT_NEAR(held.value, 0.025, 1e-12);
-  EXPECT_EQ(held.status, CheckStatus::kPass);
-  train.design.made.process->layer_mm = 0.2;
-  const Finding printed = one(check_fits(train), "fits", "output");
-  EXPECT_EQ(printed.margin, -1.0);
-  EXPECT_EQ(printed.status, CheckStatus::kWarn);
-  EXPECT_TRUE(says(printed.message,
-                   "6806: seat 42 H7 (+0 to +25 um), clearance +0 to +36 um; journal 30 g6"))
-      << printed.message;
-  EXPECT_TRUE(says(printed.message, "printers do not hold"));
-  train.design.made.process.reset();
-  EXPECT_EQ(one(check_fits(train), "fits", "output").status, CheckStatus::kPass);
-}
-
-TEST(FitFigures, OfRingLidShaftAndCollarAreThoseOfTheirSizes) {
-  GearTrain train = *lay_out(design_of(kFitted));
-  train.design.machine->motor.pilot_diameter_mm = 0.5;
-  EXPECT_TRUE(says(one(check_fits(train), "fits", "motor_pilot").message, "0.5 H7 (+0 to +10 um)"));
-  train.design.machine->motor.pilot_diameter_mm = 0.0;
-  EXPECT_EQ(find(check_fits(train), "fits", "motor_pilot"), nullptr);
-  EXPECT_TRUE(
-      says(one(check_fits(train), "fits", "motor_shaft").message, "hole 5 H7 (+0 to +12 um)"));
-  EXPECT_FALSE(says(one(check_fits(train), "fits", "motor_shaft").message, "clearance"));
-  const double ring = 2.0 * machine_layout(train)->ring_radius_mm;
-  EXPECT_TRUE(
-      says(one(check_fits(train), "fits", "ring").message, "hole " + number_text(ring) + " H7"))
-      << ring;
-  const GearTrain pair = *lay_out(design_of(machined(kPair + kBox)));
-  const double lid = 2.0 * machine_layout(pair)->cavity_radius_mm;
-  const Finding rim = one(check_fits(pair), "fits", "lid");
-  EXPECT_TRUE(says(rim.message, "hole " + number_text(lid) + " H7")) << rim.message << lid;
-  EXPECT_EQ(find(check_fits(pair), "fits", "ring"), nullptr);
-  EXPECT_EQ(find(check_fits(train), "fits", "lid"), nullptr);
-  EXPECT_TRUE(says(one(check_fits(pair), "fits", "wheel").message, "journal 8"));
-}
-
-TEST(FitFigures, OfBothSidesAreComparedWithEachOther) {
-  // 5 N7 is -16 to -4 in the pins' plates; ring H7/g6 of 80 to 120 mm: 0 to 35, -34 to -12
-  const GearTrain train = *lay_out(design_of(
-      replaced(kFitted, "[housing]", "[housing]\nring_fit = \"H7/g6\"\npin_fit = \"N7\"")));
-  ASSERT_NEAR(2.0 * machine_layout(train)->ring_radius_mm, 100.0, 20.0);
-  const Finding ring = one(check_fits(train), "fits", "ring");
-  EXPECT_TRUE(says(ring.message, "H7 (+0 to +35 um), clearance +12 to +69 um")) << ring.message;
-  EXPECT_TRUE(says(one(check_fits(train), "fits", "pins").message, "5 N7 (-16 to -4 um)"));
-}
-
 // ------------------------------------------------------------------------------------- overhangs
 
 struct Printed {
   Printed() { process() = {.name = "mine", .ledge_mm = 1.0, .bridge_mm = 15.0}; }
   Process& process() { return *train.design.made.process; }
   [[nodiscard]] Finding of(const PartShape& part) const {
-    return one(check_overhangs(train, {.parts = {part}}), "overhang", part.name);
+    return the_finding(check_overhangs(train, {.parts = {part}}), "overhang", part.name);
   }
   GearTrain train = *lay_out(design_of(k3k + kMachine));
 };
@@ -242,6 +73,19 @@ TEST(OverhangFigures, AnyOfTheLimitsAloneIsJudgedAndNoneIsNot) {
   EXPECT_TRUE(check_overhangs(made.train, {.parts = {kMushroom}}).empty());
 }
 
+TEST(OverhangFigures, AWayWithoutLimitIsNoneWhateverHangsThatWay) {
+  Printed made;
+  const PartShape cap{.name = "cap", .slabs = {{0, 4, round(9)}, {4, 6, round(11)}}};
+  made.process() = {.name = "mine", .bridge_mm = 15.0};
+  const Finding told = made.of(cap);
+  EXPECT_EQ(told.status, CheckStatus::kPass) << told.message;
+  EXPECT_EQ(told.limit, 15.0);
+  EXPECT_EQ(told.cure, "");
+  made.process() = {.name = "mine", .overhang_rad = 0.5};
+  EXPECT_EQ(made.of(kMushroom).status, CheckStatus::kPass);
+  EXPECT_EQ(made.of(kMushroom).unit, "deg");
+}
+
 TEST(OverhangFigures, LeaningFlanksAreToldInDegrees) {
   const Made made(replaced(kSimple, "module_mm = 1", "module_mm = 1\nhelix_angle_deg = 43") +
                   kMachine);
@@ -275,196 +119,9 @@ TEST(OverhangFigures, StackedTeethAndSetScrewsHaveCuresOfTheirOwn) {
   EXPECT_EQ(screwed.of(part).cure, "");
   const GearTrain simple = *lay_out(design_of(kSimple + kMachine));
   part.member = simple.topology().first_planet();
-  EXPECT_FALSE(says(one(check_overhangs(simple, {.parts = {part}}), "overhang", "mushroom").cure,
-                    "planet1"));
-}
-
-// ------------------------------------------------------------------------------------------ keys
-
-/// Screws of the housing alone: heads of 5.5 mm on 10 mm, 3 mm high, at (20, 0); their keys come
-/// from above.
-struct Keys {
-  Keys() : m(*machine_layout(train)) {
-    for (ScrewGroup* group :
-         {&m.motor_screws, &m.carrier_screws, &m.output_screws, &m.retainer_screws})
-      group->at.clear();
-    ScrewGroup& g = m.housing_screws;
-    g = {.what = "housing",
-         .screw = g.screw,
-         .length_mm = 8,
-         .at = {Point2(20, 0)},
-         .head_mm = 10,
-         .way = -1,
-         .insert_mm = 4};
-    m.way = 1.0;
-    shapes = bodies({disc("insert_m3_housing", 2, 4, round(2)),
-                     disc("cover", 0, 20, round(30), {round(4, 20)}),
-                     disc("screw_m3_housing", 2, 13, round(2.75))});
-    for (const std::size_t body : {0U, 2U}) shapes.assembly[body].translation_mm = {20, 0, 0};
-  }
-  [[nodiscard]] Finding told() const {
-    AssemblyOrder order{.units = {{.name = "gearbox"}}};
-    for (std::size_t i = 0; i < shapes.assembly.size(); ++i)
-      if (std::find(later.begin(), later.end(), i) == later.end())
-        order.units[0].steps.push_back({.bodies = {i}});
-    for (const std::size_t i : later) order.units[0].steps.push_back({.bodies = {i}});
-    return one(check_access(train, m, shapes, order), "tool_access", "housing");
-  }
-  CircleOutline& hole() { return std::get<CircleOutline>(shapes.parts[1].slabs[0].holes[0]); }
-  Slab& cover() { return shapes.parts[1].slabs[0]; }
-  GearTrain train = *lay_out(design_of(k3k + kMachine));
-  MachineLayout m;
-  PartShapes shapes;
-  std::vector<std::size_t> later;  ///< bodies that come last
-};
-
-TEST(KeyFigures, AKeyHasTheRoomBetweenItsHeadAndTheHoleOverIt) {
-  Keys keys;
-  EXPECT_NEAR(keys.told().value, 1.25, 1e-12);
-  EXPECT_EQ(keys.told().status, CheckStatus::kPass);
-  EXPECT_EQ(
-      keys.told().message,
-      "a key of 2.5 mm reaches every screw from above when it is put in, 1.25 mm beside cover");
-  keys.hole().radius_mm = 2.0;
-  EXPECT_NEAR(keys.told().value, -0.75, 1e-12);
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-  EXPECT_EQ(
-      keys.told().message,
-      "a key of 2.5 mm does not get to the screws from above: cover stands 0.75 mm in its way");
-  keys.hole().radius_mm = 2.75;  // none at all is none
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-}
-
-TEST(KeyFigures, WhatEndsBelowTheHeadOrComesLaterIsNotInTheWay) {
-  Keys keys;
-  const std::string free = "a key of 2.5 mm reaches every screw from above when it is put in";
-  keys.hole().radius_mm = 2.0;
-  keys.cover().z_upper_mm = 13.0;
-  EXPECT_EQ(keys.told().message, free);
-  keys.cover().z_upper_mm = 13.1;
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-  keys.later = {1};
-  EXPECT_EQ(keys.told().message, free);
-  // from below: the head is turned over, its top at 7
-  Keys below;
-  below.m.housing_screws.way = 1.0;
-  below.shapes.parts[0].slabs[0] = {16, 18, round(2), {}};
-  below.hole().radius_mm = 2.0;
-  below.cover() = {6.9, 20, below.cover().outer, below.cover().holes};
-  EXPECT_TRUE(says(below.told().message, "from below: cover stands 0.75 mm"))
-      << below.told().message;
-  below.cover().z_lower_mm = 7.0;
-  EXPECT_TRUE(says(below.told().message, "reaches every screw from below"));
-  // type II: heights are the other way round, the head's top at -13 and its key below that
-  Keys mirrored;
-  mirrored.m.way = -1.0;
-  mirrored.hole().radius_mm = 2.0;
-  mirrored.cover() = {-13.1, -5, mirrored.cover().outer, mirrored.cover().holes};
-  EXPECT_TRUE(says(mirrored.told().message, "from below: cover"));
-  mirrored.cover().z_lower_mm = -13.0;
-  EXPECT_TRUE(says(mirrored.told().message, "reaches every screw from below"));
-}
-
-TEST(KeyFigures, AScrewTurnsIntoAnInsertOnItsAxisOrIntoTheMotor) {
-  Keys keys;
-  keys.later = {0};
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-  EXPECT_EQ(keys.told().value, -1.0);
-  EXPECT_TRUE(says(keys.told().message, "turn into is not there yet")) << keys.told().message;
-  keys.later.clear();
-  keys.shapes.assembly[0].translation_mm[1] = 0.0009;
-  EXPECT_EQ(keys.told().status, CheckStatus::kPass);
-  keys.shapes.assembly[0].translation_mm[1] = 0.0011;
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-  keys.m.housing_screws.insert_mm = kNaN;  // the motor's own thread
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-  keys.shapes.parts[0].name = "motor_nema17";
-  EXPECT_EQ(keys.told().status, CheckStatus::kPass);
-  // an insert of other screws is none of these
-  keys.m.housing_screws.insert_mm = 4.0;
-  keys.shapes.assembly[0].translation_mm[1] = 0.0;
-  keys.shapes.parts[0].name = "insert_m3_lid";
-  EXPECT_EQ(keys.told().status, CheckStatus::kFail);
-}
-
-TEST(KeyFigures, TheWorstOfSeveralScrewsIsTold) {
-  Keys keys;
-  keys.cover().holes.push_back(round(3, -20));
-  for (const std::size_t body : {0U, 2U}) {
-    keys.shapes.assembly.push_back(keys.shapes.assembly[body]);
-    keys.shapes.assembly.back().translation_mm[0] = -20.0;
-  }
-  EXPECT_NEAR(keys.told().value, 0.25, 1e-12);
-  keys.shapes.assembly[3].translation_mm[0] = 20.0;  // the second has no insert
-  EXPECT_EQ(keys.told().value, -1.0);
-}
-
-TEST(KeyFigures, ScrewsOfAUnitAreTightenedWhenThatIsMade) {
-  Keys keys;
-  keys.hole().radius_mm = 2.0;
-  AssemblyOrder order{
-      .units = {{.name = "lid", .steps = {{.bodies = {0}}, {.bodies = {2}}}},
-                {.name = "gearbox", .steps = {{.bodies = {1}}, {.bodies = {0, 2}, .unit = 0}}}}};
-  EXPECT_EQ(
-      one(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing").status,
-      CheckStatus::kPass);
-  order.units[1].steps[1].unit = -1;
-  EXPECT_EQ(
-      one(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing").status,
-      CheckStatus::kFail);
-  order.stuck = {0, 1};
-  EXPECT_TRUE(check_access(keys.train, keys.m, keys.shapes, order).empty());
-}
-
-TEST(KeyFigures, GroupsWithoutScrewsOrLengthHaveNoFinding) {
-  Keys keys;
-  const AssemblyOrder order{.units = {{.name = "gearbox", .steps = {{.bodies = {0}}}}}};
-  EXPECT_EQ(check_access(keys.train, keys.m, keys.shapes, order).size(), 1U);
-  keys.m.housing_screws.length_mm = 0.0;
-  EXPECT_TRUE(check_access(keys.train, keys.m, keys.shapes, order).empty());
-  keys.m.housing_screws.length_mm = 8.0;
-  keys.m.housing_screws.at.clear();
-  EXPECT_TRUE(check_access(keys.train, keys.m, keys.shapes, order).empty());
-}
-
-TEST(KeyFigures, ASetScrewIsReachedUnlessWhatIsThereStandsAtItsHeight) {
-  Keys keys;
-  keys.m.housing_screws.at.clear();
-  keys.m.set_screw.screw = Screw{.name = "M3"};
-  keys.m.set_screw.axis_mm = 7.0;
-  keys.shapes = bodies({disc("motor_nema17", -40, 30, round(20)), disc("plate", 0, 5.5, round(30)),
-                        disc("sun", 0, 20, round(5)), disc("housing", 0, 30, round(40))});
-  AssemblyOrder order{
-      .units = {{.name = "lid", .steps = {{.bodies = {3}}, {.bodies = {2}}}}, {.name = "gearbox"}}};
-  for (const std::size_t i : {0U, 1U, 2U, 3U}) order.units[1].steps.push_back({.bodies = {i}});
-  const auto told = [&] {
-    return one(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "set screw");
-  };
-  Slab& plate = keys.shapes.parts[1].slabs[0];
-  EXPECT_EQ(told().status, CheckStatus::kPass) << told().message;  // M3 at 7: from 5.5 to 8.5
-  EXPECT_EQ(told().margin, 0.0);
-  EXPECT_TRUE(says(told().message, "a key of 1.5 mm reaches"));
-  plate.z_upper_mm = 5.6;
-  EXPECT_EQ(told().status, CheckStatus::kFail);
-  EXPECT_EQ(told().margin, -1.0);
-  EXPECT_TRUE(says(told().message, "plate is in its way when the sun goes")) << told().message;
-  plate = {8.4, 30, plate.outer, {}};
-  EXPECT_EQ(told().status, CheckStatus::kFail);
-  plate.z_lower_mm = 8.5;
-  EXPECT_EQ(told().status, CheckStatus::kPass);
-  keys.m.way = -1.0;
-  plate = {-5.6, -5.5, plate.outer, {}};
-  EXPECT_EQ(told().status, CheckStatus::kFail);
-  // the first of those in its way is named
-  keys.m.way = 1.0;
-  plate = {6, 7, plate.outer, {}};
-  std::swap(order.units[1].steps[2], order.units[1].steps[3]);
-  EXPECT_TRUE(says(told().message, "plate is in its way"));
-  plate.z_upper_mm = plate.z_lower_mm = 0.0;
-  EXPECT_TRUE(says(told().message, "housing is in its way"));
-  // a gear that is never put on
-  order.units[1].steps.erase(order.units[1].steps.end() - 1);
-  EXPECT_TRUE(says(told().message, "nothing that it could be reached past is in its way"));
+  EXPECT_FALSE(
+      says(the_finding(check_overhangs(simple, {.parts = {part}}), "overhang", "mushroom").cure,
+           "planet1"));
 }
 
 // --------------------------------------------------------- housing, walls, screws, collisions,
@@ -475,7 +132,7 @@ struct Judged {
   explicit Judged(const std::string& text = k3k + kMachine) : train(*lay_out(design_of(text))) {}
   [[nodiscard]] Finding of(const std::vector<PartShape>& parts, const std::string& id,
                            const std::string& where = "train") const {
-    return one(check_machine(train, bodies(parts)), id, where);
+    return the_finding(check_machine(train, bodies(parts)), id, where);
   }
   GearTrain train;
 };
@@ -514,14 +171,23 @@ TEST(WallFigures, AreWhatIsLeftBesideAHole) {
             "plate: two surfaces run into each other by 0.5 mm, 2 mm above its lower face");
   PartShape bought = plate(7.5);
   bought.bought = "6806";
-  EXPECT_EQ(find(check_machine(made.train, bodies({bought})), "wall", "plate"), nullptr);
-  EXPECT_EQ(
-      find(check_machine(made.train, bodies({disc("plate", 0, 2, round(10))})), "wall", "plate"),
-      nullptr);
+  EXPECT_EQ(find_finding(check_machine(made.train, bodies({bought})), "wall", "plate"), nullptr);
+  EXPECT_EQ(find_finding(check_machine(made.train, bodies({disc("plate", 0, 2, round(10))})),
+                         "wall", "plate"),
+            nullptr);
   // an own process is none: half of the housing's walls
   Judged own(replaced(replaced(k3k + kMachine, "[made]\nprocess = \"fdm-0.4\"\n", ""), "[housing]",
                       "[housing]\nwall_mm = 3"));
   EXPECT_EQ(own.of({plate(6.3)}, "wall", "plate").limit, 1.5);
+}
+
+TEST(WallFigures, AreThoseOfEveryPartThatIsMadeAndHasSome) {
+  Judged made;
+  PartShape bought = disc("6806", 0, 2, round(10), {round(5)});
+  bought.bought = "6806";
+  const std::vector<PartShape> parts{bought, disc("full", 0, 2, round(10)),
+                                     disc("plate", 0, 2, round(10), {round(5)})};
+  EXPECT_NEAR(made.of(parts, "wall", "plate").value, 5.0, 1e-9);
 }
 
 TEST(WallFigures, OfASunThatIdlesHaveACureOfTheirOwn) {
