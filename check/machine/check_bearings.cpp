@@ -25,17 +25,17 @@ Findings bearing_seats(const GearTrain& train, const MachineLayout& m) {
       top = std::max(top, train.gears[i].z_lower_mm + train.gears[i].face_width_mm);
       bottom = std::min(bottom, train.gears[i].z_lower_mm);
     }
-    const double room = top - bottom - kBetweenSeats_mm;
+    const double room = top - bottom - kBetweenSeats_mm, wanted = 2.0 * planet->width_mm;
     findings.push_back(judged(
         {.id = "bearing_seat",
          .where = "planet",
          .value = room,
-         .limit = 2.0 * planet->width_mm,
+         .limit = wanted,
          .unit = "mm",
-         .message = "two bearings " + planet->name + " are " + mm_text(2.0 * planet->width_mm) +
+         .message = "two bearings " + planet->name + " are " + mm_text(wanted) +
                     " wide, the planet has " + mm_text(room) + " for them",
          .cure = "wider gears, or a narrower bearing"},
-        2.0 * planet->width_mm));
+        wanted));
   }
   if (const auto& wheel = train.design.machine->bearings.wheel) {
     const double inserts = m.output_screws.at.front().norm() - 0.5 * m.output_screws.screw.insert_hole_mm;

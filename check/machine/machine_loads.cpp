@@ -31,7 +31,6 @@ MachineLoads machine_loads(const GearTrain& train) {
     const bool first = topology.is_planet_gear(static_cast<std::size_t>(mesh.gear1));
     const TrainGear& planet = train.gear(first ? mesh.gear1 : mesh.gear2);
     const double torque = (first ? state.meshes[i].torque1 : state.meshes[i].torque2) * driving_nm;
-    if (std::isnan(torque)) continue;
     const double working = working_pressure_angle_rad(train.pair(mesh));
     const double pitch_mm = base_radius_mm(planet.profile.gear()) / std::cos(working);
     const double tangential = 1000.0 * torque / train.design.planets / pitch_mm;
