@@ -289,7 +289,15 @@ bool PartLoop::linearise() {
   const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
     return static_cast<bool>(effect.family->displacement_mm);
   });
-  if (!body || table_->points_mm.empty()) return false;
+  if (table_->points_mm.empty()) return false;
+  if (!body) {  // nor may places stay moved by an effect that is no longer there
+    if (!table_->is_displaced) return false;
+    undo_displacement(geometry_, table_.own());
+    forget_fits();
+    divide_into_patches();
+    leave_out_across_steps();
+    return true;
+  }
   const auto fit = fit_of(effects_);
   const double noticed_um = 0.02 * fit->noise_um();
   // Displacements are smooth: where a sample moves by less than half of that, no point moves by more.

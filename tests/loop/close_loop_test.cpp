@@ -80,6 +80,24 @@ TEST(CloseLoop, NamesEveryEffectFromAnAlignedScan) {
     expect_found(c, close(spur(24), scan_of(spur(24), c.process, options), true));
 }
 
+/// What is chosen first beside a hollow can be a scale: when it goes, points lie where they lay before it.
+TEST(CloseLoop, PlacesAHollowWhereItIs) {
+  for (const auto& [teeth, middle] : {std::pair{24, 0.2}, {37, -0.2}}) {
+    const loop::FlankGeometry geometry = geometry_of(spur(teeth));
+    const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+    const Process worn = grown([middle](auto&, const FlankSpot& s, auto&) {
+      const double t = (s.u - middle) / 0.25;
+      return -60.0 * std::exp(-t * t);
+    });
+    const auto result = close(spur(teeth), scan_of(spur(teeth), {worn}, {}), true);
+    SCOPED_TRACE(list(result));
+    ASSERT_EQ(result.effects.size(), 1u);
+    const double roll = 0.5 * (low + high) + 0.5 * middle * (high - low);
+    EXPECT_NEAR(parameter(result.effects[0], "centre_diameter_mm").value,
+                2.0 * std::hypot(base_radius_mm(geometry.gear()), roll), 0.006);
+  }
+}
+
 TEST(CloseLoop, TellsContourOffsetAndThicknessOnlyWithASizeOfTheTip) {
   const MadeGear made = spur(24);
   const Process thicker = grown([](auto&, auto&, auto&) { return 12.0; });
