@@ -62,4 +62,13 @@ void for_each_piece(std::size_t count, const Work& work) {
   if (thrown) std::rethrow_exception(thrown);
 }
 
+/// Does `work(from, to)` for runs of `at_once` neighbours that make up 0 ... count - 1, on all processors, in any
+/// order. For what does not ask each other: the same results on any number of processors.
+template <class Work>
+void for_each_run(std::size_t count, std::size_t at_once, const Work& work) {
+  for_each_piece((count + at_once - 1) / at_once, [&](std::size_t piece) {
+    work(piece * at_once, std::min(count, (piece + 1) * at_once));
+  });
+}
+
 }  // namespace trueflank

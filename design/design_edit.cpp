@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/design_file_writer.h"
@@ -90,16 +91,30 @@ class Editor {
   Editor(std::string_view text, const DesignFile& file) : lines_(lines_of(text)), file_(file) {}
 
   bool apply(const DesignKeyChange& change) {
-    // lengths may stand there in inches
-    if (change.key.ends_with("_mm")) {
-      const std::string inches = change.key.substr(0, change.key.size() - 3) + "_in";
-      const std::string dotted = change.table.empty() ? inches : change.table + "." + inches;
-      if (const auto other = file_.lines.find(dotted); other != file_.lines.end())
-        return replace(other->second, change, dotted);
-    }
-    const auto found = file_.lines.find(change.dotted());
-    if (found != file_.lines.end()) return replace(found->second, change, change.dotted());
+    const std::string name = name_in_file(change);
+    if (!name.empty()) return replace(file_.lines.at(name), change, name);
     return change.after.empty() || insert(change);
+  }
+
+  /// Of each table that would lose its last line, one of the keys of `after` that says that it is still there.
+  [[nodiscard]] std::vector<DesignKeyChange> keys_of_lost_tables(const std::vector<DesignKeyChange>& changes,
+                                                                 const GearboxDesign& after) const {
+    std::set<int> lost;
+    std::set<std::string> tables;
+    for (const DesignKeyChange& change : changes) {
+      if (!change.after.empty() || change.table.empty()) continue;
+      tables.insert(change.table);
+      if (const std::string name = name_in_file(change); !name.empty()) lost.insert(file_.lines.at(name));
+    }
+    for (const DesignKeyChange& change : changes)
+      if (!change.after.empty()) tables.erase(change.table);
+    std::vector<DesignKeyChange> keys;
+    for (const WrittenKey& key : written_keys(after))
+      if (tables.contains(key.table) && !keeps(key.table, lost)) {
+        keys.push_back({key.table, key.key, "", key.value});
+        tables.erase(key.table);
+      }
+    return keys;
   }
 
   [[nodiscard]] std::string text() const {
@@ -113,6 +128,25 @@ class Editor {
   }
 
  private:
+  /// The dotted name under which the file gives a key, lengths perhaps in inches; empty where it does not.
+  [[nodiscard]] std::string name_in_file(const DesignKeyChange& change) const {
+    const std::string name = change.dotted();
+    if (name.ends_with("_mm"))
+      if (const std::string inches = name.substr(0, name.size() - 3) + "_in"; file_.lines.contains(inches)) return inches;
+    return file_.lines.contains(name) ? name : "";
+  }
+
+  /// True where a table has a header, or a key on another line than these.
+  [[nodiscard]] bool keeps(const std::string& table, const std::set<int>& lost) const {
+    return std::any_of(file_.lines.begin(), file_.lines.end(), [&](const auto& entry) {
+      if (entry.first == table) {
+        const std::string& line = lines_.at(static_cast<std::size_t>(entry.second - 1));
+        return line.find_first_not_of(" \t") == line.find('[');
+      }
+      return entry.first.starts_with(table + ".") && !lost.contains(entry.second);
+    });
+  }
+
   bool replace(int number, const DesignKeyChange& change, const std::string& dotted) {
     std::string& line = lines_.at(static_cast<std::size_t>(number - 1));
     const auto place = value_place(line, dotted);
@@ -162,39 +196,6 @@ class Editor {
   const DesignFile& file_;
 };
 
-/// Of each table without a header that loses all the keys that the file gives it: one that says that it is still there.
-std::vector<DesignKeyChange> keys_of_lost_tables(std::string_view text, const DesignFile& file, const GearboxDesign& after,
-                                                 const std::vector<DesignKeyChange>& changes) {
-  const std::vector<std::string> lines = lines_of(text);
-  const auto is_lost = [&](const std::string& dotted) {
-    return std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
-      const std::string inches = c.dotted().ends_with("_mm") ? c.dotted().substr(0, c.dotted().size() - 3) + "_in" : "";
-      return c.after.empty() && (c.dotted() == dotted || inches == dotted);
-    });
-  };
-  const auto stays = [&](const std::string& table) {
-    return std::any_of(file.lines.begin(), file.lines.end(), [&](const auto& entry) {
-      const std::string& line = lines.at(static_cast<std::size_t>(std::max(entry.second, 1) - 1));
-      const auto first = line.find_first_not_of(" \t");
-      if (entry.first == table) return first != std::string::npos && line[first] == '[';
-      return entry.first.starts_with(table + ".") && !is_lost(entry.first);
-    });
-  };
-  std::vector<DesignKeyChange> keys;
-  for (const WrittenKey& key : written_keys(after)) {
-    const bool touched = std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
-      return c.table == key.table && !c.after.empty();
-    });
-    const bool loses = std::any_of(changes.begin(), changes.end(), [&](const DesignKeyChange& c) {
-      return c.table == key.table && c.after.empty();
-    });
-    const bool known = !keys.empty() && keys.back().table == key.table;
-    if (!key.table.empty() && loses && !touched && !known && !stays(key.table))
-      keys.push_back({key.table, key.key, "", key.value});
-  }
-  return keys;
-}
-
 }  // namespace
 
 std::vector<DesignKeyChange> design_changes(const GearboxDesign& before, const GearboxDesign& after) {
@@ -221,10 +222,12 @@ std::vector<DesignKeyChange> design_changes(const GearboxDesign& before, const G
 ResultAll<EditedDesign> edited_design(std::string_view text, const std::string& file, const GearboxDesign& after) {
   const auto read = read_design_file_text(text, file);
   if (!read) return fail_all(read.error());
-  std::vector<DesignKeyChange> changes = design_changes(read->design, after);
-  const std::vector<DesignKeyChange> written_out = keys_of_lost_tables(text, *read, after, changes);
-  changes.insert(changes.begin(), written_out.begin(), written_out.end());  // beside keys that stand yet
   Editor editor(text, *read);
+  std::vector<DesignKeyChange> changes = design_changes(read->design, after);
+  const std::vector<DesignKeyChange> written_out = editor.keys_of_lost_tables(changes, after);
+  changes.insert(changes.end(), written_out.begin(), written_out.end());
+  // new keys stand beside those of their table, so before these go
+  std::stable_partition(changes.begin(), changes.end(), [](const DesignKeyChange& c) { return !c.after.empty(); });
   bool edited = true;
   for (const DesignKeyChange& change : changes) edited = editor.apply(change) && edited;
   const std::string result = editor.text();

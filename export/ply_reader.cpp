@@ -234,13 +234,13 @@ class ElementReader {
     const std::uint64_t count = std::min<std::uint64_t>(element.count, body_.left() / bytes);
     if (auto status = reading_.take_facets(0, count); !status) return fail(status.error());
     // Some at a time: the list grows by doubling, and what it leaves behind holds what is made of it later.
-    constexpr std::uint64_t kOfWork = 8192, kAtOnce = 8 * kOfWork;
-    for (std::uint64_t from = 0; from < count; from += kAtOnce) {
-      const std::uint64_t some = std::min(count - from, kAtOnce);
+    constexpr std::uint64_t kOfWork = 8192, kMost = 8 * kOfWork;
+    for (std::uint64_t done = 0; done < count; done += kMost) {
+      const std::uint64_t some = std::min(count - done, kMost);
       const std::size_t before = mesh_.vertices.size();
       mesh_.vertices.resize(before + some);
-      for_each_piece((some + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
-        for (std::uint64_t i = piece * kOfWork; i < std::min(some, (piece + 1) * kOfWork); ++i)
+      for_each_run(some, kOfWork, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i)
           read_plain_vertex(element, body_.data() + i * bytes, mesh_.vertices[before + i]);
       });
       body_.skip(some * bytes);

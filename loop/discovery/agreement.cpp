@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -251,7 +252,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     fitted.push_back(std::move(one));
   }
   constexpr std::size_t kAtOnce = 4;
-  share_out(statistics.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+  for_each_run(statistics.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p)
       add_wholes(fitted, {problem, statistics, model, projected, observable}, p, sums);
   });

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/widest_registers.h"
 
 namespace trueflank::loop {
@@ -98,7 +99,7 @@ void BlockStatistics::sum_candidates() {
   group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
   zero_loss_.resize(groups);
   constexpr std::size_t kAtOnce = 128;
-  share_out(groups, kAtOnce, [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
+  for_each_run(groups, kAtOnce, [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
 }
 
 namespace {
@@ -269,8 +270,8 @@ void BlockStatistics::add_model_sums(int first) {
   }
   // Some panels at a time, so that what is read of a row of the candidates lies together.
   constexpr std::size_t kAtOnce = 8;
-  share_out(panels_.size(), kAtOnce,
-            [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
+  for_each_run(panels_.size(), kAtOnce,
+               [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();

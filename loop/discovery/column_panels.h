@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/discovery.h"
 
 // Solving for many columns at once: the same sums for each of a panel of columns, which the
 // compiler does several at a time. Every column is computed as if it stood alone.
 namespace trueflank::loop {
-
-/// Shares 0 ... count - 1 out to all processors, `at_once` neighbours at a time: `work(from, to)` of each, in any
-/// order. For what does not ask each other: the same sums on any number of processors.
-template <class Work>
-void share_out(std::size_t count, std::size_t at_once, const Work& work) {
-  for_each_piece((count + at_once - 1) / at_once, [&](std::size_t piece) {
-    work(piece * at_once, std::min(count, (piece + 1) * at_once));
-  });
-}
 
 /// Columns that are worked on at once, and how many of them the innermost loop takes.
 constexpr int kPanelColumns = 32, kPanelStep = 8;

@@ -194,9 +194,9 @@ class CourseScan {
     if (!(frequencies_ > 0.0)) return;
     const auto waves = static_cast<std::size_t>(frequencies_);
     for (Common& one : commons) one.amplitudes.resize(waves);
-    constexpr std::size_t kWavesOfWork = 16;
-    for_each_piece((waves + kWavesOfWork - 1) / kWavesOfWork, [&](std::size_t piece) {
-      for (std::size_t k = piece * kWavesOfWork; k < std::min(waves, (piece + 1) * kWavesOfWork); ++k) {
+    constexpr std::size_t kAtOnce = 16;
+    for_each_run(waves, kAtOnce, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) {
         const Wave wave = wave_of(kFewestWaves + kWaveStep * static_cast<double>(k));
         for (Common& one : commons) one.amplitudes[k] = amplitude_of(one.mean, wave);
       }
@@ -319,12 +319,10 @@ class CourseScan {
   [[nodiscard]] std::vector<VectorXd> tapered_powers(const std::vector<MatrixXd>& sets) const {
     const auto m = static_cast<double>(m_);
     std::vector<VectorXd> powers(sets.size(), VectorXd::Zero(m_ / 2));
-    constexpr std::size_t kWavesOfWork = 8;
-    const auto waves = static_cast<std::size_t>(m_ / 2);
-    for_each_piece((waves + kWavesOfWork - 1) / kWavesOfWork, [&](std::size_t piece) {
+    constexpr std::size_t kAtOnce = 8;
+    for_each_run(static_cast<std::size_t>(m_ / 2), kAtOnce, [&](std::size_t from, std::size_t to) {
       VectorXd c(m_), s(m_);
-      for (std::size_t k = std::max<std::size_t>(1, piece * kWavesOfWork);
-           k < std::min(waves, (piece + 1) * kWavesOfWork); ++k) {
+      for (std::size_t k = std::max<std::size_t>(1, from); k < to; ++k) {
         for (Index i = 0; i < m_; ++i) {
           const double x = (static_cast<double>(i) + 0.5) / m;
           const double taper = (1.0 - std::cos(kTwoPi * x)) / m;

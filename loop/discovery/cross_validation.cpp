@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "trueflank/base/contract.h"
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
@@ -68,7 +69,7 @@ std::vector<FoldErrors> CrossValidation::errors_with(const std::vector<int>& gro
   }
   starts.push_back(groups.size());
   constexpr std::size_t kAtOnce = 4;
-  share_out(starts.size() - 1, kAtOnce, [&](std::size_t from, std::size_t to) {
+  for_each_run(starts.size() - 1, kAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k)
       add_errors(groups.data() + starts[k], starts[k + 1] - starts[k], errors.data() + starts[k]);
   });

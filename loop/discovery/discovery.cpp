@@ -68,7 +68,7 @@ class Selection {
       squares -= anchor * anchor;
       n -= 1.0;
     }
-    if (n < 2) return 0.0;
+    if (n < 2.0) return 0.0;
     mean /= n;
     return std::sqrt(std::max(0.0, n * (squares - n * mean * mean) / (n - 1.0)));
   }

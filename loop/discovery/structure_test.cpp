@@ -118,13 +118,9 @@ void StructureTest::project(const std::vector<int>& columns) {
   }
   unit_scores_.resize(p, statistics_.units());
   const FittedToUnits fitted{columns, units};
-  // Candidates do not ask each other: the same sums on any number of processors.
-  constexpr std::size_t kPanelsOfWork = 4;
-  const std::size_t panels = statistics_.panels().size();
-  for_each_piece((panels + kPanelsOfWork - 1) / kPanelsOfWork, [&](std::size_t piece) {
-    for (std::size_t k = piece * kPanelsOfWork; k < std::min(panels, (piece + 1) * kPanelsOfWork);
-         ++k)
-      project_panel(k, fitted);
+  constexpr std::size_t kAtOnce = 4;
+  for_each_run(statistics_.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) project_panel(k, fitted);
   });
   judge_what_can_be_seen();
 }

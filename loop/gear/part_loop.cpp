@@ -284,20 +284,26 @@ bool PartLoop::put_refined_shapes_on_the_grid() {
   return moved;
 }
 
-/// True where finite displacements changed the deviations by more than the noise can hide.
-bool PartLoop::linearise() {
-  const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
+bool PartLoop::moves_points() const {
+  return std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
     return static_cast<bool>(effect.family->displacement_mm);
   });
+}
+
+/// Points that an effect moved which is no longer there. True where there are some.
+bool PartLoop::put_points_back() {
+  if (!table_->is_displaced) return false;
+  undo_displacement(geometry_, table_.own());
+  forget_fits();
+  divide_into_patches();
+  leave_out_across_steps();
+  return true;
+}
+
+/// True where finite displacements changed the deviations by more than the noise can hide, or are taken back.
+bool PartLoop::linearise() {
+  if (!moves_points()) return put_points_back();
   if (table_->points_mm.empty()) return false;
-  if (!body) {  // nor may places stay moved by an effect that is no longer there
-    if (!table_->is_displaced) return false;
-    undo_displacement(geometry_, table_.own());
-    forget_fits();
-    divide_into_patches();
-    leave_out_across_steps();
-    return true;
-  }
   const auto fit = fit_of(effects_);
   const double noticed_um = 0.02 * fit->noise_um();
   // Displacements are smooth: where a sample moves by less than half of that, no point moves by more.

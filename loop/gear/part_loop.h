@@ -92,6 +92,8 @@ class PartLoop {
                                                     RemainderOf which);
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();
+  [[nodiscard]] bool moves_points() const;
+  bool put_points_back();
   [[nodiscard]] bool ban_misnamed();
   [[nodiscard]] bool ban_impossible();
   [[nodiscard]] bool ban_waves_of_a_drift();

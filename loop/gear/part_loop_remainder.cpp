@@ -7,7 +7,6 @@
 #include <iterator>
 #include <map>
 
-#include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -372,17 +371,8 @@ void PartLoop::veto() {
       given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(worst - told));
     }
     vetoed_ = true;
-    const bool body = std::any_of(effects_.begin(), effects_.end(), [](const Effect& effect) {
-      return static_cast<bool>(effect.family->displacement_mm);
-    });
-    if (!body &&
-        !table_->points_mm.empty()) {  // deviations about a displacement that is taken back
-      if (table_->is_displaced) {
-        undo_displacement(geometry_, table_.own());
-        divide_into_patches();
-      }
-      leave_out_across_steps();
-    }
+    // deviations about a displacement that is taken back
+    if (!moves_points() && !table_->points_mm.empty() && !put_points_back()) leave_out_across_steps();
   }
 }
 

@@ -229,10 +229,9 @@ class PoseSearch {
 
   /// Tells the cost of every pose, on all processors.
   void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points) const {
-    constexpr std::size_t kOfWork = 8;
-    for_each_piece((tried.size() + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
-      for (std::size_t k = piece * kOfWork; k < std::min(tried.size(), (piece + 1) * kOfWork); ++k)
-        tried[k].first = cost(tried[k].second, points);
+    constexpr std::size_t kAtOnce = 8;
+    for_each_run(tried.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) tried[k].first = cost(tried[k].second, points);
     });
   }
 
@@ -256,11 +255,9 @@ class PoseSearch {
   /// Step (dx, dy, rotation vector) of one Gauss-Newton round; the width is the reach, then follows.
   Vector5 newton_step(const Pose& pose, const Points& points, double& width) const {
     std::vector<Row> rows(points.size());
-    constexpr std::size_t kPointsOfWork = 4096;
-    for_each_piece((points.size() + kPointsOfWork - 1) / kPointsOfWork, [&](std::size_t piece) {
-      const std::size_t end = std::min(points.size(), (piece + 1) * kPointsOfWork);
-      for (std::size_t i = piece * kPointsOfWork; i < end; ++i)
-        rows[i] = row_of(pose(points[i]), width);
+    constexpr std::size_t kAtOnce = 4096;
+    for_each_run(points.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) rows[i] = row_of(pose(points[i]), width);
     });
     std::erase_if(rows, [](const Row& row) { return std::isnan(row.distance); });
     if (rows.size() < 20) return Vector5::Zero();

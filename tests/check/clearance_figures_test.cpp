@@ -9,6 +9,7 @@
 #include "tests/check/check_designs.h"
 #include "tests/check/random_pairs.h"
 #include "tests/check/recorded_clearances.h"
+#include "tests/support/draw.h"
 #include "tests/support/recorded.h"
 #include "tests/support/sample_gears.h"
 #include "trueflank/check/check_gearbox.h"
@@ -191,8 +192,7 @@ TEST(GearDistance, IsThatOfTheFinePolygonNearTheTeeth) {
     const double low = std::min(profile->root_radius_mm(), profile->tip_radius_mm()),
                  high = std::max(profile->root_radius_mm(), profile->tip_radius_mm());
     const double sense = profile->gear().kind == GearKind::kInternal ? -1.0 : 1.0;
-    std::mt19937 random(5);
-    const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+    Draw share(5);
     for (int i = 0; i < 60; ++i) {
       const double radius = std::lerp(low - 0.2 * (high - low), high + 0.2 * (high - low), share());
       const Point2 p = radius * unit_vector((i % 4 == 0 ? kTwoPi : 0.4) * share());
@@ -256,8 +256,7 @@ TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
   const ToothProfile& profile = section.profile1;
   ASSERT_NE(&profile.clockwise_pieces(), &profile.pieces());
   const GearDistance gear_distance(profile);
-  std::mt19937 random(6);
-  const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+  Draw share(6);
   int clockwise = 0;
   for (int i = 0; i < 40; ++i) {
     const Point2 p =
@@ -299,10 +298,7 @@ TEST(GearDistance, OfTeethWhoseHalvesDifferIsThatOfBothHalves) {
 }
 
 TEST(ToothCrossing, IsToldWhereCornersOfOneLieInTheMaterialOfTheOther) {
-  std::mt19937 random(8);
-  const auto between = [&](double low, double high) {
-    return std::lerp(low, high, static_cast<double>(random() >> 8) * 0x1p-24);
-  };
+  Draw between(8);
   int cross = 0, apart = 0;
   for (const bool internal : {false, true}) {
     const GearTrain train = laid_out(pair_design(17, internal ? 45 : 28, internal, 0.2));

@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <vector>
 
 #include "tests/loop/discovery_problems.h"
-#include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/discovery.h"
 
 // How the engine chooses among candidates, on problems whose answer is known by hand: groups of one
@@ -176,19 +173,6 @@ TEST(Selection, AnAnchorTellsTwoApartWhereItsErrorIsLarge) {
     p.group(kC).preference = -1;
     EXPECT_EQ(p.chosen(), Groups{off < 2.0 ? kC : kA}) << off;
   }
-}
-
-TEST(ShareOut, EveryPlaceIsWorkedOnOnceAndAtMostSoManyAtATime) {
-  for (std::size_t count = 0; count < 14; ++count)
-    for (std::size_t at_once = 1; at_once < 6; ++at_once) {
-      std::array<std::atomic<int>, 14> times{};
-      share_out(count, at_once, [&](std::size_t from, std::size_t to) {
-        EXPECT_LT(from, to);
-        EXPECT_LE(to - from, at_once);
-        for (std::size_t i = from; i < to; ++i) ++times[i];
-      });
-      for (std::size_t i = 0; i < times.size(); ++i) EXPECT_EQ(times[i], i < count ? 1 : 0);
-    }
 }
 
 }  // namespace

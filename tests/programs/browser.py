@@ -19,7 +19,7 @@ FLAGS = [
     "--disable-dev-shm-usage", "--hide-scrollbars", "--allow-file-access-from-files",
     # WebGL in software, said explicitly; --use-gl=swiftshader gets no context
     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-    # the page around the model is painted without it, in half the time
+    # the page around the model is painted without it, in less time
     "--disable-gpu-compositing",
     "--remote-debugging-pipe",
 ]

@@ -177,10 +177,9 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
   // Patches do not ask each other: the same columns on any number of processors.
   const std::vector<EffectRun> runs = runs_of(geometry, effects, problem.groups, changed);
   if (runs.empty()) return;
-  const std::size_t count = patches.patches.size();
-  for_each_piece((count + kRowsOfColumns - 1) / kRowsOfColumns, [&](std::size_t piece) {
+  for_each_run(patches.patches.size(), kRowsOfColumns, [&](std::size_t from, std::size_t to) {
     RowOfPatch row(geometry, runs);
-    for (std::size_t i = piece * kRowsOfColumns; i < std::min(count, (piece + 1) * kRowsOfColumns); ++i)
+    for (std::size_t i = from; i < to; ++i)
       row.write(patches.patches[i], problem.candidates.row(static_cast<Eigen::Index>(i)).data());
   });
 }

@@ -208,11 +208,10 @@ void leave_out_outliers(const FlankGeometry& geometry, Observations& table) {
   std::vector<const PatchRows::value_type*> judged;
   for (const auto& patch : patches)
     if (patch.second.size() >= kFewInPatch) judged.push_back(&patch);
-  constexpr std::size_t kPatchesOfWork = 16;
+  constexpr std::size_t kAtOnce = 16;
   const auto for_each_patch = [&](const auto& work) {
-    for_each_piece((judged.size() + kPatchesOfWork - 1) / kPatchesOfWork, [&](std::size_t piece) {
-      const std::size_t end = std::min(judged.size(), (piece + 1) * kPatchesOfWork);
-      for (std::size_t k = piece * kPatchesOfWork; k < end; ++k) work(k);
+    for_each_run(judged.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) work(k);
     });
   };
   std::vector<Level> levels(judged.size());

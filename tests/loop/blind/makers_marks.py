@@ -7,8 +7,6 @@ Right: nothing: no_effect. A mark: seen, no name but those that are a part of it
 a noise off by a third. `place`: what the answer must say of where it is, counted apart."""
 import json
 import math
-import subprocess
-import time
 
 import numpy
 
@@ -323,14 +321,7 @@ class Case:
         where.mkdir(parents=True, exist_ok=True)
         (where / "part.toml").write_text(self.wheel.toml())
         (where / "data.csv").write_text("\n".join(self.scan() if self.way == "s" else self.traced()) + "\n")
-        start = time.time()
-        done = subprocess.run([program, "loop", "part.toml", "data.csv", "-o", "."] + ["--aligned"] * (self.way == "s"), cwd=where, capture_output=True, text=True)
-        self.seconds, self.answer, self.why = time.time() - start, None, f"exit {done.returncode} {done.stderr[:200]}"
-        if done.returncode == 0:
-            self.answer = json.loads((where / "loop.json").read_text())
-            self.why = self.judge()
-        self.right = not self.why
-        return self
+        return trial.close_loop(self, program, where, "part.toml", "data.csv", *["--aligned"] * (self.way == "s"))
 
     def judge(self):
         """What is wrong; empty: nothing."""

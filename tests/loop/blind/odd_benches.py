@@ -11,13 +11,12 @@ An answer is right where:
 In every kind `explained` and `no_effect` are wrong where the error that is left is more than 1.2 of the true noise,
 or noise_nm is not 0.75 to 1.3 of it."""
 import collections
-import json
 import math
-import subprocess
 
 import numpy
 
 import bench
+import trial
 
 LOSSES_OVER_LOAD = {"friction_coefficient", "load_dependent_friction", "load_loss", "bearing_load_friction"}
 LOSSES = LOSSES_OVER_LOAD | {"drag_torque", "viscous_drag", "bearing_friction", "stribeck_friction", "mixed_friction"}
@@ -404,14 +403,7 @@ class Case:
         files, self.noise = self.bench.files()
         for name, text in files.items():
             (where / name).write_text(text)
-        done = subprocess.run([program, "loop", "bench.toml", *sorted(files), "-o", "."], cwd=where,
-                              capture_output=True, text=True, timeout=600)
-        self.answer, self.right, self.why = None, False, done.stderr[:300]
-        if done.returncode == 0:
-            self.answer = json.loads((where / "loop.json").read_text())
-            self.why = self.judge()
-            self.right = not self.why
-        return self
+        return trial.close_loop(self, program, where, "bench.toml", *sorted(files))
 
     def judge(self):
         """What is wrong; empty: nothing."""

@@ -5,10 +5,7 @@ gears in static balance, moments taken about both axes contact by contact.
 Usage: rigs.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE]
 Right: nothing: no_effect. known: the name (or one said to be indistinguishable) and no other. unknown: seen, no name but
 those allowed. Never: `explained` or `no_effect` with more than 1.2 of the true error left."""
-import json
 import math
-import subprocess
-import time
 
 import numpy
 
@@ -217,14 +214,7 @@ class Case:
         if self.rig.step:  # what rounding adds
             self.error *= math.sqrt(1 + (self.rig.step ** 2 + self.rig.step_out ** 2) / 12)
         (where / "bench.csv").write_text("\n".join(rows) + "\n")
-        start = time.time()
-        done = subprocess.run([program, "loop", "rig.toml", "bench.csv", "-o", "."], cwd=where, capture_output=True, text=True)
-        self.seconds, self.answer, self.why = time.time() - start, None, f"exit {done.returncode}: {done.stderr[:300]}"
-        if done.returncode == 0:
-            self.answer = json.loads((where / "loop.json").read_text())
-            self.why = self.judge()
-        self.right = not self.why
-        return self
+        return trial.close_loop(self, program, where, "rig.toml", "bench.csv")
 
     def judge(self):
         a = self.answer

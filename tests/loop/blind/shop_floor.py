@@ -6,10 +6,7 @@ Usage: shop_floor.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--li
 Right: nothing: no_effect. known: every wanted name (or one said to be indistinguishable) and no other name, what is
 left no larger than 1.2 of the noise or said to be. unknown: seen, no name but those allowed. Never: a rising error
 on the hold-out; `explained` with a noise off by a third."""
-import json
 import math
-import subprocess
-import time
 
 import numpy
 
@@ -412,14 +409,7 @@ class Case:
             files["index.csv"] = head + self.index()
         for name, rows in files.items():
             (where / name).write_text("\n".join(rows) + "\n")
-        start = time.time()
-        done = subprocess.run([program, "loop", "part.toml", *sorted(files), "-o", "."] + ["--aligned"] * (self.way in "sm"), cwd=where, capture_output=True, text=True)
-        self.seconds, self.answer, self.why = time.time() - start, None, f"exit {done.returncode}: {done.stderr[:300]}"
-        if done.returncode == 0:
-            self.answer = json.loads((where / "loop.json").read_text())
-            self.why = self.judge()
-        self.right = not self.why
-        return self
+        return trial.close_loop(self, program, where, "part.toml", *sorted(files), *["--aligned"] * (self.way in "sm"))
 
     def judge(self):
         """What is wrong; empty: nothing."""

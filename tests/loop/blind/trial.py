@@ -4,8 +4,11 @@ at a time, what was wrong, and a table. A case has `run(program, folder)`, which
 import argparse
 import collections
 import concurrent.futures
+import json
 import pathlib
+import subprocess
 import sys
+import time
 
 
 def words(each=2, **more):
@@ -22,6 +25,19 @@ def words(each=2, **more):
     for name, (default, text) in more.items():
         parser.add_argument(f"--{name}", type=type(default), default=default, help=text)
     return parser.parse_args()
+
+
+def close_loop(case, program, where, *arguments):
+    """`program loop ARGUMENTS -o .` in the folder `where`. Gives the case `seconds`, `answer` (loop.json; None where it was
+    refused), `why` (what case.judge() finds wrong with it, or the refusal; empty: nothing) and `right`."""
+    start = time.time()
+    done = subprocess.run([program, "loop", *arguments, "-o", "."], cwd=where, capture_output=True, text=True, timeout=600)
+    case.seconds, case.answer, case.why = time.time() - start, None, f"exit {done.returncode}: {done.stderr[:300]}"
+    if done.returncode == 0:
+        case.answer = json.loads((where / "loop.json").read_text())
+        case.why = case.judge()
+    case.right = not case.why
+    return case
 
 
 def run_all(cases, program, folder, tell=lambda case: None):
