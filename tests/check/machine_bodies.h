@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/check/check_designs.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/solid/shape/part_shape.h"
 
@@ -19,12 +19,7 @@ inline const Finding* find_finding(const Findings& findings, const std::string& 
     if (f.id == id && f.where == where) return &f;
   return nullptr;
 }
-inline Finding the_finding(const Findings& findings, const std::string& id,
-                           const std::string& where) {
-  const Finding* found = find_finding(findings, id, where);
-  if (!found) throw std::runtime_error("no finding " + id + " of " + where);
-  return *found;
-}
+using test::only;
 inline CircleOutline round(double radius_mm, double x = 0.0, double y = 0.0) {
   return {.centre = {x, y}, .radius_mm = radius_mm};
 }

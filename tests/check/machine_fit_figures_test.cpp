@@ -32,12 +32,12 @@ TEST(FitFigures, ClearancesOfBearingsFollowFromIsoClassesAndRings) {
                                             {180, "+0 to +65"},
                                             {250, "+0 to +76"}}}) {
     train.design.machine->bearings.output.outer_mm = c.size;
-    EXPECT_TRUE(says(the_finding(check_fits(train), "fits", "output").message,
+    EXPECT_TRUE(says(only(check_fits(train), "fits", "output").message,
                      std::string("clearance ") + c.clearance))
-        << c.size << the_finding(check_fits(train), "fits", "output").message;
+        << c.size << only(check_fits(train), "fits", "output").message;
   }
   train.design.machine->bearings.output.outer_mm = 260.0;
-  const Finding large = the_finding(check_fits(train), "fits", "output");
+  const Finding large = only(check_fits(train), "fits", "output");
   EXPECT_EQ(large.status, CheckStatus::kWarn);
   EXPECT_EQ(large.margin, -1.0);
   EXPECT_TRUE(std::isnan(large.value));
@@ -51,9 +51,9 @@ TEST(FitFigures, ClearancesOfBearingsFollowFromIsoClassesAndRings) {
                                             {120, "-8 to +34"},
                                             {180, "-11 to +39"}}}) {
     train.design.machine->bearings.output.bore_mm = c.size;
-    EXPECT_TRUE(says(the_finding(check_fits(train), "fits", "output").message,
+    EXPECT_TRUE(says(only(check_fits(train), "fits", "output").message,
                      std::string("clearance ") + c.clearance))
-        << c.size << the_finding(check_fits(train), "fits", "output").message;
+        << c.size << only(check_fits(train), "fits", "output").message;
   }
 }
 
@@ -75,7 +75,7 @@ TEST(FitFigures, TightJournalsLeaveOfEachBoresClearanceWhatTheRacewayDoesNotTake
                                             {80, 4.8},
                                             {100, 4.8}}}) {
     bearing.bore_mm = c.bore;
-    const Finding told = the_finding(check_fits(train), "fits", "output");
+    const Finding told = only(check_fits(train), "fits", "output");
     EXPECT_EQ(told.status, c.left_um < 0.0 ? CheckStatus::kWarn : CheckStatus::kPass) << c.bore;
     const std::string left = c.left_um == -0.1 ? "-0.1" : std::to_string(c.left_um).substr(0, 3);
     EXPECT_TRUE(says(told.message, "they leave " + left + " um in the middle")) << told.message;
@@ -86,31 +86,31 @@ TEST(FitFigures, TightJournalsLeaveOfEachBoresClearanceWhatTheRacewayDoesNotTake
     }
   }
   bearing.bore_mm = 101.0;
-  EXPECT_FALSE(says(the_finding(check_fits(train), "fits", "output").message, "5753"));
+  EXPECT_FALSE(says(only(check_fits(train), "fits", "output").message, "5753"));
   bearing.bore_mm = 30.0;
   bearing.kind = BearingKind::kCrossedRollers;
-  EXPECT_FALSE(says(the_finding(check_fits(train), "fits", "output").message, "5753"));
+  EXPECT_FALSE(says(only(check_fits(train), "fits", "output").message, "5753"));
 }
 
 TEST(FitFigures, ATightSeatOfAPlanetSqueezesItsBallsToo) {
   // 16 N7 is -23 to -5, the ring -8 to 0: 10 um; a bore of 5 mm has 2 to 13
   GearTrain train =
       *lay_out(design_of(replaced(kFitted, "[bearings]", "[bearings]\nplanet_fit = \"N7\"")));
-  const Finding told = the_finding(check_fits(train), "fits", "planet");
+  const Finding told = only(check_fits(train), "fits", "planet");
   EXPECT_NEAR(told.value, (7.5 - 8.0) / 1000.0, 1e-12);
   EXPECT_EQ(told.status, CheckStatus::kWarn);
   // plastic moves no ring
   train.design.made.process->layer_mm = 0.2;
-  EXPECT_FALSE(says(the_finding(check_fits(train), "fits", "planet").message, "5753"));
+  EXPECT_FALSE(says(only(check_fits(train), "fits", "planet").message, "5753"));
 }
 
 TEST(FitFigures, TheFirstLimitsAreTheValueAndPrintersDoNotHoldThem) {
   GearTrain train = *lay_out(design_of(kFitted));
-  const Finding held = the_finding(check_fits(train), "fits", "output");
+  const Finding held = only(check_fits(train), "fits", "output");
   EXPECT_NEAR(held.value, 0.025, 1e-12);
   EXPECT_EQ(held.status, CheckStatus::kPass);
   train.design.made.process->layer_mm = 0.2;
-  const Finding printed = the_finding(check_fits(train), "fits", "output");
+  const Finding printed = only(check_fits(train), "fits", "output");
   EXPECT_EQ(printed.margin, -1.0);
   EXPECT_EQ(printed.status, CheckStatus::kWarn);
   EXPECT_TRUE(says(printed.message,
@@ -118,30 +118,30 @@ TEST(FitFigures, TheFirstLimitsAreTheValueAndPrintersDoNotHoldThem) {
       << printed.message;
   EXPECT_TRUE(says(printed.message, "printers do not hold"));
   train.design.made.process.reset();
-  EXPECT_EQ(the_finding(check_fits(train), "fits", "output").status, CheckStatus::kPass);
+  EXPECT_EQ(only(check_fits(train), "fits", "output").status, CheckStatus::kPass);
 }
 
 TEST(FitFigures, OfRingLidShaftAndCollarAreThoseOfTheirSizes) {
   GearTrain train = *lay_out(design_of(kFitted));
   train.design.machine->motor.pilot_diameter_mm = 0.5;
   EXPECT_TRUE(
-      says(the_finding(check_fits(train), "fits", "motor_pilot").message, "0.5 H7 (+0 to +10 um)"));
+      says(only(check_fits(train), "fits", "motor_pilot").message, "0.5 H7 (+0 to +10 um)"));
   train.design.machine->motor.pilot_diameter_mm = 0.0;
   EXPECT_EQ(find_finding(check_fits(train), "fits", "motor_pilot"), nullptr);
-  EXPECT_TRUE(says(the_finding(check_fits(train), "fits", "motor_shaft").message,
+  EXPECT_TRUE(says(only(check_fits(train), "fits", "motor_shaft").message,
                    "hole 5 H7 (+0 to +12 um)"));
-  EXPECT_FALSE(says(the_finding(check_fits(train), "fits", "motor_shaft").message, "clearance"));
+  EXPECT_FALSE(says(only(check_fits(train), "fits", "motor_shaft").message, "clearance"));
   const double ring = 2.0 * machine_layout(train)->ring_radius_mm;
-  EXPECT_TRUE(says(the_finding(check_fits(train), "fits", "ring").message,
+  EXPECT_TRUE(says(only(check_fits(train), "fits", "ring").message,
                    "hole " + number_text(ring) + " H7"))
       << ring;
   const GearTrain pair = *lay_out(design_of(machined(kPair + kBox)));
   const double lid = 2.0 * machine_layout(pair)->cavity_radius_mm;
-  const Finding rim = the_finding(check_fits(pair), "fits", "lid");
+  const Finding rim = only(check_fits(pair), "fits", "lid");
   EXPECT_TRUE(says(rim.message, "hole " + number_text(lid) + " H7")) << rim.message << lid;
   EXPECT_EQ(find_finding(check_fits(pair), "fits", "ring"), nullptr);
   EXPECT_EQ(find_finding(check_fits(train), "fits", "lid"), nullptr);
-  EXPECT_TRUE(says(the_finding(check_fits(pair), "fits", "wheel").message, "journal 8"));
+  EXPECT_TRUE(says(only(check_fits(pair), "fits", "wheel").message, "journal 8"));
 }
 
 TEST(FitFigures, OfBothSidesAreComparedWithEachOther) {
@@ -149,10 +149,10 @@ TEST(FitFigures, OfBothSidesAreComparedWithEachOther) {
   const GearTrain train = *lay_out(design_of(
       replaced(kFitted, "[housing]", "[housing]\nring_fit = \"H7/g6\"\npin_fit = \"N7\"")));
   ASSERT_NEAR(2.0 * machine_layout(train)->ring_radius_mm, 100.0, 20.0);
-  const Finding ring = the_finding(check_fits(train), "fits", "ring");
+  const Finding ring = only(check_fits(train), "fits", "ring");
   EXPECT_TRUE(says(ring.message, "H7 (+0 to +35 um), clearance +12 to +69 um")) << ring.message;
-  EXPECT_TRUE(says(the_finding(check_fits(train), "fits", "pins").message, "5 N7 (-16 to -4 um)"));
-  EXPECT_NEAR(the_finding(check_fits(train), "fits", "pins").value, 0.012, 1e-12);
+  EXPECT_TRUE(says(only(check_fits(train), "fits", "pins").message, "5 N7 (-16 to -4 um)"));
+  EXPECT_NEAR(only(check_fits(train), "fits", "pins").value, 0.012, 1e-12);
 }
 
 }  // namespace

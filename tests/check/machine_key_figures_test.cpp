@@ -39,7 +39,7 @@ struct Keys {
       if (std::find(later.begin(), later.end(), i) == later.end())
         order.units[0].steps.push_back({.bodies = {i}});
     for (const std::size_t i : later) order.units[0].steps.push_back({.bodies = {i}});
-    return the_finding(check_access(train, m, shapes, order), "tool_access", "housing");
+    return only(check_access(train, m, shapes, order), "tool_access", "housing");
   }
   CircleOutline& hole() { return std::get<CircleOutline>(shapes.parts[1].slabs[0].holes[0]); }
   Slab& cover() { return shapes.parts[1].slabs[0]; }
@@ -151,7 +151,7 @@ TEST(KeyFigures, EveryScrewOfAStepIsLookedAtAndOfEqualGapsTheFirstIsNamed) {
     order.units[0].steps.push_back({.bodies = {body}});
   order.units[0].steps.push_back({.bodies = {5, 6, 7}});
   const auto told = [&] {
-    return the_finding(check_access(keys.train, keys.m, keys.shapes, order), "tool_access",
+    return only(check_access(keys.train, keys.m, keys.shapes, order), "tool_access",
                        "housing")
         .message;
   };
@@ -171,12 +171,12 @@ TEST(KeyFigures, ScrewsOfAUnitAreTightenedWhenThatIsMade) {
       .units = {{.name = "lid", .steps = {{.bodies = {0}}, {.bodies = {2}}}},
                 {.name = "gearbox", .steps = {{.bodies = {1}}, {.bodies = {0, 2}, .unit = 0}}}}};
   EXPECT_EQ(
-      the_finding(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing")
+      only(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing")
           .status,
       CheckStatus::kPass);
   order.units[1].steps[1].unit = -1;
   EXPECT_EQ(
-      the_finding(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing")
+      only(check_access(keys.train, keys.m, keys.shapes, order), "tool_access", "housing")
           .status,
       CheckStatus::kFail);
   order.stuck = {0, 1};
@@ -205,7 +205,7 @@ TEST(KeyFigures, ASetScrewIsReachedUnlessWhatIsThereStandsAtItsHeight) {
       .units = {{.name = "lid", .steps = {{.bodies = {3}}, {.bodies = {2}}}}, {.name = "gearbox"}}};
   for (const std::size_t i : {0U, 1U, 2U, 3U}) order.units[1].steps.push_back({.bodies = {i}});
   const auto told = [&] {
-    return the_finding(check_access(keys.train, keys.m, keys.shapes, order), "tool_access",
+    return only(check_access(keys.train, keys.m, keys.shapes, order), "tool_access",
                        "set screw");
   };
   Slab& plate = keys.shapes.parts[1].slabs[0];

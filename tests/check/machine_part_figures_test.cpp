@@ -21,7 +21,7 @@ struct Printed {
   Printed() { process() = {.name = "mine", .ledge_mm = 1.0, .bridge_mm = 15.0}; }
   Process& process() { return *train.design.made.process; }
   [[nodiscard]] Finding of(const PartShape& part) const {
-    return the_finding(check_overhangs(train, {.parts = {part}}), "overhang", part.name);
+    return only(check_overhangs(train, {.parts = {part}}), "overhang", part.name);
   }
   GearTrain train = *lay_out(design_of(k3k + kMachine));
 };
@@ -120,7 +120,7 @@ TEST(OverhangFigures, StackedTeethAndSetScrewsHaveCuresOfTheirOwn) {
   const GearTrain simple = *lay_out(design_of(kSimple + kMachine));
   part.member = simple.topology().first_planet();
   EXPECT_FALSE(
-      says(the_finding(check_overhangs(simple, {.parts = {part}}), "overhang", "mushroom").cure,
+      says(only(check_overhangs(simple, {.parts = {part}}), "overhang", "mushroom").cure,
            "planet1"));
 }
 
@@ -132,7 +132,7 @@ struct Judged {
   explicit Judged(const std::string& text = k3k + kMachine) : train(*lay_out(design_of(text))) {}
   [[nodiscard]] Finding of(const std::vector<PartShape>& parts, const std::string& id,
                            const std::string& where = "train") const {
-    return the_finding(check_machine(train, bodies(parts)), id, where);
+    return only(check_machine(train, bodies(parts)), id, where);
   }
   GearTrain train;
 };
