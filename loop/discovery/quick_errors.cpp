@@ -82,7 +82,8 @@ void QuickErrors::add_fold(int fold, const std::vector<int>& columns,
     }
   }
   f.on_model = f.inverse * trained;
-  f.tested = f.test_gram * f.on_model;
+  const Eigen::MatrixXd tested = f.test_gram * f.on_model;
+  f.left = f.crossed - tested;
   for (const int group : groups) {
     const CandidateGroup& g = problem_.groups[static_cast<std::size_t>(group)];
     const auto own = Eigen::seqN(first_[static_cast<std::size_t>(group)], g.columns);
@@ -96,7 +97,7 @@ void QuickErrors::add_fold(int fold, const std::vector<int>& columns,
     f.schur.emplace_back(schur - trained(Eigen::all, own).transpose() * on_model);
     f.right.emplace_back(all.candidate_value(there) - test.candidate_value(there) -
                          on_model.transpose() * train_value);
-    f.squares.emplace_back(test_group + on_model.transpose() * f.tested(Eigen::all, own) -
+    f.squares.emplace_back(test_group + on_model.transpose() * tested(Eigen::all, own) -
                            crossed - crossed.transpose());
   }
 }
@@ -169,8 +170,7 @@ double QuickErrors::error_with(int fold, int group, const Without& without) cons
       const double left_out = f.on_model(without.places[static_cast<std::size_t>(s)], at + a);
       const auto change = without.change.col(s);
       for (Eigen::Index b = 0; b < columns; ++b) {
-        const double moved = left_out * (f.crossed.col(at + b).dot(change) -
-                                         f.tested.col(at + b).dot(change));
+        const double moved = left_out * f.left.col(at + b).dot(change);
         squares(a, b) += moved;
         squares(b, a) += moved;
         for (Eigen::Index t = 0; t < less; ++t) {

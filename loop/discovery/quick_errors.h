@@ -40,9 +40,9 @@ class QuickErrors {
     Eigen::MatrixXd inverse;  ///< V
     Eigen::VectorXd base, test_value;
     Eigen::MatrixXd test_gram;
-    /// A column for each of the groups': coefficients on the model, test products with the model,
-    /// test_gram times the first.
-    Eigen::MatrixXd on_model, crossed, tested;
+    /// A column for each of the groups': coefficients on the model, test products with the model, and
+    /// these less test_gram times the first.
+    Eigen::MatrixXd on_model, crossed, left;
     std::vector<Eigen::MatrixXd> schur;    ///< per group asked: what is left of it in training
     std::vector<Eigen::VectorXd> right;    ///< the value's products with that
     std::vector<Eigen::MatrixXd> squares;  ///< what a coefficient of the group adds to the error, squared
