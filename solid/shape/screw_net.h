@@ -18,6 +18,7 @@ struct NetEdge {
   int region = 0;            ///< neighbours with the same number lie on one smooth surface
   bool developable = false;  ///< turns and supports say all: a circle about the axis, an involute
   bool across = false;  ///< of a surface: joined from edge to edge of the patch, not column to column
+  int strips = 1;  ///< of a surface joined across: as many, one above the other, between rows of vertices
   double length_mm = 0.0;
   double turn_rad = 0.0;  ///< of the section's normal on the way
   double support_mm = 0.0, support_from_mm = 0.0,

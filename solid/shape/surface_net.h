@@ -38,9 +38,14 @@ class ToothingGrid::SurfaceNet {
   struct Crossing {
     PanelForms forms;  ///< over a cell and the patch
     bool dome = false;
+    bool bare = false;     ///< of a flank: a strip without posts, nearly developable
     bool across = false;   ///< no vertices inside: facets reach from one break to the other
     bool between = false;  ///< the vertices of one break stand between those of the other
     int rows = 1;          ///< of a dome
+    int strips = 1;  ///< across: one above the other, between rows of vertices at even heights
+    int least_strips = 1, most_strips = 1;
+    double saddle = 0.0;  ///< what is left of the way up on saddles, at most, in rooms
+    std::size_t first_level = 0;  ///< number of the lowest of these rows
   };
   /// What lies between two joints or breaks of the profile.
   struct Panel {
@@ -49,6 +54,7 @@ class ToothingGrid::SurfaceNet {
     bool land = false, flank = false;
     double wider = 1.0;  ///< a land's chords are off by so many times those of the profile
     std::vector<Crossing> patches = {};
+    std::vector<std::vector<double>> posts = {};  ///< by patch, without the ends
   };
 
   static bool is_land(PieceKind kind) {
@@ -82,8 +88,12 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double room_of(const Panel& panel, std::size_t patch, std::size_t cell) const;
   [[nodiscard]] ColumnDemand columns(const Panel& panel, std::size_t patch, int rows) const;
   [[nodiscard]] ColumnDemand chords(const Panel& panel, std::size_t row) const;
+  [[nodiscard]] static double chords_of(const Crossing& crossing, std::size_t cell, double room);
   [[nodiscard]] double straight_way(const Panel& panel, std::size_t patch, double parameter) const;
   void choose_crossing(Panel& panel, std::size_t patch) const;
+  [[nodiscard]] bool is_chamfer(std::size_t patch) const;
+  void choose_strips(std::size_t patch);
+  [[nodiscard]] double facets_with(Panel& panel, std::size_t patch, int strips) const;
 
   // surface_net_columns.cpp: where vertices stand
   void spread();
@@ -91,10 +101,14 @@ class ToothingGrid::SurfaceNet {
   void add_panel(Panel& panel);
   [[nodiscard]] std::vector<double> row_between(const Panel& panel, std::size_t patch,
                                                 const std::vector<double>& other) const;
+  [[nodiscard]] std::vector<double> row_alone(const Panel& panel, std::size_t patch) const;
+  [[nodiscard]] std::vector<std::vector<double>> level_rows(
+      const Panel& panel, std::vector<std::vector<double>>& rows) const;
+  void add_columns(const Panel& panel, const std::vector<std::vector<double>>& rows,
+                   const std::vector<std::vector<double>>& levels);
   [[nodiscard]] double rows_of(const Crossing& crossing) const;
-  [[nodiscard]] std::vector<std::vector<double>> posts_of(Panel& panel) const;
-  [[nodiscard]] std::vector<double> row_of(const Panel& panel, std::size_t row,
-                                           const std::vector<std::vector<double>>& posts) const;
+  void find_posts(Panel& panel) const;
+  [[nodiscard]] std::vector<double> row_of(const Panel& panel, std::size_t row) const;
 
   // toothing_grid_surface.cpp: the net of a patch
   [[nodiscard]] bool is_post(std::size_t column) const;
@@ -107,8 +121,10 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] std::pair<double, double> span_of(std::size_t from, std::size_t to) const;
   void join_regions();
   [[nodiscard]] double steps_of(std::size_t from, std::size_t to) const;
+  [[nodiscard]] static double bare_steps(const Crossing& crossing, std::size_t cell, double room);
   [[nodiscard]] std::vector<std::vector<double>> inner_rows() const;
   [[nodiscard]] std::vector<bool> columns_between() const;
+  [[nodiscard]] bool is_on_level(std::size_t column, int below) const;
   [[nodiscard]] double ridge(std::size_t column) const;
   [[nodiscard]] Place end_of(std::size_t edge, bool at_end) const;
   [[nodiscard]] NetPoint net_point(std::size_t edge, bool at_end, double share) const;

@@ -71,6 +71,7 @@ class ToothingGrid {
     // of a modified net, of its first column, by bits:
     std::uint64_t rows = ~std::uint64_t{0};  ///< breaks on which it has a vertex
     std::uint64_t posts = 0;                 ///< patches in which it may have vertices, too
+    std::uint64_t levels = 0;  ///< rows within patches on which it has a vertex
   };
   /// A place on a tooth, whichever tooth.
   struct Place {

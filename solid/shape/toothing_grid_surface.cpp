@@ -158,9 +158,11 @@ void ToothingGrid::SurfaceNet::join_regions() {
     const std::size_t end = region_end(i);
     const bool flank = is_flank(i), land = on_land(i);
     bool developable = flank || land, across = false;
+    int strips = 1;
     if (!land) {
       const Panel& panel = panel_of(i);
       across = panel.patches[patch_].across;
+      strips = panel.patches[patch_].strips;
       const auto [from, to] = span_of(i, end);
       const double room = 8.0 * aim_between(patch_, panel.piece, from, to);
       const auto share = [&](double parameter) {
@@ -176,7 +178,10 @@ void ToothingGrid::SurfaceNet::join_regions() {
           std::abs(bent.mixed) * width <= kUpright * std::sqrt(std::abs(bent.along) * room);
       if (alone && upright) developable = false;
     }
-    for (; i < end; ++i) net_[i].developable = developable, net_[i].across = across;
+    for (; i < end; ++i) {
+      net_[i].developable = developable, net_[i].across = across;
+      net_[i].strips = strips;
+    }
   }
 }
 
@@ -191,7 +196,8 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
   const auto share = [&](double parameter) {
     return kCells * (parameter - panel.from) / (panel.to - panel.from);
   };
-  if (crossing.across) return 1.0;
+  if (crossing.across) return crossing.strips;
+  if (crossing.bare) return bare_steps(crossing, begin == panel.from ? 0 : kCells - 1, room);
   const double width = share(end) - share(begin);
   const auto cell_at = [](double cells) {
     return static_cast<std::size_t>(std::clamp(cells, 0.0, kCells - 1.0));
@@ -218,6 +224,16 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
       }
     }
   return steps;
+}
+
+/// By its own helix, and not more than twice what an edge across may span.
+double ToothingGrid::SurfaceNet::bare_steps(const Crossing& crossing, std::size_t cell, double room) {
+  double own = 0.0, mean = 0.0;
+  for (std::size_t k = 0; k < 2 * kHeights.size(); ++k) {
+    own = std::max(own, std::abs(crossing.forms[cell][k].along));
+    mean = std::max(mean, 0.5 * std::abs(crossing.forms.front()[k].along + crossing.forms.back()[k].along));
+  }
+  return std::sqrt(std::max(own, 0.25 * mean) / room);
 }
 
 /// Heights of the vertices on each column of the patch, as shares.
@@ -249,8 +265,14 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
   const std::vector<bool> between = columns_between();
   std::vector<std::vector<double>> inner(n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (inside[i]) continue;
-    const bool shifted = between[i] && parts[i] > 1;
+    const int strips = net_[i].strips, beside = std::max(strips, net_[(i + n - 1) % n].strips);
+    if (inside[i]) {
+      for (int k = 1; k < strips; ++k)
+        if (is_on_level(i, k)) inner[i].push_back(static_cast<double>(k) / strips);
+      continue;
+    }
+    parts[i] = (parts[i] + beside - 1) / beside * beside;  // the rows between strips end here
+    const bool shifted = between[i] && parts[i] > 1 && beside == 1;
     for (int k = shifted ? 0 : 1; k < parts[i]; ++k)
       inner[i].push_back((k + (shifted ? 0.5 : 0.0)) / parts[i]);
   }
@@ -290,6 +312,14 @@ std::vector<bool> ToothingGrid::SurfaceNet::columns_between() const {
     }
   }
   return between;
+}
+
+/// Whether a column within a region has a vertex on the row above so many strips.
+bool ToothingGrid::SurfaceNet::is_on_level(std::size_t column, int below) const {
+  const HalfEdge* half = g_.begins_at(column);
+  const std::size_t level = panel_of(column).patches[patch_].first_level +
+                            static_cast<std::size_t>(below) - 1;
+  return half != nullptr && ((half->levels >> level) & 1U) != 0;
 }
 
 /// Steps of a land's border: the chords of its column.
