@@ -93,6 +93,7 @@ class PartLoop {
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool moves_points() const;
+  void choose_motions();
   bool put_points_back();
   [[nodiscard]] bool ban_misnamed();
   [[nodiscard]] bool ban_impossible();

@@ -64,7 +64,8 @@ void PartLoop::nominate() {
 
 /// Effects with a name that do nearly the same on these data, the simplest first.
 std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
-  constexpr double kNearly = 0.9;
+  // Between two shapes of a grid the best one may lie that far from either.
+  constexpr double kNearly = 0.9, kNearlyOffTheGrid = 0.75;
   std::vector<Effect> effects{form};
   std::vector<std::size_t> group;
   for (std::size_t g = 0; g < candidates_.size(); ++g)
@@ -89,17 +90,35 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
     columns.row(i) *= std::sqrt(problem.weight[i]);
   }
   const Eigen::VectorXd norms = columns.colwise().norm();
-  const auto is_alike = [&](std::size_t effect) {
+  const auto likeness = [&](std::size_t effect) {
+    double least = 1.0;
     for (Eigen::Index k = 0; k < form.columns(); ++k) {
       const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
-      if (!(std::abs(columns.col(k).dot(columns.col(other))) > kNearly * norms[k] * norms[other]))
-        return false;
+      const double both = norms[k] * norms[other];
+      least = std::min(least, both > 0.0 ? std::abs(columns.col(k).dot(columns.col(other))) / both : 0.0);
     }
-    return true;
+    return least;
   };
+  // Of shapes that are refined the nearest stands for all.
   std::vector<Effect> names;
-  for (std::size_t i = 0; i < group.size(); ++i)
-    if (is_alike(i + 1)) names.push_back(candidates_[group[i]]);
+  std::map<std::pair<const EffectFamily*, FlankChoice>, std::pair<std::size_t, double>> nearest;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Effect& name = candidates_[group[i]];
+    const bool off_the_grid = name.family->shape_is_continuous && !name.family->shape_is_step;
+    const double like = likeness(i + 1);
+    if (!(like > (off_the_grid ? kNearlyOffTheGrid : kNearly))) continue;
+    if (!off_the_grid) {
+      names.push_back(name);
+      continue;
+    }
+    const auto [known, is_new] = nearest.try_emplace({name.family, name.flank}, names.size(), like);
+    if (is_new) {
+      names.push_back(name);
+    } else if (like > known->second.second) {
+      names[known->second.first] = name;
+      known->second.second = like;
+    }
+  }
   std::stable_sort(names.begin(), names.end(),
                    [](const Effect& a, const Effect& b) { return a.order() < b.order(); });
   return names;
