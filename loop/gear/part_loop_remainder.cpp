@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "trueflank/loop/gear/local/rotation_waves.h"
@@ -55,11 +56,31 @@ void PartLoop::nominate() {
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
-    if (name_like(finding, options_.given)) continue;
+    if (const std::optional<Effect> name = name_like(finding, options_.given)) {
+      put_on_the_grid(*name);
+      continue;
+    }
     candidates_.push_back(*finding.effect);
     banned_.push_back(false);
     unseen_.push_back(false);
   }
+}
+
+/// A shape that was found takes the place of the nearest of its kind: between two of the grid it would
+/// be told as other forms.
+void PartLoop::put_on_the_grid(const Effect& name) {
+  Effect* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Effect& candidate : candidates_) {
+    if (candidate.family != name.family || candidate.flank != name.flank) continue;
+    double off = 0.0;
+    for (std::size_t k = 0; k < name.shape.size(); ++k)
+      off += std::abs(candidate.shape[k] - name.shape[k]) / std::abs(name.shape[k]);
+    if (!(off < least)) continue;
+    least = off;
+    nearest = &candidate;
+  }
+  if (nearest != nullptr && name.family->shape_is_continuous) nearest->shape = name.shape;
 }
 
 /// Effects with a name that do nearly the same on these data, the simplest first.
