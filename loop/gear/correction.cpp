@@ -62,7 +62,11 @@ FlankChoice flank_of(const Json& effect) {
 /// Shape and coefficients from the parameters people read.
 bool read_parameters(const Json& json, const EffectFamily& family, std::vector<double>& shape,
                      std::vector<double>& coefficients) {
-  for (const std::string& name : family.shape_names) shape.push_back(value_of(json, name));
+  for (std::size_t k = 0; k < family.shape_names.size(); ++k) {
+    shape.push_back(value_of(json, family.shape_names[k]));
+    if (std::isnan(shape.back()) && k < family.shape_where_absent.size())
+      shape.back() = family.shape_where_absent[k];
+  }
   if (family.form == ParameterForm::kWave) {
     const double amplitude = value_of(json, family.parameters[0]);
     const double angle = rad_from_deg(value_of(json, family.parameters[1])) * family.phase_divisor;
@@ -275,7 +279,11 @@ Point3 Correction::displacement_mm(const Point3& p) const {
       if (!part.effect.family->displacement_mm) continue;
       const auto u = part.effect.family->displacement_mm(geometry_, at, part.effect.shape,
                                                          part.coefficients.data());
-      for (int k = 0; k < 3; ++k) sum[k] -= u[k];
+      // The faces stay where they are: what moves along the axis is turned instead, which is the
+      // same on a helical flank.
+      const double turned = geometry_.twist_rad(at[2] - u[2]) - geometry_.twist_rad(at[2]);
+      sum[0] -= u[0] - turned * at[1];
+      sum[1] -= u[1] + turned * at[0];
     }
     found = std::hypot(sum[0] - before[0], sum[1] - before[1], sum[2] - before[2]) <= kSame_mm;
   }
