@@ -30,8 +30,8 @@ class ToothingGrid::SurfaceNet {
   static constexpr std::array<double, 3> kHeights = {0.12, 0.5, 0.88};
   /// Heights on either side of such a one, as a share of the patch.
   static constexpr double kReachUp = 0.0625;
-  /// By side and height.
-  using CellForms = std::array<SurfaceForm, 2 * kHeights.size()>;
+  /// By tooth, side and height.
+  using CellForms = std::vector<SurfaceForm>;
   using PanelForms = std::array<CellForms, kCells>;
 
   /// How a patch crosses a panel.
@@ -44,7 +44,7 @@ class ToothingGrid::SurfaceNet {
     int rows = 1;          ///< of a dome
     int strips = 1;  ///< across: one above the other, between rows of vertices at even heights
     int least_strips = 1, most_strips = 1;
-    double saddle = 0.0;  ///< what is left of the way up on saddles, at most, in rooms
+    double saddle = 0.0;          ///< what is left of the way up on saddles, at most, in rooms
     std::size_t first_level = 0;  ///< number of the lowest of these rows
   };
   /// What lies between two joints or breaks of the profile.
@@ -64,8 +64,8 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double height_of(std::size_t patch, double share) const {
     return std::lerp(g_.breaks_mm_[patch], g_.breaks_mm_[patch + 1], share);
   }
-  [[nodiscard]] Space3 on(int side, std::size_t piece, double parameter, double z) const {
-    const Point p = g_.at({side, piece, parameter}, 0, z);
+  [[nodiscard]] Space3 on(int tooth, const Place& place, double z) const {
+    const Point p = g_.at(place, tooth, z);
     return Space3(p.data());
   }
   /// Of a patch and piece.
@@ -80,7 +80,7 @@ class ToothingGrid::SurfaceNet {
   void find_panels();
   void measure_land(Panel& panel) const;
   void look_at(Panel& panel) const;
-  [[nodiscard]] SurfaceForm form(int side, std::size_t piece, double from, double to,
+  [[nodiscard]] SurfaceForm form(int tooth, int side, std::size_t piece, double from, double to,
                                  std::size_t patch, double share) const;
   [[nodiscard]] double cell_edge(const Panel& panel, double cell) const {
     return std::lerp(panel.from, panel.to, cell / kCells);
@@ -133,16 +133,20 @@ class ToothingGrid::SurfaceNet {
   struct At {
     double parameter = 0.0, z = 0.0;
     Space3 point = Space3::Zero();
+    Space3 before = Space3::Zero();  ///< of lands, not displaced
   };
-  void measure(const NetPatch& net, Aims& errors) const;
-  [[nodiscard]] Space3 over_edge(const Place& surface, const At& p, const At& q,
+  void measure(const NetPatch& net, int tooth, Aims& errors) const;
+  [[nodiscard]] Space3 over_edge(int tooth, const Place& surface, const At& p, const At& q,
                                  double share) const;
-  [[nodiscard]] double facet_error(const Place& surface, const std::array<At, 3>& corner,
+  [[nodiscard]] double facet_error(int tooth, const Place& surface, const std::array<At, 3>& corner,
                                    bool in_strip) const;
   [[nodiscard]] static double land_error(const std::array<At, 3>& corner);
+  [[nodiscard]] double moved_land_error(const std::array<At, 3>& corner) const;
 
   ToothingGrid& g_;
   double tolerance_;
+  std::vector<int> teeth_;  ///< looked at
+  Toothing unmoved_;        ///< without its displacement
   std::size_t pieces_ = 0;
   std::vector<Panel> panels_;
   Aims aims_;

@@ -154,13 +154,12 @@ std::vector<double> ToothingGrid::SurfaceNet::row_alone(const Panel& panel,
     wanted.add(chords_of(panel.patches[patch], c, room_of(panel, patch, c)));
   const int count = whole_parts(wanted.whole());
   std::vector<double> result;
-  for (int k = 0; k <= count; ++k)
-    result.push_back(wanted.between(panel.from, panel.to, k, count));
+  for (int k = 0; k <= count; ++k) result.push_back(wanted.between(panel.from, panel.to, k, count));
   return result;
 }
 
-/// Rows within the patches at the end faces, from the break outwards, each between the one before; where
-/// vertices stand between one another, the end face's row, too.
+/// Rows within the patches at the end faces, from the break outwards, each between the one before;
+/// where vertices stand between one another, the end face's row, too.
 std::vector<std::vector<double>> ToothingGrid::SurfaceNet::level_rows(
     const Panel& panel, std::vector<std::vector<double>>& rows) const {
   std::vector<std::vector<double>> levels;

@@ -34,28 +34,28 @@ double vertices_across(SurfaceForm form, double room_mm, int strips) {
   return -q <= kSlack ? chords : chords / (std::sqrt(1.0 - q) - std::sqrt(-q - 1.0));
 }
 
-/// How far vertices of one row of a strip stand from the middles of the other's: halfway between the
-/// steepest and the flattest edge that keep the tolerance.
+/// How far vertices of one row of a strip stand from the middles of the other's: halfway between
+/// the steepest and the flattest edge that keep the tolerance.
 double way_between(SurfaceForm form, double room_mm, int strips) {
   form.mixed /= strips, form.along /= strips * strips;
   const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), m = -left_up(form, room_mm);
   const double chord = std::sqrt(room_mm / bent);
   const double lean = form.mixed / (form.across < 0.0 ? -bent : bent);
-  const double centre = m > kSlack ? 0.5 * (std::sqrt(m + 1.0) + std::sqrt(m - 1.0))
-                                   : std::min(std::sqrt(std::max(m, 0.0)),
-                                              std::sqrt(std::max(m + 1.0, 0.25)) - 0.5);
+  const double centre =
+      m > kSlack ? 0.5 * (std::sqrt(m + 1.0) + std::sqrt(m - 1.0))
+                 : std::min(std::sqrt(std::max(m, 0.0)), std::sqrt(std::max(m + 1.0, 0.25)) - 0.5);
   return std::copysign(chord * centre, lean) - lean;
 }
 
 }  // namespace
 
-SurfaceForm ToothingGrid::SurfaceNet::form(int side, std::size_t piece, double from, double to,
-                                           std::size_t patch, double share) const {
+SurfaceForm ToothingGrid::SurfaceNet::form(int tooth, int side, std::size_t piece, double from,
+                                           double to, std::size_t patch, double share) const {
   const double middle = 0.5 * (from + to);
   const double z0 = height_of(patch, share - kReachUp), z = height_of(patch, share),
                z1 = height_of(patch, share + kReachUp);
   const auto x = [&](double parameter, double height) {
-    return on(side, piece, parameter, height);
+    return on(tooth, {side, piece, parameter}, height);
   };
   return surface_form(
       {x(from, z0), x(from, z), x(middle, z0), x(middle, z), x(middle, z1), x(to, z), x(to, z1)},
@@ -89,13 +89,14 @@ void ToothingGrid::SurfaceNet::measure_land(Panel& panel) const {
     return angle * angle * a.norm();
   };
   const double plain = spread_of(point_at(curve, curve.begin), point_at(curve, curve.end));
-  for (const double z : g_.breaks_mm_)
-    for (const int side : {-1, 1}) {
-      const Space3 a = on(side, panel.piece, curve.begin, z),
-                   b = on(side, panel.piece, curve.end, z);
-      if (plain > 0.0)
-        panel.wider = std::max(panel.wider, spread_of(a.head<2>(), b.head<2>()) / plain);
-    }
+  for (const int tooth : teeth_)
+    for (const double z : g_.breaks_mm_)
+      for (const int side : {-1, 1}) {
+        const Space3 a = on(tooth, {side, panel.piece, curve.begin}, z),
+                     b = on(tooth, {side, panel.piece, curve.end}, z);
+        if (plain > 0.0)
+          panel.wider = std::max(panel.wider, spread_of(a.head<2>(), b.head<2>()) / plain);
+      }
 }
 
 void ToothingGrid::SurfaceNet::look_at(Panel& panel) const {
@@ -105,14 +106,13 @@ void ToothingGrid::SurfaceNet::look_at(Panel& panel) const {
     Crossing& crossing = panel.patches[patch];
     for (std::size_t c = 0; c < kCells; ++c) {
       const auto cell = static_cast<double>(c);
-      std::size_t k = 0;
-      for (const int side : {-1, 1})
-        for (const double share : kHeights) {
-          crossing.forms[c][k] = form(side, panel.piece, cell_edge(panel, cell),
-                                      cell_edge(panel, cell + 1.0), patch, share);
-          crossing.dome = crossing.dome || crossing.forms[c][k].is_dome(room);
-          ++k;
-        }
+      for (const int tooth : teeth_)
+        for (const int side : {-1, 1})
+          for (const double share : kHeights) {
+            crossing.forms[c].push_back(form(tooth, side, panel.piece, cell_edge(panel, cell),
+                                             cell_edge(panel, cell + 1.0), patch, share));
+            crossing.dome = crossing.dome || crossing.forms[c].back().is_dome(room);
+          }
     }
   }
 }
@@ -169,7 +169,8 @@ ColumnDemand ToothingGrid::SurfaceNet::chords(const Panel& panel, std::size_t ro
 bool ToothingGrid::SurfaceNet::is_chamfer(std::size_t patch) const {
   const std::size_t last = patch_count() - 1;
   if (last == 0 || (patch != 0 && patch != last)) return false;
-  const double z = height_of(patch, 0.5), from_end = std::min(z, g_.toothing_.twist.face_width_mm - z);
+  const double z = height_of(patch, 0.5),
+               from_end = std::min(z, g_.toothing_.twist.face_width_mm - z);
   return from_end < g_.toothing_.edge_chamfer_mm;
 }
 
@@ -200,7 +201,8 @@ double ToothingGrid::SurfaceNet::facets_with(Panel& panel, std::size_t patch, in
   crossing.strips = strips;
   crossing.between = crossing.saddle > kAnyPhase * strips * strips;
   const auto on_break = static_cast<double>(row_of(panel, patch == 0 ? 1 : patch).size());
-  const double inside = crossing.between ? on_break : static_cast<double>(row_alone(panel, patch).size());
+  const double inside =
+      crossing.between ? on_break : static_cast<double>(row_alone(panel, patch).size());
   return 2.0 * strips * inside + 2.0 * on_break;
 }
 
@@ -248,7 +250,8 @@ void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) 
       crossing.across = true;
       crossing.least_strips =
           std::min(kMostStrips, whole_parts(std::sqrt(std::max(along, dome / kAlmostWhole))));
-      crossing.most_strips = std::clamp(whole_parts(std::sqrt(saddle)), crossing.least_strips, kMostStrips);
+      crossing.most_strips =
+          std::clamp(whole_parts(std::sqrt(saddle)), crossing.least_strips, kMostStrips);
       crossing.saddle = saddle;
     }
   }

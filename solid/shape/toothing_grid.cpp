@@ -83,8 +83,8 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   const double aim = kAim * tolerance_mm;
   if (plain_)
     lay_plain(aim);
-  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || !teeth_alike_ || moved ||
-           toothing_.bed != nullptr || !try_surface_net(aim)) {
+  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || toothing_.bed != nullptr ||
+           !try_surface_net(aim)) {
     edges_.clear();
     lay_modified(tolerance_mm, aim);
   }
@@ -439,11 +439,11 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   std::vector<Point> result;
   result.reserve(points_.size() * static_cast<std::size_t>(teeth_));
   const double z = z_mm + outline_.z_lower_mm;
+  const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
+  const auto row = static_cast<std::size_t>(
+      std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
   if (teeth_alike_) {
     std::vector<Point2> tooth;
-    const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
-    const auto row = static_cast<std::size_t>(
-        std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_on_row(i, row))
         tooth.push_back(section_point(toothing_, place_at(points_[i], 0, z_mm), z_mm));
@@ -457,12 +457,15 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
     return result;
   }
   for (int k = 0; k < teeth_; ++k)
-    for (const Place& place : points_) {
-      const Point p = at(place, k, z_mm);
-      const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
-      result.push_back({turned.x(), turned.y(), p[2] + outline_.z_lower_mm});
-    }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (is_on_row(i, row)) result.push_back(in_part(points_[i], k, z_mm));
   return result;
+}
+
+ToothingGrid::Point ToothingGrid::in_part(const Place& place, int tooth, double z_mm) const {
+  const Point p = at(place, tooth, z_mm);
+  const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
+  return {turned.x(), turned.y(), p[2] + outline_.z_lower_mm};
 }
 
 OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm, double tolerance_mm) {
