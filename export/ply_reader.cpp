@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/export/mesh_parsers.h"
 
@@ -238,6 +239,8 @@ class ElementReader {
     for (std::uint64_t done = 0; done < count; done += kMost) {
       const std::uint64_t some = std::min(count - done, kMost);
       const std::size_t before = mesh_.vertices.size();
+      if (before + some > mesh_.vertices.capacity())
+        reserve_in_large_pages(mesh_.vertices, before + std::max<std::size_t>(before, some));
       mesh_.vertices.resize(before + some);
       for_each_run(some, kOfWork, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i)

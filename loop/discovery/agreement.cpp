@@ -14,7 +14,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kFewest = 4, kMostTried = 24;
+constexpr std::size_t kMostTried = 24;
 static_assert(4 * kMostTried == kMostWholesAsked);
 /// Share of a group's information that must lie in whole traces, and below which a trace holds none
 /// of it.
@@ -34,31 +34,40 @@ Eigen::MatrixXd courses(Eigen::Index n) {
   return orthonormal_columns(powers);
 }
 
-/// What is left of errors that hang together by rho from one to the next, once a course of n is
+/// What is left of errors that hang together by rho from one to the next, once courses q are
 /// taken out: mean square, and mean product of neighbours.
-std::pair<double, double> left_of_chain(Eigen::Index n, double rho) {
-  const Eigen::MatrixXd q = courses(n);
+std::pair<double, double> left_of_chain(const Eigen::MatrixXd& q, double rho) {
+  const Eigen::Index n = q.rows();
+  std::vector<double> powers;
+  for (Eigen::Index i = 0; i < n; ++i) powers.push_back(std::pow(rho, static_cast<double>(i)));
   Eigen::MatrixXd chain(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n; ++k)
-      chain(i, k) = std::pow(rho, static_cast<double>(std::abs(i - k)));
+      chain(i, k) = powers[static_cast<std::size_t>(std::abs(i - k))];
   const Eigen::MatrixXd half = chain - q * (q.transpose() * chain);
   const Eigen::MatrixXd left = half - (half * q) * q.transpose();
   return {left.diagonal().mean(), left.diagonal(1).mean()};
 }
 
-/// Variance that slow candidates meet in a trace, by what traces scatter about their own courses
-/// and by how that hangs together from one value to the next; 0 where there are no traces of enough
-/// values.
+}  // namespace
+
+/// By what traces scatter about their own courses and by how that hangs together from one value to the
+/// next.
 double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& statistics) {
   std::map<int, std::vector<int>> wholes;  // with a zero of their own
   for (const int i : statistics.used())
     if (problem.whole[i] >= 0 && problem.zero[i] >= 0) wholes[problem.whole[i]].push_back(i);
+  std::map<Eigen::Index, Eigen::MatrixXd> courses_of;  // by the number of values
+  const auto known_courses = [&](Eigen::Index n) -> const Eigen::MatrixXd& {
+    Eigen::MatrixXd& q = courses_of[n];
+    if (q.size() == 0) q = courses(n);
+    return q;
+  };
   double squares = 0.0, products = 0.0, values = 0.0, pairs = 0.0, traces = 0.0;
   for (const auto& [whole, rows] : wholes) {
     const auto n = static_cast<Eigen::Index>(rows.size());
     if (n < kFewestValues) continue;
-    const Eigen::MatrixXd q = courses(n);
+    const Eigen::MatrixXd& q = known_courses(n);
     Eigen::VectorXd left = problem.weight(rows).cwiseSqrt().cwiseProduct(statistics.value()(rows));
     left -= q * (q.transpose() * left);
     squares += left.squaredNorm();
@@ -71,10 +80,13 @@ double scatter_within(const DiscoveryProblem& problem, const BlockStatistics& st
   const auto n = static_cast<Eigen::Index>(values / traces);
   const double seen = products / pairs / (squares / values);
   double rho = 0.0;
-  std::pair<double, double> left = left_of_chain(n, 0.0);
-  while (rho < 0.9 && left.second / left.first < seen) left = left_of_chain(n, rho += 0.05);
+  const Eigen::MatrixXd& q = known_courses(n);
+  std::pair<double, double> left = left_of_chain(q, 0.0);
+  while (rho < 0.9 && left.second / left.first < seen) left = left_of_chain(q, rho += 0.05);
   return squares / values / left.first * (1.0 + rho) / (1.0 - rho);
 }
+
+namespace {
 
 /// Of the columns of one group: few, and so without memory of their own.
 constexpr int kMostColumns = 8;
@@ -191,6 +203,8 @@ class PanelOfWhole {
     }
   }
 
+  [[nodiscard]] const Panel& absorbed() const { return absorbed_; }
+
   std::vector<PanelRow> products;  ///< of columns that stand 0, 1, ... apart
   PanelRow scores{};
 
@@ -201,27 +215,87 @@ class PanelOfWhole {
   Panel absorbed_;
 };
 
+/// The part of a group's Gram matrix in a whole that stands in a panel's products.
+GroupMatrix gram_of(const std::vector<PanelRow>& products, int at, int columns) {
+  GroupMatrix gram(columns, columns);
+  for (int k = 0; k < columns; ++k)
+    for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
+  return gram;
+}
+
+/// Numbers that a whole says of a group at least.
+int degrees_of(const GroupMatrix& gram, double information) {
+  if (gram.rows() == 1) return gram(0, 0) > information ? 1 : 0;
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram, Eigen::EigenvaluesOnly};
+  return static_cast<int>((own.eigenvalues().array() > information).count());
+}
+
+/// Marks the groups of a panel that surely live in too many wholes. Some values of a whole bound from below
+/// what it holds of a group, at less cost than its sums where many columns are fitted.
+void mark_too_many(const std::vector<FittedWhole>& wholes, const Asked& asked, std::size_t number,
+                   const Panel& absorbed, std::vector<Agreement>& sums) {
+  constexpr double kSurely = 1.001;
+  const std::vector<CandidateGroup>& groups = asked.problem.groups;
+  const PanelColumns& panel = asked.statistics.panels()[number];
+  std::vector<int> open, degrees;
+  int widest = 1;
+  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
+    widest = std::max(widest, groups[g].columns);
+    if (asked.observable[g]) open.push_back(g);
+  }
+  degrees.assign(static_cast<std::size_t>(panel.groups), 0);
+  std::vector<PanelRow> products(static_cast<std::size_t>(widest));
+  std::vector<double> fitted(absorbed.size());
+  for (const FittedWhole& whole : wholes) {
+    if (open.empty()) return;
+    std::fill(products.begin(), products.end(), PanelRow{});
+    for (const int i : whole.sums.some) {
+      PanelRow row{};
+      std::copy_n(asked.statistics.candidates().row(i).data() + panel.first_column, panel.columns, row.begin());
+      for (std::size_t k = 0; k < fitted.size(); ++k)
+        fitted[k] = asked.statistics.model()(i, asked.model.columns[k]);
+      subtract_rows(row, fitted.data(), absorbed.data(), absorbed.size());
+      add_products(products, asked.problem.weight[i], row);
+    }
+    std::erase_if(open, [&](int g) {
+      const int own = groups[g].columns;
+      int& sure = degrees[static_cast<std::size_t>(g - panel.first_group)];
+      sure += degrees_of(gram_of(products, groups[g].first_column - panel.first_column, own),
+                         kSurely * kNone * asked.projected[g].trace() / static_cast<double>(wholes.size()));
+      if (sure <= static_cast<int>(kMostTried) * own) return false;
+      sums[g].degrees = sure;
+      return true;
+    });
+  }
+}
+
 /// What every whole says of the groups of a panel, until all of them live in too many.
 void add_wholes(const std::vector<FittedWhole>& wholes, const Asked& asked, std::size_t number,
                 std::vector<Agreement>& sums) {
+  constexpr std::size_t kMany = 10;  // columns
   const std::vector<CandidateGroup>& groups = asked.problem.groups;
   const PanelColumns& panel = asked.statistics.panels()[number];
   if (groups[panel.first_group].local_family >= 0) return;
   PanelOfWhole beside(asked, number);
+  if (asked.model.columns.size() > kMany && wholes.size() > kMostTried)
+    mark_too_many(wholes, asked, number, beside.absorbed(), sums);
+  const auto is_open = [&](int g) {
+    return asked.observable[g] && !lives_in_too_many(sums[g], groups[g].columns);
+  };
+  bool any_open = false;
+  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
+    any_open = any_open || is_open(g);
+  if (!any_open) return;
   for (const FittedWhole& whole : wholes) {
     beside.look_at(whole);
     bool any = false;
     for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
-      if (!asked.observable[g] || lives_in_too_many(sums[g], groups[g].columns)) continue;
+      if (!is_open(g)) continue;
       any = true;
       const int own = groups[g].columns, at = groups[g].first_column - panel.first_column;
-      GroupMatrix gram(own, own);
       GroupVector score(own);
-      for (int k = 0; k < own; ++k) {
-        score[k] = beside.scores[at + k];
-        for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = beside.products[k - l][at + l];
-      }
-      add_whole(sums[g], gram, score,
+      for (int k = 0; k < own; ++k) score[k] = beside.scores[at + k];
+      add_whole(sums[g], gram_of(beside.products, at, own), score,
                 asked.projected[g].trace() / static_cast<double>(wholes.size()));
     }
     if (!any) return;
@@ -235,7 +309,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
                                         const std::vector<Eigen::MatrixXd>& projected,
                                         const std::vector<bool>& observable) {
   const auto& wholes = statistics.wholes();
-  if (wholes.size() < kFewest || wholes.size() > kMostWholesAsked) return {};
+  if (wholes.size() < kFewestWholesAsked || wholes.size() > kMostWholesAsked) return {};
   const std::size_t groups = problem.groups.size();
   std::vector<Agreement> sums(groups);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -256,7 +330,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     for (std::size_t p = from; p < to; ++p)
       add_wholes(fitted, {problem, statistics, model, projected, observable}, p, sums);
   });
-  const double within = scatter_within(problem, statistics);
+  const double within = statistics.scatter_within();
   std::vector<double> single(groups, 1.0);
   for (std::size_t g = 0; g < groups; ++g) {
     const int columns = problem.groups[g].columns;

@@ -30,4 +30,9 @@ struct FittedModel {
                                                       const std::vector<Eigen::MatrixXd>& projected,
                                                       const std::vector<bool>& observable);
 
+/// Variance that slow candidates meet in a trace; 0 where there are no traces of enough values. Does not
+/// depend on the model: BlockStatistics keeps it.
+[[nodiscard]] double scatter_within(const DiscoveryProblem& problem,
+                                    const BlockStatistics& statistics);
+
 }  // namespace trueflank::loop

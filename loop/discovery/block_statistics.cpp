@@ -8,6 +8,7 @@
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/widest_registers.h"
+#include "trueflank/loop/discovery/agreement.h"
 
 namespace trueflank::loop {
 
@@ -33,6 +34,8 @@ BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
   fold_sums_.resize(folds_ + 1);
   sum_candidates();
   add_model_sums(0);
+  if (wholes_.size() >= kFewestWholesAsked && wholes_.size() <= kMostWholesAsked)
+    scatter_within_ = loop::scatter_within(problem_, *this);
 }
 
 /// Takes the weighted mean of every trace (apart in training and hold-out) out of all columns.
@@ -65,7 +68,9 @@ void BlockStatistics::centre_on_zeros() {
 void BlockStatistics::find_wholes() {
   if (problem_.whole.empty()) return;
   int before = -1;
+  std::map<int, std::vector<int>> values;
   for (const int i : order_) {  // unit after unit
+    if (problem_.whole[i] >= 0) values[problem_.whole[i]].push_back(i);
     if (problem_.unit[i] == before) continue;
     before = problem_.unit[i];
     if (problem_.whole[i] >= 0) wholes_[problem_.whole[i]].units.push_back(before);
@@ -73,9 +78,14 @@ void BlockStatistics::find_wholes() {
   int widest = 1;
   for (const CandidateGroup& group : problem_.groups) widest = std::max(widest, group.columns);
   if (wholes_.size() > kMostWholesAsked) return;
-  for (auto& [number, whole] : wholes_)
+  constexpr std::size_t kSome = 5;
+  for (auto& [number, whole] : wholes_) {
     whole.products.assign(
         static_cast<std::size_t>(widest) * static_cast<std::size_t>(candidates().cols()), 0.0);
+    const std::vector<int>& all = values[number];
+    for (std::size_t k = 0; k < std::min(kSome, all.size()); ++k)
+      whole.some.push_back(all[(2 * k + 1) * all.size() / (2 * std::min(kSome, all.size()))]);
+  }
 }
 
 void BlockStatistics::sum_candidates() {
@@ -281,40 +291,62 @@ void BlockStatistics::add_model_sums(int first) {
   mirror(all_);
 }
 
+namespace {
+
+/// sum += of each row its factor times columns of single precision; `rows` point to the first of these.
+void add_single_rows(PanelRow& sum, const double* factors, const float* const* rows,
+                     std::size_t count) {
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    double own[kPanelColumns];
+    for (std::size_t j = 0; j < kPanelColumns; ++j) own[j] = sum[j];
+    for (std::size_t r = 0; r < count; ++r)
+      for (std::size_t j = 0; j < kPanelColumns; ++j)
+        own[j] += factors[r] * static_cast<double>(rows[r][j]);
+    for (std::size_t j = 0; j < kPanelColumns; ++j) sum[j] = own[j];
+  });
+}
+
+}  // namespace
+
 /// Products of the model columns from `first` on with the candidates of some panels.
 void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int first,
                                          std::size_t from, std::size_t to) {
   const CandidateMatrix& candidates = this->candidates();
   const int added = model_columns() - first;
-  Panel x;
   std::vector<double> factors;
+  std::vector<const float*> rows;
+  std::vector<std::array<float, kPanelColumns>> copies;
   for (const Part& part : parts) {
-    const std::size_t rows = part.end - part.begin;
-    x.assign(rows, PanelRow{});
-    factors.resize(rows * static_cast<std::size_t>(added));
-    for (std::size_t r = 0; r < rows; ++r) {
+    const std::size_t count = part.end - part.begin;
+    factors.resize(count * static_cast<std::size_t>(added));
+    for (std::size_t r = 0; r < count; ++r) {
       const int i = order_[part.begin + r];
       for (int k = 0; k < added; ++k)
-        factors[static_cast<std::size_t>(k) * rows + r] = problem_.weight[i] * model_(i, first + k);
+        factors[static_cast<std::size_t>(k) * count + r] = problem_.weight[i] * model_(i, first + k);
     }
     for (std::size_t p = from; p < to; ++p) {
       const PanelColumns& panel = panels_[p];
-      for (std::size_t r = 0; r < rows; ++r) {
-        const float* row = candidates.row(order_[part.begin + r]).data() + panel.first_column;
-        std::copy_n(row, panel.columns, x[r].begin());
-        std::fill(x[r].begin() + panel.columns, x[r].end(), 0.0);
+      const auto used = static_cast<std::size_t>(panel.columns);
+      rows.resize(count);
+      for (std::size_t r = 0; r < count; ++r)
+        rows[r] = candidates.row(order_[part.begin + r]).data() + panel.first_column;
+      // Of a panel that is not full a row goes on with what is no part of it.
+      if (used < kPanelColumns) {
+        copies.assign(count, {});
+        for (std::size_t r = 0; r < count; ++r)
+          rows[r] = std::copy_n(rows[r], used, copies[r].begin()) - used;
       }
       for (int k = 0; k < added; ++k) {
         PanelRow sum{};
-        add_rows(sum, factors.data() + static_cast<std::size_t>(k) * rows, x.data(), rows);
+        add_single_rows(sum, factors.data() + static_cast<std::size_t>(k) * count, rows.data(), count);
         const auto column = static_cast<std::size_t>(first + k);
         PanelRow& of_unit = unit_candidates_[column][p * static_cast<std::size_t>(units_) +
                                                      static_cast<std::size_t>(part.unit)];
         for (std::size_t j = 0; j < kPanelColumns; ++j) of_unit[j] += sum[j];
-        const Eigen::Map<const Eigen::VectorXd> used(sum.data(), panel.columns);
+        const Eigen::Map<const Eigen::VectorXd> of_panel(sum.data(), panel.columns);
         fold_sums_[part.fold].model_candidate[column].segment(panel.first_column, panel.columns) +=
-            used;
-        all_.model_candidate[column].segment(panel.first_column, panel.columns) += used;
+            of_panel;
+        all_.model_candidate[column].segment(panel.first_column, panel.columns) += of_panel;
       }
     }
   }

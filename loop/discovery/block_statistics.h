@@ -10,7 +10,7 @@
 namespace trueflank::loop {
 
 /// So few whole traces or flanks are asked whether they agree (agreement.h).
-constexpr std::size_t kMostWholesAsked = 96;
+constexpr std::size_t kFewestWholesAsked = 4, kMostWholesAsked = 96;
 
 /// Normal equations of a discovery problem, kept per unit and per fold so that no step of the
 /// selection has to walk the values again. Model columns are the nuisance columns and every group
@@ -63,10 +63,13 @@ class BlockStatistics {
   /// wholes as agreement.h asks of.
   struct Whole {
     std::vector<int> units;
+    std::vector<int> some;  ///< a few of its values, spread over it
     std::vector<double> products;
   };
   /// By their numbers, where values of one unit are of one whole.
   [[nodiscard]] const std::map<int, Whole>& wholes() const { return wholes_; }
+  /// Variance that slow candidates meet within a whole that is asked (agreement.h); 0 where none is.
+  [[nodiscard]] double scatter_within() const { return scatter_within_; }
   /// Gram matrix of a group, over a fold (1 ...) or over all (0).
   [[nodiscard]] const Eigen::MatrixXd& group_gram(int group, int fold) const {
     return group_grams_[fold][group];
@@ -98,6 +101,7 @@ class BlockStatistics {
       unit_candidates_;  ///< of model columns: panel after panel, in it the units
   Sums all_;
   std::map<int, Whole> wholes_;
+  double scatter_within_ = 0.0;
   std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
   std::vector<Eigen::MatrixXd> zero_loss_;
 };

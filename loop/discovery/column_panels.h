@@ -13,7 +13,7 @@
 namespace trueflank::loop {
 
 /// Columns that are worked on at once, and how many of them the innermost loop takes.
-constexpr int kPanelColumns = 32, kPanelStep = 8;
+constexpr int kPanelColumns = 32, kPanelStep = 32;
 static_assert(kPanelColumns % kPanelStep == 0);
 
 /// One row of a panel; columns that are not used are 0.

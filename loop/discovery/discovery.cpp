@@ -10,6 +10,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/cross_validation.h"
+#include "trueflank/loop/discovery/quick_errors.h"
 #include "trueflank/loop/discovery/structure_test.h"
 
 namespace trueflank::loop {
@@ -23,20 +24,44 @@ constexpr double kNearly = 3e-3;
 /// Chi-square in the folds that is nothing, rounding included.
 constexpr double kNothing = 0.5;
 
-class Selection {
+}  // namespace
+
+class Discovery::Selection {
  public:
   Selection(const DiscoveryProblem& problem, const DiscoveryOptions& options)
       : problem_(problem), options_(options), statistics_(problem) {
     for (int i = 0; i < statistics_.model_columns(); ++i) nuisance_.push_back(i);
   }
 
-  DiscoveryResult run() {
+  /// All but what finished() adds.
+  void choose() {
     forward();
-    if (!chosen_.empty()) {
-      simplify();
-      finish();
+    if (chosen_.empty()) return;
+    simplify();
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      ChosenGroup& record = chosen_[i].record;
+      const FoldErrors gain =
+          CrossValidation(problem_, statistics_, active(i)).base_errors() - full;
+      record.gain = gain.sum() / statistics_.total_weight();
+      record.gain_error = total_error_of(gain) / statistics_.total_weight();
+      result_.chosen.push_back(record);
     }
-    return std::move(result_);
+  }
+  [[nodiscard]] const DiscoveryResult& result() const { return result_; }
+  /// BIC, confounded groups of the final set, and the test of what is left.
+  DiscoveryResult finished() {
+    if (chosen_.empty()) return result_;
+    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      result_.chosen[i].bic_gain = bic_gain(i);
+      find_confounded(i, full);
+    }
+    if (active() == tested_) return result_;
+    const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
+    result_.p_left = test.p_value();
+    result_.likest_left = test.likest();
+    return result_;
   }
 
  private:
@@ -72,12 +97,16 @@ class Selection {
     mean /= n;
     return std::sqrt(std::max(0.0, n * (squares - n * mean * mean) / (n - 1.0)));
   }
-  /// True where a loss of prediction is no more than its error, in the folds and at the anchors.
-  [[nodiscard]] bool is_tie(const FoldErrors& loss) const {
+  /// True where a loss of prediction is no more than its error, in the folds and at the anchors. With a
+  /// margin: perhaps it is, where every fold may be off by so much.
+  [[nodiscard]] bool is_tie(const FoldErrors& loss, double margin = 0.0) const {
     double anchor = 0.0;
     if (problem_.anchor_fold > 0 && problem_.anchor_fold <= loss.size())
       anchor = loss[problem_.anchor_fold - 1];
-    return anchor <= kAnchorsTell && loss.sum() - anchor <= std::max(total_error_of(loss), kNothing);
+    // (the standard error of a sum follows its terms by less than four times their number)
+    return anchor <= kAnchorsTell + margin &&
+           loss.sum() - anchor <= std::max(total_error_of(loss), kNothing) +
+                                      4.0 * static_cast<double>(loss.size()) * margin;
   }
   [[nodiscard]] bool is_chosen(int group) const {
     return std::any_of(chosen_.begin(), chosen_.end(),
@@ -95,6 +124,9 @@ class Selection {
 
   void forward() {
     while (true) {
+      // What a full model leaves is asked once it is simplified.
+      const int most = options_.most_effects;
+      if (!chosen_.empty() && static_cast<int>(chosen_.size()) >= most) return;
       const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
       tested_ = active();
       if (result_.observable.empty()) result_.observable = test.observable();
@@ -105,7 +137,7 @@ class Selection {
       }
       result_.p_left = test.p_value();
       result_.likest_left = test.likest();
-      if (static_cast<int>(chosen_.size()) >= options_.most_effects) return;
+      if (most <= 0) return;
       if (test.local_p_value() < options_.local_level &&
           (test.local_p_value() < test.likest_single_p_value() || test.p_value() > 0.02) &&
           allowed(test.likest_local())) {
@@ -191,6 +223,45 @@ class Selection {
     return true;
   }
 
+  /// Places of a chosen group's columns in active().
+  [[nodiscard]] std::vector<Eigen::Index> places_of(const std::vector<int>& chosen) const {
+    std::vector<Eigen::Index> places;
+    auto at = static_cast<Eigen::Index>(nuisance_.size());
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+      const int columns = problem_.groups[chosen_[i].record.group].columns;
+      for (int k = 0; k < columns; ++k, ++at)
+        if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) places.push_back(at);
+    }
+    return places;
+  }
+  /// Quick errors of the model as it is, for every group that may stand in place of another.
+  const QuickErrors& quick_errors() {
+    const std::vector<int> columns = active();
+    if (quick_ && quick_of_ == columns) return *quick_;
+    std::vector<int> groups;
+    for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g)
+      if (problem_.groups[g].local_family < 0 && result_.observable[g] && !is_chosen(g))
+        groups.push_back(g);
+    quick_of_ = columns;
+    return quick_.emplace(problem_, statistics_, columns, groups);
+  }
+  /// Of groups asked in place of some chosen ones those that are worth an exact answer: `may(group, loss,
+  /// earned, margin)` is asked with quick errors, less those of the whole model.
+  template <class May>
+  std::vector<int> worth_asking(const std::vector<int>& instead_of, const std::vector<int>& asked,
+                                const FoldErrors& full, const May& may) {
+    // Of few exchanges the exact answers cost no more.
+    if (chosen_.size() < 3) return asked;
+    const QuickErrors& quick = quick_errors();
+    if (!quick.are_reliable()) return asked;
+    const QuickErrors::Less less = quick.errors_less(places_of(instead_of), asked);
+    const double earned = (less.base - full).sum();
+    std::vector<int> groups;
+    for (std::size_t n = 0; n < asked.size(); ++n)
+      if (may(asked[n], less.with[n] - full, earned, quick.rounding())) groups.push_back(asked[n]);
+    return groups;
+  }
+
   /// One candidate in place of two chosen ones, where it predicts as well.
   bool merge_two() {
     if (chosen_.size() < 2) return false;
@@ -199,11 +270,14 @@ class Selection {
       for (int k = i + 1; k < static_cast<int>(chosen_.size()); ++k) {
         const CandidateGroup& a = problem_.groups[chosen_[i].record.group];
         const CandidateGroup& b = problem_.groups[chosen_[k].record.group];
-        const CrossValidation model(problem_, statistics_, active(i, k));
         // A name for one flank may stand for a name for both and what the other flank lacks of it.
         const int limit = std::min(a.preference, b.preference);
         const int most = std::max(a.preference, b.preference);
-        const double earned = (model.base_errors() - full).sum();
+        const auto may_merge = [&](int g, const FoldErrors& loss, double earned, double margin) {
+          return is_tie(loss, margin) ||
+                 (problem_.groups[g].preference < most &&
+                  loss.sum() < kNearly * earned + static_cast<double>(2 * loss.size()) * margin);
+        };
         std::vector<int> asked;
         for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
           const CandidateGroup& group = problem_.groups[g];
@@ -212,14 +286,16 @@ class Selection {
               group.columns < a.columns + b.columns)
             asked.push_back(g);
         }
+        asked = worth_asking({i, k}, asked, full, may_merge);
+        if (asked.empty()) continue;
+        const CrossValidation model(problem_, statistics_, active(i, k));
+        const double earned = (model.base_errors() - full).sum();
         const std::vector<FoldErrors> with = model.errors_with(asked);
         int best = -1;
         double best_loss = 1e300;
         for (std::size_t n = 0; n < asked.size(); ++n) {
           const FoldErrors loss = with[n] - full;
-          const bool nearly =
-              problem_.groups[asked[n]].preference < most && loss.sum() < kNearly * earned;
-          if ((is_tie(loss) || nearly) && loss.sum() < best_loss) {
+          if (may_merge(asked[n], loss, earned, 0.0) && loss.sum() < best_loss) {
             best_loss = loss.sum();
             best = asked[n];
           }
@@ -237,10 +313,12 @@ class Selection {
   /// Another candidate in place of a chosen one, where it predicts better by a standard error.
   bool replace_one() {
     const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
+    const auto may_replace = [&](int, const FoldErrors& loss, double, double margin) {
+      return !is_tie(-loss, -margin) && !is_tie(-0.5 * loss, -margin);
+    };
     for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
       const CandidateGroup& now = problem_.groups[chosen_[i].record.group];
       if (now.local_family >= 0) continue;
-      const CrossValidation model(problem_, statistics_, active(i));
       std::vector<int> asked;
       for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
         const CandidateGroup& group = problem_.groups[g];
@@ -249,12 +327,15 @@ class Selection {
         if (!options_.banned.empty() && options_.banned[g]) continue;
         asked.push_back(g);
       }
+      asked = worth_asking({i}, asked, full, may_replace);
+      if (asked.empty()) continue;
+      const CrossValidation model(problem_, statistics_, active(i));
       const std::vector<FoldErrors> with = model.errors_with(asked);
       std::vector<Tried> tried;
       int best = -1;
       for (std::size_t n = 0; n < asked.size(); ++n) {
         const FoldErrors gain = full - with[n];
-        if (is_tie(gain) || is_tie(0.5 * gain)) continue;
+        if (!may_replace(asked[n], -gain, 0.0, 0.0)) continue;
         tried.push_back({asked[n], gain});
         if (best < 0 || gain.sum() > tried[best].gain.sum()) best = static_cast<int>(tried.size()) - 1;
       }
@@ -266,25 +347,6 @@ class Selection {
       return true;
     }
     return false;
-  }
-
-  /// Gains, BIC, confounded groups of the final set, and the test of what is left.
-  void finish() {
-    const FoldErrors full = CrossValidation(problem_, statistics_, active()).base_errors();
-    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
-      ChosenGroup& record = chosen_[i].record;
-      const CrossValidation model(problem_, statistics_, active(i));
-      const FoldErrors gain = model.base_errors() - full;
-      record.gain = gain.sum() / statistics_.total_weight();
-      record.gain_error = total_error_of(gain) / statistics_.total_weight();
-      record.bic_gain = bic_gain(i);
-      find_confounded(i, model, full);
-      result_.chosen.push_back(record);
-    }
-    if (active() == tested_) return;
-    const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
-    result_.p_left = test.p_value();
-    result_.likest_left = test.likest();
   }
 
   [[nodiscard]] double residual_square(const std::vector<int>& columns) const {
@@ -303,8 +365,8 @@ class Selection {
                         std::max(residual_square(active()), 1e-300)) - d * std::log(n);
   }
 
-  void find_confounded(int i, const CrossValidation& without, const FoldErrors& full) {
-    ChosenGroup& record = chosen_[i].record;
+  void find_confounded(int i, const FoldErrors& full) {
+    ChosenGroup& record = result_.chosen[i];
     const CandidateGroup& own = problem_.groups[record.group];
     std::vector<int> asked;
     for (int g = 0; g < static_cast<int>(problem_.groups.size()); ++g) {
@@ -314,35 +376,51 @@ class Selection {
       if (own.kin >= 0 && group.kin == own.kin) continue;
       asked.push_back(g);
     }
-    const std::vector<FoldErrors> with = without.errors_with(asked);
-    for (std::size_t n = 0; n < asked.size(); ++n) {
-      const FoldErrors loss = with[n] - full;
-      // As good within a standard error, and close to what the effect itself earns.
-      const double earned = record.gain * statistics_.total_weight();
-      if (is_tie(loss) && loss.sum() < 0.1 * earned)
-        record.confounded.push_back(asked[n]);
-    }
+    // As good within a standard error, and close to what the effect itself earns.
+    const double earned = record.gain * statistics_.total_weight();
+    const auto may_be_it = [&](int, const FoldErrors& loss, double, double margin) {
+      return is_tie(loss, margin) &&
+             loss.sum() < 0.1 * earned + static_cast<double>(loss.size()) * margin;
+    };
+    asked = worth_asking({i}, asked, full, may_be_it);
+    if (asked.empty()) return;
+    const std::vector<FoldErrors> with =
+        CrossValidation(problem_, statistics_, active(i)).errors_with(asked);
+    for (std::size_t n = 0; n < asked.size(); ++n)
+      if (may_be_it(asked[n], with[n] - full, earned, 0.0)) record.confounded.push_back(asked[n]);
   }
 
   const DiscoveryProblem& problem_;
-  const DiscoveryOptions& options_;
+  DiscoveryOptions options_;
   BlockStatistics statistics_;
+  std::optional<QuickErrors> quick_;
+  std::vector<int> quick_of_;  ///< the model whose they are
   std::vector<int> nuisance_;
   std::vector<Chosen> chosen_;
   std::vector<int> tested_;  ///< columns beside which structure was looked for last
   DiscoveryResult result_;
 };
 
-}  // namespace
-
-DiscoveryResult discover(const DiscoveryProblem& problem, const DiscoveryOptions& options) {
+Discovery::Discovery(const DiscoveryProblem& problem, const DiscoveryOptions& options) {
   const auto n = problem.value.size();
   TRUEFLANK_EXPECTS(problem.weight.size() == n && problem.nuisance.rows() == n &&
                     problem.candidates.rows() == n);
   TRUEFLANK_EXPECTS(static_cast<Eigen::Index>(problem.unit.size()) == n &&
                     static_cast<Eigen::Index>(problem.fold.size()) == n &&
                     static_cast<Eigen::Index>(problem.zero.size()) == n);
-  return Selection(problem, options).run();
+  selection_ = std::make_unique<Selection>(problem, options);
+  selection_->choose();
+}
+Discovery::Discovery(Discovery&&) noexcept = default;
+Discovery& Discovery::operator=(Discovery&&) noexcept = default;
+Discovery::~Discovery() = default;
+
+const DiscoveryResult& Discovery::chosen() const { return selection_->result(); }
+
+DiscoveryResult Discovery::finished() && { return selection_->finished(); }
+
+DiscoveryResult discover(const DiscoveryProblem& problem, const DiscoveryOptions& options) {
+  return Discovery(problem, options).finished();
 }
 
 }  // namespace trueflank::loop

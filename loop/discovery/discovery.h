@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,5 +78,23 @@ struct DiscoveryResult {
 /// Errors of units must be symmetric and independent; nothing else is assumed.
 [[nodiscard]] DiscoveryResult discover(const DiscoveryProblem& problem,
                                        const DiscoveryOptions& options);
+
+/// The same in two steps: of a choice that is made again nobody asks what it leaves.
+class Discovery {
+ public:
+  /// Chooses. The problem but for its nuisance columns must stay as it is until finished() was asked.
+  Discovery(const DiscoveryProblem& problem, const DiscoveryOptions& options);
+  Discovery(Discovery&&) noexcept;
+  Discovery& operator=(Discovery&&) noexcept;
+  ~Discovery();
+
+  /// Without what is confounded, BIC's gain and the test of what is left.
+  [[nodiscard]] const DiscoveryResult& chosen() const;
+  [[nodiscard]] DiscoveryResult finished() &&;
+
+ private:
+  class Selection;
+  std::unique_ptr<Selection> selection_;
+};
 
 }  // namespace trueflank::loop

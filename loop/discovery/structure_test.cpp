@@ -2,11 +2,14 @@
 #include "trueflank/loop/discovery/structure_test.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
+#include <tuple>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -36,19 +39,47 @@ Eigen::VectorXd quadratic_forms(const Eigen::MatrixXd& s, const Eigen::MatrixXd&
   return forms;
 }
 
-/// Signs of all units in all flips; the same for the same number of units.
-Eigen::MatrixXf flip_signs(int units, int flips) {
+/// Signs of a unit in neighbouring flips.
+using FlipSigns = std::array<float, 64>;
+/// Scores of a candidate's columns, a row each.
+using FlipScores = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Signs of all units in all flips, those of one set of flips after the other; the same for the same number of
+/// units. Of flips beyond the last 0.
+std::vector<FlipSigns> flip_signs(std::size_t units, std::size_t flips) {
+  constexpr std::size_t kAtOnce = std::tuple_size_v<FlipSigns>;
   std::mt19937_64 random(20260101);
-  Eigen::MatrixXf signs(units, flips);
-  for (int k = 0; k < flips; ++k) {
+  std::vector<FlipSigns> signs(units * ((flips + kAtOnce - 1) / kAtOnce), FlipSigns{});
+  for (std::size_t k = 0; k < flips; ++k) {
     std::uint64_t bits = 0;
-    for (int i = 0; i < units; ++i) {
+    for (std::size_t i = 0; i < units; ++i) {
       if (i % 64 == 0) bits = random();
-      signs(i, k) = (bits & 1u) != 0u ? 1.0f : -1.0f;
+      signs[k / kAtOnce * units + i][k % kAtOnce] = (bits & 1u) != 0u ? 1.0f : -1.0f;
       bits >>= 1;
     }
   }
   return signs;
+}
+
+/// Sums of the units' scores (a column each) under all flips, a column each and some zeros.
+FlipScores flipped(const FlipScores& scores, const std::vector<FlipSigns>& signs) {
+  constexpr std::size_t kAtOnce = std::tuple_size_v<FlipSigns>;
+  const auto rows = static_cast<std::size_t>(scores.rows()),
+             units = static_cast<std::size_t>(scores.cols());
+  const std::size_t sets = units == 0 ? 0 : signs.size() / units;
+  FlipScores sums(scores.rows(), static_cast<Eigen::Index>(sets * kAtOnce));
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t set = 0; set < sets; ++set)
+      for (std::size_t row = 0; row < rows; ++row) {
+        const FlipSigns* const of_set = signs.data() + set * units;
+        const float* const own = scores.data() + row * units;
+        float sum[kAtOnce] = {};
+        for (std::size_t i = 0; i < units; ++i)
+          for (std::size_t j = 0; j < kAtOnce; ++j) sum[j] += own[i] * of_set[i][j];
+        std::copy_n(sum, kAtOnce, sums.data() + row * sets * kAtOnce + set * kAtOnce);
+      }
+  });
+  return sums;
 }
 
 }  // namespace
@@ -197,7 +228,8 @@ void StructureTest::judge_what_can_be_seen() {
 void StructureTest::test_by_flips(int flips) {
   const std::size_t groups = problem_.groups.size();
   group_p_values_.assign(groups, 1.0);
-  const Eigen::MatrixXf signs = flip_signs(statistics_.units(), flips);
+  const std::vector<FlipSigns> signs = flip_signs(static_cast<std::size_t>(statistics_.units()),
+                                                  static_cast<std::size_t>(flips));
   const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
   // The tail falls with the statistic: of groups of one size the largest statistic has it.
   using LargestOfSize = std::map<int, Eigen::VectorXd>;
@@ -234,11 +266,12 @@ void StructureTest::test_by_flips(int flips) {
     for (std::size_t i = first; i < end; ++i)
       for (int k = 0; k < problem_.groups[asked[i]].columns; ++k)
         columns.push_back(problem_.groups[asked[i]].first_column + k);
-    const Eigen::MatrixXf scores = unit_scores_(columns, Eigen::all).cast<float>() * signs;
+    const FlipScores own_scores = unit_scores_(columns, Eigen::all).cast<float>();
+    const FlipScores scores = flipped(own_scores, signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
       const int own_columns = problem_.groups[asked[i]].columns;
-      judge(asked[i], scores.middleRows(row, own_columns), largest_of_piece[piece]);
+      judge(asked[i], scores.middleRows(row, own_columns).leftCols(flips), largest_of_piece[piece]);
       row += own_columns;
     }
   });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
@@ -182,8 +183,8 @@ class TableBuilder {
     const MeasuredLands lands(geometry_, scan, pose, reach);
     std::vector<std::array<double, 3>> points = std::move(scan.points_mm);
     // growing would leave up to as much again unused
-    table.rows.reserve(table.rows.size() + points.size());
-    table.places.reserve(table.places.size() + points.size());
+    reserve_in_large_pages(table.rows, table.rows.size() + points.size());
+    reserve_in_large_pages(table.places, table.places.size() + points.size());
     // Without normals, points at the very ends of the face may lie on the end faces.
     const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
     struct Placed {

@@ -98,8 +98,11 @@ void PartLoop::run() {
 }
 
 void PartLoop::explain() {
-  for (int round = 0; round < 5; ++round) {
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
     select();
+    // Of a scan the sums that are kept for the rest take memory; after the last round they go with the patches.
+    if (!table_->points_mm.empty() || round + 1 == kRounds) finish_choice();
     // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
     // leaves is taken for another effect.
     bool again = put_refined_shapes_on_the_grid();
@@ -107,6 +110,7 @@ void PartLoop::explain() {
     again = linearise() || again;
     if (!again) break;
   }
+  finish_choice();
 }
 
 /// What is smaller than the rounding of 32-bit mesh files is no finding, however regular it is.
@@ -225,6 +229,7 @@ DiscoveryProblem& PartLoop::candidates_problem() {
 }
 
 void PartLoop::select() {
+  choice_.reset();
   DiscoveryProblem& problem = candidates_problem();
   const Eigen::Index of_pose = problem.nuisance.cols();
   if (!options_.given.empty())
@@ -237,9 +242,11 @@ void PartLoop::select() {
   options.first_level =
       options_.given.empty() ? options.first_level / options_.tables : options.next_level;
   options.local_level /= options_.tables;
-  discovery_ = discover(problem, options);
+  choice_.emplace(problem, options);
+  discovery_ = choice_->chosen();
   problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
   if (is_rounding()) {
+    choice_.reset();
     discovery_.chosen.clear();
     discovery_.first_p_value = discovery_.first_common_p_value = discovery_.p_left = 1.0;
   }
@@ -251,6 +258,20 @@ void PartLoop::select() {
   const std::size_t told = options_.given.size() - given_p_values_.size();
   for (std::size_t i = 0; i < given_p_values_.size(); ++i)
     discovery_.chosen[told + i].p_value = given_p_values_[i];
+}
+
+/// What the choice leaves and what it is confounded with, which the rounds before the last are not asked.
+void PartLoop::finish_choice() {
+  if (!choice_) return;
+  const DiscoveryResult told = std::move(*choice_).finished();
+  choice_.reset();
+  discovery_.p_left = told.p_left;
+  discovery_.likest_left = told.likest_left;
+  for (std::size_t i = 0; i < told.chosen.size(); ++i) {
+    ChosenGroup& record = discovery_.chosen[options_.given.size() + i];
+    record.bic_gain = told.chosen[i].bic_gain;
+    record.confounded = told.chosen[i].confounded;
+  }
 }
 
 void PartLoop::leave_out_across_steps() {

@@ -74,6 +74,7 @@ class PartLoop {
   [[nodiscard]] bool is_rounding() const;
   void explain();
   void select();
+  void finish_choice();
   void nominate();
   [[nodiscard]] bool is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const;
   [[nodiscard]] std::optional<Effect> name_like(const RemainderFinding& finding,
@@ -138,6 +139,7 @@ class PartLoop {
   std::vector<bool> banned_, unseen_;
   DiscoveryProblem problem_;         ///< of the candidates on the patches; without groups: not yet
   std::vector<Effect> problem_of_;  ///< candidates as they stand in it
+  std::optional<Discovery> choice_;  ///< of problem_; its rest is not asked yet
   DiscoveryResult
       discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
@@ -78,14 +79,17 @@ void refine_steps(const FlankGeometry& geometry, std::size_t first, TrialFit& fi
     double reach = 0.065 * geometry.face_width_mm();
     for (int round = 0; round < 2; ++round, reach /= 8.0) {
       const EffectShape middle = best[e].shape;
-      double least = 1e300;
+      std::vector<EffectShape> tried;
       for (int i = -8; i <= 8; ++i) {
-        EffectShape shape = middle;
-        shape[0] = limited(geometry, best[e], 0, middle[0] + reach * i / 8.0);
-        const double square = fit.with_shape(e, shape).square;
-        if (square >= least) continue;
-        least = square;
-        best[e].shape = shape;
+        tried.push_back(middle);
+        tried.back()[0] = limited(geometry, best[e], 0, middle[0] + reach * i / 8.0);
+      }
+      double least = 1e300;
+      const std::vector<TrialFit::Trial> trials = fit.with_shapes(e, tried, 0.0);
+      for (std::size_t i = 0; i < tried.size(); ++i) {
+        if (trials[i].square >= least) continue;
+        least = trials[i].square;
+        best[e].shape = tried[i];
       }
     }
     fit.set_shapes(best);
@@ -99,20 +103,22 @@ std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, 
     std::size_t effect, value;
   };
   std::vector<Slot> slots;
-  std::vector<Eigen::VectorXd> derivatives;
   for (std::size_t e = first; e < fit.effects().size(); ++e) {
     const Effect& effect = fit.effects()[e];
     if (!effect.family->shape_is_continuous || is_step(effect)) continue;
-    const Eigen::VectorXd b = fit.coefficients(e);
-    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
-      Effect up = effect, down = effect;
-      const double h = kStep * effect.shape[k];
-      up.shape[k] += h;
-      down.shape[k] -= h;
-      derivatives.push_back((fit.columns_of(up) * b - fit.columns_of(down) * b) / (2.0 * h));
-      slots.push_back({e, k});
-    }
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) slots.push_back({e, k});
   }
+  std::vector<Eigen::VectorXd> derivatives(slots.size());
+  for_each_piece(slots.size(), [&](std::size_t i) {
+    const auto& [e, k] = slots[i];
+    const Effect& effect = fit.effects()[e];
+    const Eigen::VectorXd b = fit.coefficients(e);
+    Effect up = effect, down = effect;
+    const double h = kStep * effect.shape[k];
+    up.shape[k] += h;
+    down.shape[k] -= h;
+    derivatives[i] = (fit.columns_of(up) * b - fit.columns_of(down) * b) / (2.0 * h);
+  });
   Eigen::MatrixXd more(derivatives.empty() ? 0 : derivatives.front().size(),
                        static_cast<Eigen::Index>(derivatives.size()));
   for (std::size_t i = 0; i < derivatives.size(); ++i)
@@ -146,12 +152,14 @@ bool refine_nearby(const FlankGeometry& geometry, const Observations& table, con
     for (int step = 0; step < kMostSteps; ++step) {
       TrialFit::Trial best{now.square - kWorthIt, 0.0};
       EffectShape shape;
-      for (const EffectShape& tried : effects[e].family->nearby(geometry, effects[e].shape)) {
-        const TrialFit::Trial trial = fit.with_shape(e, tried);
-        if (!(trial.square < best.square) || trial.retained < std::min(now.retained, kToldApart))
+      const std::vector<EffectShape> tried = effects[e].family->nearby(geometry, effects[e].shape);
+      const std::vector<TrialFit::Trial> trials = fit.with_shapes(e, tried, best.square);
+      for (std::size_t i = 0; i < tried.size(); ++i) {
+        if (!(trials[i].square < best.square) ||
+            trials[i].retained < std::min(now.retained, kToldApart))
           continue;
-        best = trial;
-        shape = tried;
+        best = trials[i];
+        shape = tried[i];
       }
       if (shape.empty()) break;
       effects[e].shape = shape;

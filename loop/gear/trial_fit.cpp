@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
@@ -21,10 +23,13 @@ double square_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
   return gram(n, n) - 2.0 * b.dot(gram.col(n).head(n)) + b.dot(gram.topLeftCorner(n, n) * b);
 }
 
-TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::Index columns) {
+TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::Index columns,
+                       double below) {
   const Eigen::Index n = gram.rows() - 1;
   const auto solver = decomposed(gram.topLeftCorner(n, n));
-  TrialFit::Trial result{square_of(gram, solver.solve(gram.col(n).head(n))), 1.0};
+  TrialFit::Trial result{square_of(gram, solver.solve(gram.col(n).head(n))), 0.0};
+  if (!(result.square < below)) return result;
+  result.retained = 1.0;
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n).middleCols(first, columns);
   const Eigen::MatrixXd inverse = solver.solve_columns(unit);
   for (Eigen::Index k = 0; k < columns; ++k) {
@@ -73,8 +78,9 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   centre(own);
   columns_.leftCols(nuisance.count()) = own.leftCols(nuisance.count());
   columns_.col(columns) = own.col(nuisance.count());
-  for (std::size_t e = 0; e < effects_.size(); ++e)
+  for_each_piece(effects_.size(), [&](std::size_t e) {
     columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
+  });
   gram_ = columns_.transpose() * columns_;
   solve();
 }
@@ -125,10 +131,21 @@ Eigen::VectorXd TrialFit::coefficients(std::size_t effect) const {
 }
 
 TrialFit::Trial TrialFit::as_is(std::size_t effect) const {
-  return judged(gram_, first_column_[effect], effects_[effect].columns());
+  return judged(gram_, first_column_[effect], effects_[effect].columns(),
+                std::numeric_limits<double>::infinity());
 }
 
-TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shape) const {
+std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
+                                                   const std::vector<EffectShape>& shapes,
+                                                   double below) const {
+  std::vector<Trial> trials(shapes.size());
+  for_each_piece(shapes.size(),
+                 [&](std::size_t i) { trials[i] = with_shape(effect, shapes[i], below); });
+  return trials;
+}
+
+TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shape,
+                                     double below) const {
   Effect moved = effects_[effect];
   moved.shape = shape;
   const Eigen::Index first = first_column_[effect], count = moved.columns();
@@ -140,15 +157,22 @@ TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shap
   // (a copy: a first effect's rows and columns begin at the same place)
   gram.middleRows(first, count) = gram.middleCols(first, count).transpose().eval();
   gram.block(first, first, count, count) = columns.transpose() * columns;
-  return judged(gram, first, count);
+  return judged(gram, first, count, below);
 }
 
 void TrialFit::set_shapes(const std::vector<Effect>& effects) {
+  std::vector<std::size_t> moved;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (effects[e].shape == effects_[e].shape) continue;
     effects_[e].shape = effects[e].shape;
+    moved.push_back(e);
+  }
+  for_each_piece(moved.size(), [&](std::size_t i) {
+    const std::size_t e = moved[i];
+    columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
+  });
+  for (const std::size_t e : moved) {
     const Eigen::Index first = first_column_[e], count = effects_[e].columns();
-    columns_.middleCols(first, count) = columns_of(effects_[e]);
     gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
     gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose().eval();
   }

@@ -27,8 +27,11 @@ class TrialFit {
   [[nodiscard]] Eigen::VectorXd coefficients(std::size_t effect) const;
   /// The fit as it is, judged by one effect.
   [[nodiscard]] Trial as_is(std::size_t effect) const;
-  /// The fit with another shape of one effect (of as many columns).
-  [[nodiscard]] Trial with_shape(std::size_t effect, const EffectShape& shape) const;
+  /// The fit with each of other shapes of one effect (of as many columns), on all processors. What is retained
+  /// is asked of those alone whose square is below `below`; 0 of the others.
+  [[nodiscard]] std::vector<Trial> with_shapes(std::size_t effect,
+                                               const std::vector<EffectShape>& shapes,
+                                               double below) const;
   /// Puts shapes in place of those that effects have.
   void set_shapes(const std::vector<Effect>& effects);
   /// The columns of an effect, weighted, zeros of traces taken out: one row a value that counts.
@@ -43,6 +46,7 @@ class TrialFit {
     double root = 0.0;  ///< of its weight
   };
   void centre(Eigen::MatrixXd& columns) const;
+  [[nodiscard]] Trial with_shape(std::size_t effect, const EffectShape& shape, double below) const;
   void solve();
 
   const FlankGeometry& geometry_;

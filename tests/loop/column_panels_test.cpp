@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <utility>
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/cross_validation.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/quick_errors.h"
 
 namespace trueflank::loop {
 namespace {
@@ -118,6 +122,48 @@ TEST(CrossValidation, OfAGroupMoreIsAFitToTheOtherFolds) {
           << "group " << groups[i] << ", fold " << fold;
 }
 
+/// The model's columns but for those at some places.
+std::vector<int> others(const std::vector<int>& columns, const std::vector<Eigen::Index>& places) {
+  std::vector<int> left;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (std::find(places.begin(), places.end(), static_cast<Eigen::Index>(k)) == places.end())
+      left.push_back(columns[k]);
+  return left;
+}
+
+TEST(QuickErrors, AreThoseOfCrossValidationButForRounding) {
+  const DiscoveryProblem problem = random_problem(5);
+  BlockStatistics statistics(problem);
+  std::vector<int> columns{0, 1, 2, 3, 4};
+  for (const int group : {2, 9, 4}) {  // of three, one and two columns
+    const int first = statistics.add_group(group);
+    for (int k = 0; k < problem.groups[group].columns; ++k) columns.push_back(first + k);
+  }
+  const std::vector<int> groups{0, 1, 5, 14, 39, 30};
+  const QuickErrors quick(problem, statistics, columns, {30, 14, 0, 1, 39, 38, 5});
+  ASSERT_TRUE(quick.are_reliable());
+  using Places = std::vector<Eigen::Index>;
+  for (const Places& places : {Places{8}, Places{5, 6, 7}, Places{8, 9, 10}, Places{0, 3, 5, 10}}) {
+    const QuickErrors::Less less = quick.errors_less(places, groups);
+    const CrossValidation exact(problem, statistics, others(columns, places));
+    EXPECT_LT((less.base - exact.base_errors()).cwiseAbs().maxCoeff(), 0.1 * quick.rounding());
+    const std::vector<FoldErrors> with = exact.errors_with(groups);
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      EXPECT_LT((less.with[i] - with[i]).cwiseAbs().maxCoeff(), 0.1 * quick.rounding())
+          << "group " << groups[i] << " less " << places.size();
+  }
+}
+
+TEST(QuickErrors, AreNotAskedWhereAFoldHardlyTellsColumnsApart) {
+  DiscoveryProblem problem = random_problem(6);
+  for (int i = 0; i < 90; ++i)  // only the third fold says how the first two columns differ
+    if (problem.fold[static_cast<std::size_t>(i)] != 3)
+      problem.nuisance(i, 1) = problem.nuisance(i, 0) * (1.0 + 1e-5 * (i % 2));
+  const BlockStatistics statistics(problem);
+  EXPECT_FALSE(QuickErrors(problem, statistics, {0, 1, 2}, {0, 1}).are_reliable());
+  EXPECT_TRUE(QuickErrors(problem, statistics, {0, 2, 3}, {0, 1}).are_reliable());
+}
+
 /// Fifteen wholes of six values each, cut into so many units; one value of each whole is locked.
 DiscoveryProblem problem_of_wholes(int units_of_a_whole) {
   DiscoveryProblem problem = random_problem(3);
@@ -156,7 +202,8 @@ struct SeenByHand {
     }
   }
   [[nodiscard]] std::vector<double> agreement() const {
-    const std::vector<int> columns{0, 1, 2, 3, 4};
+    std::vector<int> columns(static_cast<std::size_t>(problem.nuisance.cols()));
+    std::iota(columns.begin(), columns.end(), 0);
     return agreement_of_wholes(problem, statistics, {columns, absorbed, fitted, unit_scores},
                                projected, std::vector<bool>(problem.groups.size(), true));
   }
@@ -238,7 +285,9 @@ TEST(Agreement, OfGroupsOfColumnsCountsTheDirectionsThatAWholeHolds) {
 }
 
 TEST(Agreement, IsAskedOfFourToTwentyFourWholes) {
-  for (const int wholes : {3, 4, 24, 25, 96, 97}) {
+  // (with many fitted columns some values of a whole tell first)
+  for (const auto& [wholes, fitted] :
+       {std::pair{3, 5}, {4, 5}, {24, 5}, {25, 5}, {96, 5}, {97, 5}, {96, 12}, {40, 14}}) {
     DiscoveryProblem problem = random_problem(5);
     if (wholes > 30) {  // one value of each, and another of some
       const Eigen::Index n = 2 * wholes;
@@ -247,7 +296,7 @@ TEST(Agreement, IsAskedOfFourToTwentyFourWholes) {
       const auto any = [&] { return normal(random); };
       problem.value = Eigen::VectorXd::NullaryExpr(n, any);
       problem.weight = Eigen::VectorXd::Ones(n);
-      problem.nuisance = Eigen::MatrixXd::NullaryExpr(n, 5, any);
+      problem.nuisance = Eigen::MatrixXd::NullaryExpr(n, fitted, any);
       problem.candidates = Eigen::MatrixXf::NullaryExpr(n, problem.candidates.cols(),
                                                         [&] { return static_cast<float>(any()); });
       // groups 0 and 3 live in the first 24 and 25 wholes
@@ -256,7 +305,7 @@ TEST(Agreement, IsAskedOfFourToTwentyFourWholes) {
         problem.candidates(i, 6) *= i % wholes < 25 ? 1.0f : 0.0f;
       }
       problem.nuisance.setZero();
-      problem.nuisance.leftCols(5).topRows(5).setIdentity();
+      problem.nuisance.topRows(fitted).setIdentity();
     }
     const auto n = static_cast<std::size_t>(problem.value.size());
     problem.unit.assign(n, 0);

@@ -57,7 +57,7 @@ TEST_F(TrialFits, SquaresAndCoefficientsAreThoseOfTheWholeFit) {
     }
   std::vector<Effect> other = effects;
   other[1].shape[1] = 3.1;
-  EXPECT_NEAR(trial.with_shape(1, other[1].shape).square / square(other), 1.0, 1e-9);
+  EXPECT_NEAR(trial.with_shapes(1, {other[1].shape}, 0.0).front().square / square(other), 1.0, 1e-9);
   trial.set_shapes(other);
   EXPECT_NEAR(trial.residual_square() / square(other), 1.0, 1e-9);
 }

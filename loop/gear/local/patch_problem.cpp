@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/local/patches.h"
 
@@ -175,6 +176,9 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
       problem.groups.empty() ? 0
                              : problem.groups.back().first_column + problem.groups.back().columns;
   problem.candidates.conservativeResize(n, columns);
+  if (before.empty())
+    ask_for_large_pages(problem.candidates.data(),
+                        static_cast<std::size_t>(problem.candidates.size()) * sizeof(float));
   std::vector<std::size_t> changed;
   for (std::size_t g = 0; g < effects.size(); ++g)
     if (g >= before.size() || g >= stood.size() || !(before[g] == effects[g]) ||
