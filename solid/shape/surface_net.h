@@ -19,7 +19,9 @@ namespace trueflank {
 /// patches are laid while it lasts. Source: docs/theory/helical-facets.md.
 class ToothingGrid::SurfaceNet {
  public:
-  SurfaceNet(ToothingGrid& grid, double tolerance_mm);
+  /// How the fillets and flanks of edge chamfers are laid.
+  enum class Chamfers { kStrips, kPosts };
+  SurfaceNet(ToothingGrid& grid, double tolerance_mm, Chamfers chamfers = Chamfers::kStrips);
   /// False where the tolerance is not kept.
   bool lay();
 
@@ -145,6 +147,7 @@ class ToothingGrid::SurfaceNet {
 
   ToothingGrid& g_;
   double tolerance_;
+  Chamfers chamfers_;
   std::vector<int> teeth_;  ///< looked at
   Toothing unmoved_;        ///< without its displacement
   std::size_t pieces_ = 0;

@@ -168,7 +168,7 @@ ColumnDemand ToothingGrid::SurfaceNet::chords(const Panel& panel, std::size_t ro
 /// The lower or upper end of the grid, if that is an edge chamfer's.
 bool ToothingGrid::SurfaceNet::is_chamfer(std::size_t patch) const {
   const std::size_t last = patch_count() - 1;
-  if (last == 0 || (patch != 0 && patch != last)) return false;
+  if (chamfers_ == Chamfers::kPosts || last == 0 || (patch != 0 && patch != last)) return false;
   const double z = height_of(patch, 0.5),
                from_end = std::min(z, g_.toothing_.twist.face_width_mm - z);
   return from_end < g_.toothing_.edge_chamfer_mm;

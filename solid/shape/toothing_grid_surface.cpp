@@ -44,9 +44,10 @@ void spread_to_neighbours(Aims& errors) {
 
 }  // namespace
 
-ToothingGrid::SurfaceNet::SurfaceNet(ToothingGrid& grid, double tolerance_mm)
+ToothingGrid::SurfaceNet::SurfaceNet(ToothingGrid& grid, double tolerance_mm, Chamfers chamfers)
     : g_(grid),
       tolerance_(tolerance_mm),
+      chamfers_(chamfers),
       teeth_(grid.some_teeth()),
       unmoved_(grid.toothing_),
       pieces_(grid.toothing_.profile->pieces().size()) {
@@ -432,7 +433,13 @@ bool ToothingGrid::try_surface_net(double tolerance_mm) {
   add_bend_breaks(tolerance_mm);
   if (breaks_mm_.size() > kMostBreaks) return false;
   const double section_error_mm = section_error_mm_;
-  if (!SurfaceNet(*this, tolerance_mm).lay()) {
+  const std::vector<HalfEdge> chords = edges_;
+  bool laid = SurfaceNet(*this, tolerance_mm).lay();
+  if (!laid && toothing_.edge_chamfer_mm > 0.0) {
+    edges_ = chords;
+    laid = SurfaceNet(*this, tolerance_mm, SurfaceNet::Chamfers::kPosts).lay();
+  }
+  if (!laid) {
     patches_.clear();
     return false;
   }
