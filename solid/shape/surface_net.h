@@ -22,8 +22,8 @@ class ToothingGrid::SurfaceNet {
   /// How the fillets and flanks of edge chamfers are laid.
   enum class Chamfers { kStrips, kPosts };
   SurfaceNet(ToothingGrid& grid, double tolerance_mm, Chamfers chamfers = Chamfers::kStrips);
-  /// False where the tolerance is not kept.
-  bool lay();
+  /// False where the tolerance is not kept by so many facets a tooth.
+  bool lay(double most_facets);
 
  private:
   using Space3 = Eigen::Vector3d;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
@@ -84,11 +85,21 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   if (plain_)
     lay_plain(aim);
   else if (kind == GridKind::kRows || levels_mm_.size() < 2 || toothing_.bed != nullptr ||
-           !try_surface_net(aim)) {
+           !try_surface_net(aim, most_net_facets(tolerance_mm))) {
     edges_.clear();
     lay_modified(tolerance_mm, aim);
   }
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
+}
+
+/// What a net may have a tooth. Where teeth differ it is measured on all of them, so it is to have fewer than
+/// rows and columns, if these keep the tolerance.
+double ToothingGrid::most_net_facets(double tolerance_mm) const {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (teeth_alike_) return kAny;
+  const ToothingGrid rows(outline_, levels_mm_, tolerance_mm, GridKind::kRows);
+  if (rows.chord_error_mm() > tolerance_mm) return kAny;
+  return 2.0 * static_cast<double>(rows.heights_mm_.size() - 1) * rows.points_per_tooth();
 }
 
 void ToothingGrid::lay_plain(double aim_mm) {
@@ -302,18 +313,23 @@ double ToothingGrid::layer_error_mm(double lower_mm, double upper_mm, int sample
 void ToothingGrid::refine_layers(double tolerance_mm, int most_parts) {
   if (layers_alike_) return;
   const double tall = 0.1 * toothing_.twist.face_width_mm;
+  std::vector<bool> stays(heights_mm_.size(), false);  // the layer above each height: looked at before
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> heights{heights_mm_.front()};
+    std::vector<bool> stay;
     for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
       const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
-      const double error = layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
+      const double error =
+          stays[j] ? 0.0 : layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
       const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
       const int parts = split ? parts_for(error, tolerance_mm, most_parts) : 1;
       for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
       heights.push_back(upper);
+      stay.insert(stay.end(), static_cast<std::size_t>(parts), parts == 1);
     }
     const bool done = heights.size() == heights_mm_.size();
     heights_mm_ = std::move(heights);
+    stays = std::move(stay);
     if (done) return;
   }
 }

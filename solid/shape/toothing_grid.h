@@ -107,7 +107,8 @@ class ToothingGrid {
   class SurfaceNet;
   void add_bend_breaks(double tolerance_mm);
   /// A net of modified teeth. False where the tolerance is not kept.
-  bool try_surface_net(double tolerance_mm);
+  bool try_surface_net(double tolerance_mm, double most_facets);
+  [[nodiscard]] double most_net_facets(double tolerance_mm) const;
   /// Finer aims where facets were off by more; false where none was.
   static bool tighten(Aims& aims_mm, const Aims& error_mm, double tolerance_mm);
   /// Where rows and columns share the tolerance, as it takes the fewest facets.

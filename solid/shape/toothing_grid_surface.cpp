@@ -14,6 +14,8 @@ namespace {
 
 /// Rounds of finer columns and steps where facets do not keep the tolerance.
 constexpr int kSurfaceRounds = 24;
+/// The same where teeth differ: what took more of them did not get there, or took longer than rows and columns.
+constexpr int kRoundsOfTeethThatDiffer = 16;
 /// More facets than so many times the first round's: something bends that columns do not mend.
 constexpr double kWorthWhile = 4.0;
 /// From this round on the neighbours of what is too coarse are laid finer, too.
@@ -57,12 +59,13 @@ ToothingGrid::SurfaceNet::SurfaceNet(ToothingGrid& grid, double tolerance_mm, Ch
   find_panels();
 }
 
-bool ToothingGrid::SurfaceNet::lay() {
+bool ToothingGrid::SurfaceNet::lay(double most_facets) {
   double first_facets = 0.0;
   std::vector<int> measured = teeth_,
                    all(static_cast<std::size_t>(g_.teeth_alike_ ? 1 : g_.teeth_));
   std::iota(all.begin(), all.end(), 0);
-  for (int round = 0; round < kSurfaceRounds; ++round) {
+  const int rounds = g_.teeth_alike_ ? kSurfaceRounds : kRoundsOfTeethThatDiffer;
+  for (int round = 0; round < rounds; ++round) {
     spread();
     net_ = g_.net_edges();
     Aims errors(aims_.size(), std::array<double, kSamples>{});
@@ -79,6 +82,7 @@ bool ToothingGrid::SurfaceNet::lay() {
       for (const int tooth : measured) measure(g_.patches_.back(), tooth, errors);
       facets += static_cast<double>(g_.patches_.back().facets.size());
     }
+    if (facets > most_facets) return false;
     if (round >= kAlone) spread_to_neighbours(errors);
     if (!tighten(aims_, errors, tolerance_)) {
       if (measured.size() == all.size()) return true;
@@ -426,7 +430,7 @@ void ToothingGrid::add_bend_breaks(double tolerance_mm) {
   breaks_mm_ = breaks;
 }
 
-bool ToothingGrid::try_surface_net(double tolerance_mm) {
+bool ToothingGrid::try_surface_net(double tolerance_mm, double most_facets) {
   edges_.clear();
   start_columns(tolerance_mm);
   start_layers(tolerance_mm);
@@ -434,10 +438,10 @@ bool ToothingGrid::try_surface_net(double tolerance_mm) {
   if (breaks_mm_.size() > kMostBreaks) return false;
   const double section_error_mm = section_error_mm_;
   const std::vector<HalfEdge> chords = edges_;
-  bool laid = SurfaceNet(*this, tolerance_mm).lay();
+  bool laid = SurfaceNet(*this, tolerance_mm).lay(most_facets);
   if (!laid && toothing_.edge_chamfer_mm > 0.0) {
     edges_ = chords;
-    laid = SurfaceNet(*this, tolerance_mm, SurfaceNet::Chamfers::kPosts).lay();
+    laid = SurfaceNet(*this, tolerance_mm, SurfaceNet::Chamfers::kPosts).lay(most_facets);
   }
   if (!laid) {
     patches_.clear();
