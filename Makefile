@@ -8,7 +8,7 @@ DEPENDENCIES ?= scripts/install-dependencies
 DEMO := build/demo/bilateral_drive
 PRINTED := build/demo/printed_actuator
 
-.PHONY: all demo test bench asan fuzz campaign clean
+.PHONY: all demo test bench asan tsan fuzz campaign clean
 
 # Dependencies and the program, build/trueflank.
 all:
@@ -41,6 +41,14 @@ asan:
 	@cmake --preset asan
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan
+	@scripts/under_sanitizers build/asan/trueflank build/asan/runs --jobs $(JOBS)
+
+# The program alone: what it does on several threads.
+tsan:
+	@$(DEPENDENCIES) build
+	@cmake --preset tsan -DTRUEFLANK_BUILD_TESTS=OFF
+	@cmake --build --preset tsan -j $(JOBS)
+	@scripts/under_sanitizers build/tsan/trueflank build/tsan/runs --only threads
 
 # Every random trial: with the day's seed, which shows whether the tests' limits hold elsewhere and decides nothing, and
 # the surveys of which `make test` makes the first trials, whole.
@@ -55,9 +63,9 @@ campaign:
 MINUTES ?= 10
 fuzz:
 	@$(DEPENDENCIES) build
-	@cmake --preset fuzz
-	@cmake --build --preset fuzz -j $(JOBS)
-	@scripts/fuzz build/fuzzing $(MINUTES)
+	@cmake --preset clang-asan -DTRUEFLANK_BUILD_TESTS=OFF
+	@cmake --build --preset clang-asan -j $(JOBS) --target fuzzers
+	@scripts/fuzz build/clang-asan $(MINUTES)
 
 clean:
 	rm -rf build

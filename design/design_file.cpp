@@ -514,6 +514,7 @@ class DesignReader {
                       std::vector<std::string> known, const std::vector<std::string>& also_known) {
     if (reading_.full()) return reading_.unknown(dotted, "", "");
     known.insert(known.end(), also_known.begin(), also_known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());  // a key that differs between gears and rings
     const std::string place = place_of(name), near = nearest_name(name, known);
     if (!place.empty())
       reading_.unknown(dotted, "unknown key here; it belongs to " + place, "");

@@ -43,11 +43,11 @@ void convert(TomlTable& table, const std::string& prefix, std::vector<InchKey>& 
     }
     const std::string metric = metric_name(entry.key);
     const auto number = number_of(entry.value);
-    if (metric.empty() || !number) continue;
+    if (metric.empty()) continue;
     const bool twice = table.find(metric) != nullptr;
     renamed.push_back({prefix + entry.key, prefix + metric, quoted_toml(entry.value), entry.line, twice});
     if (twice) continue;
-    entry.value = entry.key == kPitch ? kInch_mm / *number : as_decimal(kInch_mm * *number);
+    if (number) entry.value = entry.key == kPitch ? kInch_mm / *number : as_decimal(kInch_mm * *number);
     entry.key = metric;
   }
   // what is given twice is reported to the user, and taken once

@@ -17,8 +17,8 @@ struct InchKey {
   bool twice = false;   ///< the metric key is there too; that one is kept
 };
 
-/// Puts millimetres for inches: NAME_in, a number, becomes NAME_mm = 25.4 times it, diametral_pitch becomes
-/// module_mm = 25.4 over it. Returns what was renamed; what is no number stays as it is.
+/// Puts millimetres for inches: NAME_in becomes NAME_mm = 25.4 times it, diametral_pitch becomes
+/// module_mm = 25.4 over it; what is no number keeps its value. Returns what was renamed.
 [[nodiscard]] std::vector<InchKey> to_metric(TomlTable& root);
 
 }  // namespace trueflank

@@ -44,7 +44,8 @@ void Reading::report(Error error) {
     if (error.value.empty()) error.value = it->second.value;
   }
   if (const auto inches = inches_.find(error.key); inches != inches_.end()) {
-    error.message += error.message.empty() ? "" : ", taken as " + error.value + " of " + error.key;
+    const bool converted = error.value != inches->second.value;
+    error.message += error.message.empty() || !converted ? "" : ", taken as " + error.value + " of " + error.key;
     error.key = inches->second.written;
     error.value = inches->second.value;
   }

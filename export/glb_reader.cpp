@@ -119,27 +119,40 @@ class Reader {
     return value;
   }
 
-  void add_primitive(const Json& primitive, TriangleMesh& mesh) {
+  struct Primitive {
+    View positions, indices;
+    bool indexed = false;
+    std::size_t count = 0;  ///< of corners
+  };
+
+  /// What a primitive has, taken from the budget: nothing of a mesh is read before all of it is.
+  Primitive taken(const Json& primitive) {
     demand(reading_.take_piece());
     if (index_or(primitive, "mode", kTriangles) != kTriangles)
       unsupported("only lists of triangles are read from a GLB file");
-    const View positions = view_of(index_of(primitive.at("attributes"), "POSITION"), "VEC3", 3);
-    if (positions.component != kFloat) unsupported("GLB positions that are not float");
+    Primitive result;
+    result.positions = view_of(index_of(primitive.at("attributes"), "POSITION"), "VEC3", 3);
+    if (result.positions.component != kFloat) unsupported("GLB positions that are not float");
+    result.indexed = primitive.contains("indices");
+    if (result.indexed) result.indices = view_of(index_of(primitive, "indices"), "SCALAR", 1);
+    result.count = result.indexed ? result.indices.count : result.positions.count;
+    demand(reading_.take_facets(result.count / 3, result.positions.count));
+    return result;
+  }
+
+  static void add(const Primitive& primitive, TriangleMesh& mesh) {
+    const View& positions = primitive.positions;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    View indices;
-    const bool indexed = primitive.contains("indices");
-    if (indexed) indices = view_of(index_of(primitive, "indices"), "SCALAR", 1);
-    const std::size_t count = indexed ? indices.count : positions.count;
-    demand(reading_.take_facets(count / 3, positions.count));
     for (std::size_t i = 0; i < positions.count; ++i) {
       float p[3];
       std::memcpy(p, positions.data + i * positions.stride, sizeof p);
       mesh.vertices.push_back({p[0], p[1], p[2]});
     }
     const auto corner = [&](std::size_t i) {
-      return first + (indexed ? index_at(indices, i) : static_cast<std::uint32_t>(i));
+      return first +
+             (primitive.indexed ? index_at(primitive.indices, i) : static_cast<std::uint32_t>(i));
     };
-    for (std::size_t i = 0; i + 2 < count; i += 3)
+    for (std::size_t i = 0; i + 2 < primitive.count; i += 3)
       mesh.triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
   }
 
@@ -166,7 +179,9 @@ class Reader {
     if (node.contains("mesh")) {
       const Json& shape = document_.at("meshes").at(index_of(node, "mesh"));
       MeshBody body{node.value("name", shape.value("name", std::string())), {}};
-      for (const Json& primitive : shape.at("primitives")) add_primitive(primitive, body.mesh);
+      std::vector<Primitive> primitives;
+      for (const Json& primitive : shape.at("primitives")) primitives.push_back(taken(primitive));
+      for (const Primitive& primitive : primitives) add(primitive, body.mesh);
       for (auto& v : body.mesh.vertices) {
         const Eigen::Vector4d p = global * Eigen::Vector4d(v[0], v[1], v[2], 1.0);
         v = {p[0], p[1], p[2]};

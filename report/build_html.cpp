@@ -6,6 +6,7 @@
 
 #include "trueflank/check/quantity_text.h"
 #include "trueflank/export/xml_text.h"
+#include "trueflank/report/page_texts.h"
 #include "trueflank/report/render/gearbox_pictures.h"
 #include "trueflank/report/render/png.h"
 
@@ -13,39 +14,6 @@ namespace trueflank::io {
 namespace {
 
 constexpr int kStepWidth_px = 480, kStepHeight_px = 336, kHeroWidth_px = 800, kHeroHeight_px = 570;
-
-constexpr const char* kStyle = R"(
-*{box-sizing:border-box}
-body{font:16px/1.5 system-ui,"Segoe UI",Roboto,Helvetica,Arial,sans-serif;color:#1c2430;background:#eef0f3;margin:0}
-main{max-width:1060px;margin:0 auto;padding:24px}
-h1{font-size:30px;line-height:1.2;margin:8px 0 4px}
-h2{font-size:21px;margin:36px 0 12px;padding-bottom:6px;border-bottom:2px solid #cfd5dd}
-h3{font-size:17px;line-height:1.35;margin:0 0 8px}
-.lead{color:#525d6b;margin:0 0 16px}
-.card,.step{background:#fff;border:1px solid #dde2e8;border-radius:10px;padding:18px;margin:0 0 14px}
-.step{display:grid;grid-template-columns:minmax(0,1.25fr) minmax(0,1fr);gap:20px}
-.step img,.hero{width:100%;height:auto;border-radius:6px;display:block}
-.number{display:inline-block;min-width:28px;padding:0 8px;margin-right:8px;border-radius:14px;background:#2f6ea5;color:#fff;text-align:center;font-size:15px}
-.turn{background:#fff4d6;border-radius:6px;padding:4px 10px;margin:0 0 8px}
-ul{margin:0 0 10px;padding-left:20px}
-p{margin:0 0 10px}
-.label{font-size:13px;font-weight:600;letter-spacing:.04em;text-transform:uppercase;color:#5d6876;margin:0}
-table{border-collapse:collapse;width:100%;font-size:15px}
-th,td{text-align:left;padding:5px 8px;border-bottom:1px solid #e5e8ec;vertical-align:top}
-td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}
-.tables{display:grid;grid-template-columns:repeat(auto-fit,minmax(320px,1fr));gap:14px;align-items:start}
-footer{color:#5d6876;font-size:14px;margin:24px 0}
-@media (max-width:720px){main{padding:12px}.step{grid-template-columns:1fr}}
-@media print{
-@page{margin:14mm}
-body{background:#fff;font-size:11pt}
-main{max-width:none;padding:0}
-.step,.card{break-inside:avoid;page-break-inside:avoid;border-color:#bbb}
-h2,h3{break-after:avoid;page-break-after:avoid}
-tr{break-inside:avoid}
-.number,.turn{-webkit-print-color-adjust:exact;print-color-adjust:exact}
-}
-)";
 
 std::string base64(const std::string& bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -113,7 +81,7 @@ class Page {
         "The same list for ordering: bom.csv.</footer>\n";
     return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
-           xml_escaped(title) + "</title>\n<style>" + kStyle + "</style></head>\n<body><main>\n" +
+           xml_escaped(title) + "</title>\n<style>\n" + std::string(page_texts::kBuildStyle) + "</style></head>\n<body><main>\n" +
            body + "</main></body></html>\n";
   }
 

@@ -6,101 +6,10 @@
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/export/xml_text.h"
+#include "trueflank/report/page_texts.h"
 
 namespace trueflank::loop {
 namespace {
-
-/// The house's colours and type, as in report.html.
-constexpr const char* kStyle = R"(
-:root{--paper:#f6f7f9;--card:#fff;--ink:#16202c;--soft:#5a6675;--line:#dde2e8;--accent:#0b5cad;--accent-soft:#e3eefa;
---pass:#1b7f4b;--pass-soft:#e2f4ea;--warn:#96600a;--warn-soft:#fdf1d8;--none:#6b7683;--none-soft:#eceff2;color-scheme:light dark;
---shadow:0 1px 2px rgb(15 25 40/7%),0 4px 16px rgb(15 25 40/5%)}
-@media(prefers-color-scheme:dark){:root{--paper:#10151b;--card:#181f27;--ink:#e6ebf1;--soft:#9aa7b5;--line:#2b3540;--accent:#79b4f0;
---accent-soft:#1a2c40;--pass:#68c993;--pass-soft:#16301f;--warn:#e8b45a;--warn-soft:#33270f;--none:#97a3b0;--none-soft:#242d36;--shadow:none}}
-*{box-sizing:border-box}
-body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
-main{max-width:92rem;margin:0 auto;padding:0 1.25rem 3rem}
-.brand{margin:0;padding:.55rem 0;font-weight:700;color:var(--accent)}
-h1{margin:1.2rem 0 .6rem;font-size:clamp(1.6rem,4.5vw,2.4rem);line-height:1.15;letter-spacing:-.015em;overflow-wrap:anywhere}
-h2{margin:2.5rem 0 .75rem;font-size:1.4rem;letter-spacing:-.01em}h3{margin:0;font-size:1.15rem}
-.verdict{display:inline-block;margin:0;padding:.45rem .9rem;border-radius:10px;font-weight:600}
-.explained{color:var(--pass);background:var(--pass-soft)}.partly_explained{color:var(--warn);background:var(--warn-soft)}
-.no_effect{color:var(--none);background:var(--none-soft)}
-.alarm{margin:1rem 0 0;padding:.9rem 1.2rem;border:3px solid #b3261e;border-radius:12px;background:#b3261e;color:#fff;font-size:1.05rem}
-.alarm b{font-size:1.2rem}.alarm ul{margin:.4rem 0 0;padding-left:1.2rem}
-.say{font-size:1.12rem;font-weight:600}.sure{color:var(--soft)}
-.tip{position:fixed;z-index:9;pointer-events:none;padding:.25rem .55rem;border-radius:6px;background:var(--ink);color:var(--paper);font-size:.9rem;font-variant-numeric:tabular-nums}
-.cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,1fr));gap:.8rem;margin:1.25rem 0 0}
-.cards>div,.card,figure{background:var(--card);border:1px solid var(--line);border-radius:12px;box-shadow:var(--shadow)}
-.cards>div{padding:.8rem 1rem}.cards dt{color:var(--soft);font-size:.85rem}
-.cards dd{margin:.1rem 0 0;line-height:1.2;font-size:1.5rem;font-weight:650;letter-spacing:-.02em;font-variant-numeric:tabular-nums}
-.cards small{font-size:.85rem;font-weight:500;color:var(--soft);margin-left:.3em;letter-spacing:0}
-.card{padding:1rem 1.2rem;margin:0 0 .9rem}.card p{margin:.4rem 0}.id{color:var(--soft);font-weight:500;font-size:.9rem;margin-left:.5em}
-.share{height:.5rem;margin-bottom:.6rem;border-radius:9px;background:var(--none-soft);overflow:hidden;max-width:24rem}.share i{display:block;height:100%;background:var(--accent)}
-.note{color:var(--soft);font-size:.92rem;max-width:50rem}
-.two{display:grid;grid-template-columns:1fr 1fr;gap:.8rem}figure{margin:0;padding:.7rem .8rem}figcaption{font-size:.9rem;color:var(--soft)}
-figcaption b{color:var(--ink)}svg{display:block;width:100%;height:auto}svg text{fill:var(--soft);font-size:12px}
-.grid{stroke:var(--line);fill:none}.zero{stroke:var(--soft);fill:none;stroke-width:.7;opacity:.6}
-.f{fill:var(--none);opacity:.55}.a{fill:var(--accent)}.z{stroke:var(--line);fill:none}
-.four{display:grid;grid-template-columns:repeat(auto-fit,minmax(max(19rem,23%),1fr));gap:.8rem}.four svg text{font-size:11px}
-.effects{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(25rem,100%),1fr));gap:.9rem}.effects .card{margin:0}.effects td:not(:last-child){white-space:nowrap}
-.points text{font-size:13px}.points .w{fill:#c77700;opacity:.5}.points .a{opacity:.75}.am,.wm{fill:none;stroke:var(--accent);stroke-width:2.4;stroke-linejoin:round}
-.wm{stroke:#c77700;stroke-dasharray:6 4}.key span{display:inline-block;margin-right:.5rem;font-weight:600}
-.key span::before{content:"";display:inline-block;width:.75em;height:.75em;border-radius:50%;margin-right:.4em;background:var(--accent)}.key .w::before{background:#c77700}
-.t{stroke:var(--accent);fill:none;stroke-width:1.1}.b{fill:var(--accent)}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.95rem}td,th{padding:.3rem .8rem .3rem 0;text-align:left}
-th{color:var(--soft);font-weight:600}td+td,th+th{text-align:right}.words :is(td,th){text-align:left;vertical-align:top}.scroll{overflow-x:auto}
-pre{white-space:pre-wrap;font-size:.85rem;background:var(--card);border:1px solid var(--line);border-radius:12px;padding:1rem}
-summary{cursor:pointer;color:var(--accent)}
-@media(max-width:46rem){main{padding:0 .8rem 2rem}.two,.four{grid-template-columns:1fr}svg text{font-size:15px}.points text{font-size:21px}.four svg text{font-size:11px}}
-@media print{@page{margin:14mm}body{background:#fff;font-size:10pt}main{padding:0}h2,h2+p{break-after:avoid}h2{margin-top:1.2rem}
-.cards{grid-template-columns:repeat(6,1fr)}.cards>div{padding:.4rem .6rem}.cards dd{font-size:1.1rem}.say{font-size:1rem}.effects td{white-space:normal}
-figure,.card,.cards,.four,tr{break-inside:avoid;box-shadow:none}.two,.four,.effects{grid-template-columns:1fr 1fr}details{display:none}h2:has(+details){display:none}
-.scroll{overflow:visible}svg{print-color-adjust:exact;-webkit-print-color-adjust:exact}.share{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
-)";
-
-/// The value under the pointer, of every chart that carries its values (data-chart).
-constexpr const char* kPointerScript = R"(<script>
-(() => {
-  const tip = document.createElement('div');
-  tip.className = 'tip';
-  tip.hidden = true;
-  document.body.append(tip);
-  const part = (t, n) => Math.min(n - 1, Math.max(0, Math.floor(t * n)));
-  const signed = v => (v > 0 ? '+' : '') + v;
-  const text = (c, x, y) => {
-    if (c.kind === 'points') {
-      let best = 14, said = '';
-      for (const [px, py, words] of c.rows) {
-        const d = Math.hypot(px - x, py - y);
-        if (d < best) { best = d; said = words; }
-      }
-      return said;
-    }
-    const u = (x - c.x) / c.w, v = 1 - (y - c.y) / c.h;
-    if (u < 0 || u > 1 || v < 0 || v > 1) return '';
-    const grid = c.kind === 'grid';
-    const k = part(grid ? v : u, c.rows.length), row = c.rows[k], i = part(grid ? u : v, row.length);
-    if (row[i] === null) return '';
-    const along = Math.round(100 * (i + 0.5) / row.length);
-    if (grid) return `${Math.round(100 * (k + 0.5) / c.rows.length)} % root to tip, ${along} % bottom to top: ${signed(row[i])} ${c.unit}`;
-    return `${c.row} ${c.numbers[k] ?? k + 1}${c.along ? `, ${along} % ${c.along}` : ''}: ${signed(row[i])} ${c.unit}`;
-  };
-  for (const svg of document.querySelectorAll('svg[data-chart]')) {
-    let chart;
-    svg.addEventListener('pointermove', e => {
-      chart ??= JSON.parse(svg.dataset.chart);
-      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
-      const said = text(chart, p.x, p.y);
-      tip.hidden = !said;
-      tip.textContent = said;
-      tip.style.left = Math.min(e.clientX + 14, innerWidth - tip.offsetWidth - 8) + 'px';
-      tip.style.top = e.clientY + 14 + 'px';
-    });
-    svg.addEventListener('pointerleave', () => { tip.hidden = true; });
-  }
-})();
-</script>)";
 
 std::string escaped(const std::string& text) { return io::xml_escaped(text); }
 
@@ -251,7 +160,7 @@ std::string loop_page_opening(const LoopResult& r, const std::string& heading,
   std::string page =
       "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width, initial-scale=1'><title>" +
-      escaped(r.gear) + " – Trueflank loop</title><style>" + kStyle +
+      escaped(r.gear) + " – Trueflank loop</title><style>\n" + std::string(page_texts::kLoopStyle) +
       "</style></head><body><main><p class='brand'>Trueflank</p><h1>" + escaped(heading) +
       "</h1><p class='verdict " + to_text(r.verdict) + "'>" + verdict_text(r.verdict) + "</p>" + alarm(r, not_adding_up) + figure_cards(r);
   page += r.effects.empty() ? "" : std::string("<h2>") + (r.effects.size() == 1 ? "The effect" : "The effects") + "</h2>";
@@ -264,7 +173,7 @@ std::string loop_page_opening(const LoopResult& r, const std::string& heading,
 std::string loop_page_end(const LoopResult& r) {
   return "<h2>The same as text</h2><details><summary>what the program printed</summary><pre>" + escaped(loop_text(r)) +
          "</pre></details><script type='application/json' id='loop-data'>" + script_text(loop_json(r)) +
-         "</script>" + kPointerScript + "</main></body></html>\n";
+         "</script><script>\n" + std::string(page_texts::kLoopPointer) + "</script></main></body></html>\n";
 }
 
 }  // namespace trueflank::loop

@@ -6,6 +6,7 @@
 // The texts of templates/openscad, embedded at build time (cmake/embed_texts.cmake).
 namespace trueflank::io::scad_template {
 
+extern const std::string_view kLibrary;  ///< functions and modules that each part's file carries
 extern const std::string_view kHousing, kCarrier, kMotorAdapter, kOutputFlange, kTestJig, kFitCoupon;
 
 }  // namespace trueflank::io::scad_template

@@ -8,6 +8,7 @@
 #include "trueflank/export/atomic_file.h"
 #include "trueflank/export/file_formats.h"
 #include "trueflank/export/scad/scad_flanks.h"
+#include "trueflank/export/scad/scad_template_texts.h"
 #include "trueflank/export/scad/scad_text.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
@@ -72,7 +73,8 @@ class PartText {
             : is_twisted_ring() ? ring_text()
             : slabs_.size() == 1 ? prism_text(0, "0")
                                  : union_text();
-    text += scad_library();
+    text += "\n";
+    text += scad_template::kLibrary;
     return text;
   }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "trueflank/base/result.h"
 #include "trueflank/solid/shape/part_shape.h"
@@ -26,8 +25,5 @@ namespace trueflank::io {
 /// (parameter `turn`, and OpenSCAD's animation), exploded on demand. Errors: as AtomicFile's.
 [[nodiscard]] Status write_scad_assembly(const std::filesystem::path& path, const GearTrain& train,
                                          const PartShapes& shapes);
-
-/// Functions and modules that the files of the parts share; each file carries them.
-[[nodiscard]] std::string_view scad_library();
 
 }  // namespace trueflank::io

@@ -303,14 +303,14 @@ void StructureTest::test_by_flips(int flips) {
 void StructureTest::test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned) {
   const std::vector<double> single = agreement_of_wholes(
       problem_, statistics_, {columns, absorbed_, fitted_, unit_scores_}, projected_, observable_);
-  if (single.empty()) return;
   double tested = 0.0;
+  for (std::size_t g = 0; g < single.size(); ++g)
+    if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
+  if (tested == 0.0) return;
   // Two tests are made of one question: each has half of the level.
   constexpr double kTests = 2.0;
   p_value_ = std::min(1.0, kTests * p_value_);
   for (double& p : group_p_values_) p = std::min(1.0, kTests * p);
-  for (std::size_t g = 0; g < single.size(); ++g)
-    if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
   for (std::size_t g = 0; g < single.size(); ++g) {
     if (!(single[g] < 1.0) || (!banned.empty() && banned[g])) continue;
     const double p = kTests * tested * single[g];

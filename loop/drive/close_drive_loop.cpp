@@ -67,8 +67,7 @@ class DriveReport {
     r.effects = describe_drive_effects({here, all, training, selection_.value_nm(), remainder,
                                         outcome.discovery.chosen, selection_.candidates(),
                                         selection_.exchangeable()});
-    if (selection_.table().impossible != Impossible::kEfficiencyAboveOne)
-      hold_exchanged_effects(selection_, effects, r.effects);
+    hold_exchanged_effects(selection_, effects, r.effects);
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
     judge(outcome, remainder, r);
@@ -184,10 +183,14 @@ class DriveReport {
     if (selection_.table().impossible == Impossible::kNothing) return;
     if (selection_.table().impossible == Impossible::kEfficiencyAboveOne) {
       r.verdict = Verdict::kPartlyExplained;
-      r.structure_left =
-          selection_.table().impossible_text +
-          "; a torque scale or an offset is in these data, and no friction was fitted "
-          "to them";
+      const bool losses = std::any_of(r.effects.begin(), r.effects.end(), [](const FoundEffect& f) {
+        const DriveFamily* family = find_drive_family(f.id);
+        return family == nullptr || family->is_loss;
+      });
+      r.structure_left = selection_.table().impossible_text +
+                         "; a torque scale or an offset is in these data, and " +
+                         (losses ? "the losses beside it are as sure as it is"
+                                 : "no friction was fitted to them");
       r.notes.push_back(selection_.table().impossible_text);
       return;
     }

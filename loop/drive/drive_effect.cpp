@@ -21,6 +21,17 @@ EfficiencyCurve::EfficiencyCurve(const DriveModel& model) {
   }
 }
 
+EfficiencyCurve::EfficiencyCurve(const DriveModel& model, std::size_t mesh) {
+  const double back = model.losses ? model.losses->backward_friction.value_or(model.friction) : model.friction;
+  for (double mu = 0.0; mu <= kCurveEnd + 3.5 * kCurveStep; mu += kCurveStep) {
+    std::vector<double> one(model.meshes.size(), model.friction), other(model.meshes.size(), back);
+    one[mesh] = other[mesh] = mu;
+    forward_.push_back(model.efficiency(one).forward);
+    backward_.push_back(back == model.friction ? model.efficiency(one).backward
+                                               : model.efficiency(other).backward);
+  }
+}
+
 double EfficiencyCurve::at(bool forward, double friction) const {
   const std::vector<double>& y = forward ? forward_ : backward_;
   const double x = std::clamp(friction, 0.0, kCurveEnd) / kCurveStep;
@@ -36,7 +47,7 @@ double DriveContext::friction(const BenchPoint& p) const {
   double mu = designed_friction(p) + state.shift + (p.forward ? -0.5 : 0.5) * state.difference;
   if (state.load_value != 0.0)
     mu += state.load_value *
-          std::pow(std::max(p.load_nm, 0.0) / table.most_load_nm, state.load_exponent);
+          std::pow(std::max(load_nm(p), 0.0) / table.most_load_nm, state.load_exponent);
   if (state.mixed_value != 0.0) {
     const double x = p.speed_rpm / state.mixed_speed_rpm;
     mu += state.mixed_value * std::exp(-x * x);
@@ -44,12 +55,26 @@ double DriveContext::friction(const BenchPoint& p) const {
   return mu;
 }
 
+namespace {
+
+/// Change of an efficiency per unit of friction, from one to the other.
+double secant(const EfficiencyCurve& curve, bool forward, double from, double to) {
+  if (std::abs(to - from) < 1e-6) to = from + kFrictionStep;
+  return (curve.at(forward, to) - curve.at(forward, from)) / (to - from);
+}
+
+}  // namespace
+
 double DriveContext::friction_slope(const BenchPoint& p) const {
+  return gain(p) * p.driving_nm * secant(curve, p.forward, designed_friction(p), friction(p));
+}
+
+double DriveContext::mesh_slope(const BenchPoint& p, std::size_t mesh) const {
   const double designed = designed_friction(p);
-  double now = friction(p);
-  if (std::abs(now - designed) < 1e-6) now = designed + kFrictionStep;
+  const auto found = state.mesh_value.find(mesh);
   return gain(p) * p.driving_nm *
-         (curve.at(p.forward, now) - curve.at(p.forward, designed)) / (now - designed);
+         secant(mesh_curves[mesh], p.forward, designed,
+                designed + (found == state.mesh_value.end() ? 0.0 : found->second));
 }
 
 double DriveContext::load_coordinate(const BenchPoint& p) const {
@@ -84,20 +109,11 @@ double DriveContext::quantity_at(double over, double coordinate) const {
   return p.speed_rpm;
 }
 
-std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model) {
-  std::vector<DriveEfficiency> slopes;
-  const double mu = model.friction;
-  const double mu_back =
-      model.losses ? model.losses->backward_friction.value_or(mu) : mu;
-  const double forward = model.at(mu).forward, backward = model.at(mu_back).backward;
-  for (std::size_t k = 0; k < model.meshes.size(); ++k) {
-    std::vector<double> one(model.meshes.size(), mu), other(model.meshes.size(), mu_back);
-    one[k] += kFrictionStep;
-    other[k] += kFrictionStep;
-    slopes.push_back({(model.efficiency(one).forward - forward) / kFrictionStep,
-                      (model.efficiency(other).backward - backward) / kFrictionStep});
-  }
-  return slopes;
+std::vector<EfficiencyCurve> mesh_curves(const DriveModel& model) {
+  std::vector<EfficiencyCurve> curves;
+  for (std::size_t k = 0; k < model.meshes.size() && model.meshes.size() > 1; ++k)
+    curves.emplace_back(model, k);
+  return curves;
 }
 
 double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve, const BenchPoint& p) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@ namespace trueflank::loop {
 class EfficiencyCurve {
  public:
   explicit EfficiencyCurve(const DriveModel& model);
+  /// Over the friction of one mesh, the others' as designed.
+  EfficiencyCurve(const DriveModel& model, std::size_t mesh);
   /// Accuracy: 1e-7 for friction up to 0.6 (cubic between steps of 0.02); beyond, the end's value.
   [[nodiscard]] double at(bool forward, double friction) const;
 
@@ -23,13 +26,16 @@ class EfficiencyCurve {
   std::vector<double> forward_, backward_;
 };
 
-/// What is found so far of all that changes friction, and of the scale: about it effects are linear.
+/// What is found so far of all that changes friction, and of what the sensors misread: about it effects are linear.
 struct DriveState {
   double shift = 0.0;        ///< friction_coefficient less the design's
   double difference = 0.0;   ///< direction_dependent_friction
   double load_value = 0.0, load_exponent = 1.0;     ///< load_dependent_friction
   double mixed_value = 0.0, mixed_speed_rpm = 1.0;  ///< mixed_friction
   double scale = 1.0;
+  double input_zero_nm = 0.0, output_zero_nm = 0.0;    ///< torque_offset
+  double input_drift_nm = 0.0, output_drift_nm = 0.0;  ///< torque_drift
+  std::map<std::size_t, double> mesh_value = {};       ///< mesh_friction, of the meshes that have any
 };
 
 /// Where columns are evaluated: the drive, the bench's extent, the state.
@@ -37,7 +43,7 @@ struct DriveContext {
   const DriveModel& model;
   const EfficiencyCurve& curve;
   const BenchTable& table;
-  const std::vector<DriveEfficiency>& mesh_slopes;  ///< of efficiency over one mesh's friction alone
+  const std::vector<EfficiencyCurve>& mesh_curves;  ///< over one mesh's friction alone
   DriveState state;
 
   /// The meshes' friction at a point: as designed, and as the state has it.
@@ -50,13 +56,27 @@ struct DriveContext {
   [[nodiscard]] double gain(const BenchPoint& p) const {
     return p.forward ? model.ratio : 1.0 / model.ratio;
   }
-  /// N m on the driven side per N m lost at the input.
+  /// N m that the driven side reads less per N m lost at the input.
   [[nodiscard]] double lever(const BenchPoint& p) const {
-    return p.forward ? model.ratio * efficiency(p) : 1.0;
+    return p.forward ? model.ratio * efficiency(p) * state.scale : 1.0;
+  }
+  /// N m that the driven side reads more than predicted per N m that a side reads too much.
+  [[nodiscard]] double misread(const BenchPoint& p, bool input) const {
+    if (input != p.forward) return 1.0;
+    // What the driving side reads too much is missed on the driven side.
+    return -gain(p) * efficiency(p) * (p.forward ? state.scale : 1.0 / state.scale);
+  }
+  /// The load without what the driving side's sensor misreads.
+  [[nodiscard]] double load_nm(const BenchPoint& p) const {
+    if (p.forward) return p.load_nm - state.input_zero_nm - p.taken * state.input_drift_nm;
+    const double misread_nm = state.output_zero_nm + p.taken * state.output_drift_nm;
+    return (p.load_nm - misread_nm / model.ratio) / state.scale;
   }
   /// Change of the driven torque for a unit of mesh friction: the secant from the design to the state, so
   /// that effects whose sum is the state's are exact.
   [[nodiscard]] double friction_slope(const BenchPoint& p) const;
+  /// The same for one mesh's friction.
+  [[nodiscard]] double mesh_slope(const BenchPoint& p, std::size_t mesh) const;
   /// -1 ... 1 over the bench's loads and speeds (logarithmic where they span decades), temperatures.
   [[nodiscard]] double load_coordinate(const BenchPoint& p) const;
   [[nodiscard]] double speed_coordinate(const BenchPoint& p) const;
@@ -65,8 +85,8 @@ struct DriveContext {
   [[nodiscard]] double quantity_at(double over, double coordinate) const;
 };
 
-/// Slopes of the efficiencies at the designed friction over one mesh's friction alone.
-[[nodiscard]] std::vector<DriveEfficiency> mesh_slopes(const DriveModel& model);
+/// Of every mesh, in the model's order; of one mesh alone none is needed.
+[[nodiscard]] std::vector<EfficiencyCurve> mesh_curves(const DriveModel& model);
 /// Driven torque of the model as designed [N m].
 [[nodiscard]] double predicted_nm(const DriveModel& model, const EfficiencyCurve& curve,
                                   const BenchPoint& p);
@@ -94,6 +114,7 @@ struct DriveFamily : EffectFacts {
   bool is_loss = true;                  ///< takes power: never fitted to data that gain power
   /// What a loss follows: effects that follow the same are kin; empty: none of load, speed and warmth.
   std::string follows = {};
+  bool differs_by_direction = false;    ///< a loss that does what a sensor does: data that gain power show the sensor
   bool bends_over_load = false;         ///< as a bent sensor does: told from that by the other direction alone
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
 

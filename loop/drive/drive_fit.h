@@ -19,6 +19,7 @@ class DriveFit {
   DriveFit(const DriveContext& context, const Eigen::VectorXd& value,
            std::vector<DriveEffect> effects, FitRows rows);
 
+  [[nodiscard]] const DriveContext& context() const { return context_; }
   [[nodiscard]] const std::vector<DriveEffect>& effects() const { return effects_; }
   [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
   [[nodiscard]] const Eigen::VectorXd& coefficients() const { return coefficients_; }

@@ -2,6 +2,7 @@
 #include "trueflank/loop/drive/drive_selection.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "trueflank/loop/drive/spell_scan.h"
 #include "trueflank/loop/drive/wander_scan.h"
@@ -19,6 +20,14 @@ const DriveFamily* family_with(Member DriveFamily::*something) {
   });
 }
 
+constexpr double kFar = 2e-4;  // of a friction, a scale, a share of the load
+
+bool far_of(const std::map<std::size_t, double>& one, const std::map<std::size_t, double>& other) {
+  return !std::equal(one.begin(), one.end(), other.begin(), other.end(), [](auto& a, auto& b) {
+    return a.first == b.first && std::abs(a.second - b.second) <= kFar;
+  });
+}
+
 }  // namespace
 
 DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
@@ -27,14 +36,20 @@ DriveSelection::DriveSelection(const DriveModel& model, BenchTable table,
       options_(options),
       table_(std::move(table)),
       curve_(model),
-      mesh_slopes_(mesh_slopes(model)) {}
+      mesh_curves_(mesh_curves(model)) {}
 
 DriveOutcome DriveSelection::run() {
   measure_residual();
   candidates_ = drive_candidates(context());
+  DriveOutcome outcome = choose();
+  if (gains_power() && table_.has(true) && table_.has(false))
+    outcome = losses_beside_gains(std::move(outcome));
+  return outcome;
+}
+
+DriveOutcome DriveSelection::choose() {
   banned_.assign(candidates_.size(), false);
-  if (table_.impossible == Impossible::kEfficiencyAboveOne)
-    ban([](const DriveEffect& e) { return e.family->is_loss; });
+  ban([&](const DriveEffect& e) { return !may_be_there(*e.family); });
   DriveOutcome outcome = settle();
   for (int courses = 0; courses < 3; ++courses) {
     const bool spell = propose_spell(outcome);
@@ -48,8 +63,33 @@ DriveOutcome DriveSelection::run() {
   return outcome;
 }
 
+bool DriveSelection::may_be_there(const DriveFamily& family) const {
+  if (!gains_power() || !family.is_loss) return true;
+  return losses_beside_gains_ && !family.differs_by_direction;
+}
+
+DriveOutcome DriveSelection::losses_beside_gains(DriveOutcome sensors) {
+  const auto square_of = [&](const DriveOutcome& outcome) {
+    const DriveContext here = context();
+    return DriveFit(here, value_, outcome.effects, FitRows::kTraining).residual_square();
+  };
+  sensors.square = square_of(sensors);
+  const auto kept = std::tuple(candidates_, banned_, exchangeable_, state_, vetoed_);
+  losses_beside_gains_ = true;
+  vetoed_ = false;
+  DriveOutcome all = choose();
+  all.square = square_of(all);
+  const bool reads_wrong =
+      std::any_of(all.effects.begin(), all.effects.end(),
+                  [](const DriveEffect& e) { return e.family->named && !e.family->is_loss; });
+  if (reads_wrong && earns_its_figures(all, sensors) && !leaves_structure(all)) return all;
+  losses_beside_gains_ = false;
+  std::tie(candidates_, banned_, exchangeable_, state_, vetoed_) = kept;
+  return sensors;
+}
+
 DriveContext DriveSelection::context() const {
-  return {model_, curve_, table_, mesh_slopes_, state_};
+  return {model_, curve_, table_, mesh_curves_, state_};
 }
 
 void DriveSelection::measure_residual() {
@@ -79,6 +119,8 @@ DriveOutcome DriveSelection::select(const std::vector<bool>& banned) const {
 }
 
 DriveOutcome DriveSelection::settle() {
+  // A sign that is wrong beside these effects may be right beside others.
+  const std::vector<bool> kept_banned = banned_;
   DriveOutcome outcome;
   for (int round = 0; round < 6; ++round) {
     outcome = select(banned_);
@@ -87,6 +129,7 @@ DriveOutcome DriveSelection::settle() {
     again = move_state(outcome) || again;
     if (!again) break;
   }
+  banned_ = kept_banned;
   return outcome;
 }
 
@@ -112,7 +155,16 @@ bool DriveSelection::ban_wrong_signs(const DriveOutcome& outcome) {
                        (family->plausible && !family->plausible(model_, b));
     if (wrong) any = ban([&](const DriveEffect& c) { return c.family == family; }) || any;
   }
+  // Flanks give no power in either direction: a difference that asks for that is a sensor's.
+  if (!rubs_both_ways(state_of(fit)))
+    any = ban([](const DriveEffect& c) {
+            return c.family->differs_by_direction && c.family->into_state;
+          }) || any;
   return any;
+}
+
+bool DriveSelection::rubs_both_ways(const DriveState& state) const {
+  return model_.friction + state.shift > 0.5 * std::abs(state.difference) || state.difference == 0.0;
 }
 
 DriveState DriveSelection::state_of(const DriveFit& fit) {
@@ -122,18 +174,23 @@ DriveState DriveSelection::state_of(const DriveFit& fit) {
 bool DriveSelection::move_state(const DriveOutcome& outcome) {
   const DriveContext here = context();
   const DriveState next = state_of(DriveFit(here, value_, outcome.effects, FitRows::kTraining));
-  const auto far = [&](double DriveState::*value) {
-    return std::abs(next.*value - state_.*value) > 2e-4;
+  const auto far = [&](double DriveState::*value, double size = 1.0) {
+    return std::abs(next.*value - state_.*value) > kFar * size;
   };
-  const bool moved = far(&DriveState::shift) || far(&DriveState::difference) ||
-                     far(&DriveState::load_value) || far(&DriveState::mixed_value) ||
-                     far(&DriveState::scale);
+  const double output_nm = table_.most_load_nm * model_.ratio;
+  const bool moved =
+      far(&DriveState::shift) || far(&DriveState::difference) || far(&DriveState::load_value) ||
+      far(&DriveState::mixed_value) || far(&DriveState::scale) ||
+      far(&DriveState::input_zero_nm, table_.most_load_nm) ||
+      far(&DriveState::input_drift_nm, table_.most_load_nm) ||
+      far(&DriveState::output_zero_nm, output_nm) || far(&DriveState::output_drift_nm, output_nm) ||
+      far_of(next.mesh_value, state_.mesh_value);
   state_ = next;
   return moved;
 }
 
 bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
-  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  if (gains_power() && !losses_beside_gains_) return false;
   const DriveContext here = context();
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
   const LikeliestOrder line = likeliest_order(here, value_ - fit.explained_nm());
@@ -150,7 +207,7 @@ bool DriveSelection::propose_wave(const DriveOutcome& outcome) {
 }
 
 bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
-  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
@@ -169,7 +226,7 @@ bool DriveSelection::propose_spell(const DriveOutcome& outcome) {
 }
 
 bool DriveSelection::propose_wander(const DriveOutcome& outcome) {
-  if (table_.impossible == Impossible::kEfficiencyAboveOne) return false;
+  if (gains_power() && !losses_beside_gains_) return false;
   constexpr double kLevel = 0.001;  // searched beside the engine's own test
   const DriveContext here = context();
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);

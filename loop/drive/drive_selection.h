@@ -41,6 +41,9 @@ struct DriveOutcome {
   }
 };
 
+/// True where the fuller set takes off more than what chance lets the figures that it has more.
+[[nodiscard]] bool earns_its_figures(const DriveOutcome& fuller, const DriveOutcome& plain);
+
 /// The choice of the effects of a drive: what the engine finds among all candidates, made simpler
 /// where less explains as well, and held to the rows that were locked away.
 class DriveSelection {
@@ -56,6 +59,8 @@ class DriveSelection {
   [[nodiscard]] double share_of_level() const { return table_.drifts ? 0.25 : 1.0; }
   /// Friction and scale of a fit become the place about which the model is linear.
   [[nodiscard]] static DriveState state_of(const DriveFit& fit);
+  /// False where a friction that differs between the directions would be below zero in one.
+  [[nodiscard]] bool rubs_both_ways(const DriveState& state) const;
   /// The place about which the model is linear.
   void move_state_to(const DriveState& state) { state_ = state; }
 
@@ -71,11 +76,22 @@ class DriveSelection {
   }
   /// Effects were taken back.
   [[nodiscard]] bool vetoed() const { return vetoed_; }
+  /// False where data that gain power leave no room for this loss.
+  [[nodiscard]] bool may_be_there(const DriveFamily& family) const;
   /// The table; nothing else is asked for afterwards.
   [[nodiscard]] BenchTable take_table() { return std::move(table_); }
 
  private:
   void measure_residual();
+  [[nodiscard]] bool gains_power() const {
+    return table_.impossible == Impossible::kEfficiencyAboveOne;
+  }
+  /// The effects that are left at the end, of all that may be there.
+  DriveOutcome choose();
+  /// Data that gain power show a sensor that misreads, and a loss beside it is as unsure as that is. It is
+  /// fitted where both directions were run, the sensors alone leave more than it does, and nothing is left
+  /// beside it.
+  DriveOutcome losses_beside_gains(DriveOutcome sensors);
   template <class Predicate>
   bool ban(const Predicate& which) {
     bool any = false;
@@ -104,6 +120,11 @@ class DriveSelection {
   /// Tries the named effects in the order in which people would think of them: where the plainer
   /// ones predict as well as what the engine chose among all, they are kept.
   DriveOutcome plainest(DriveOutcome outcome);
+  [[nodiscard]] static bool is_plainer(const DriveOutcome& other, const DriveOutcome& outcome);
+  /// Plain effects that predict nearly as well as a set with a description: one of them left out after the
+  /// other, as a plainer one may stand in the way of the one that does it. `other` where none is enough.
+  DriveOutcome with_another_name(DriveOutcome other, const DriveOutcome& outcome,
+                                 const std::vector<bool>& banned);
   /// Leaves out one kind of effect after the other: where the rest finds a set that predicts as
   /// well, the two cannot be told apart, and the simpler one is kept.
   DriveOutcome simplest(DriveOutcome outcome);
@@ -128,13 +149,14 @@ class DriveSelection {
   const DriveLoopOptions& options_;
   BenchTable table_;
   const EfficiencyCurve curve_;
-  const std::vector<DriveEfficiency> mesh_slopes_;
+  const std::vector<EfficiencyCurve> mesh_curves_;
   DriveState state_;
   Eigen::VectorXd value_;
   std::vector<DriveEffect> candidates_;
   std::vector<bool> banned_;
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back
+  bool losses_beside_gains_ = false;
 };
 
 }  // namespace trueflank::loop

@@ -28,14 +28,24 @@ bool predicts_as_well(const DriveOutcome& one, const DriveOutcome& other) {
   return one.square - other.square < noise * (figures > 0 ? kAFigure * figures : kNoFigure);
 }
 
-/// True where the fuller set takes off more than what chance lets the figures that it has more.
+bool has_unnamed(const DriveOutcome& outcome) {
+  return std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                     [](const DriveEffect& e) { return !e.family->named; });
+}
+
+}  // namespace
+
 bool earns_its_figures(const DriveOutcome& fuller, const DriveOutcome& plain) {
   constexpr double kEach = 9.0;  // chi-square
   const double noise = fuller.square / std::max(1.0, fuller.rows - fuller.size());
   return plain.square - fuller.square > kEach * noise * std::max(1, fuller.size() - plain.size());
 }
 
-}  // namespace
+bool DriveSelection::is_plainer(const DriveOutcome& other, const DriveOutcome& outcome) {
+  const auto rank = [](const DriveOutcome& o) { return std::pair(o.size(), o.preference()); };
+  return !other.effects.empty() && predicts_as_well(other, outcome) &&
+         other.size() <= outcome.size() && rank(other) < rank(outcome);
+}
 
 DriveOutcome DriveSelection::plainest(DriveOutcome outcome) {
   for (int most = 0; most <= 4; ++most) {
@@ -43,14 +53,27 @@ DriveOutcome DriveSelection::plainest(DriveOutcome outcome) {
     for (std::size_t g = 0; g < candidates_.size(); ++g)
       if (candidates_[g].family->preference > most) banned[g] = true;
     DriveOutcome other = settled(banned);
-    if (other.effects.empty() || !predicts_as_well(other, outcome)) continue;
-    if (other.size() > outcome.size()) continue;
-    const auto rank = [](const DriveOutcome& o) { return std::pair(o.size(), o.preference()); };
-    if (rank(other) >= rank(outcome)) continue;
+    if (!is_plainer(other, outcome)) other = with_another_name(std::move(other), outcome, banned);
+    if (!is_plainer(other, outcome)) continue;
     remember(other, outcome);
     return other;
   }
   return outcome;
+}
+
+DriveOutcome DriveSelection::with_another_name(DriveOutcome other, const DriveOutcome& outcome,
+                                               const std::vector<bool>& banned) {
+  constexpr double kNearly = 2.0;  // of the squares
+  if (!has_unnamed(outcome) || other.square > kNearly * outcome.square) return other;
+  for (const DriveEffect& effect : other.effects) {
+    if (!effect.family->named) continue;
+    std::vector<bool> without = banned;
+    for (std::size_t g = 0; g < candidates_.size(); ++g)
+      if (candidates_[g].family == effect.family) without[g] = true;
+    DriveOutcome next = settled(without);
+    if (is_plainer(next, outcome)) return next;
+  }
+  return other;
 }
 
 DriveOutcome DriveSelection::simplest(DriveOutcome outcome) {
@@ -76,9 +99,7 @@ DriveOutcome DriveSelection::simplest(DriveOutcome outcome) {
     if (better) outcome = std::move(other);
   }
   // What was left out on the way may have brought a description in where a name does as well.
-  if (std::any_of(outcome.effects.begin(), outcome.effects.end(),
-                  [](const DriveEffect& e) { return !e.family->named; }))
-    outcome = plainest(std::move(outcome));
+  if (has_unnamed(outcome)) outcome = plainest(std::move(outcome));
   settle_state(outcome);
   return outcome;
 }

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/exchanged_effects.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
-#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/drive/found_drive_effects.h"
+#include "trueflank/loop/result/describe.h"
 
 namespace trueflank::loop {
 namespace {
+
+constexpr double kTie = 4.0;  // chi-square
+/// Square of the cosine between what two effects do beside the others: less of it and no shape or
+/// place about which they are linear makes one of them do what the other does.
+constexpr double kMayBeAlike = 0.6;
+/// What stands beside the others in one effect's place must be its own: at least this part of how far the
+/// effect itself is. Two that make up for each other, as a scale beside a friction that differs between the
+/// directions, are no plain cause.
+constexpr double kOwnPart = 0.1;
 
 class Exchange {
  public:
@@ -26,8 +37,7 @@ class Exchange {
         std::vector<DriveEffect> with = effects_;
         with[e] = other;
         settle(with);
-        constexpr double kTie = 4.0;  // chi-square
-        if (square_of(with) - own < kTie * noise) hold(with, e);
+        if (square_of(with) - own < kTie * noise && possible(with)) hold(with, e);
         selection_.move_state_to(state);
       }
   }
@@ -40,34 +50,94 @@ class Exchange {
     return at == found_.end() ? nullptr : &*at;
   }
 
-  /// Named effects of one column and no shape that were said to look like it: the same of the other
-  /// side, or what is confounded with it.
+  /// Named effects of one column that do nearly the same, of each the shape that does most.
   [[nodiscard]] std::vector<DriveEffect> in_place_of(std::size_t e) {
     const DriveFamily* own = effects_[e].family;
-    const FoundEffect* as_told = told(effects_[e]);
     std::vector<DriveEffect> others;
-    if (as_told == nullptr || !own->shape_names.empty()) return others;
+    if (told(effects_[e]) == nullptr || effects_[e].columns() != 1) return others;
+    const Beside beside = beside_of(e);
+    double best = 0.0;
     for (const DriveEffect& candidate : selection_.candidates()) {
       const DriveFamily* family = candidate.family;
-      const auto& alike = as_told->confounded_with;
-      bool taken = false;  // two zeros that make up for each other are no plain cause
+      bool taken = family == own;
       for (std::size_t k = 0; k < effects_.size(); ++k)
         taken = taken || (k != e && effects_[k].family->id == family->id);
-      if (family->named && family != own && !taken && family->shape_names.empty() &&
-          candidate.columns() == 1 &&
-          (family->id == own->id ||
-           std::find(alike.begin(), alike.end(), family->id) != alike.end()))
+      // One with more figures holds this one as a limit: no other cause.
+      if (taken || !family->named || candidate.columns() != 1 ||
+          figures_of(*family) > figures_of(*own) || !selection_.may_be_there(*family))
+        continue;
+      const Eigen::VectorXd column = column_of(candidate), rest = beside.rest_of(column);
+      if (rest.squaredNorm() < kOwnPart * beside.own_part * column.squaredNorm()) continue;
+      const double alike = std::pow(rest.dot(beside.own), 2) /
+                           std::max(rest.squaredNorm() * beside.own.squaredNorm(), 1e-300);
+      if (alike < kMayBeAlike) continue;
+      const bool same = !others.empty() && others.back().family == family;
+      if (same && alike <= best) continue;
+      best = alike;
+      if (same)
+        others.back() = candidate;
+      else
         others.push_back(candidate);
     }
     return others;
   }
 
+  [[nodiscard]] static std::size_t figures_of(const DriveFamily& family) {
+    return family.parameters.size() +
+           static_cast<std::size_t>(std::count_if(family.shape_values.begin(), family.shape_values.end(),
+                                                  [](const auto& value) { return value.continuous; }));
+  }
+
+  /// What is left of a column beside all effects but one, in the noise's units.
+  struct Beside {
+    Eigen::MatrixXd others;  ///< orthonormal
+    Eigen::VectorXd own;
+    double own_part = 1.0;  ///< of the square of the whole column
+    [[nodiscard]] Eigen::VectorXd rest_of(const Eigen::VectorXd& column) const {
+      return column - others * (others.transpose() * column);
+    }
+  };
+  [[nodiscard]] Beside beside_of(std::size_t e) const {
+    const DriveContext here = selection_.context();
+    const DriveFit fit(here, selection_.value_nm(), effects_, FitRows::kAll);
+    const int first = fit.first_column(static_cast<int>(e));
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index c = 0; c < fit.columns().cols(); ++c)
+      if (c != first) kept.push_back(c);
+    const Eigen::MatrixXd others = weights().asDiagonal() * fit.columns()(Eigen::all, kept);
+    Beside beside;
+    beside.others = Eigen::HouseholderQR<Eigen::MatrixXd>(others).householderQ() *
+                    Eigen::MatrixXd::Identity(others.rows(), others.cols());
+    const Eigen::VectorXd column = weights().cwiseProduct(fit.columns().col(first));
+    beside.own = beside.rest_of(column);
+    beside.own_part = beside.own.squaredNorm() / std::max(column.squaredNorm(), 1e-300);
+    return beside;
+  }
+  [[nodiscard]] Eigen::VectorXd weights() const {
+    const auto& points = selection_.table().points;
+    Eigen::VectorXd weights(static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      weights[static_cast<Eigen::Index>(i)] = 1.0 / points[i].sigma_nm;
+    return weights;
+  }
+  [[nodiscard]] Eigen::VectorXd column_of(const DriveEffect& effect) const {
+    const DriveContext here = selection_.context();
+    const auto& points = selection_.table().points;
+    Eigen::VectorXd column(static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double value = 0.0;
+      effect.family->evaluate(here, points[i], effect.shape, &value);
+      column[static_cast<Eigen::Index>(i)] = value / points[i].sigma_nm;
+    }
+    return column;
+  }
+
   void settle(std::vector<DriveEffect>& effects) {
     for (int round = 0; round < 4; ++round) {
-      refine_drive_shapes(selection_.context(), selection_.value_nm(), FitRows::kAll, effects);
       const DriveContext here = selection_.context();
       selection_.move_state_to(
           DriveSelection::state_of(DriveFit(here, selection_.value_nm(), effects, FitRows::kAll)));
+      refine_drive_shapes(selection_.context(), selection_.value_nm(), FitRows::kAll, effects);
     }
   }
   [[nodiscard]] double square_of(const std::vector<DriveEffect>& effects) const {
@@ -75,8 +145,7 @@ class Exchange {
     return DriveFit(here, selection_.value_nm(), effects, FitRows::kAll).residual_square();
   }
 
-  /// The intervals of all but the exchanged one hold what they are in the other set.
-  void hold(const std::vector<DriveEffect>& with, std::size_t exchanged) {
+  [[nodiscard]] bool possible(const std::vector<DriveEffect>& with) const {
     const DriveContext here = selection_.context();
     const DriveFit fit(here, selection_.value_nm(), with, FitRows::kAll);
     for (std::size_t e = 0; e < with.size(); ++e) {
@@ -84,23 +153,38 @@ class Exchange {
       const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
       if ((family.only_positive && !(b > 0.0)) ||
           (family.plausible && !family.plausible(selection_.model(), b)))
-        return;
+        return false;
     }
+    return selection_.rubs_both_ways(DriveSelection::state_of(fit));
+  }
+
+  /// The intervals of all but the exchanged one hold what they are in the other set; that one is
+  /// said to be indistinguishable from what stands in its place.
+  void hold(const std::vector<DriveEffect>& with, std::size_t exchanged) {
+    const DriveContext here = selection_.context();
+    const DriveFit fit(here, selection_.value_nm(), with, FitRows::kAll);
     const Eigen::MatrixXd covariance = fit.covariance();
-    const double t = student_95(fit.degrees());
     for (std::size_t e = 0; e < with.size(); ++e) {
-      const DriveFamily& family = *with[e].family;
-      FoundEffect* as_told = e == exchanged ? nullptr : told(with[e]);
-      if (as_told == nullptr || with[e].columns() != 1) continue;
-      const int column = fit.first_column(static_cast<int>(e));
-      const double half = t * std::sqrt(std::max(0.0, covariance(column, column)));
-      const double base = family.base ? family.base(here) : 0.0;
-      for (Parameter& p : as_told->parameters) {
-        if (p.name != family.parameters.front()) continue;
-        p.low = std::min(p.low, base + fit.coefficients()[column] - half);
-        p.high = std::max(p.high, base + fit.coefficients()[column] + half);
+      FoundEffect* as_told = told(effects_[e]);
+      if (as_told == nullptr) continue;
+      if (e == exchanged) {
+        cannot_be_told_from(*as_told, with[e].family->id);
+        continue;
       }
+      for (const Parameter& other : drive_parameters(fit, covariance, static_cast<int>(e)))
+        for (Parameter& p : as_told->parameters) {
+          if (p.name != other.name) continue;
+          p.low = std::min(p.low, other.low);
+          p.high = std::max(p.high, other.high);
+        }
     }
+  }
+  static void cannot_be_told_from(FoundEffect& effect, const std::string& id) {
+    std::vector<std::string>& others = effect.confounded_with;
+    if (id == effect.id || std::find(others.begin(), others.end(), id) != others.end()) return;
+    others.push_back(id);
+    std::sort(others.begin(), others.end());
+    effect.sure = sure_words(effect.p_value, others);
   }
 
   DriveSelection& selection_;
@@ -112,7 +196,7 @@ class Exchange {
 
 void hold_exchanged_effects(DriveSelection& selection, const std::vector<DriveEffect>& effects,
                             std::vector<FoundEffect>& found) {
-  if (effects.size() > 1) Exchange(selection, effects, found).run();
+  if (!effects.empty()) Exchange(selection, effects, found).run();
 }
 
 }  // namespace trueflank::loop

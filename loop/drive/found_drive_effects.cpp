@@ -45,7 +45,7 @@ class Describer {
       const DriveEffect& effect = s_.all.effects()[e];
       if (effect.family->named) {
         found_.push_back(common(e));
-        add_parameters(found_.back(), e);
+        found_.back().parameters = drive_parameters(s_.all, covariance_, e);
         if (is_a_guess(found_.back()))
           take_the_name(found_.back(), e,
                         "a loss at the input of which these data do not say whether it follows "
@@ -105,11 +105,17 @@ class Describer {
     if (s_.context.table.impossible == Impossible::kEfficiencyAboveOne) {
       // Not tried, and not because the data exclude them.
       for (const DriveFamily& hidden : drive_library())
-        if (hidden.hides_in_gains) add(hidden.id);
+        if (hidden.hides_in_gains && !is_fitted(hidden)) add(hidden.id);
       if (!s_.context.table.has(true) || !s_.context.table.has(false)) add("swapped_side");
     }
     std::sort(found.confounded_with.begin(), found.confounded_with.end());
     return found;
+  }
+
+  [[nodiscard]] bool is_fitted(const DriveFamily& family) const {
+    const std::vector<DriveEffect>& effects = s_.all.effects();
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const DriveEffect& e) { return e.family == &family; });
   }
 
   [[nodiscard]] static std::size_t size_of(const DriveFamily& family) {
@@ -187,33 +193,6 @@ class Describer {
 
   [[nodiscard]] double half(int column) const {
     return t_ * std::sqrt(std::max(0.0, covariance_(column, column)));
-  }
-
-  void add_parameters(FoundEffect& found, int e) const {
-    const DriveEffect& effect = s_.all.effects()[e];
-    const DriveFamily& family = *effect.family;
-    const int column = s_.all.first_column(e);
-    const auto& b = s_.all.coefficients();
-    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
-      const int shape = s_.all.shape_column(e, static_cast<int>(k));
-      const double h = shape < 0 ? 0.0 : half(shape);
-      found.parameters.push_back(parameter_of(family.shape_names[k], effect.shape[k], h));
-    }
-    if (family.form == ParameterForm::kWave) {
-      const auto [amplitude, phase] = wave_parameters(family, b[column], b[column + 1],
-                                                      covariance_.block<2, 2>(column, column), t_);
-      found.parameters.push_back(amplitude);
-      found.parameters.push_back(phase);
-      return;
-    }
-    // A friction is given as the whole coefficient, not as its change.
-    const double base = family.base ? family.base(s_.context) : 0.0;
-    for (int k = 0; k < effect.columns(); ++k)
-      found.parameters.push_back(
-          parameter_of(family.parameters[k], base + b[column + k], half(column + k)));
-    if (!family.references) return;
-    for (const auto& [name, value] : family.references(s_.context))
-      found.parameters.push_back(parameter_of(name, value, 0.0));
   }
 
   void add_terms(std::vector<Term>& terms, int e) const {
@@ -334,6 +313,41 @@ class Describer {
 };
 
 }  // namespace
+
+std::vector<Parameter> drive_parameters(const DriveFit& fit, const Eigen::MatrixXd& covariance,
+                                        int effect) {
+  const DriveEffect& e = fit.effects()[static_cast<std::size_t>(effect)];
+  const DriveFamily& family = *e.family;
+  const DriveContext& context = fit.context();
+  const double t = student_95(fit.degrees());
+  const auto half = [&](int column) {
+    return t * std::sqrt(std::max(0.0, covariance(column, column)));
+  };
+  const int column = fit.first_column(effect);
+  const auto& b = fit.coefficients();
+  std::vector<Parameter> parameters;
+  for (std::size_t k = 0; k < e.shape.size(); ++k) {
+    const int shape = fit.shape_column(effect, static_cast<int>(k));
+    parameters.push_back(
+        parameter_of(family.shape_names[k], e.shape[k], shape < 0 ? 0.0 : half(shape)));
+  }
+  if (family.form == ParameterForm::kWave) {
+    const auto [amplitude, phase] = wave_parameters(family, b[column], b[column + 1],
+                                                    covariance.block<2, 2>(column, column), t);
+    parameters.push_back(amplitude);
+    parameters.push_back(phase);
+    return parameters;
+  }
+  // A friction is given as the whole coefficient, not as its change.
+  const double base = family.base ? family.base(context) : 0.0;
+  for (int k = 0; k < e.columns(); ++k)
+    parameters.push_back(
+        parameter_of(family.parameters[k], base + b[column + k], half(column + k)));
+  if (!family.references) return parameters;
+  for (const auto& [name, value] : family.references(context))
+    parameters.push_back(parameter_of(name, value, 0.0));
+  return parameters;
+}
 
 std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources) {
   return Describer(sources).run();

@@ -25,6 +25,10 @@ struct DriveSources {
   const std::map<std::string, std::set<std::string>>& exchangeable;
 };
 
+/// Parameters of one effect of a fit with their 95 % intervals: its shape, its amounts, the figures they hold at.
+[[nodiscard]] std::vector<Parameter> drive_parameters(const DriveFit& fit, const Eigen::MatrixXd& covariance,
+                                                      int effect);
+
 /// Named effects in the order they were chosen, unnamed terms gathered by their order.
 [[nodiscard]] std::vector<FoundEffect> describe_drive_effects(const DriveSources& sources);
 

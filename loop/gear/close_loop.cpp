@@ -151,10 +151,10 @@ std::vector<std::string> parts_of(const MeasuredData& data) {
 /// Takes out the files of one part.
 template <class T>
 std::vector<T> of_part(std::vector<T>& files, const std::string& part) {
-  std::vector<T> taken;
-  for (T& file : files)
-    if (file.part == part) taken.push_back(std::move(file));
-  std::erase_if(files, [&](const T& file) { return file.part == part; });
+  const auto of_others = [&](const T& file) { return file.part != part; };
+  const auto first = std::stable_partition(files.begin(), files.end(), of_others);
+  std::vector<T> taken(std::make_move_iterator(first), std::make_move_iterator(files.end()));
+  files.erase(first, files.end());
   return taken;
 }
 

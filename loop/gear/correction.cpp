@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/involute.h"
@@ -41,6 +42,11 @@ Result<Json> parsed(std::string_view text) {
     return fail({.code = ErrorCode::kSyntax, .message = "this is no JSON document"});
   if (!json.is_object() || text_of(json, "format") != "trueflank-loop")
     return fail(broken("this is no loop.json", "format"));
+  if (const auto version = json.find("version"); version != json.end() && *version != 1)
+    return fail({.code = ErrorCode::kUnsupported,
+                 .message = "a loop.json of a version that this program does not know",
+                 .key = "version",
+                 .remedy = "version 1"});
   return json;
 }
 
@@ -54,15 +60,28 @@ double value_of(const Json& effect, const std::string& name) {
   return value != parameter->end() && value->is_number() ? value->get<double>() : kNaN;
 }
 
-FlankChoice flank_of(const Json& effect) {
-  const std::string text = text_of(effect, "flank");
-  return text == "left" ? FlankChoice::kLeft : text == "right" ? FlankChoice::kRight : FlankChoice::kBoth;
+/// Both where nothing is said; nothing where it is none of the words.
+std::optional<FlankChoice> flank_of(const Json& effect) {
+  const auto found = effect.find("flank");
+  if (found == effect.end() || *found == "both") return FlankChoice::kBoth;
+  if (*found == "left") return FlankChoice::kLeft;
+  if (*found == "right") return FlankChoice::kRight;
+  return std::nullopt;
+}
+
+/// A wave around the gear whose order is no whole number does not close: the first tooth has a step.
+bool closes_around(const EffectFamily& family, const std::vector<double>& shape) {
+  return !family.order || shape.empty() || family.order(shape) == std::floor(family.order(shape));
 }
 
 /// Shape and coefficients from the parameters people read.
 bool read_parameters(const Json& json, const EffectFamily& family, std::vector<double>& shape,
                      std::vector<double>& coefficients) {
-  for (const std::string& name : family.shape_names) shape.push_back(value_of(json, name));
+  for (std::size_t k = 0; k < family.shape_names.size(); ++k) {
+    shape.push_back(value_of(json, family.shape_names[k]));
+    if (std::isnan(shape.back()) && k < family.shape_where_absent.size())
+      shape.back() = family.shape_where_absent[k];
+  }
   if (family.form == ParameterForm::kWave) {
     const double amplitude = value_of(json, family.parameters[0]);
     const double angle = rad_from_deg(value_of(json, family.parameters[1])) * family.phase_divisor;
@@ -140,7 +159,8 @@ Result<CorrectableTerms> correctable_terms(const std::string& id, const Json& it
   CorrectableTerms found;
   const auto terms = item.find("terms");
   if (terms == item.end() || !terms->is_array()) {
-    found.left.push_back(id + ": " + item.value("description", std::string("no terms")) + "; inspect or reject the part");
+    const std::string description = text_of(item, "description");
+    found.left.push_back(id + ": " + (description.empty() ? "no terms" : description) + "; inspect or reject the part");
     return found;
   }
   if (terms->size() > kMostEffects) return fail(too_many("terms", "effects.terms", terms->size()));
@@ -198,7 +218,7 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                    .message = "an effect nobody knows",
                    .key = "effects.id",
                    .value = id});
-    if (!family->named && !item.value("correctable", true)) {
+    if (!family->named && !flag_of(item, "correctable", true)) {
       result.left_.push_back(id + ": described only; its cause is not known");
       continue;
     }
@@ -216,9 +236,13 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
     }
     Part part;
     part.effect.family = family;
-    part.effect.flank = flank_of(item);
+    const auto flank = flank_of(item);
+    if (!flank) return fail(broken("flank is neither left nor right nor both", "effects." + id));
+    part.effect.flank = *flank;
     if (!read_parameters(item, *family, part.effect.shape, part.coefficients))
       return fail(broken("an effect without its parameters", "effects." + id));
+    if (!closes_around(*family, part.effect.shape))
+      return fail(broken("the order of a wave around the gear is a whole number", "effects." + id));
     result.parts_.push_back(std::move(part));
     result.corrected_.push_back(id);
   }
@@ -275,7 +299,11 @@ Point3 Correction::displacement_mm(const Point3& p) const {
       if (!part.effect.family->displacement_mm) continue;
       const auto u = part.effect.family->displacement_mm(geometry_, at, part.effect.shape,
                                                          part.coefficients.data());
-      for (int k = 0; k < 3; ++k) sum[k] -= u[k];
+      // The faces stay where they are: what moves along the axis is turned instead, which is the
+      // same on a helical flank.
+      const double turned = geometry_.twist_rad(at[2] - u[2]) - geometry_.twist_rad(at[2]);
+      sum[0] -= u[0] - turned * at[1];
+      sum[1] -= u[1] + turned * at[0];
     }
     found = std::hypot(sum[0] - before[0], sum[1] - before[1], sum[2] - before[2]) <= kSame_mm;
   }

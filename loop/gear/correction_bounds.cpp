@@ -30,6 +30,8 @@ constexpr int kMostTeeth = 36;
 constexpr int kRolls = 9, kHeights = 9;
 /// Ways along a flank over which slopes are taken, as shares of the flank.
 constexpr double kShortWay = 1e-3;
+/// Steps up the hill that a formula makes between the places looked at, each half of the one before.
+constexpr int kSteps = 40;
 
 Point at(double radius_mm, double polar_rad, double z_mm) {
   return {radius_mm * std::cos(polar_rad), radius_mm * std::sin(polar_rad), z_mm};
@@ -58,6 +60,8 @@ class Survey {
   explicit Survey(const Correction& correction)
       : correction_(correction), of_body_(correction.of_body()), geometry_(correction.geometry()) {
     reach_.least_radius_mm = std::numeric_limits<double>::infinity();
+    for (const Correction::Part& part : correction.parts())
+      has_formulas_ = has_formulas_ || !part.effect.family->formulas.empty();
   }
 
   CorrectionReach run() {
@@ -68,6 +72,7 @@ class Survey {
       for (int k = 0; k < kHeights; ++k) look_at(tooth, b * k / (kHeights - 1));
       look_at(tooth, 1e-3 * b);  // layers on the bed differ within a hundredth of the face
       look_at(tooth, 1e-2 * b);
+      if (has_formulas_) seek_poles(tooth);
     }
     return reach_;
   }
@@ -84,6 +89,41 @@ class Survey {
   [[nodiscard]] Point flank_point(int tooth, int side, double roll_mm, double z_mm) const {
     const Place place = geometry_.on_flank(tooth, side, roll_mm, z_mm);
     return at(place.radius_mm, place.polar_rad, z_mm);
+  }
+
+  /// A user's formula may grow without bound between the places looked at.
+  void seek_poles(int tooth) {
+    const double from = geometry_.root_form_roll_mm(), to = geometry_.tip_form_roll_mm();
+    const double b = geometry_.face_width_mm();
+    const auto moves_by = [&](int side, double roll_mm, double z_mm) {
+      const Point p = flank_point(tooth, side, roll_mm, z_mm);
+      return distance_mm(p, moved(p));
+    };
+    for (const int side : {1, -1}) {
+      for (int k = 0; k < kHeights; ++k)
+        climb(from, to, [&](double roll) { return moves_by(side, roll, b * k / (kHeights - 1)); });
+      for (int k = 0; k < kRolls; ++k)
+        climb(0.0, b, [&](double z) {
+          return moves_by(side, std::lerp(from, to, static_cast<double>(k) / (kRolls - 1)), z);
+        });
+    }
+  }
+  /// From the highest of some places on a line uphill, by ever shorter steps.
+  template <class Height>
+  static void climb(double from, double to, const Height& height) {
+    double best = from, highest = height(from);
+    const auto compare = [&](double at) {
+      if (at < std::min(from, to) || at > std::max(from, to)) return;
+      if (const double here = height(at); here > highest) best = at, highest = here;
+    };
+    for (int k = 1; k < kRolls; ++k) compare(std::lerp(from, to, static_cast<double>(k) / (kRolls - 1)));
+    double step = (to - from) / (kRolls - 1);
+    for (int i = 0; i < kSteps; ++i) {
+      step *= 0.5;
+      const double middle = best;
+      compare(middle - step);
+      compare(middle + step);
+    }
   }
 
   void look_at(int tooth, double z_mm) {
@@ -119,6 +159,7 @@ class Survey {
   const Correction& correction_;
   const Correction of_body_;
   const FlankGeometry& geometry_;
+  bool has_formulas_ = false;
   CorrectionReach reach_;
 };
 
@@ -129,7 +170,8 @@ std::string percent(double share) { return printed_number(100.0 * share, "%.3g")
 std::optional<std::string> beyond_bounds(const Correction& correction,
                                          const CorrectionReach& reach) {
   const double most_mm = kFarthestOfModule * correction.geometry().gear().normal_module_mm;
-  if (!std::isfinite(reach.farthest_mm)) return "no geometry comes out as designed after it";
+  if (!std::isfinite(reach.farthest_mm) || std::isnan(reach.steepest))
+    return "no geometry comes out as designed after it";
   if (!correction.moves_whole_part() && reach.farthest_mm > most_mm)
     return "it moves walls by " + um(reach.farthest_mm) + ", and a module, " + um(most_mm) +
            ", is the most";

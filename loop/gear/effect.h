@@ -59,6 +59,7 @@ struct EffectFamily : EffectFacts {
       evaluate_together = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
+  bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous
   /// Varies within a patch: its mean there is taken over single values. Empty: it does not.
   std::function<bool(const FlankGeometry&, const EffectShape&)> is_fine = {};
   /// Shapes beside one, tried on the single values once it is chosen.
@@ -100,6 +101,8 @@ struct EffectFamily : EffectFacts {
   std::function<std::array<double, 3>(const FlankGeometry&, const std::array<double, 3>& point,
                                       const EffectShape&, const double* coefficients)>
       displacement_mm;
+  /// Shapes whose columns are the same, and which only points that moved far tell apart. Empty: none.
+  std::function<std::vector<EffectShape>(const FlankGeometry&, const EffectShape&)> other_motions = {};
   bool moves_whole_part = false;  ///< bore and rim too
   bool moves_circles = false;     ///< tip and root circles move as the walls do
   /// How far all walls stand outside the model [um]; empty: they do not as a whole.

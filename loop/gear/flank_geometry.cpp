@@ -177,16 +177,19 @@ FlankGeometry::Undirected FlankGeometry::undirected_flank(const std::array<doubl
   const double pressure = std::atan(roll / base_radius_);  // of the point
   const double involute = roll - base_radius_ * pressure;
   const double transverse = base_radius_ * (side * offset - half_angle_) + sense_ * involute;
-  const double roll_of_place = std::max(0.0, roll - sense_ * transverse);
+  // The foot of the normal: on a helical flank it stands at another height than the point.
+  const double distance = transverse * cos_base_helix_;
+  const double roll_of_place = std::max(0.0, roll - sense_ * distance * cos_base_helix_);
+  const double hand = herringbone_ && p[2] > 0.5 * face_width_ ? -1.0 : 1.0;
   Undirected result = flank_place(
-      tooth + 1, side, roll_of_place, p[2],
+      tooth + 1, side, roll_of_place, p[2] + distance * hand * side * sin_base_helix_,
       arc_tangent_near(roll_of_place / base_radius_, roll / base_radius_, pressure));
   result.from_direction = {p[0] / radius, p[1] / radius};
   // within two turns, but for flanks twisted further
   double turn = result.place.polar_rad - polar;
   if (turn > kPi) turn -= kTwoPi;
   result.turn_rad = std::abs(turn) <= kPi ? turn : std::remainder(turn, kTwoPi);
-  result.distance_mm = transverse * cos_base_helix_ - designed_deviation_mm(result.place);
+  result.distance_mm = distance - designed_deviation_mm(result.place);
   const double u = profile_coordinate(result.place.roll_mm);
   if (!(std::abs(u) <= 1.0 - 2.0 * margin)) result.place.surface = Surface::kNone;
   return result;

@@ -323,13 +323,20 @@ class TableBuilder {
     return {};
   }
 
+  /// On the flank, or beyond an end by a tenth of it: ends as made differ from the design's.
+  [[nodiscard]] bool is_near_flank(double roll_mm) const {
+    const auto [low, high] = std::minmax({geometry_.root_form_roll_mm(), geometry_.tip_form_roll_mm()});
+    const double slack = 0.1 * (high - low);
+    return roll_mm >= low - slack && roll_mm <= high + slack;
+  }
+
   /// Ball in the gap after a tooth: it is pushed out by the mean of both flanks over sin(a_M).
   std::string add_radial(const InspectionData& data, const InspectionRow& row, int source,
                          double z) {
-    double ball = data.ball_diameter_mm;
-    if (!(ball > 0.0)) ball = recommended_pin_diameter_mm(geometry_.gear());
+    const bool is_told = data.ball_diameter_mm > 0.0;
+    const double ball = is_told ? data.ball_diameter_mm : recommended_pin_diameter_mm(geometry_.gear());
     const auto contact = geometry_.ball_contact(ball);
-    if (std::isnan(contact.roll_mm))
+    if (std::isnan(contact.roll_mm) || (is_told && !is_near_flank(contact.roll_mm)))
       return "a ball of " + number_text(ball) + " mm touches no flank of this gear";
     const int trace =
         data.common_zero ? -1 : zeros_.of({static_cast<int>(row.record), 0, 0, source});

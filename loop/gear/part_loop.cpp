@@ -321,10 +321,38 @@ bool PartLoop::put_points_back() {
   return true;
 }
 
+/// Ways to move that differ only where points went far: the one that leaves least beside the effects
+/// that move none. (Others that move the teeth, a scale, make up for what the wrong way leaves.)
+void PartLoop::choose_motions() {
+  constexpr double kClearly = 9.0;  // chi-square
+  for (std::size_t e = options_.given.size(); e < effects_.size(); ++e) {
+    const EffectFamily& family = *effects_[e].family;
+    if (!family.other_motions) continue;
+    const auto left_with = [&](const EffectShape& shape) {
+      std::vector<Effect> all = effects_, alone;
+      all[e].shape = shape;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (i == e || !all[i].family->displacement_mm) alone.push_back(all[i]);
+      Observations moved = table_;
+      linearise_at(geometry_, PointFit(geometry_, table_, patches_, all), moved);
+      return PointFit(geometry_, moved, patches_, alone).residual_square();
+    };
+    double least = kNaN;
+    for (const EffectShape& other : family.other_motions(geometry_, effects_[e].shape)) {
+      if (std::isnan(least)) least = left_with(effects_[e].shape) - kClearly;
+      const double left = left_with(other);
+      if (!(left < least)) continue;
+      least = left;
+      candidates_[discovery_.chosen[e].group].shape = effects_[e].shape = other;
+    }
+  }
+}
+
 /// True where finite displacements changed the deviations by more than the noise can hide, or are taken back.
 bool PartLoop::linearise() {
   if (!moves_points()) return put_points_back();
   if (table_->points_mm.empty()) return false;
+  choose_motions();
   const auto fit = fit_of(effects_);
   const double noticed_um = 0.02 * fit->noise_um();
   // Displacements are smooth: where a sample moves by less than half of that, no point moves by more.

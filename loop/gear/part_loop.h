@@ -79,6 +79,7 @@ class PartLoop {
   [[nodiscard]] bool is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const;
   [[nodiscard]] std::optional<Effect> name_like(const RemainderFinding& finding,
                                                 const std::vector<Effect>& beside) const;
+  void put_on_the_grid(const Effect& name);
   [[nodiscard]] std::vector<Effect> names_alike(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
@@ -94,6 +95,7 @@ class PartLoop {
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool moves_points() const;
+  void choose_motions();
   bool put_points_back();
   [[nodiscard]] bool ban_misnamed();
   [[nodiscard]] bool ban_impossible();

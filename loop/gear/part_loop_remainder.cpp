@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "trueflank/loop/gear/local/rotation_waves.h"
@@ -55,16 +56,37 @@ void PartLoop::nominate() {
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
-    if (name_like(finding, options_.given)) continue;
+    if (const std::optional<Effect> name = name_like(finding, options_.given)) {
+      put_on_the_grid(*name);
+      continue;
+    }
     candidates_.push_back(*finding.effect);
     banned_.push_back(false);
     unseen_.push_back(false);
   }
 }
 
+/// A shape that was found takes the place of the nearest of its kind: between two of the grid it would
+/// be told as other forms.
+void PartLoop::put_on_the_grid(const Effect& name) {
+  Effect* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Effect& candidate : candidates_) {
+    if (candidate.family != name.family || candidate.flank != name.flank) continue;
+    double off = 0.0;
+    for (std::size_t k = 0; k < name.shape.size(); ++k)
+      off += std::abs(candidate.shape[k] - name.shape[k]) / std::abs(name.shape[k]);
+    if (!(off < least)) continue;
+    least = off;
+    nearest = &candidate;
+  }
+  if (nearest != nullptr && name.family->shape_is_continuous) nearest->shape = name.shape;
+}
+
 /// Effects with a name that do nearly the same on these data, the simplest first.
 std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
-  constexpr double kNearly = 0.9;
+  // Between two shapes of a grid the best one may lie that far from either.
+  constexpr double kNearly = 0.9, kNearlyOffTheGrid = 0.75;
   std::vector<Effect> effects{form};
   std::vector<std::size_t> group;
   for (std::size_t g = 0; g < candidates_.size(); ++g)
@@ -89,17 +111,35 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
     columns.row(i) *= std::sqrt(problem.weight[i]);
   }
   const Eigen::VectorXd norms = columns.colwise().norm();
-  const auto is_alike = [&](std::size_t effect) {
+  const auto likeness = [&](std::size_t effect) {
+    double least = 1.0;
     for (Eigen::Index k = 0; k < form.columns(); ++k) {
       const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
-      if (!(std::abs(columns.col(k).dot(columns.col(other))) > kNearly * norms[k] * norms[other]))
-        return false;
+      const double both = norms[k] * norms[other];
+      least = std::min(least, both > 0.0 ? std::abs(columns.col(k).dot(columns.col(other))) / both : 0.0);
     }
-    return true;
+    return least;
   };
+  // Of shapes that are refined the nearest stands for all.
   std::vector<Effect> names;
-  for (std::size_t i = 0; i < group.size(); ++i)
-    if (is_alike(i + 1)) names.push_back(candidates_[group[i]]);
+  std::map<std::pair<const EffectFamily*, FlankChoice>, std::pair<std::size_t, double>> nearest;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Effect& name = candidates_[group[i]];
+    const bool off_the_grid = name.family->shape_is_continuous && !name.family->shape_is_step;
+    const double like = likeness(i + 1);
+    if (!(like > (off_the_grid ? kNearlyOffTheGrid : kNearly))) continue;
+    if (!off_the_grid) {
+      names.push_back(name);
+      continue;
+    }
+    const auto [known, is_new] = nearest.try_emplace({name.family, name.flank}, names.size(), like);
+    if (is_new) {
+      names.push_back(name);
+    } else if (like > known->second.second) {
+      names[known->second.first] = name;
+      known->second.second = like;
+    }
+  }
   std::stable_sort(names.begin(), names.end(),
                    [](const Effect& a, const Effect& b) { return a.order() < b.order(); });
   return names;

@@ -186,8 +186,15 @@ Result<InspectionData> read_inspection_csv(const std::string& file, std::string_
     data.common_zero = lowered(zero->second) == "common";
   if (const auto reference = rows.keys.find("reference"); reference != rows.keys.end())
     data.from_design = lowered(reference->second) == "design";
-  if (const auto ball = rows.keys.find("ball_diameter_mm"); ball != rows.keys.end())
+  if (const auto ball = rows.keys.find("ball_diameter_mm"); ball != rows.keys.end() && !ball->second.empty()) {
     data.ball_diameter_mm = number_in(ball->second);
+    if (!(data.ball_diameter_mm > 0.0))
+      return fail(Error{.code = ErrorCode::kOutOfRange,
+                        .message = "no diameter of a ball",
+                        .key = ball->first,
+                        .value = ball->second,
+                        .file = file});
+  }
   rows.bad.tell(notes);
   return data;
 }

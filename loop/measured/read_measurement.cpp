@@ -63,7 +63,7 @@ std::string comment_in(std::string_view text, std::string_view key) {
 std::pair<std::string, std::string> part_and_path(const std::string& argument) {
   const std::size_t equals = argument.find('=');
   std::error_code ignored;
-  if (equals == std::string::npos || equals == 0 || std::filesystem::exists(argument, ignored) ||
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size() || std::filesystem::exists(argument, ignored) ||
       argument.find_first_of("/\\") < equals)
     return {{}, argument};
   return {argument.substr(0, equals), argument.substr(equals + 1)};

@@ -37,6 +37,8 @@ struct EffectFacts {
   std::vector<std::string> parameters;  ///< with their unit; kPlain: one a column; kWave: amplitude, phase
   /// Values that shape the columns and are searched: order, height_mm, tooth, ...
   std::vector<std::string> shape_names = {};
+  /// What files mean that do not have them; empty: they must.
+  std::vector<double> shape_where_absent = {};
   ParameterForm form = ParameterForm::kPlain;
   double phase_divisor = 1.0;  ///< kWave: phase = angle / divisor (2 for an axis in the plane)
   bool named = true;           ///< false: a description without a cause

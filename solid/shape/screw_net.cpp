@@ -22,6 +22,10 @@ constexpr int kNarrow = 6;
 
 /// A corner whose angle lies farther out than this share of a strip's is where it ends.
 constexpr double kBeyond = 0.05;
+/// The same of its widest step.
+constexpr double kBeyondStep = 0.5;
+/// Vertices of a row between strips are as near to its height, as a share of the patch.
+constexpr double kSameHeight = 1e-9;
 
 /// A vertex on one of two chains, with its place along them.
 struct Link {
@@ -123,6 +127,11 @@ class Zip {
   std::vector<Row> rows_;
   std::vector<double> cost_;
   std::vector<bool> from_left_;
+};
+
+/// A strip of a patch: of so many, the one that lies above so many others.
+struct Level {
+  int below = 0, strips = 1;
 };
 
 class PatchBuilder {
@@ -232,23 +241,40 @@ class PatchBuilder {
       return chain;
     }
   };
+  static constexpr int kNoRow = -1;
+  /// The row of a column's vertex between two strips.
+  [[nodiscard]] int row_of(int column, const Level& level) const {
+    if (level.below == 0) return 0;
+    if (level.below == level.strips) return last_row(column);
+    const double at = static_cast<double>(level.below) / level.strips;
+    const auto& heights = inner(column);
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      if (std::abs(heights[k] - at) < kSameHeight) return static_cast<int>(k) + 1;
+    return kNoRow;
+  }
+  [[nodiscard]] bool has_vertex(int column, const Level& level) const {
+    if (level.below == 0) return is_on(rows_->lower, column);
+    if (level.below == level.strips) return is_on(rows_->upper, column);
+    return row_of(column, level) != kNoRow;
+  }
   /// `along(column, height)` of its vertices.
   template <class Along>
-  [[nodiscard]] Border border(int from, int to, const Along& along) const {
+  [[nodiscard]] Border border(int from, int to, const Along& along, const Level& strip = {}) const {
     Border result;
+    const Level lower = strip, upper{strip.below + 1, strip.strips};
     const auto add = [&](int column, int row) {
       const NetNode node{column, row};
       result.loop.push_back({node, along(column, height(node)), 0.0, point(node, to)});
     };
     for (int i = from; i <= to; ++i)
-      if (i == from || i == to || is_on(rows_->lower, i)) add(i, 0);
+      if (i == from || i == to || has_vertex(i, lower)) add(i, row_of(i, lower));
     result.corners[1] = result.loop.size() - 1;
-    for (int row = 1; row < last_row(to); ++row) add(to, row);
+    for (int row = row_of(to, lower) + 1; row < row_of(to, upper); ++row) add(to, row);
     result.corners[2] = result.loop.size();
     for (int i = to; i >= from; --i)
-      if (i == from || i == to || is_on(rows_->upper, i)) add(i, last_row(i));
+      if (i == from || i == to || has_vertex(i, upper)) add(i, row_of(i, upper));
     result.corners[3] = result.loop.size() - 1;
-    for (int row = last_row(from) - 1; row > 0; --row) add(from, row);
+    for (int row = row_of(from, upper) - 1; row > row_of(from, lower); --row) add(from, row);
     return result;
   }
 
@@ -257,6 +283,7 @@ class PatchBuilder {
   void add_strip_of_surface(int from, int to) {
     const bool inside = !inner(from).empty() || !inner(to).empty();
     const bool wide = to - from > kNarrow;
+    if (edge(from).strips > 1) return add_strips_across(from, to);
     best_ = {};
     if (!inside || edge(from).across)
       join_across(from, to, inside);
@@ -270,13 +297,27 @@ class PatchBuilder {
     result_.facets.insert(result_.facets.end(), best_.facets.begin(), best_.facets.end());
   }
 
+  /// One above the other.
+  void add_strips_across(int from, int to) {
+    const int strips = edge(from).strips;
+    for (int below = 0; below < strips; ++below) {
+      best_ = {};
+      const Level lower{below, strips}, upper{below + 1, strips};
+      const auto has_side = [&](int column) {
+        return row_of(column, upper) > row_of(column, lower) + 1;
+      };
+      join_across(from, to, has_side(from) || has_side(to), lower);
+      result_.facets.insert(result_.facets.end(), best_.facets.begin(), best_.facets.end());
+    }
+  }
+
   /// From edge to edge of the patch.
-  void join_across(int from, int to, bool inside) {
+  void join_across(int from, int to, bool inside, const Level& level = {}) {
     std::vector<double> way{0.0};
     for (int i = from; i < to; ++i) way.push_back(way.back() + edge(i).length_mm);
     const Border strip = border(from, to, [&](int column, double) {
       return way[static_cast<std::size_t>(column - from)];
-    });
+    }, level);
     const auto [ll, lr, ur, ul] = strip.corners;
     if (!inside) return join(strip.way_back(ul, ur), strip.way(ll, lr), kReachAcross);
     for (const std::size_t start : {ll, ul})
@@ -332,8 +373,8 @@ class PatchBuilder {
     const auto [first, last] = std::minmax_element(corners.begin(), corners.end(), lower);
     const auto [start, end] = std::minmax(left.front().along, left.back().along);
     const double range = loop[*last].along - loop[*first].along;
-    if (start - loop[*first].along <= kBeyond * range && loop[*last].along - end <= kBeyond * range)
-      return;
+    const double beyond = std::min(kBeyond * range, kBeyondStep * widest_step(loop));
+    if (start - loop[*first].along <= beyond && loop[*last].along - end <= beyond) return;
     const std::size_t n = loop.size(), ahead = (*last + n - *first) % n;
     if (ahead < 2 || n - ahead < 2) return;  // no vertices on one of the ways
     Chain forwards, backwards;

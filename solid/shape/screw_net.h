@@ -17,7 +17,10 @@ namespace trueflank {
 struct NetEdge {
   int region = 0;            ///< neighbours with the same number lie on one smooth surface
   bool developable = false;  ///< turns and supports say all: a circle about the axis, an involute
-  bool across = false;  ///< of a surface: joined from edge to edge of the patch, not column to column
+  bool across =
+      false;  ///< of a surface: joined from edge to edge of the patch, not column to column
+  int strips =
+      1;  ///< of a surface joined across: as many, one above the other, between rows of vertices
   double length_mm = 0.0;
   double turn_rad = 0.0;  ///< of the section's normal on the way
   double support_mm = 0.0, support_from_mm = 0.0,
@@ -38,8 +41,8 @@ struct NetPoint {
 /// The surface of an edge at its beginning or end, at a height (share of the patch).
 using NetSurface = std::function<NetPoint(int edge, bool at_end, double height)>;
 
-/// The columns that have a vertex on the lower and on the upper edge of a patch, and the error from which
-/// on strips are joined in other ways, too.
+/// The columns that have a vertex on the lower and on the upper edge of a patch, and the error from
+/// which on strips are joined in other ways, too.
 struct NetRows {
   std::vector<bool> lower, upper;
   double tolerance_mm = 0.0;

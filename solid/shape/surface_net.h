@@ -19,9 +19,11 @@ namespace trueflank {
 /// patches are laid while it lasts. Source: docs/theory/helical-facets.md.
 class ToothingGrid::SurfaceNet {
  public:
-  SurfaceNet(ToothingGrid& grid, double tolerance_mm);
-  /// False where the tolerance is not kept.
-  bool lay();
+  /// How the fillets and flanks of edge chamfers are laid.
+  enum class Chamfers { kStrips, kPosts };
+  SurfaceNet(ToothingGrid& grid, double tolerance_mm, Chamfers chamfers = Chamfers::kStrips);
+  /// False where the tolerance is not kept by so many facets a tooth.
+  bool lay(double most_facets);
 
  private:
   using Space3 = Eigen::Vector3d;
@@ -30,17 +32,22 @@ class ToothingGrid::SurfaceNet {
   static constexpr std::array<double, 3> kHeights = {0.12, 0.5, 0.88};
   /// Heights on either side of such a one, as a share of the patch.
   static constexpr double kReachUp = 0.0625;
-  /// By side and height.
-  using CellForms = std::array<SurfaceForm, 2 * kHeights.size()>;
+  /// By tooth, side and height.
+  using CellForms = std::vector<SurfaceForm>;
   using PanelForms = std::array<CellForms, kCells>;
 
   /// How a patch crosses a panel.
   struct Crossing {
     PanelForms forms;  ///< over a cell and the patch
     bool dome = false;
+    bool bare = false;     ///< of a flank: a strip without posts, nearly developable
     bool across = false;   ///< no vertices inside: facets reach from one break to the other
     bool between = false;  ///< the vertices of one break stand between those of the other
     int rows = 1;          ///< of a dome
+    int strips = 1;  ///< across: one above the other, between rows of vertices at even heights
+    int least_strips = 1, most_strips = 1;
+    double saddle = 0.0;          ///< what is left of the way up on saddles, at most, in rooms
+    std::size_t first_level = 0;  ///< number of the lowest of these rows
   };
   /// What lies between two joints or breaks of the profile.
   struct Panel {
@@ -49,6 +56,7 @@ class ToothingGrid::SurfaceNet {
     bool land = false, flank = false;
     double wider = 1.0;  ///< a land's chords are off by so many times those of the profile
     std::vector<Crossing> patches = {};
+    std::vector<std::vector<double>> posts = {};  ///< by patch, without the ends
   };
 
   static bool is_land(PieceKind kind) {
@@ -58,8 +66,8 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double height_of(std::size_t patch, double share) const {
     return std::lerp(g_.breaks_mm_[patch], g_.breaks_mm_[patch + 1], share);
   }
-  [[nodiscard]] Space3 on(int side, std::size_t piece, double parameter, double z) const {
-    const Point p = g_.at({side, piece, parameter}, 0, z);
+  [[nodiscard]] Space3 on(int tooth, const Place& place, double z) const {
+    const Point p = g_.at(place, tooth, z);
     return Space3(p.data());
   }
   /// Of a patch and piece.
@@ -74,7 +82,7 @@ class ToothingGrid::SurfaceNet {
   void find_panels();
   void measure_land(Panel& panel) const;
   void look_at(Panel& panel) const;
-  [[nodiscard]] SurfaceForm form(int side, std::size_t piece, double from, double to,
+  [[nodiscard]] SurfaceForm form(int tooth, int side, std::size_t piece, double from, double to,
                                  std::size_t patch, double share) const;
   [[nodiscard]] double cell_edge(const Panel& panel, double cell) const {
     return std::lerp(panel.from, panel.to, cell / kCells);
@@ -82,8 +90,12 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] double room_of(const Panel& panel, std::size_t patch, std::size_t cell) const;
   [[nodiscard]] ColumnDemand columns(const Panel& panel, std::size_t patch, int rows) const;
   [[nodiscard]] ColumnDemand chords(const Panel& panel, std::size_t row) const;
+  [[nodiscard]] static double chords_of(const Crossing& crossing, std::size_t cell, double room);
   [[nodiscard]] double straight_way(const Panel& panel, std::size_t patch, double parameter) const;
   void choose_crossing(Panel& panel, std::size_t patch) const;
+  [[nodiscard]] bool is_chamfer(std::size_t patch) const;
+  void choose_strips(std::size_t patch);
+  [[nodiscard]] double facets_with(Panel& panel, std::size_t patch, int strips) const;
 
   // surface_net_columns.cpp: where vertices stand
   void spread();
@@ -91,10 +103,14 @@ class ToothingGrid::SurfaceNet {
   void add_panel(Panel& panel);
   [[nodiscard]] std::vector<double> row_between(const Panel& panel, std::size_t patch,
                                                 const std::vector<double>& other) const;
+  [[nodiscard]] std::vector<double> row_alone(const Panel& panel, std::size_t patch) const;
+  [[nodiscard]] std::vector<std::vector<double>> level_rows(
+      const Panel& panel, std::vector<std::vector<double>>& rows) const;
+  void add_columns(const Panel& panel, const std::vector<std::vector<double>>& rows,
+                   const std::vector<std::vector<double>>& levels);
   [[nodiscard]] double rows_of(const Crossing& crossing) const;
-  [[nodiscard]] std::vector<std::vector<double>> posts_of(Panel& panel) const;
-  [[nodiscard]] std::vector<double> row_of(const Panel& panel, std::size_t row,
-                                           const std::vector<std::vector<double>>& posts) const;
+  void find_posts(Panel& panel) const;
+  [[nodiscard]] std::vector<double> row_of(const Panel& panel, std::size_t row) const;
 
   // toothing_grid_surface.cpp: the net of a patch
   [[nodiscard]] bool is_post(std::size_t column) const;
@@ -107,8 +123,10 @@ class ToothingGrid::SurfaceNet {
   [[nodiscard]] std::pair<double, double> span_of(std::size_t from, std::size_t to) const;
   void join_regions();
   [[nodiscard]] double steps_of(std::size_t from, std::size_t to) const;
+  [[nodiscard]] static double bare_steps(const Crossing& crossing, std::size_t cell, double room);
   [[nodiscard]] std::vector<std::vector<double>> inner_rows() const;
   [[nodiscard]] std::vector<bool> columns_between() const;
+  [[nodiscard]] bool is_on_level(std::size_t column, int below) const;
   [[nodiscard]] double ridge(std::size_t column) const;
   [[nodiscard]] Place end_of(std::size_t edge, bool at_end) const;
   [[nodiscard]] NetPoint net_point(std::size_t edge, bool at_end, double share) const;
@@ -117,16 +135,21 @@ class ToothingGrid::SurfaceNet {
   struct At {
     double parameter = 0.0, z = 0.0;
     Space3 point = Space3::Zero();
+    Space3 before = Space3::Zero();  ///< of lands, not displaced
   };
-  void measure(const NetPatch& net, Aims& errors) const;
-  [[nodiscard]] Space3 over_edge(const Place& surface, const At& p, const At& q,
+  void measure(const NetPatch& net, int tooth, Aims& errors) const;
+  [[nodiscard]] Space3 over_edge(int tooth, const Place& surface, const At& p, const At& q,
                                  double share) const;
-  [[nodiscard]] double facet_error(const Place& surface, const std::array<At, 3>& corner,
+  [[nodiscard]] double facet_error(int tooth, const Place& surface, const std::array<At, 3>& corner,
                                    bool in_strip) const;
   [[nodiscard]] static double land_error(const std::array<At, 3>& corner);
+  [[nodiscard]] double moved_land_error(const std::array<At, 3>& corner) const;
 
   ToothingGrid& g_;
   double tolerance_;
+  Chamfers chamfers_;
+  std::vector<int> teeth_;  ///< looked at
+  Toothing unmoved_;        ///< without its displacement
   std::size_t pieces_ = 0;
   std::vector<Panel> panels_;
   Aims aims_;

@@ -40,6 +40,9 @@ std::vector<double> between_posts(double from, double to, const ColumnDemand& wa
 
 void ToothingGrid::SurfaceNet::spread() {
   g_.edges_.clear();
+  for (Panel& panel : panels_)
+    if (!panel.land) find_posts(panel);
+  for (const std::size_t patch : {std::size_t{0}, patch_count() - 1}) choose_strips(patch);
   for (Panel& panel : panels_) {
     const std::size_t first = g_.edges_.size();
     if (panel.land)
@@ -77,7 +80,7 @@ double ToothingGrid::SurfaceNet::rows_of(const Crossing& crossing) const {
 }
 
 /// By patch, without the panel's ends. Tall patches first: others take over their posts.
-std::vector<std::vector<double>> ToothingGrid::SurfaceNet::posts_of(Panel& panel) const {
+void ToothingGrid::SurfaceNet::find_posts(Panel& panel) const {
   std::vector<std::size_t> order;
   for (std::size_t patch = 0; patch < patch_count(); ++patch) order.push_back(patch);
   const auto height = [&](std::size_t patch) {
@@ -85,12 +88,13 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::posts_of(Panel& panel
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
-  std::vector<std::vector<double>> posts(patch_count());
+  std::vector<std::vector<double>>& posts = panel.posts;
+  posts.assign(patch_count(), {});
   std::vector<bool> placed(patch_count(), false);
   for (const std::size_t patch : order) {
     choose_crossing(panel, patch);
     placed[patch] = true;
-    if (panel.patches[patch].across) continue;
+    if (panel.patches[patch].across || panel.patches[patch].bare) continue;
     const ColumnDemand wanted = columns(panel, patch, panel.patches[patch].rows);
     const int count = whole_parts(wanted.whole());
     for (int k = 1; k < count; ++k)
@@ -106,15 +110,13 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::posts_of(Panel& panel
       if (facets <= fewest) fewest = facets, posts[patch] = refined;
     }
   }
-  return posts;
 }
 
 /// Vertices of a break: the posts beside it and chords between them.
-std::vector<double> ToothingGrid::SurfaceNet::row_of(
-    const Panel& panel, std::size_t row, const std::vector<std::vector<double>>& posts) const {
+std::vector<double> ToothingGrid::SurfaceNet::row_of(const Panel& panel, std::size_t row) const {
   std::vector<double> fixed{panel.from, panel.to};
   for (std::size_t patch = row > 0 ? row - 1 : 0; patch < std::min(row + 1, patch_count()); ++patch)
-    fixed.insert(fixed.end(), posts[patch].begin(), posts[patch].end());
+    fixed.insert(fixed.end(), panel.posts[patch].begin(), panel.posts[patch].end());
   const double sense = panel.to > panel.from ? 1.0 : -1.0;
   std::sort(fixed.begin(), fixed.end(), [&](double a, double b) { return sense * a < sense * b; });
   fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
@@ -144,15 +146,55 @@ std::vector<double> ToothingGrid::SurfaceNet::row_between(const Panel& panel, st
   return result;
 }
 
+/// Vertices of a row that asks nothing of its neighbours.
+std::vector<double> ToothingGrid::SurfaceNet::row_alone(const Panel& panel,
+                                                        std::size_t patch) const {
+  ColumnDemand wanted(panel.from, panel.to);
+  for (std::size_t c = 0; c < kCells; ++c)
+    wanted.add(chords_of(panel.patches[patch], c, room_of(panel, patch, c)));
+  const int count = whole_parts(wanted.whole());
+  std::vector<double> result;
+  for (int k = 0; k <= count; ++k) result.push_back(wanted.between(panel.from, panel.to, k, count));
+  return result;
+}
+
+/// Rows within the patches at the end faces, from the break outwards, each between the one before;
+/// where vertices stand between one another, the end face's row, too.
+std::vector<std::vector<double>> ToothingGrid::SurfaceNet::level_rows(
+    const Panel& panel, std::vector<std::vector<double>>& rows) const {
+  std::vector<std::vector<double>> levels;
+  for (const bool down : {true, false}) {
+    const std::size_t patch = down ? 0 : patch_count() - 1;
+    const Crossing& crossing = panel.patches[patch];
+    if (!down && patch == 0) break;
+    std::vector<std::vector<double>> inside;
+    const std::vector<double>* other = &rows[down ? 1 : patch];
+    for (int k = 1; k < crossing.strips; ++k) {
+      inside.push_back(crossing.between ? row_between(panel, patch, *other)
+                                        : row_alone(panel, patch));
+      other = &inside.back();
+    }
+    if (crossing.between) rows[down ? 0 : patch + 1] = row_between(panel, patch, *other);
+    if (down) std::reverse(inside.begin(), inside.end());
+    levels.insert(levels.end(), inside.begin(), inside.end());
+  }
+  return levels;
+}
+
 void ToothingGrid::SurfaceNet::add_panel(Panel& panel) {
-  const std::vector<std::vector<double>> posts = posts_of(panel);
   std::vector<std::vector<double>> rows;
-  for (std::size_t row = 0; row <= patch_count(); ++row) rows.push_back(row_of(panel, row, posts));
-  if (panel.patches.front().between) rows.front() = row_between(panel, 0, rows[1]);
-  if (patch_count() > 1 && panel.patches.back().between)
-    rows.back() = row_between(panel, patch_count() - 1, rows[rows.size() - 2]);
+  for (std::size_t row = 0; row <= patch_count(); ++row) rows.push_back(row_of(panel, row));
+  panel.patches.back().first_level = static_cast<std::size_t>(panel.patches.front().strips) - 1;
+  panel.patches.front().first_level = 0;
+  add_columns(panel, rows, level_rows(panel, rows));
+}
+
+void ToothingGrid::SurfaceNet::add_columns(const Panel& panel,
+                                           const std::vector<std::vector<double>>& rows,
+                                           const std::vector<std::vector<double>>& levels) {
   std::vector<double> columns;
-  for (const auto& row : rows) columns.insert(columns.end(), row.begin(), row.end());
+  for (const auto* all : {&rows, &levels})
+    for (const auto& row : *all) columns.insert(columns.end(), row.begin(), row.end());
   const double sense = panel.to > panel.from ? 1.0 : -1.0;
   std::sort(columns.begin(), columns.end(),
             [&](double a, double b) { return sense * a < sense * b; });
@@ -161,18 +203,19 @@ void ToothingGrid::SurfaceNet::add_panel(Panel& panel) {
   for (const double c : columns)
     if (apart.empty() || std::abs(c - apart.back()) > same) apart.push_back(c);
   apart.front() = panel.from, apart.back() = panel.to;
-  const auto stands = [&](const std::vector<double>& in, double column) {
-    return std::any_of(in.begin(), in.end(),
-                       [&](double p) { return std::abs(p - column) <= same; });
+  const auto standing = [&](const std::vector<std::vector<double>>& all, double column) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (std::any_of(all[k].begin(), all[k].end(),
+                      [&](double p) { return std::abs(p - column) <= same; }))
+        bits |= bit(k);
+    return bits;
   };
   for (std::size_t i = 0; i + 1 < apart.size(); ++i) {
     HalfEdge edge{panel.piece, apart[i], apart[i + 1]};
     if (i > 0) {
-      edge.rows = 0;
-      for (std::size_t row = 0; row < rows.size(); ++row)
-        if (stands(rows[row], apart[i])) edge.rows |= bit(row);
-      for (std::size_t patch = 0; patch < posts.size(); ++patch)
-        if (stands(posts[patch], apart[i])) edge.posts |= bit(patch);
+      edge.rows = standing(rows, apart[i]), edge.posts = standing(panel.posts, apart[i]);
+      edge.levels = standing(levels, apart[i]);
     }
     g_.edges_.push_back(edge);
   }

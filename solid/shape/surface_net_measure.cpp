@@ -16,7 +16,8 @@ constexpr double kOffMiddle = 0.02;
 }  // namespace
 
 /// The point of the surface over the share of a facet's edge.
-ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_edge(const Place& surface,
+ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_edge(int tooth,
+                                                                     const Place& surface,
                                                                      const At& p, const At& q,
                                                                      double share) const {
   const Space3 chord = q.point - p.point;
@@ -24,7 +25,7 @@ ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_edge(const Place
   double at = share;
   Space3 found;
   for (int i = 0; i < 4; ++i) {
-    found = on(surface.side, surface.piece, std::lerp(p.parameter, q.parameter, at),
+    found = on(tooth, {surface.side, surface.piece, std::lerp(p.parameter, q.parameter, at)},
                std::lerp(p.z, q.z, at));
     const double off = (found - p.point).dot(chord) / length2 - share;
     if (!(std::abs(off) > kOffMiddle)) break;
@@ -33,8 +34,9 @@ ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_edge(const Place
   return found;
 }
 
-void ToothingGrid::SurfaceNet::measure(const NetPatch& net, Aims& errors) const {
+void ToothingGrid::SurfaceNet::measure(const NetPatch& net, int tooth, Aims& errors) const {
   const std::size_t n = net_.size();
+  const bool moved = g_.toothing_.displacement != nullptr;
   for (std::size_t t = 0; t < net.facets.size(); ++t) {
     const auto& facet = net.facets[t];
     const int first = std::min({facet[0].column, facet[1].column, facet[2].column});
@@ -49,14 +51,19 @@ void ToothingGrid::SurfaceNet::measure(const NetPatch& net, Aims& errors) const 
       const bool at_end = net.region[t] != net_[column % n].region;
       const Place place = on_land(edge) ? g_.points_[column % n]
                                         : end_of((at_end ? column + n - 1 : column) % n, at_end);
-      corner[k] = {place.parameter, height_of(patch_, share), Space3::Zero()};
-      const std::size_t tooth = on_land(edge) ? column / n : 0;
-      const Point p = g_.at(place, static_cast<int>(tooth) % g_.teeth_, corner[k].z);
-      corner[k].point = Space3(p.data());
+      corner[k] = {place.parameter, height_of(patch_, share)};
+      const int next = on_land(edge) ? static_cast<int>(column / n) : 0,
+                of_tooth = (tooth + next) % g_.teeth_;
+      corner[k].point = on(of_tooth, place, corner[k].z);
+      if (!moved || !on_land(edge)) continue;
+      const Point p =
+          surface_point(unmoved_, g_.place_at(place, of_tooth, corner[k].z), corner[k].z);
+      corner[k].before = Space3(p.data());
     }
-    const double error =
-        on_land(edge) ? land_error(corner)
-                      : facet_error(surface, corner, net_[edge].developable || net_[edge].across);
+    const double error = !on_land(edge) ? facet_error(tooth, surface, corner,
+                                                      net_[edge].developable || net_[edge].across)
+                         : moved        ? moved_land_error(corner)
+                                        : land_error(corner);
     const auto [low_sample, high_sample] = samples(
         surface.piece, std::min({corner[0].parameter, corner[1].parameter, corner[2].parameter}),
         std::max({corner[0].parameter, corner[1].parameter, corner[2].parameter}));
@@ -65,8 +72,8 @@ void ToothingGrid::SurfaceNet::measure(const NetPatch& net, Aims& errors) const 
   }
 }
 
-double ToothingGrid::SurfaceNet::facet_error(const Place& surface, const std::array<At, 3>& corner,
-                                             bool in_strip) const {
+double ToothingGrid::SurfaceNet::facet_error(int tooth, const Place& surface,
+                                             const std::array<At, 3>& corner, bool in_strip) const {
   const Space3 normal =
       (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
   std::array<double, 3> middle{};
@@ -76,7 +83,7 @@ double ToothingGrid::SurfaceNet::facet_error(const Place& surface, const std::ar
     for (const double share : {0.5, 0.25, 0.75}) {
       if (share != 0.5 && !in_strip)
         break;  // only strips have edges that may bend in one half alone
-      const Space3 away = over_edge(surface, p, q, share) - p.point;
+      const Space3 away = over_edge(tooth, surface, p, q, share) - p.point;
       const double off = away.dot(normal);
       // an end face's edge has the surface on one side only
       if (share == 0.5 && p.z == q.z) {
@@ -86,6 +93,27 @@ double ToothingGrid::SurfaceNet::facet_error(const Place& surface, const std::ar
       if (share == 0.5) middle[k] = off;
       largest = std::max(largest, std::abs(off));
     }
+  }
+  return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
+}
+
+/// The displacement bends what was a cylinder or cone.
+double ToothingGrid::SurfaceNet::moved_land_error(const std::array<At, 3>& corner) const {
+  const Space3 normal =
+      (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
+  std::array<double, 3> middle{};
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const At &p = corner[k], &q = corner[(k + 1) % 3];
+    const Space3 half = 0.5 * (p.before + q.before);
+    const double radius = 0.5 * (p.before.head<2>().norm() + q.before.head<2>().norm());
+    const Eigen::Vector2d there = radius * half.head<2>().normalized();
+    const std::array<double, 3> before{there.x(), there.y(), half.z()};
+    const std::array<double, 3> moved = (*g_.toothing_.displacement)(before);
+    const Space3 away = Space3(before.data()) + Space3(moved.data()) - p.point;
+    middle[k] = away.dot(normal);
+    const Space3 chord = (q.point - p.point).normalized();
+    if (p.z == q.z) largest = std::max(largest, (away - chord * away.dot(chord)).norm());
   }
   return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
 }

@@ -14,6 +14,10 @@ namespace {
 constexpr double kSlack = 1.25;
 /// The same of domes.
 constexpr double kAlmostWhole = 0.75;
+/// Saddles bent by less than this share of the room have facets wherever vertices stand.
+constexpr double kAnyPhase = 1.0;
+/// More strips a chamfer is not cut into.
+constexpr int kMostStrips = 24;
 
 /// What is left of the way up along the straightest way, in rooms: below 0 on saddles.
 double left_up(const SurfaceForm& form, double room_mm) {
@@ -23,21 +27,35 @@ double left_up(const SurfaceForm& form, double room_mm) {
 }
 
 /// Vertices that one step asks for of either break where facets reach from one to the other.
-double vertices_across(const SurfaceForm& form, double room_mm) {
+double vertices_across(SurfaceForm form, double room_mm, int strips) {
+  form.mixed /= strips, form.along /= strips * strips;
   const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), q = left_up(form, room_mm);
   const double chords = std::sqrt(bent / room_mm);
   return -q <= kSlack ? chords : chords / (std::sqrt(1.0 - q) - std::sqrt(-q - 1.0));
 }
 
+/// How far vertices of one row of a strip stand from the middles of the other's: halfway between
+/// the steepest and the flattest edge that keep the tolerance.
+double way_between(SurfaceForm form, double room_mm, int strips) {
+  form.mixed /= strips, form.along /= strips * strips;
+  const double bent = std::max(std::abs(form.across), 1e-6 * room_mm), m = -left_up(form, room_mm);
+  const double chord = std::sqrt(room_mm / bent);
+  const double lean = form.mixed / (form.across < 0.0 ? -bent : bent);
+  const double centre =
+      m > kSlack ? 0.5 * (std::sqrt(m + 1.0) + std::sqrt(m - 1.0))
+                 : std::min(std::sqrt(std::max(m, 0.0)), std::sqrt(std::max(m + 1.0, 0.25)) - 0.5);
+  return std::copysign(chord * centre, lean) - lean;
+}
+
 }  // namespace
 
-SurfaceForm ToothingGrid::SurfaceNet::form(int side, std::size_t piece, double from, double to,
-                                           std::size_t patch, double share) const {
+SurfaceForm ToothingGrid::SurfaceNet::form(int tooth, int side, std::size_t piece, double from,
+                                           double to, std::size_t patch, double share) const {
   const double middle = 0.5 * (from + to);
   const double z0 = height_of(patch, share - kReachUp), z = height_of(patch, share),
                z1 = height_of(patch, share + kReachUp);
   const auto x = [&](double parameter, double height) {
-    return on(side, piece, parameter, height);
+    return on(tooth, {side, piece, parameter}, height);
   };
   return surface_form(
       {x(from, z0), x(from, z), x(middle, z0), x(middle, z), x(middle, z1), x(to, z), x(to, z1)},
@@ -71,13 +89,14 @@ void ToothingGrid::SurfaceNet::measure_land(Panel& panel) const {
     return angle * angle * a.norm();
   };
   const double plain = spread_of(point_at(curve, curve.begin), point_at(curve, curve.end));
-  for (const double z : g_.breaks_mm_)
-    for (const int side : {-1, 1}) {
-      const Space3 a = on(side, panel.piece, curve.begin, z),
-                   b = on(side, panel.piece, curve.end, z);
-      if (plain > 0.0)
-        panel.wider = std::max(panel.wider, spread_of(a.head<2>(), b.head<2>()) / plain);
-    }
+  for (const int tooth : teeth_)
+    for (const double z : g_.breaks_mm_)
+      for (const int side : {-1, 1}) {
+        const Space3 a = on(tooth, {side, panel.piece, curve.begin}, z),
+                     b = on(tooth, {side, panel.piece, curve.end}, z);
+        if (plain > 0.0)
+          panel.wider = std::max(panel.wider, spread_of(a.head<2>(), b.head<2>()) / plain);
+      }
 }
 
 void ToothingGrid::SurfaceNet::look_at(Panel& panel) const {
@@ -87,14 +106,13 @@ void ToothingGrid::SurfaceNet::look_at(Panel& panel) const {
     Crossing& crossing = panel.patches[patch];
     for (std::size_t c = 0; c < kCells; ++c) {
       const auto cell = static_cast<double>(c);
-      std::size_t k = 0;
-      for (const int side : {-1, 1})
-        for (const double share : kHeights) {
-          crossing.forms[c][k] = form(side, panel.piece, cell_edge(panel, cell),
-                                      cell_edge(panel, cell + 1.0), patch, share);
-          crossing.dome = crossing.dome || crossing.forms[c][k].is_dome(room);
-          ++k;
-        }
+      for (const int tooth : teeth_)
+        for (const int side : {-1, 1})
+          for (const double share : kHeights) {
+            crossing.forms[c].push_back(form(tooth, side, panel.piece, cell_edge(panel, cell),
+                                             cell_edge(panel, cell + 1.0), patch, share));
+            crossing.dome = crossing.dome || crossing.forms[c].back().is_dome(room);
+          }
     }
   }
 }
@@ -123,23 +141,69 @@ ColumnDemand ToothingGrid::SurfaceNet::columns(const Panel& panel, std::size_t p
   return demand;
 }
 
+/// Vertices that a row within or beside a patch asks for.
+double ToothingGrid::SurfaceNet::chords_of(const Crossing& crossing, std::size_t cell,
+                                           double room) {
+  double most = 1e-9;
+  for (const SurfaceForm& form : crossing.forms[cell]) {
+    most = std::max(most, std::sqrt(form.level / room));
+    if (crossing.across) most = std::max(most, vertices_across(form, room, crossing.strips));
+  }
+  return most;
+}
+
 /// Vertices that the patches beside a break ask for on it.
 ColumnDemand ToothingGrid::SurfaceNet::chords(const Panel& panel, std::size_t row) const {
   ColumnDemand demand(panel.from, panel.to);
   for (std::size_t c = 0; c < kCells; ++c) {
     double most = 1e-9;
     for (std::size_t patch = row > 0 ? row - 1 : 0; patch < std::min(row + 1, patch_count());
-         ++patch) {
-      const Crossing& crossing = panel.patches[patch];
-      const double room = room_of(panel, patch, c);
-      for (const SurfaceForm& form : crossing.forms[c]) {
-        most = std::max(most, std::sqrt(form.level / room));
-        if (crossing.across) most = std::max(most, vertices_across(form, room));
-      }
-    }
+         ++patch)
+      most = std::max(most, chords_of(panel.patches[patch], c, room_of(panel, patch, c)));
     demand.add(most);
   }
   return demand;
+}
+
+/// The lower or upper end of the grid, if that is an edge chamfer's.
+bool ToothingGrid::SurfaceNet::is_chamfer(std::size_t patch) const {
+  const std::size_t last = patch_count() - 1;
+  if (chamfers_ == Chamfers::kPosts || last == 0 || (patch != 0 && patch != last)) return false;
+  const double z = height_of(patch, 0.5),
+               from_end = std::min(z, g_.toothing_.twist.face_width_mm - z);
+  return from_end < g_.toothing_.edge_chamfer_mm;
+}
+
+/// Of all panels of a chamfer together: their common columns have vertices for the strips of both.
+void ToothingGrid::SurfaceNet::choose_strips(std::size_t patch) {
+  if (!is_chamfer(patch)) return;
+  int least = 1, most = 1;
+  for (const Panel& panel : panels_)
+    if (!panel.land && !panel.flank) {
+      least = std::max(least, panel.patches[patch].least_strips);
+      most = std::max(most, panel.patches[patch].most_strips);
+    }
+  int best = least;
+  double fewest = 1e300;
+  for (int strips = least; strips <= most; ++strips) {
+    double facets = 0.0;
+    for (Panel& panel : panels_)
+      if (!panel.land && !panel.flank) facets += facets_with(panel, patch, strips);
+    if (facets < fewest) fewest = facets, best = strips;
+  }
+  for (Panel& panel : panels_)
+    if (!panel.land && !panel.flank) (void)facets_with(panel, patch, best);
+}
+
+/// Leaves the patch with so many strips; its facets, and those that its rows cost beside it.
+double ToothingGrid::SurfaceNet::facets_with(Panel& panel, std::size_t patch, int strips) const {
+  Crossing& crossing = panel.patches[patch];
+  crossing.strips = strips;
+  crossing.between = crossing.saddle > kAnyPhase * strips * strips;
+  const auto on_break = static_cast<double>(row_of(panel, patch == 0 ? 1 : patch).size());
+  const double inside =
+      crossing.between ? on_break : static_cast<double>(row_alone(panel, patch).size());
+  return 2.0 * strips * inside + 2.0 * on_break;
 }
 
 /// How far a straight line of the surface wanders along the panel from the lower break to the upper
@@ -153,7 +217,10 @@ double ToothingGrid::SurfaceNet::straight_way(const Panel& panel, std::size_t pa
        {std::size_t{1}, kHeights.size() + 1}) {  // of both sides, at half height
     const SurfaceForm& f = panel.patches[patch].forms[cell][k];
     const double under = f.mixed * f.mixed - f.across * f.along;
-    if (under > 0.0) cells -= 0.5 * f.along / (f.mixed + std::copysign(std::sqrt(under), f.mixed));
+    if (is_chamfer(patch))
+      cells += 0.5 * way_between(f, room_of(panel, patch, cell), panel.patches[patch].strips);
+    else if (under > 0.0)
+      cells -= 0.5 * f.along / (f.mixed + std::copysign(std::sqrt(under), f.mixed));
   }
   return cells * (panel.to - panel.from) / kCells;
 }
@@ -162,18 +229,32 @@ double ToothingGrid::SurfaceNet::straight_way(const Panel& panel, std::size_t pa
 /// the fewest facets with the columns they leave.
 void ToothingGrid::SurfaceNet::choose_crossing(Panel& panel, std::size_t patch) const {
   Crossing& crossing = panel.patches[patch];
-  double along = 0.0, dome = 0.0, saddle = 0.0;
+  double along = 0.0, dome = 0.0, saddle = 0.0, left = 0.0;
   for (std::size_t c = 0; c < kCells; ++c) {
     const double room = room_of(panel, patch, c);
     for (const SurfaceForm& form : crossing.forms[c]) {
       along = std::max(along, std::abs(form.along) / room);
       dome = std::max(dome, left_up(form, room));
       saddle = std::max(saddle, -left_up(form, room));
+      left = std::max(left, std::abs(left_up(form, 8.0 * tolerance_)));
     }
   }
   crossing.across = along <= 1.0 && dome <= kAlmostWhole;
   crossing.between = crossing.across && saddle > kSlack;
-  crossing.rows = 1;
+  crossing.rows = crossing.strips = 1;
+  crossing.least_strips = crossing.most_strips = 1;
+  crossing.bare = false;
+  if (is_chamfer(patch)) {
+    crossing.bare = panel.flank && !crossing.across && left <= kAlmostWhole;
+    if (!panel.flank) {
+      crossing.across = true;
+      crossing.least_strips =
+          std::min(kMostStrips, whole_parts(std::sqrt(std::max(along, dome / kAlmostWhole))));
+      crossing.most_strips =
+          std::clamp(whole_parts(std::sqrt(saddle)), crossing.least_strips, kMostStrips);
+      crossing.saddle = saddle;
+    }
+  }
   if (!crossing.dome || crossing.across) return;
   const int fewest = whole_parts(std::sqrt(along));
   double least_facets = 1e300;

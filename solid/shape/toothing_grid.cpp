@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/units.h"
@@ -83,12 +84,22 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   const double aim = kAim * tolerance_mm;
   if (plain_)
     lay_plain(aim);
-  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || !teeth_alike_ || moved ||
-           toothing_.bed != nullptr || !try_surface_net(aim)) {
+  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || toothing_.bed != nullptr ||
+           !try_surface_net(aim, most_net_facets(tolerance_mm))) {
     edges_.clear();
     lay_modified(tolerance_mm, aim);
   }
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
+}
+
+/// What a net may have a tooth. Where teeth differ it is measured on all of them, so it is to have fewer than
+/// rows and columns, if these keep the tolerance.
+double ToothingGrid::most_net_facets(double tolerance_mm) const {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (teeth_alike_) return kAny;
+  const ToothingGrid rows(outline_, levels_mm_, tolerance_mm, GridKind::kRows);
+  if (rows.chord_error_mm() > tolerance_mm) return kAny;
+  return 2.0 * static_cast<double>(rows.heights_mm_.size() - 1) * rows.points_per_tooth();
 }
 
 void ToothingGrid::lay_plain(double aim_mm) {
@@ -302,18 +313,23 @@ double ToothingGrid::layer_error_mm(double lower_mm, double upper_mm, int sample
 void ToothingGrid::refine_layers(double tolerance_mm, int most_parts) {
   if (layers_alike_) return;
   const double tall = 0.1 * toothing_.twist.face_width_mm;
+  std::vector<bool> stays(heights_mm_.size(), false);  // the layer above each height: looked at before
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> heights{heights_mm_.front()};
+    std::vector<bool> stay;
     for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
       const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
-      const double error = layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
+      const double error =
+          stays[j] ? 0.0 : layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
       const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
       const int parts = split ? parts_for(error, tolerance_mm, most_parts) : 1;
       for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
       heights.push_back(upper);
+      stay.insert(stay.end(), static_cast<std::size_t>(parts), parts == 1);
     }
     const bool done = heights.size() == heights_mm_.size();
     heights_mm_ = std::move(heights);
+    stays = std::move(stay);
     if (done) return;
   }
 }
@@ -439,11 +455,11 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   std::vector<Point> result;
   result.reserve(points_.size() * static_cast<std::size_t>(teeth_));
   const double z = z_mm + outline_.z_lower_mm;
+  const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
+  const auto row = static_cast<std::size_t>(
+      std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
   if (teeth_alike_) {
     std::vector<Point2> tooth;
-    const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
-    const auto row = static_cast<std::size_t>(
-        std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_on_row(i, row))
         tooth.push_back(section_point(toothing_, place_at(points_[i], 0, z_mm), z_mm));
@@ -457,12 +473,15 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
     return result;
   }
   for (int k = 0; k < teeth_; ++k)
-    for (const Place& place : points_) {
-      const Point p = at(place, k, z_mm);
-      const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
-      result.push_back({turned.x(), turned.y(), p[2] + outline_.z_lower_mm});
-    }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (is_on_row(i, row)) result.push_back(in_part(points_[i], k, z_mm));
   return result;
+}
+
+ToothingGrid::Point ToothingGrid::in_part(const Place& place, int tooth, double z_mm) const {
+  const Point p = at(place, tooth, z_mm);
+  const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
+  return {turned.x(), turned.y(), p[2] + outline_.z_lower_mm};
 }
 
 OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm, double tolerance_mm) {

@@ -18,8 +18,8 @@ enum class GridKind { kFewest, kRows };
 /// The vertices of a toothing's mesh: columns (the same places of the profile in every row) and
 /// rows at heights, chosen so that every facet between them keeps a tolerance. Every vertex is a
 /// surface_point().
-/// Nets where teeth are alike and not displaced: columns with vertices of their own, see patches().
-/// Else: the section's own chords give the columns, the curvature of the screw the rows; where a
+/// Nets: columns with vertices of their own, see patches(); one for all teeth, also where they differ.
+/// Bed chamfers, and where a net fails: the section's own chords give the columns, the curvature of the screw the rows; where a
 /// deviation or displacement bends the surface more, columns and rows are added until the triangles
 /// keep the tolerance. Each quadrilateral is cut along the diagonal that lies nearer to the
 /// surface: on an involute flank along the straight generator of the helicoid. Joints of profile
@@ -40,8 +40,8 @@ class ToothingGrid {
   /// All teeth at a height (gear's frame): points of the part's frame, tooth by tooth as in
   /// SectionPolygon.
   [[nodiscard]] std::vector<std::array<double, 3>> row(double z_mm) const;
-  /// The place of each column in a tooth's part of row(heights_mm()[row]), and how many there are. Of a
-  /// column that has no vertex on this row: of the next one.
+  /// The place of each column in a tooth's part of row(heights_mm()[row]), and how many there are.
+  /// Of a column that has no vertex on this row: of the next one.
   struct RowPlaces {
     std::vector<int> place;
     int count = 0;
@@ -71,6 +71,7 @@ class ToothingGrid {
     // of a modified net, of its first column, by bits:
     std::uint64_t rows = ~std::uint64_t{0};  ///< breaks on which it has a vertex
     std::uint64_t posts = 0;                 ///< patches in which it may have vertices, too
+    std::uint64_t levels = 0;                ///< rows within patches on which it has a vertex
   };
   /// A place on a tooth, whichever tooth.
   struct Place {
@@ -93,6 +94,8 @@ class ToothingGrid {
   /// The place at a height: columns go with the breaks of the deviation.
   [[nodiscard]] ToothPlace place_at(const Place& place, int tooth, double z_mm) const;
   [[nodiscard]] Point at(const Place& place, int tooth, double z_mm) const;
+  /// The same in the part's frame.
+  [[nodiscard]] Point in_part(const Place& place, int tooth, double z_mm) const;
   [[nodiscard]] std::vector<int> some_teeth() const;
   [[nodiscard]] bool is_even(std::size_t middle) const {
     return chord_middles_[middle].parameter == middles_[middle].parameter;
@@ -102,8 +105,10 @@ class ToothingGrid {
   [[nodiscard]] bool is_on_row(std::size_t column, std::size_t row) const;
   void lay_plain(double aim_mm);
   class SurfaceNet;
+  void add_bend_breaks(double tolerance_mm);
   /// A net of modified teeth. False where the tolerance is not kept.
-  bool try_surface_net(double tolerance_mm);
+  bool try_surface_net(double tolerance_mm, double most_facets);
+  [[nodiscard]] double most_net_facets(double tolerance_mm) const;
   /// Finer aims where facets were off by more; false where none was.
   static bool tighten(Aims& aims_mm, const Aims& error_mm, double tolerance_mm);
   /// Where rows and columns share the tolerance, as it takes the fewest facets.

@@ -430,6 +430,13 @@ void ToothingGrid::try_net(double tolerance_mm) {
 std::vector<std::array<double, 3>> ToothingGrid::inner_points(std::size_t patch) const {
   std::vector<Point> result;
   const double low = breaks_mm_[patch], high = breaks_mm_[patch + 1];
+  if (!teeth_alike_) {
+    for (int k = 0; k < teeth_; ++k)
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        for (const double share : patches_[patch].inner[i])
+          result.push_back(in_part(points_[i], k, std::lerp(low, high, share)));
+    return result;
+  }
   std::vector<Point3> tooth;  // before it is turned
   for (std::size_t i = 0; i < points_.size(); ++i)
     for (const double share : patches_[patch].inner[i]) {

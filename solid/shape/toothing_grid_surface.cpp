@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "trueflank/base/units.h"
 #include "trueflank/solid/shape/surface_net.h"
 
 namespace trueflank {
@@ -12,6 +14,8 @@ namespace {
 
 /// Rounds of finer columns and steps where facets do not keep the tolerance.
 constexpr int kSurfaceRounds = 24;
+/// The same where teeth differ: what took more of them did not get there, or took longer than rows and columns.
+constexpr int kRoundsOfTeethThatDiffer = 16;
 /// More facets than so many times the first round's: something bends that columns do not mend.
 constexpr double kWorthWhile = 4.0;
 /// From this round on the neighbours of what is too coarse are laid finer, too.
@@ -22,6 +26,10 @@ constexpr double kMeasured = 0.99;
 constexpr double kUpright = 0.5;
 /// Strips no wider than so many chords are joined column to column.
 constexpr double kOneChord = 1.02;
+/// Steps up the face and about the axis at which a displacement is looked at, and what upright
+/// lines of a patch may have of the tolerance.
+constexpr int kBendSteps = 48, kBendAngles = 16;
+constexpr double kShareOfBend = 0.3;
 /// Of an edge, where its normals are found.
 constexpr double kNear = 1e-3;
 
@@ -38,16 +46,26 @@ void spread_to_neighbours(Aims& errors) {
 
 }  // namespace
 
-ToothingGrid::SurfaceNet::SurfaceNet(ToothingGrid& grid, double tolerance_mm)
-    : g_(grid), tolerance_(tolerance_mm), pieces_(grid.toothing_.profile->pieces().size()) {
+ToothingGrid::SurfaceNet::SurfaceNet(ToothingGrid& grid, double tolerance_mm, Chamfers chamfers)
+    : g_(grid),
+      tolerance_(tolerance_mm),
+      chamfers_(chamfers),
+      teeth_(grid.some_teeth()),
+      unmoved_(grid.toothing_),
+      pieces_(grid.toothing_.profile->pieces().size()) {
+  unmoved_.displacement = nullptr;
   aims_.resize(patch_count() * pieces_);
   for (auto& piece : aims_) piece.fill(tolerance_);
   find_panels();
 }
 
-bool ToothingGrid::SurfaceNet::lay() {
+bool ToothingGrid::SurfaceNet::lay(double most_facets) {
   double first_facets = 0.0;
-  for (int round = 0; round < kSurfaceRounds; ++round) {
+  std::vector<int> measured = teeth_,
+                   all(static_cast<std::size_t>(g_.teeth_alike_ ? 1 : g_.teeth_));
+  std::iota(all.begin(), all.end(), 0);
+  const int rounds = g_.teeth_alike_ ? kSurfaceRounds : kRoundsOfTeethThatDiffer;
+  for (int round = 0; round < rounds; ++round) {
     spread();
     net_ = g_.net_edges();
     Aims errors(aims_.size(), std::array<double, kSamples>{});
@@ -61,11 +79,15 @@ bool ToothingGrid::SurfaceNet::lay() {
       };
       g_.patches_.push_back(net_patch(net_, inner_rows(), g_.patch_turn_rad(patch_), surface,
                                       {row_columns(patch_), row_columns(patch_ + 1), tolerance_}));
-      measure(g_.patches_.back(), errors);
+      for (const int tooth : measured) measure(g_.patches_.back(), tooth, errors);
       facets += static_cast<double>(g_.patches_.back().facets.size());
     }
+    if (facets > most_facets) return false;
     if (round >= kAlone) spread_to_neighbours(errors);
-    if (!tighten(aims_, errors, tolerance_)) return true;
+    if (!tighten(aims_, errors, tolerance_)) {
+      if (measured.size() == all.size()) return true;
+      measured = all;  // some did for the rounds before
+    }
     if (round == 0) first_facets = facets;
     if (facets > kWorthWhile * first_facets) return false;
   }
@@ -158,9 +180,11 @@ void ToothingGrid::SurfaceNet::join_regions() {
     const std::size_t end = region_end(i);
     const bool flank = is_flank(i), land = on_land(i);
     bool developable = flank || land, across = false;
+    int strips = 1;
     if (!land) {
       const Panel& panel = panel_of(i);
       across = panel.patches[patch_].across;
+      strips = panel.patches[patch_].strips;
       const auto [from, to] = span_of(i, end);
       const double room = 8.0 * aim_between(patch_, panel.piece, from, to);
       const auto share = [&](double parameter) {
@@ -176,7 +200,10 @@ void ToothingGrid::SurfaceNet::join_regions() {
           std::abs(bent.mixed) * width <= kUpright * std::sqrt(std::abs(bent.along) * room);
       if (alone && upright) developable = false;
     }
-    for (; i < end; ++i) net_[i].developable = developable, net_[i].across = across;
+    for (; i < end; ++i) {
+      net_[i].developable = developable, net_[i].across = across;
+      net_[i].strips = strips;
+    }
   }
 }
 
@@ -191,7 +218,8 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
   const auto share = [&](double parameter) {
     return kCells * (parameter - panel.from) / (panel.to - panel.from);
   };
-  if (crossing.across) return 1.0;
+  if (crossing.across) return crossing.strips;
+  if (crossing.bare) return bare_steps(crossing, begin == panel.from ? 0 : kCells - 1, room);
   const double width = share(end) - share(begin);
   const auto cell_at = [](double cells) {
     return static_cast<std::size_t>(std::clamp(cells, 0.0, kCells - 1.0));
@@ -206,18 +234,31 @@ double ToothingGrid::SurfaceNet::steps_of(std::size_t from, std::size_t to) cons
   const std::size_t side = g_.middles_[from].side < 0 ? 0 : kHeights.size();
   double steps = 1.0;
   for (std::size_t c = first; c <= last; ++c)
-    for (std::size_t k = side; k < side + kHeights.size(); ++k) {
+    for (std::size_t k = side; k < crossing.forms[c].size(); ++k) {
+      if (k % (2 * kHeights.size()) / kHeights.size() != side / kHeights.size()) continue;
       SurfaceForm f = crossing.forms[c][k];
       f.across *= width * width, f.mixed *= width;
       steps = std::max(steps, f.is_dome(room) ? crossing.rows : f.steps(room));
       // the diagonal that leans the wrong way
       if (!net_[from].developable && f.across * f.along < 0.0) {
         const double whole = room + std::abs(f.across), mixed = std::abs(f.mixed);
-        steps = std::max(steps,
-                         (mixed + std::sqrt(mixed * mixed + std::abs(f.along) * whole)) / whole);
+        steps =
+            std::max(steps, (mixed + std::sqrt(mixed * mixed + std::abs(f.along) * whole)) / whole);
       }
     }
   return steps;
+}
+
+/// By its own helix, and not more than twice what an edge across may span.
+double ToothingGrid::SurfaceNet::bare_steps(const Crossing& crossing, std::size_t cell,
+                                            double room) {
+  double own = 0.0, mean = 0.0;
+  for (std::size_t k = 0; k < crossing.forms[cell].size(); ++k) {
+    own = std::max(own, std::abs(crossing.forms[cell][k].along));
+    mean = std::max(
+        mean, 0.5 * std::abs(crossing.forms.front()[k].along + crossing.forms.back()[k].along));
+  }
+  return std::sqrt(std::max(own, 0.25 * mean) / room);
 }
 
 /// Heights of the vertices on each column of the patch, as shares.
@@ -229,8 +270,7 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
     asked = std::max(asked, whole_parts(demand));
   };
   std::vector<bool> inside(n, false);  // of a region
-  for (std::size_t i = 0; i < n; ++i)
-    inside[i] = net_[(i + n - 1) % n].region == net_[i].region;
+  for (std::size_t i = 0; i < n; ++i) inside[i] = net_[(i + n - 1) % n].region == net_[i].region;
   for (std::size_t i = 0; i < n;) {
     const std::size_t end = region_end(i);
     if (on_land(i)) {
@@ -249,8 +289,14 @@ std::vector<std::vector<double>> ToothingGrid::SurfaceNet::inner_rows() const {
   const std::vector<bool> between = columns_between();
   std::vector<std::vector<double>> inner(n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (inside[i]) continue;
-    const bool shifted = between[i] && parts[i] > 1;
+    const int strips = net_[i].strips, beside = std::max(strips, net_[(i + n - 1) % n].strips);
+    if (inside[i]) {
+      for (int k = 1; k < strips; ++k)
+        if (is_on_level(i, k)) inner[i].push_back(static_cast<double>(k) / strips);
+      continue;
+    }
+    parts[i] = (parts[i] + beside - 1) / beside * beside;  // the rows between strips end here
+    const bool shifted = between[i] && parts[i] > 1 && beside == 1;
     for (int k = shifted ? 0 : 1; k < parts[i]; ++k)
       inner[i].push_back((k + (shifted ? 0.5 : 0.0)) / parts[i]);
   }
@@ -274,11 +320,10 @@ std::vector<bool> ToothingGrid::SurfaceNet::columns_between() const {
       const Panel& panel = panel_of(edge);
       const HalfEdge& e = g_.edges_[half];
       const double width = kCells * (e.to - e.from) / (panel.to - panel.from);
-      const auto cell = static_cast<std::size_t>(std::clamp(
-          kCells * (0.5 * (e.from + e.to) - panel.from) / (panel.to - panel.from), 0.0,
-          kCells - 1.0));
-      const SurfaceForm& bent =
-          panel.patches[patch_].forms[cell][(down ? kHeights.size() : 0) + 1];
+      const auto cell = static_cast<std::size_t>(
+          std::clamp(kCells * (0.5 * (e.from + e.to) - panel.from) / (panel.to - panel.from), 0.0,
+                     kCells - 1.0));
+      const SurfaceForm& bent = panel.patches[patch_].forms[cell][(down ? kHeights.size() : 0) + 1];
       if (bent.along != 0.0) shift -= bent.mixed * width / bent.along;
       if (half + 1 < m && ((g_.edges_[half + 1].posts >> patch_) & 1U) == 0) continue;
       phase += shift * panel.patches[patch_].rows + 0.5;
@@ -292,19 +337,32 @@ std::vector<bool> ToothingGrid::SurfaceNet::columns_between() const {
   return between;
 }
 
+/// Whether a column within a region has a vertex on the row above so many strips.
+bool ToothingGrid::SurfaceNet::is_on_level(std::size_t column, int below) const {
+  const HalfEdge* half = g_.begins_at(column);
+  const std::size_t level =
+      panel_of(column).patches[patch_].first_level + static_cast<std::size_t>(below) - 1;
+  return half != nullptr && ((half->levels >> level) & 1U) != 0;
+}
+
 /// Steps of a land's border: the chords of its column.
 double ToothingGrid::SurfaceNet::ridge(std::size_t column) const {
   const Place& p = g_.points_[column % g_.points_.size()];
   double most = 0.0;
-  for (const double share : kHeights) {
-    const Space3 a = on(p.side, p.piece, p.parameter, height_of(patch_, share - kReachUp)),
-                 b = on(p.side, p.piece, p.parameter, height_of(patch_, share)),
-                 c = on(p.side, p.piece, p.parameter, height_of(patch_, share + kReachUp));
-    const Space3 along = (c - a).normalized(), bend = c + a - 2.0 * b;
-    most = std::max(most, (bend - along * bend.dot(along)).norm());
+  for (const int tooth : teeth_)
+    for (const double share : kHeights) {
+      const Space3 a = on(tooth, p, height_of(patch_, share - kReachUp)),
+                   b = on(tooth, p, height_of(patch_, share)),
+                   c = on(tooth, p, height_of(patch_, share + kReachUp));
+      const Space3 along = (c - a).normalized(), bend = c + a - 2.0 * b;
+      most = std::max(most, (bend - along * bend.dot(along)).norm());
+    }
+  double aim = tolerance_;
+  for (const std::size_t piece : {std::size_t{0}, pieces_ - 1}) {
+    const auto& aims = aims_[aims_of(patch_, piece)];
+    if (piece == 0 || g_.toothing_.displacement != nullptr)
+      aim = std::min(aim, *std::min_element(aims.begin(), aims.end()));
   }
-  const auto& aims = aims_[aims_of(patch_, 0)];
-  const double aim = *std::min_element(aims.begin(), aims.end());
   return std::sqrt(most / (kReachUp * kReachUp) / (8.0 * aim));
 }
 
@@ -329,21 +387,63 @@ NetPoint ToothingGrid::SurfaceNet::net_point(std::size_t edge, bool at_end, doub
   const Place here = end_of(wrapped, at_end), there = end_of(wrapped, !at_end);
   const double near = std::lerp(here.parameter, there.parameter, kNear);
   const double up = share > 0.5 ? -kNear : kNear;
-  result.at = on(here.side, here.piece, here.parameter, z);
-  const Space3 along = on(here.side, here.piece, near, z) - result.at;
-  const Space3 upwards =
-      on(here.side, here.piece, here.parameter, height_of(patch_, share + up)) - result.at;
+  result.at = on(0, here, z);
+  const Space3 along = on(0, {here.side, here.piece, near}, z) - result.at;
+  const Space3 upwards = on(0, here, height_of(patch_, share + up)) - result.at;
   result.normal = (along.cross(upwards) * ((up > 0.0) == at_end ? -1.0 : 1.0)).normalized();
   return result;
 }
 
-bool ToothingGrid::try_surface_net(double tolerance_mm) {
+/// Where a displacement bends upright lines, patches are as low as keeps lands developable.
+void ToothingGrid::add_bend_breaks(double tolerance_mm) {
+  if (toothing_.displacement == nullptr) return;
+  const double low = breaks_mm_.front(), high = breaks_mm_.back(), step = (high - low) / kBendSteps;
+  const auto moved = [&](double radius, double angle, double z) {
+    const std::array<double, 3> p{radius * std::cos(angle), radius * std::sin(angle), z};
+    return Eigen::Vector3d((*toothing_.displacement)(p).data());
+  };
+  ColumnDemand layers(low, high);
+  for (int k = 0; k < kBendSteps; ++k) {
+    const double z = low + (k + 0.5) * step;
+    double most = 1e-12;
+    for (const double radius :
+         {toothing_.profile->tip_radius_mm(), toothing_.profile->root_radius_mm()})
+      for (int i = 0; i < kBendAngles; ++i) {
+        const double angle = kTwoPi * i / kBendAngles;
+        const Eigen::Vector3d bend = moved(radius, angle, z - 0.5 * step) +
+                                     moved(radius, angle, z + 0.5 * step) -
+                                     2.0 * moved(radius, angle, z);
+        most = std::max(most, 4.0 * bend.head<2>().norm());
+      }
+    layers.add(std::sqrt(most / (8.0 * kShareOfBend * tolerance_mm)));
+  }
+  const int count = std::min(whole_parts(layers.whole()), static_cast<int>(kMostBreaks) / 2);
+  const double shortest = 0.25 * (high - low) / kBendSteps;
+  std::vector<double> breaks = breaks_mm_;
+  for (int k = 1; k < count; ++k) {
+    const double z = layers.between(low, high, k, count);
+    if (std::all_of(breaks.begin(), breaks.end(),
+                    [&](double b) { return std::abs(b - z) > shortest; }))
+      breaks.push_back(z);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks_mm_ = breaks;
+}
+
+bool ToothingGrid::try_surface_net(double tolerance_mm, double most_facets) {
   edges_.clear();
   start_columns(tolerance_mm);
   start_layers(tolerance_mm);
+  add_bend_breaks(tolerance_mm);
   if (breaks_mm_.size() > kMostBreaks) return false;
   const double section_error_mm = section_error_mm_;
-  if (!SurfaceNet(*this, tolerance_mm).lay()) {
+  const std::vector<HalfEdge> chords = edges_;
+  bool laid = SurfaceNet(*this, tolerance_mm).lay(most_facets);
+  if (!laid && toothing_.edge_chamfer_mm > 0.0) {
+    edges_ = chords;
+    laid = SurfaceNet(*this, tolerance_mm, SurfaceNet::Chamfers::kPosts).lay(most_facets);
+  }
+  if (!laid) {
     patches_.clear();
     return false;
   }

@@ -333,6 +333,10 @@ class Make(Case):
             self.assertLessEqual(file["accuracy_um"], 0.01 if file["format"] == "step" else 1.0, file)
         self.assertIn("B_SPLINE_SURFACE_WITH_KNOTS", (out / "pinion.step").read_text())
 
+    def test_a_part_without_a_file_is_named(self):
+        result = run("loop", self.design(), "p1=", "--gear", "pinion", "-o", self.folder / "out")
+        self.expect_error(result, 3, "p1=: there is no such file")
+
     def test_a_correction_too_sharp_for_splines_goes_into_meshes_only(self):
         loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [
             {"id": "contour_offset", "flank": "both", "parameters": {"offset_um": {"value": 20}}}]}

@@ -184,6 +184,22 @@ TEST(InchKeys, ErrorsNameTheKeyAsItIsWritten) {
   EXPECT_EQ(wrong.error()[2].code, ErrorCode::kUnknownKey);
 }
 
+TEST(InchKeys, OfAnotherTypeAreWrongValuesAndNoUnknownKeys) {
+  const auto wrong = read_design_text(
+      "format = 1\n[gearbox]\nkind = \"gear\"\ndiametral_pitch = \"24\"\n"
+      "[gear]\nteeth = 20\nface_width_in = true\nbore_in = [1]\n", "x.toml");
+  ASSERT_FALSE(wrong.has_value());
+  ASSERT_EQ(wrong.error().size(), 3U);
+  const std::pair<const char*, const char*> expected[] = {
+      {"gearbox.diametral_pitch", "\"24\""}, {"gear.face_width_in", "true"}, {"gear.bore_in", "an array"}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(wrong.error()[i].code, ErrorCode::kWrongType);
+    EXPECT_EQ(wrong.error()[i].key, expected[i].first);
+    EXPECT_EQ(wrong.error()[i].value, expected[i].second);
+    EXPECT_EQ(wrong.error()[i].message.find("taken as"), std::string::npos) << wrong.error()[i].message;
+  }
+}
+
 TEST(InchKeys, AreKeptByAnEditThatDoesNotTouchThem) {
   const std::string text =
       "format = 1\nname = \"inch\"\n[gearbox]\nkind = \"pair\"\ndiametral_pitch = 24 # ours\ncentre_distance_in = 1.25 # wide\n"

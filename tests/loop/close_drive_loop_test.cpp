@@ -140,6 +140,42 @@ TEST(DriveLoop, EfficiencyAboveOneIsNeverCalledFriction) {
   EXPECT_THAT(r.measure_next.front(), testing::HasSubstr("without the gearbox"));
 }
 
+/// Twice the 95 % interval: one case in 17 000 by chance.
+void expect_held(const loop::LoopResult& r, const std::string& id, const std::string& name, double truth) {
+  const loop::FoundEffect* effect = found(r, id);
+  ASSERT_NE(effect, nullptr) << id << "\n" << loop::loop_text(r);
+  const loop::Parameter* p = parameter(*effect, name);
+  ASSERT_NE(p, nullptr) << name;
+  EXPECT_LE(std::abs(p->value - truth), p->high - p->low) << id << "\n" << loop::loop_text(r);
+}
+
+TEST(DriveLoop, AZeroByWhichPowerIsGainedHasItsSizeAndTheFrictionBesideItToo) {
+  HiddenDrive drive = rubbing([](auto&, int) { return 0.13; });
+  drive.output_zero_nm = 0.4;
+  const auto closed = close_hidden(drive);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  EXPECT_EQ(r.verdict, Verdict::kPartlyExplained);
+  EXPECT_THAT(r.structure_left, testing::HasSubstr("no gearbox delivers more than it takes"));
+  EXPECT_EQ(r.effects.size(), 2u) << loop::loop_text(r);
+  ASSERT_NE(found(r, "torque_offset"), nullptr) << loop::loop_text(r);
+  // two sensors give only their ratio: of the input's zero the figure is another
+  if (found(r, "torque_offset")->side == "output") expect_held(r, "torque_offset", "offset_nm", 0.4);
+  expect_held(r, "friction_coefficient", "value", 0.13);
+}
+
+TEST(DriveLoop, LossesBesideAScaleHaveTheirSizes) {
+  // A loss passes through the sensor that reads too much, and so does the load that it follows.
+  HiddenDrive drive = losing([](const BenchMoment& m) { return 0.004 + 0.006 * m.load_share * m.load_share; });
+  drive.output_reads = 1.11;  // flanks that differ between the directions would have to give power
+  const auto closed = close_hidden(drive);
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  expect_held(r, "torque_scale", "factor", 1.11);
+  expect_held(r, "drag_torque", "torque_nm", 0.004);
+  EXPECT_FALSE(cannot_tell(*found(r, "drag_torque"), "torque_scale")) << loop::loop_text(r);
+}
+
 TEST(DriveLoop, OneDirectionCannotTellScaleFromFrictionAndTheOtherCan) {
   HiddenDrive drive;
   drive.output_reads = 1.05;

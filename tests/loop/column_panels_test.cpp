@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 #include <random>
 #include <utility>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/cross_validation.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -104,7 +104,7 @@ double error_by_hand(const DiscoveryProblem& problem, const CandidateGroup& grou
   const Eigen::MatrixXd weighted = root.asDiagonal() * columns;
   const Eigen::VectorXd values = root.cwiseProduct(problem.value);
   const Eigen::VectorXd b =
-      weighted(learnt, Eigen::all).colPivHouseholderQr().solve(Eigen::VectorXd(values(learnt)));
+      least_squares(weighted(learnt, Eigen::all), values(learnt));
   return (values(asked) - weighted(asked, Eigen::all) * b).squaredNorm();
 }
 
@@ -183,9 +183,10 @@ struct SeenByHand {
     const Eigen::MatrixXd f = problem.nuisance(used, Eigen::all);
     const Eigen::MatrixXd c = problem.candidates(used, Eigen::all).cast<double>();
     const Eigen::VectorXd w = problem.weight(used), y = problem.value(used);
-    const Eigen::MatrixXd inverse = (f.transpose() * w.asDiagonal() * f).inverse();
-    absorbed = inverse * (f.transpose() * w.asDiagonal() * c);
-    fitted = inverse * (f.transpose() * w.asDiagonal() * y);
+    const Eigen::MatrixXd weighted = w.asDiagonal() * f;
+    const SquareSolver normal(f.transpose() * weighted);
+    absorbed = normal.solve_columns(weighted.transpose() * c);
+    fitted = normal.solve_columns(weighted.transpose() * y);
     beside = c - f * absorbed;
     left = y - f * fitted;
     weight = w;
@@ -273,7 +274,7 @@ TEST(Agreement, OfGroupsOfColumnsCountsTheDirectionsThatAWholeHolds) {
         ++degrees;
       }
     }
-    const double explained = score.dot(gram.inverse() * score);
+    const double explained = score.dot(symmetric_solution(gram, score));
     const double below = degrees - columns - 5.0;
     EXPECT_NEAR(p[g], f_tail(explained / columns / ((total - explained) / below), columns, below),
                 1e-7)

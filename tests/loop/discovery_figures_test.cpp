@@ -9,6 +9,7 @@
 
 #include "tests/loop/discovery_problems.h"
 #include "trueflank/base/units.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/column_panels.h"
 #include "trueflank/loop/discovery/discovery.h"
@@ -147,10 +148,11 @@ struct LeftByHand : CentredByHand {
     if (model.cols() == 0) return;
     const Eigen::MatrixXd f = model(used, Eigen::all);
     const Eigen::VectorXd w = weight(used);
-    const Eigen::MatrixXd inverse =
-        (f.transpose() * w.asDiagonal() * f).inverse() * f.transpose() * w.asDiagonal();
-    const Eigen::VectorXd of_value = inverse * value(used);
-    const Eigen::MatrixXd of_candidates = inverse * candidates(used, Eigen::all);
+    const Eigen::MatrixXd weighted = w.asDiagonal() * f;
+    const SquareSolver normal(f.transpose() * weighted);
+    const Eigen::VectorXd of_value = normal.solve_columns(weighted.transpose() * value(used));
+    const Eigen::MatrixXd of_candidates =
+        normal.solve_columns(weighted.transpose() * candidates(used, Eigen::all));
     value -= model * of_value;
     candidates -= model * of_candidates;
   }
@@ -307,8 +309,7 @@ TEST(Discovery, GainsAreWhatTheFoldsSayWithoutTheEffect) {
     const Eigen::VectorXd root = problem.weight.cwiseSqrt();
     const Eigen::MatrixXd c = root.asDiagonal() * columns;
     const Eigen::VectorXd y = root.cwiseProduct(problem.value);
-    const Eigen::VectorXd fit =
-        c(learnt, Eigen::all).colPivHouseholderQr().solve(Eigen::VectorXd(y(learnt)));
+    const Eigen::VectorXd fit = least_squares(c(learnt, Eigen::all), y(learnt));
     return (y(asked) - c(asked, Eigen::all) * fit).squaredNorm();
   };
   for (int fold = 1; fold <= 4; ++fold)

@@ -27,6 +27,8 @@ void expect_exact_distance(const MadeGear& made) {
           const double bound = made.helix_rad == 0.0 ? 1e-8 : 2e-4 * std::abs(distance) + 1e-8;
           EXPECT_NEAR(placed.distance_mm, distance, bound);
           EXPECT_NEAR(geometry.profile_coordinate(placed.place.roll_mm), u, 1e-2);
+          // The foot of the normal, not the point's own height.
+          EXPECT_NEAR(placed.place.z_mm, 0.5 * 1.3 * made.face_mm, 1e-3 * std::abs(distance) + 1e-9);
           const double nt = std::cos(geometry.base_helix_rad());
           EXPECT_NEAR(nt * placed.place.normal_direction[0], n[0], 2e-3);
           EXPECT_NEAR(nt * placed.place.normal_direction[1], n[1], 2e-3);

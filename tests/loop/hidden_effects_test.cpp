@@ -127,6 +127,35 @@ TEST(HiddenEffects, OfHelicalGearsAreFoundInScansAndTraces) {
   }
 }
 
+// Sections that are shifted in their planes, and a body that is turned: on helical flanks the second moves
+// the flanks along the axis, too; of a spur gear the two differ where points went far.
+TEST(HiddenEffects, AnAxisThatLeansIsOneEffectWhetherTheFacesLeanOrNot) {
+  struct Case {
+    MadeGear gear;
+    double um_per_mm;
+  };
+  ScanOptions scan = small_scan(3);
+  scan.noise_um = 1.0;
+  for (const Case& c : {Case{spur(18), 25.0}, Case{helical(21, 25), 6.0}})
+    for (const bool as_a_body : {true, false}) {
+      const Process process =
+          as_a_body ? leaning_as_a_body(c.um_per_mm, 60) : leaning(c.um_per_mm, 60);
+      std::vector<loop::LoopResult> results{close(c.gear, scan_of(c.gear, {process}, scan), true)};
+      if (c.gear.helix_rad != 0.0)
+        results.push_back(close(c.gear, inspection_of(c.gear, {process}, {})));
+      for (const loop::LoopResult& result : results) {
+        SCOPED_TRACE(std::to_string(c.gear.teeth) + (as_a_body ? " body" : " sections") + " -> " + list(result));
+        const auto* found = find(result, "axis_tilt");
+        ASSERT_NE(found, nullptr);
+        EXPECT_EQ(result.effects.size(), 1u);
+        EXPECT_EQ(parameter(*found, "faces_lean").value, as_a_body ? 1.0 : 0.0);
+        const loop::Parameter& slope = parameter(*found, "slope_um_per_mm");
+        EXPECT_LT(slope.high - slope.low, 0.1 * c.um_per_mm);
+        EXPECT_NEAR(slope.value, c.um_per_mm, slope.high - slope.low);
+      }
+    }
+}
+
 TEST(HiddenEffects, OfRingsAreFound) {
   const MadeGear gear = ring(45);
   for (const Hidden& c : {hidden_effects()[0], hidden_effects()[2], hidden_effects()[6]}) {

@@ -114,6 +114,14 @@ inline Process leaning(double um_per_mm, double deg) {
     return {d * std::cos(a), d * std::sin(a), 0.0};
   }};
 }
+/// Turned about an axis in the plane, end faces and all.
+inline Process leaning_as_a_body(double um_per_mm, double deg) {
+  const double a = deg * M_PI / 180.0;
+  return {.move_um = [=](const MadeGear& g, const FlankSpot&, const Vec3& p) -> Vec3 {
+    const double d = um_per_mm * (p[2] - 0.5 * g.face_mm);
+    return {d * std::cos(a), d * std::sin(a), -um_per_mm * (p[0] * std::cos(a) + p[1] * std::sin(a))};
+  }};
+}
 inline Process scaled(double percent) {
   return {.move_um = [=](const MadeGear&, const FlankSpot&, const Vec3& p) -> Vec3 {
     return {10.0 * percent * p[0], 10.0 * percent * p[1], 10.0 * percent * p[2]};

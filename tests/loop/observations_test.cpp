@@ -35,6 +35,21 @@ loop::MeasuredData spans(int count, double teeth) {
   return data;
 }
 
+TEST(Observations, ABallThatTouchesNoFlankIsOfAnotherGear) {
+  const auto with_ball = [](double diameter_mm) {
+    loop::MeasuredData data = index_values(24);
+    data.inspections.back().ball_diameter_mm = diameter_mm;
+    for (loop::InspectionRow& row : data.inspections.back().rows) row.record = loop::RecordKind::kRadial;
+    return observed(data);
+  };
+  for (const double diameter : {1.5, 1.7, 2.0}) EXPECT_TRUE(with_ball(diameter)) << diameter;
+  for (const double diameter : {0.1, 4.0, 1e9}) {
+    const auto table = with_ball(diameter);
+    ASSERT_FALSE(table) << diameter;
+    EXPECT_NE(table.error().front().message.find("touches no flank"), std::string::npos) << table.error().front().message;
+  }
+}
+
 TEST(Observations, ATraceMeasuredAgainHasAZeroOfItsOwn) {
   loop::MeasuredData data;
   data.inspections.emplace_back();

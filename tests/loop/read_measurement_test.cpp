@@ -74,6 +74,19 @@ TEST(InspectionCsv, ReadsRecordsFlanksAndZero) {
   EXPECT_EQ(data->rows[0].line, 4);
 }
 
+TEST(InspectionCsv, ABallHasADiameter) {
+  const std::string rows = "\nrecord,tooth,flank,diameter_mm,z_mm,deviation_um\nradial,3,,,,1\n";
+  Notes notes;
+  for (const std::string ball : {"0", "-1.7", "nan", "small", "1.7 in"}) {
+    const auto data = read_inspection_csv("i.csv", "# ball_diameter_mm = " + ball + rows, notes);
+    ASSERT_FALSE(data) << ball;
+    EXPECT_EQ(data.error().key, "ball_diameter_mm");
+    EXPECT_EQ(data.error().value, ball);
+    EXPECT_EQ(data.error().file, "i.csv");
+  }
+  EXPECT_TRUE(read_inspection_csv("i.csv", "# ball_diameter_mm =" + rows, notes));  // not told
+}
+
 TEST(InspectionCsv, EveryWrongRowIsNamed) {
   Notes notes;
   const auto data = read_inspection_csv("i.csv",

@@ -57,8 +57,8 @@ double held_out_rms(const loop::DriveModel& model, loop::BenchTable table,
                     const std::vector<std::string>& ids) {
   loop::measure_extent(table);
   const loop::EfficiencyCurve curve(model);
-  const auto slopes = loop::mesh_slopes(model);
-  loop::DriveContext context{model, curve, table, slopes, {}};
+  const auto meshes = loop::mesh_curves(model);
+  loop::DriveContext context{model, curve, table, meshes, {}};
   Eigen::VectorXd value(static_cast<Eigen::Index>(table.points.size()));
   for (std::size_t i = 0; i < table.points.size(); ++i)
     value[static_cast<Eigen::Index>(i)] =

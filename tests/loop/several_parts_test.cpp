@@ -114,6 +114,18 @@ TEST(SeveralParts, OfTracesAndSizesKeepTheirRows) {
   EXPECT_TRUE(*closed->result.effects[0].repeatable);
 }
 
+TEST(SeveralParts, AFileThatNamesNoPartIsOneOfItsOwn) {
+  const MadeGear gear = spur(18);
+  for (const std::size_t unnamed : {0u, 1u, 2u}) {
+    auto data = parts_of(gear, {{scaled(0.3)}, {scaled(0.3)}, {scaled(0.3)}});
+    data.scans[unnamed].part.clear();
+    const auto closed = loop::close_loop(geometry_of(gear), "gear", data, {.aligned = true});
+    ASSERT_TRUE(closed) << unnamed << ": " << closed.error().front().message;
+    ASSERT_EQ(closed->result.parts.size(), 3u);
+    EXPECT_EQ(closed->result.parts[unnamed].name, "(unnamed)");
+  }
+}
+
 TEST(Distributions, TheFTailIsTheSquareOfStudents) {
   for (const double t : {0.5, 2.0, 12.7})
     for (const double n : {1.0, 4.0, 30.0})

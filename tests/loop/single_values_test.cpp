@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "tests/loop/made_gears.h"
@@ -49,6 +50,34 @@ TEST(SingleValues, RecordsThatAgreeSayNothingOfAContradiction) {
   EXPECT_NEAR(amplitude.value, 8.0, 0.3);
   EXPECT_LT(amplitude.high - amplitude.low, 1.0);
   EXPECT_TRUE(result.notes.empty());
+}
+
+/// A ball in the gap after every tooth goes out as the middle of the teeth comes towards it.
+loop::InspectionData runout_of(const MadeGear& gear, double um, double noise_um, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0.0, noise_um);
+  loop::InspectionData data;
+  for (int tooth = 1; tooth <= gear.teeth; ++tooth) {
+    loop::InspectionRow row;
+    row.record = loop::RecordKind::kRadial;
+    row.tooth = tooth;
+    row.diameter_mm = 2.0 * gear.reference();
+    row.z_mm = 0.5 * gear.face_mm;
+    row.deviation_um = um * std::cos(2.0 * M_PI * (tooth - 0.5) / gear.teeth - 0.7) + normal(random);
+    data.rows.push_back(row);
+  }
+  return data;
+}
+
+// Of twelve values any signs fit some wave: flips of signs alone do not find what is plain to see.
+TEST(SingleValues, AFewOfThemShowAnEccentricity) {
+  for (const int teeth : {11, 12, 17})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const MadeGear gear = spur(teeth);
+      const auto result = close(gear, runout_of(gear, 8.0, 0.5, seed));
+      EXPECT_NE(find(result, "eccentricity"), nullptr) << teeth << ", " << seed << ": " << list(result);
+      EXPECT_EQ(close(gear, runout_of(gear, 0.0, 0.5, seed)).effects.size(), 0u) << teeth << ", " << seed;
+    }
 }
 
 // A scan in any pose hides where the bore is; its many points must not hide that the index shows it.

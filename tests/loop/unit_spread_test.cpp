@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <random>
+
+#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -40,7 +42,9 @@ TEST(UnitSpread, IsWhatTheInverseTakesOfTheUnitsProductsWhateverTheirRank) {
       if (rank > fitted) continue;
       const Unit unit = unit_of_rank(rank, fitted, random), other = unit_of_rank(fitted, fitted, random);
       const Eigen::MatrixXd own = unit.fitted.transpose() * unit.fitted;
-      const Eigen::MatrixXd inverse = (own + other.fitted.transpose() * other.fitted).inverse();
+      const Eigen::MatrixXd inverse =
+          SquareSolver(own + other.fitted.transpose() * other.fitted)
+              .solve_columns(Eigen::MatrixXd::Identity(fitted, fitted));
       const Eigen::MatrixXd cross = unit.fitted.transpose() * unit.candidates;
       const Eigen::MatrixXd absorbed =
           inverse * (cross + other.fitted.transpose() * other.candidates);

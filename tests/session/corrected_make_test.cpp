@@ -178,17 +178,53 @@ TEST_F(CorrectedMake, TeethThatWouldCutIntoTheBoreAreRefused) {
       << made.error().front().message;
 }
 
+TEST_F(CorrectedMake, AWaveThatDoesNotCloseAroundTheGearIsRefused) {
+  for (const char* id : {"lobing", "pitch_wave", "ghost_order"}) {
+    expect_refused(family(id), 5.0, 2.5);
+    EXPECT_TRUE(make(effect_json(family(id), 1.0, 3.0))) << id;
+  }
+}
+
+TEST_F(CorrectedMake, AFormulaWithAPoleBetweenThePlacesLookedAtIsRefused) {
+  for (const char* formula : {"tan(pi * (u + 0.123) / 2)", "1 / (u - 0.33)", "1 / (u - 0.33)^2", "tan(pi * (v + 0.123) / 2)",
+                              "u / (v - 0.4)^2"}) {
+    const auto made = make(std::string(R"({"id": "mine", "form": {"a_um": ")") + formula +
+                           R"("}, "parameters": {"a_um": {"value": 0.3}}})");
+    ASSERT_FALSE(made) << formula;
+    EXPECT_EQ(exit_code(made.error().front().code), 2) << formula << made.error().front().message;
+    EXPECT_FALSE(written());
+  }
+  for (const char* formula : {"u * v", "step(v - 0.31)", "sin(3 * theta) * (1 - u^2)"})
+    EXPECT_TRUE(make(std::string(R"({"id": "mine", "form": {"a_um": ")") + formula +
+                     R"("}, "parameters": {"a_um": {"value": 3}}})"))
+        << formula;
+}
+
+TEST_F(CorrectedMake, ALoopFileOfAnotherVersionIsRefused) {
+  for (const auto& [version, code] : {std::pair{"1", 0}, {"2", 2}, {"1.5", 2}, {"\"1\"", 2}}) {
+    const std::string file = (folder_ / "loop.json").string();
+    std::ofstream(file) << R"({"format": "trueflank-loop", "gear": "pinion", "effects": [], "version": )" << version << "}";
+    const auto made = make_parts(gearbox_, {.folder = folder_ / "out", .formats = {"stl"}, .tolerance_um = 20.0,
+                                            .part = "pinion", .correct = file});
+    EXPECT_EQ(made ? 0 : exit_code(made.error().front().code), code) << version;
+  }
+}
+
 TEST_F(CorrectedMake, ALoopFileOfWrongTypesIsAnErrorOfItsData) {
   for (const char* effects :
        {R"({"id": 3})", R"({"id": "scale", "parameters": 4})",
         R"({"id": "scale", "parameters": {"percent": {"value": "x"}}})",
         R"({"id": "scale", "repeatable": "no", "part": 7, "flank": 9, "parameters": {}})",
+        R"({"id": "scale", "flank": "upper", "parameters": {"percent": {"value": 0.1}}})",
         R"({"id": "unnamed", "terms": [{"order": "x"}]})",
         R"({"id": "mine", "form": {"a": 3}, "correctable": 8})", R"("scale")", R"(null)"}) {
     const auto made = make(effects);
     ASSERT_FALSE(made) << effects;
     EXPECT_EQ(exit_code(made.error().front().code), 2) << effects;
   }
+  for (const char* effects : {R"({"id": "unnamed", "correctable": 8, "description": 3})",
+                              R"({"id": "unnamed", "correctable": null, "description": null})"})
+    EXPECT_TRUE(make(effects)) << effects;
   std::string many;
   for (int i = 0; i < 5000; ++i)
     many += (i > 0 ? "," : "") + effect_json(family("scale"), 1e-6, 0.0);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's exact predicates judge what part_mesh() says of itself.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+// CGAL's exact predicates, behind solid_fault(), judge what part_mesh() says of itself.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,37 +9,46 @@
 #include "tests/solid/random_toothing.h"
 #include "trueflank/design/design_file.h"
 #include "trueflank/design/kinds/train_kind.h"
-#include "trueflank/solid/measure/mesh_validity.h"
+#include "trueflank/solid/measure/solid_fault.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/bed_chamfer.h"
 
 namespace trueflank {
 namespace {
 
-namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-
-/// Nothing where CGAL refuses a triangle: then it would not be 2-manifold.
-std::optional<Surface> surface_of(const TriangleMesh& mesh) {
-  Surface surface;
-  for (const auto& v : mesh.vertices) surface.add_vertex(Kernel::Point_3(v[0], v[1], v[2]));
-  for (const auto& t : mesh.triangles)
-    if (surface.add_face(Surface::Vertex_index(t[0]), Surface::Vertex_index(t[1]),
-                         Surface::Vertex_index(t[2])) == Surface::null_face())
-      return std::nullopt;
-  return surface;
+void expect_boundary_of_a_solid(const TriangleMesh& mesh) {
+  EXPECT_STREQ(to_text(solid_fault(mesh)), to_text(SolidFault::kNone));
 }
 
-void expect_boundary_of_a_solid(const TriangleMesh& mesh) {
-  const auto surface = surface_of(mesh);
-  ASSERT_TRUE(surface);
-  EXPECT_TRUE(CGAL::is_closed(*surface));
-  EXPECT_FALSE(PMP::does_self_intersect(*surface));
-  EXPECT_TRUE(PMP::does_bound_a_volume(*surface));
-  EXPECT_TRUE(PMP::is_outward_oriented(*surface));
-  const double volume = PMP::volume(*surface);
-  EXPECT_NEAR(volume_mm3(mesh) / volume, 1.0, 1e-10);
+/// A tetrahedron with a corner at (at, at, at), its facets outwards.
+TriangleMesh tetrahedron(double at) {
+  TriangleMesh mesh;
+  mesh.vertices = {{at, at, at}, {at + 1.0, at, at}, {at, at + 1.0, at}, {at, at, at + 1.0}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return mesh;
+}
+
+TriangleMesh both(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& t : other.triangles)
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return mesh;
+}
+
+TEST(SolidFault, IsToldOfTetrahedraWithEachFault) {
+  EXPECT_EQ(solid_fault(tetrahedron(0.0)), SolidFault::kNone);
+  EXPECT_EQ(solid_fault(both(tetrahedron(0.0), tetrahedron(2.0))), SolidFault::kNone);
+  EXPECT_EQ(solid_fault(both(tetrahedron(0.0), tetrahedron(0.1))), SolidFault::kCrossesItself);
+  TriangleMesh inside_out = tetrahedron(0.0);
+  for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(solid_fault(inside_out), SolidFault::kInsideOut);
+  EXPECT_EQ(solid_fault(both(both(tetrahedron(3.0), tetrahedron(5.0)), inside_out)),
+            SolidFault::kInsideOut)
+      << "one of three";
+  TriangleMesh open = tetrahedron(0.0);
+  open.triangles.pop_back();
+  EXPECT_EQ(solid_fault(open), SolidFault::kBroken);
 }
 
 TriangleMesh rounded_to_32_bits(TriangleMesh mesh) {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "tests/solid/least_facets.h"
-#include "tests/solid/random_part.h"
+#include "tests/solid/random_toothing.h"
 #include "trueflank/design/kinds/train_kind.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
 #include "trueflank/solid/shape/toothing_grid.h"
@@ -173,11 +173,44 @@ TEST(ModifiedFacets, OfTeethWithModificationsOfEveryKindAreFewMoreThanTheLeast) 
 }
 
 /// The bound is less sharp here: see docs/theory/helical-facets.md.
-TEST(ModifiedFacets, OfModifiedTeethWithChamfersAreAboutTwiceTheLeast) {
+TEST(ModifiedFacets, OfModifiedTeethWithChamfersAreLessThanTwiceTheLeast) {
   expect_few(Kind::kChamfered, 2.1, 1.75);
 }
 TEST(ModifiedFacets, OfPlainTeethWithChamfersAreLessThanTwiceTheLeast) {
   expect_few(Kind::kOnlyChamfered, 1.7, 1.7);
+}
+
+/// One net for all teeth against rows and columns.
+void expect_fewer_than_rows(test::ToothingKinds kinds, double share) {
+  double facets = 0.0, of_rows = 0.0;
+  int made = 0;
+  for (std::uint64_t seed = first_seed(); made < asked_for(); ++seed) {
+    const auto random = test::random_toothing(seed, kinds);
+    if (!random) continue;
+    const ToothedOutline& outline = toothed(random->part);
+    const double tolerance = meshing_tolerance_mm(random->part, random->tolerance_mm);
+    const std::vector<double> ends{0.0, outline.twist.face_width_mm};
+    const ToothingGrid grid(outline, ends, tolerance),
+        rows(outline, ends, tolerance, GridKind::kRows);
+    if (grid.teeth_alike()) continue;
+    EXPECT_LE(grid.chord_error_mm(), tolerance) << random->text;
+    const auto layers = [](const ToothingGrid& g) {
+      return 2.0 * static_cast<double>(g.heights_mm().size() - 1) * g.points_per_tooth();
+    };
+    for (const NetPatch& patch : grid.patches()) facets += static_cast<double>(patch.facets.size());
+    if (grid.patches().empty()) facets += layers(grid);
+    of_rows += layers(rows);
+    ++made;
+  }
+  std::printf("%.0f facets a tooth, %.0f by rows and columns\n", facets, of_rows);
+  EXPECT_LT(facets, share * of_rows);
+}
+
+TEST(ModifiedFacets, OfTeethThatDifferAreHalfThoseOfRowsAndColumns) {
+  expect_fewer_than_rows({.deviation = true}, 0.5);
+}
+TEST(ModifiedFacets, OfDisplacedTeethAreFewerThanThoseOfRowsAndColumns) {
+  expect_fewer_than_rows({.displacement = true}, 0.8);
 }
 
 }  // namespace

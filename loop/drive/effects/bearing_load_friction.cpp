@@ -15,7 +15,7 @@ DriveFamily bearing_load_friction() {
   f.only_positive = true;
   f.preference = 4;
   f.evaluate = loss([](const DriveContext& context, const BenchPoint& p, auto&) {
-    return p.forward ? context.efficiency(p) * p.load_nm : p.load_nm;
+    return (p.forward ? context.efficiency(p) : 1.0) * context.load_nm(p);
   });
   // Rolling bearings lose far less of what they carry; plain ones about so much.
   f.plausible = [](const DriveModel&, double share) { return share < 0.05; };

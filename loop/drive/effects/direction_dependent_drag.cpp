@@ -12,6 +12,7 @@ DriveFamily direction_dependent_drag() {
   f.correction = "run both senses of rotation: a sensor's zero changes sides, a drag does not";
   f.parameters = {"difference_nm"};
   f.preference = 4;
+  f.differs_by_direction = true;
   f.shapes = [](const DriveContext& context) {
     return context.table.has(true) && context.table.has(false)
                ? std::vector<DriveShape>{{}}

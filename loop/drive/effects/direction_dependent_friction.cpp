@@ -20,6 +20,7 @@ DriveFamily direction_dependent_friction() {
   };
   f.plausible = [](const DriveModel&, double difference) { return std::abs(difference) < kMostFriction; };
   f.hides_in_gains = true;
+  f.differs_by_direction = true;
   f.into_state = [](DriveState& state, const DriveShape&, double b) { state.difference = b; };
   f.calibrate = [](CalibratedLosses& c, const DriveShape&, double b) {
     c.friction_difference += b;

@@ -21,7 +21,7 @@ DriveFamily load_dependent_friction() {
   f.preference = 2;
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{{0.3}, {0.5}, {0.75}, {1.0}, {1.4}, {2.0}}; };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
-    const double part = std::max(p.load_nm, 0.0) / context.table.most_load_nm;
+    const double part = std::max(context.load_nm(p), 0.0) / context.table.most_load_nm;
     c[0] = context.friction_slope(p) * std::pow(part, shape[0]);
   };
   f.shape_values = {

@@ -21,7 +21,7 @@ DriveFamily load_loss() {
   f.preference = 3;
   f.shapes = [](const DriveContext&) { return std::vector<DriveShape>{{1.3}, {1.6}, {2.0}, {2.5}}; };
   f.evaluate = loss([](const DriveContext& context, const BenchPoint& p, const DriveShape& shape) {
-    return std::pow(std::max(p.load_nm, 0.0) / context.table.most_load_nm, shape[0]);
+    return std::pow(std::max(context.load_nm(p), 0.0) / context.table.most_load_nm, shape[0]);
   });
   f.shape_values = {
       {.continuous = true, .limits = [](const DriveContext&) { return std::pair(1.15, 4.0); }}};

@@ -22,8 +22,10 @@ DriveFamily mesh_friction() {
     return shapes;
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
-    const DriveEfficiency& slope = context.mesh_slopes[static_cast<std::size_t>(shape[0]) - 1];
-    c[0] = context.gain(p) * p.driving_nm * (p.forward ? slope.forward : slope.backward);
+    c[0] = context.mesh_slope(p, static_cast<std::size_t>(shape[0]) - 1);
+  };
+  f.into_state = [](DriveState& state, const DriveShape& shape, double b) {
+    state.mesh_value[static_cast<std::size_t>(shape[0]) - 1] = b;
   };
   f.plausible = can_be_friction;
   f.detail = [](const DriveModel& model, const DriveShape& shape) {

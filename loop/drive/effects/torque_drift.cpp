@@ -20,7 +20,10 @@ DriveFamily drift(bool input) {
   f.preference = 4;
   f.shapes = where_rows_follow_each_other;
   f.evaluate = [input](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
-    c[0] = p.taken * (input != p.forward ? 1.0 : -context.gain(p) * context.efficiency(p));
+    c[0] = p.taken * context.misread(p, input);
+  };
+  f.into_state = [input](DriveState& state, const DriveShape&, double b) {
+    (input ? state.input_drift_nm : state.output_drift_nm) = b;
   };
   f.not_carried = kOfTheBench;
   f.told_from = {{"torque_offset", "the first set points again at the end"},

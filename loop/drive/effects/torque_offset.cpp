@@ -18,8 +18,10 @@ DriveFamily offset(bool input) {
   f.is_loss = false;
   f.preference = 3;
   f.evaluate = [input](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
-    // What the driving side reads too much is missed on the driven side.
-    c[0] = input != p.forward ? 1.0 : -context.gain(p) * context.efficiency(p);
+    c[0] = context.misread(p, input);
+  };
+  f.into_state = [input](DriveState& state, const DriveShape&, double b) {
+    (input ? state.input_zero_nm : state.output_zero_nm) = b;
   };
   f.not_carried = kOfTheBench;
   f.told_from = {{"drag_torque", "both directions, and a zero reading at rest"},

@@ -36,8 +36,7 @@ DriveFamily wave_of_reading(bool input) {
     return shapes;
   };
   f.evaluate = [input](const DriveContext& context, const BenchPoint& p, const DriveShape& shape, double* c) {
-    // What the driving side reads too much is missed on the driven side.
-    double size = input != p.forward ? 1.0 : -context.gain(p) * context.efficiency(p);
+    double size = context.misread(p, input);
     if (shape[1] != 0.0) size *= p.load_nm / context.table.most_load_nm;
     c[0] = size * std::cos(shape[0] * p.angle_rad);
     c[1] = size * std::sin(shape[0] * p.angle_rad);

@@ -64,8 +64,7 @@ double changed_nm(const DriveContext& context, const BenchPoint& p, double numbe
   const auto what = static_cast<What>(static_cast<int>(number));
   return what == kFlanks ? of_flanks(context, p)
          : what == kDrag ? -context.lever(p)
-         : p.forward     ? context.model.ratio
-                         : -context.efficiency(p);
+                         : context.model.ratio * context.misread(p, false);
 }
 
 double place_of_spell(const BenchPoint& p, double order) {

@@ -122,7 +122,8 @@ std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<
       group.local_family =
           local_families.emplace(effect.family, static_cast<int>(local_families.size()))
               .first->second;
-    if (effect.family->shape_is_continuous) group.kin = 3 * kin + static_cast<int>(effect.flank);
+    if (effect.family->shape_is_continuous || effect.family->is_one_of_its_shapes)
+      group.kin = 3 * kin + static_cast<int>(effect.flank);
     groups.push_back(group);
     columns += group.columns;
   }
@@ -142,6 +143,11 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
   problem.value.resize(n);
   problem.weight.resize(n);
   problem.nuisance.setZero(n, nuisance.count());
+  // Of few values, each its own, flips tell as little as of few traces.
+  const bool single_values_only =
+      std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
+        return patch.kind == ObservationKind::kIndex || patch.kind == ObservationKind::kRadial;
+      });
   Eigen::VectorXd pose(nuisance.count());
   for (Eigen::Index i = 0; i < n; ++i) {
     const Patches::Patch& patch = patches.patches[static_cast<std::size_t>(i)];
@@ -150,7 +156,7 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
     problem.unit.push_back(patch.unit);
     problem.fold.push_back(patch.fold);
     problem.zero.push_back(patch.zero);
-    problem.whole.push_back(patch.whole);
+    problem.whole.push_back(single_values_only ? static_cast<int>(i) : patch.whole);
     pose.setZero();
     for (const WeightedPlace& place : patch.places)
       nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());

@@ -1,10 +1,3 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/export/scad/scad_writer.h"
-
-namespace trueflank::io {
-
-std::string_view scad_library() {
-  return R"(
 // ------------------------------------------------------------------ curves of a half tooth
 // A curve is [kind, from, to, ...]: mm, degrees. A tooth's half runs from the middle of its tip
 // (on +x) to the middle of the gap, counter-clockwise about the gear's axis.
@@ -273,7 +266,3 @@ module stack_in_rim(rim, slabs) {
                     annulus_by_inner(rim, first[t + 2], loops[t], first[t], slabs[n - 1][2], true)),
              convexity = 10);
 }
-)";
-}
-
-}  // namespace trueflank::io
