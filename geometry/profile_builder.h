@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "trueflank/base/tolerance.h"
@@ -35,6 +36,12 @@ class ProfileBuilder {
   [[nodiscard]] Status round_tip();
 
   [[nodiscard]] Status build_external();
+  [[nodiscard]] Status external_circles();
+  [[nodiscard]] double cutting_depth_mm() const;
+  [[nodiscard]] RackTrochoid rack_corner() const;
+  [[nodiscard]] Status find_root_form(const RackTrochoid& corner, Curve& fillet,
+                                      std::optional<Curve>& protuberance_side);
+  [[nodiscard]] static double waist_rad(const Curve& fillet);
   [[nodiscard]] Status find_pointed_tip();
   [[nodiscard]] Status find_undercut(const Curve& fillet, double& fillet_end);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/geometry/protuberance.h"
@@ -61,56 +60,65 @@ Status ProfileBuilder::find_undercut(const Curve& fillet, double& fillet_end) {
   return {};
 }
 
-Status ProfileBuilder::build_external() {
-  const double m = g().normal_module_mm;
-  const double r = reference_radius_mm(g()), r_b = base_radius_mm(g());
-  const double alpha_n = g().rack.pressure_angle_rad;
-  const double alpha_t = transverse_pressure_angle_rad(g());
-  const double stretch = 1.0 / std::cos(g().helix_angle_rad);
+Status ProfileBuilder::external_circles() {
   const double full_round = full_round_coefficient(g().rack);
   if (full_round < 0.0)
-    return fail(no_tooth("rack.dedendum", g().rack.dedendum,
-                         "the tooth of the rack is pointed before it reaches its depth",
-                         "a dedendum of at most " + trimmed_number(0.25 * kPi / std::tan(alpha_n)) +
-                             " or a pressure angle of at most " +
-                             trimmed_number(deg_from_rad(std::atan(0.25 * kPi / g().rack.dedendum))) + " deg"));
-  double rho = g().rack.root_radius;
-  if (rho > full_round) {
-    rho = full_round;
+    return fail(no_tooth(
+        "rack.dedendum", g().rack.dedendum,
+        "the tooth of the rack is pointed before it reaches its depth",
+        "a dedendum of at most " +
+            trimmed_number(0.25 * kPi / std::tan(g().rack.pressure_angle_rad)) +
+            " or a pressure angle of at most " +
+            trimmed_number(deg_from_rad(std::atan(0.25 * kPi / g().rack.dedendum))) + " deg"));
+  p_.root_radius_coefficient_ = g().rack.root_radius;
+  if (g().rack.root_radius > full_round) {
+    p_.root_radius_coefficient_ = full_round;
     p_.notes_.full_round = true;
   }
-  p_.root_radius_coefficient_ = rho;
-  const double depth = m * (g().rack.dedendum - g().shift);
-  const double root_radius = r - depth;
-  if (!(root_radius > 0.0))
+  p_.root_radius_mm_ = reference_radius_mm(g()) - cutting_depth_mm();
+  if (!(p_.root_radius_mm_ > 0.0))
     return fail(no_tooth("shift", g().shift, "the root circle has no radius left",
                          "more teeth or a larger profile shift"));
-  p_.root_radius_mm_ = root_radius;
   if (auto ok = find_pointed_tip(); !ok) return ok;
-  if (p_.tip_radius_mm_ <= root_radius)
+  if (p_.tip_radius_mm_ <= p_.root_radius_mm_)
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "the tip circle lies inside the root circle",
-                         "a tip diameter above " + trimmed_number(2.0 * root_radius)));
+                         "a tip diameter above " + trimmed_number(2.0 * p_.root_radius_mm_)));
+  return {};
+}
 
+/// How far the rack's tip line lies below the reference circle.
+double ProfileBuilder::cutting_depth_mm() const {
+  return g().normal_module_mm * (g().rack.dedendum - g().shift);
+}
+
+/// The path of the rack's tip corner.
+RackTrochoid ProfileBuilder::rack_corner() const {
+  const double m = g().normal_module_mm, alpha_n = g().rack.pressure_angle_rad;
+  const double rho = p_.root_radius_coefficient_;
+  const double stretch = 1.0 / std::cos(g().helix_angle_rad);
   const double half_land = 0.25 * kPi - g().rack.dedendum * std::tan(alpha_n) -
                            rho * (1.0 - std::sin(alpha_n)) / std::cos(alpha_n) +
                            residual_protuberance(g().rack) / std::cos(alpha_n);
-  const RackTrochoid corner{.pitch_radius_mm = r,
-                            .corner_depth_mm = depth - rho * m,
-                            .corner_offset_mm = stretch * m * std::max(half_land, 0.0) +
-                                                0.5 * g().thinning_mm,
-                            .corner_radius_mm = rho * m,
-                            .stretch = stretch,
-                            .gap_angle_rad = gap_angle()};
-  const double root_end = gap_angle() - corner.corner_offset_mm / r;
-  Curve fillet{corner, alpha_n, 0.5 * kPi};  // from the involute to the root circle
-  std::optional<Curve> protuberance_side;
+  return {.pitch_radius_mm = reference_radius_mm(g()),
+          .corner_depth_mm = cutting_depth_mm() - rho * m,
+          .corner_offset_mm = stretch * m * std::max(half_land, 0.0) + 0.5 * g().thinning_mm,
+          .corner_radius_mm = rho * m,
+          .stretch = stretch,
+          .gap_angle_rad = gap_angle()};
+}
 
+/// Where the involute ends on the fillet, or on what a protuberance leaves.
+Status ProfileBuilder::find_root_form(const RackTrochoid& corner, Curve& fillet,
+                                      std::optional<Curve>& protuberance_side) {
+  const double alpha_n = g().rack.pressure_angle_rad;
+  const double alpha_t = transverse_pressure_angle_rad(g());
   // Roll length where the rack's straight flank stops touching.
   const double joint_depth = corner.corner_depth_mm + corner.corner_radius_mm * std::sin(alpha_n);
-  const double joint_roll = r * std::sin(alpha_t) - joint_depth / std::sin(alpha_t);
+  const double joint_roll =
+      corner.pitch_radius_mm * std::sin(alpha_t) - joint_depth / std::sin(alpha_t);
   if (residual_protuberance(g().rack) > 0.0) {
-    p_.notes_.protuberance_undercut_mm = m * residual_protuberance(g().rack);
+    p_.notes_.protuberance_undercut_mm = g().normal_module_mm * residual_protuberance(g().rack);
     p_.notes_.undercut = joint_roll < 0.0;
     const auto cut = cut_protuberance(g(), corner, p_.tip_radius_mm_);
     if (!cut)
@@ -122,7 +130,6 @@ Status ProfileBuilder::build_external() {
     p_.root_form_radius_mm_ = cut->root_form_radius_mm;
   } else if (joint_roll < 0.0) {
     Curve from_root{corner, 0.5 * kPi, alpha_n};
-    p_.notes_.undercut = true;
     if (auto ok = find_undercut(from_root, fillet.begin); !ok) return ok;
     p_.notes_.undercut = fillet.begin > alpha_n;
   } else {
@@ -135,7 +142,12 @@ Status ProfileBuilder::build_external() {
                          " mm, the tooth ends at " + trimmed_number(2.0 * p_.tip_radius_mm_) +
                          " mm: no involute is left",
                          "a larger profile shift, more teeth or a larger tip diameter"));
-  // narrowest place of the foot: looked at closely only where it may be none
+  return {};
+}
+
+/// Angle from the tooth's middle at its narrowest place, looked at closely only where it may be
+/// none.
+double ProfileBuilder::waist_rad(const Curve& fillet) {
   double waist = kPi;
   for (const int steps : {4, 16, 64}) {
     double last = polar_angle_rad(point_at(fillet, fillet.begin)), widest_step = 0.0;
@@ -149,19 +161,31 @@ Status ProfileBuilder::build_external() {
     }
     if (waist > 2.0 * widest_step) break;
   }
-  if (waist <= 0.0 || root_end <= 0.0)
+  return waist;
+}
+
+Status ProfileBuilder::build_external() {
+  if (auto ok = external_circles(); !ok) return ok;
+  const RackTrochoid corner = rack_corner();
+  // from the involute to the root circle
+  Curve fillet{corner, g().rack.pressure_angle_rad, 0.5 * kPi};
+  std::optional<Curve> protuberance_side;
+  if (auto ok = find_root_form(corner, fillet, protuberance_side); !ok) return ok;
+  const double root_end = gap_angle() - corner.corner_offset_mm / corner.pitch_radius_mm;
+  if (waist_rad(fillet) <= 0.0 || root_end <= 0.0)
     return fail(no_tooth("shift", g().shift, "the tool cuts the tooth off at its foot",
                          "a larger profile shift or more teeth"));
 
   p_.tip_form_radius_mm_ = p_.tip_radius_mm_;
   if (auto ok = round_tip(); !ok) return ok;
+  const double r_b = base_radius_mm(g());
   const double roll_root = roll_length_mm(p_.root_form_radius_mm_, r_b);
   const double roll_tip = roll_length_mm(p_.tip_form_radius_mm_, r_b);
   if (!p_.notes_.pointed) add_tip();
   add_involute(roll_tip, roll_root);
   if (protuberance_side) add(PieceKind::kFillet, *protuberance_side);
   add(PieceKind::kFillet, fillet);
-  add_arc(PieceKind::kRoot, root_radius, root_end, gap_angle());
+  add_arc(PieceKind::kRoot, p_.root_radius_mm_, root_end, gap_angle());
   return {};
 }
 

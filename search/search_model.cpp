@@ -3,186 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "trueflank/base/contract.h"
-#include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/involute.h"
-#include "trueflank/search/search_corner.h"
 
 namespace trueflank {
-namespace {
-
-/// Clearances that differ by less are the same; what is exactly kept is kept by a hair, more than
-/// the reserve that a climb keeps from its limits.
-constexpr double kSameClearance = 1e-9, kHair = 2e-7;
-
-/// Writes margins in order and knows when to stop.
-class Margins {
- public:
-  Margins(std::array<double, kLayerLimits>& margins, std::size_t count, double stop_below)
-      : margins_(margins), count_(count), stop_below_(stop_below) {
-    margins_.fill(-1e9);
-  }
-  void add(double margin) {
-    margins_[next_++] = margin;
-    least_ = margin < least_ ? margin : least_;
-  }
-  [[nodiscard]] bool stop() const { return least_ < stop_below_; }
-  [[nodiscard]] double least() const { return next_ == count_ ? least_ : std::min(least_, -1e9); }
-
- private:
-  std::array<double, kLayerLimits>& margins_;
-  std::size_t count_;
-  double stop_below_;
-  std::size_t next_ = 0;
-  double least_ = 1e300;
-};
-
-Gear gear_of(const SearchRequirements& r, GearKind kind, int teeth, double shift) {
-  Gear gear{.kind = kind,
-            .teeth = teeth,
-            .normal_module_mm = 1.0,
-            .helix_angle_rad = std::abs(r.helix_angle_rad),
-            .rack = r.rack,
-            .shift = shift};
-  if (kind == GearKind::kInternal && r.cutter) {
-    gear.ring_root = RingRoot::kShaper;
-    gear.cutter = r.cutter;
-  }
-  gear.tip_radius_mm = nominal_tip_radius_mm(gear);
-  return gear;
-}
-
-double root_radius(const Gear& gear) { return nominal_root_radius_mm(gear); }
-
-/// What a mesh has before its profiles are known: contact ratios and path from the tip circles.
-struct MeshView {
-  double approach = 0.0, recess = 0.0;
-  double span = 0.0;  ///< between the tangent points of the base circles
-  ContactPath path;
-};
-
-/// The face width is in modules, as all lengths.
-MeshView view_of(const Gear& gear1, const Gear& gear2, double a, double face_width) {
-  const bool internal = gear2.kind == GearKind::kInternal;
-  const double r_b1 = base_radius_mm(gear1), r_b2 = base_radius_mm(gear2);
-  const double sum = internal ? r_b2 - r_b1 : r_b1 + r_b2;
-  const double span = std::sqrt(std::max(0.0, a * a - sum * sum));
-  const double pitch_point = r_b1 * span / sum;
-  const double tip2 = roll_length_mm(gear2.tip_radius_mm, r_b2);
-  const double start = internal ? tip2 - span : span - tip2;
-  const double base_pitch = kTwoPi * r_b1 / gear1.teeth;
-  const double end = roll_length_mm(gear1.tip_radius_mm, r_b1);
-  const double base_helix = base_helix_angle_rad(gear1);
-  return {.approach = (pitch_point - start) / base_pitch,
-          .recess = (end - pitch_point) / base_pitch,
-          .span = span,
-          .path = {.base_radius1_mm = r_b1,
-                   .base_radius2_mm = r_b2,
-                   .internal = internal,
-                   .pitch_point_mm = pitch_point,
-                   .start_mm = start,
-                   .end_mm = end,
-                   .base_pitch_mm = base_pitch,
-                   .overlap_ratio = face_width * std::tan(base_helix) / base_pitch,
-                   .base_helix_angle_rad = base_helix}};
-}
-
-/// Roll length at which a gear's involute begins where the rack's straight flank cuts it; below 0:
-/// undercut.
-double involute_start_mm(const SearchRequirements& r, const Gear& gear) {
-  const double sine = std::sin(r.rack.pressure_angle_rad),
-               cosine = std::cos(r.rack.pressure_angle_rad);
-  const double full_round = (0.25 * kPi - r.rack.dedendum * sine / cosine) * cosine / (1.0 - sine);
-  const double rounding = std::clamp(r.rack.root_radius, 0.0, std::max(0.0, full_round));
-  // heights are those of the normal section, the involute that of the transverse one
-  const double transverse = std::sin(transverse_pressure_angle_rad(gear));
-  return reference_radius_mm(gear) * transverse -
-         (r.rack.dedendum - rounding * (1.0 - sine) - gear.shift) / transverse;
-}
-
-/// Neither undercut nor a fillet shortens the path between the tips on the involute of a gear of
-/// which the lowest point of the path has this roll length.
-bool surely_whole(const SearchRequirements& r, const Gear& gear, double lowest_mm) {
-  const double start = involute_start_mm(r, gear);
-  return start >= 0.0 && lowest_mm >= start;
-}
-
-/// The part of a path that loses least: of what undercut or a fillet can leave of it nothing loses
-/// less. The loss is that of the contact ratios' formula, e1^2 + e2^2 - e1 - e2 + 1, least where both
-/// are as close to a half as a whole base pitch allows.
-ContactPath best_part(const MeshView& view) {
-  ContactPath path = view.path;
-  const double approach = std::min(view.approach, std::max(0.5, 1.0 - view.recess)),
-               recess = std::min(view.recess, std::max(0.5, 1.0 - view.approach));
-  path.start_mm = path.pitch_point_mm - approach * path.base_pitch_mm;
-  path.end_mm = path.pitch_point_mm + recess * path.base_pitch_mm;
-  return path;
-}
-
-/// Distance the tips of planet and ring keep outside the line of action, on the ring's tip circle;
-/// positive and smooth where the tip circles do not even cross.
-/// Source: the corner of the ring's tip reaches the point where both tip circles cross when the
-/// planet's tip corner has already passed it (docs/search.md).
-double trochoid_margin(const Gear& planet, const Gear& ring, double a) {
-  const double r1 = planet.tip_radius_mm, r2 = ring.tip_radius_mm;
-  const double cos1 = (r2 * r2 - r1 * r1 - a * a) / (2.0 * a * r1);
-  const double cos2 = (a * a + r2 * r2 - r1 * r1) / (2.0 * a * r2);
-  if (cos1 >= 1.0 || cos2 >= 1.0) return 0.5 + (r2 - r1 - a);
-  if (cos1 <= -1.0 || cos2 <= -1.0) return -1.0;
-  const double r_b1 = base_radius_mm(planet), r_b2 = base_radius_mm(ring);
-  const double inv_w = involute_function(std::acos(std::min(1.0, (r_b2 - r_b1) / a)));
-  const double inv1 = involute_function(pressure_angle_at_radius_rad(r1, r_b1));
-  const double inv2 = involute_function(pressure_angle_at_radius_rad(r2, r_b2));
-  const double theta1 = std::acos(cos1) + inv1 - inv_w;
-  const double theta2 = std::acos(cos2);
-  return r2 * (theta1 * planet.teeth / ring.teeth + inv_w - inv2 - theta2);
-}
-
-/// The meshes' backlash in modules of the layer.
-double backlash_of(const SearchRequirements& r, double module_mm) {
-  return r.backlash_mm ? *r.backlash_mm / module_mm : kUsualBacklash;
-}
-
-/// Least arc at the tip circle: each gear of a mesh is thinned by half of the backlash, a ring by
-/// what its planet leaves of it, which is hardly more.
-double tip_thickness(const Gear& gear, double backlash) {
-  const double thinning = 0.55 * backlash;
-  return 2.0 * gear.tip_radius_mm * tooth_half_angle_rad(gear, gear.tip_radius_mm) -
-         thinning * gear.tip_radius_mm / reference_radius_mm(gear);
-}
-
-/// Tip corners in the mate's roots, both ways, and the contact that undercut and root form leave.
-LineOfAction add_root_margins(const SearchRequirements& r, const GearPair& pair, Margins& margins) {
-  margins.add(corner_clearance_in_gear1_mm(pair));
-  margins.add(corner_clearance_in_gear2_mm(pair));
-  const LineOfAction line = line_of_action(pair);
-  margins.add((line.effective_end_mm - line.effective_start_mm) / line.base_pitch_mm -
-              r.contact_ratio_min);
-  return line;
-}
-
-void add_contact_ratio_margins(const SearchRequirements& r, const MeshView& view,
-                               Margins& margins) {
-  margins.add(view.approach + view.recess - r.contact_ratio_min);
-  margins.add(r.contact_ratio_max - view.approach - view.recess);
-}
-
-void add_internal_clearances(const SearchRequirements& r, const Gear& planet, const Gear& ring,
-                             double a, Margins& margins) {
-  margins.add(root_radius(ring) - a - planet.tip_radius_mm - r.tip_clearance);
-  margins.add(ring.tip_radius_mm - a - root_radius(planet) - r.tip_clearance);
-}
-
-double spacing_margin(const SearchRequirements& r, int planets, double a, double tip_radius,
-                      double module_mm) {
-  if (planets < 2) return 1.0;
-  return 2.0 * a * std::sin(kPi / planets) - 2.0 * tip_radius - r.planet_clearance_mm / module_mm;
-}
-
-}  // namespace
 
 SearchModel::SearchModel(const SearchRequirements& requirements, const ToothSet& set)
     : requirements_(&requirements), set_(set) {
@@ -296,23 +122,6 @@ double SearchModel::efficiency(const LayerEvaluation& layer1, const LayerEvaluat
   return result > 0.0 && result <= 1.0 + 1e-12 ? result : 0.0;
 }
 
-MeshLoss SearchModel::formula_loss(const MeshTeeth& mesh, double approach, double recess) const {
-  const double value = basic_efficiency({.teeth1 = mesh.teeth1,
-                                         .teeth2 = mesh.teeth2,
-                                         .internal = mesh.internal,
-                                         .approach = approach,
-                                         .recess = recess},
-                                        requirements_->friction);
-  return {value, value};
-}
-
-MeshLoss SearchModel::path_loss(ContactPath path) const {
-  // an optimiser passes through shifts that interrupt contact: the loss goes on smoothly there
-  path.end_mm = std::max(path.end_mm, path.start_mm + path.base_pitch_mm * (1.0 + 1e-12));
-  const SlidingEfficiency s = sliding_efficiency(path, requirements_->friction, kLoadSharing);
-  return {s.gear1_driving, s.gear2_driving};
-}
-
 LayerEvaluation SearchModel::outline(int number, double centre_distance, double shift,
                                      double stop_below) const {
   return layer(number, centre_distance, shift, stop_below, {}, Profiles::kLeftOut);
@@ -339,92 +148,40 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   add_shifts(number, a1, shift, x);
   const auto shift_at = [&](TrainPlace place) { return x[static_cast<std::size_t>(place)]; };
   const double x_s = own.sun ? shift_at(own.sun_at) : 0.0, x_p = shift_at(own.planet_at);
-  const auto within_bounds = [&](double value) {
-    margins.add(value - r.shift_min);
-    margins.add(r.shift_max - value);
-  };
-  if (own.sun) within_bounds(x_s);
-  if (own.ring) within_bounds(x_p);
+  if (own.sun) add_shift_margins(r, x_s, margins);
+  if (own.ring) add_shift_margins(r, x_p, margins);
   if (margins.stop()) return done();
 
   const double a = a1 / own.module, least_module_mm = least_module_mm_ * own.module;
-  Gear planet = gear_of(r, GearKind::kExternal, own.planet, x_p);
-  std::optional<Gear> sun, ring;
-  double shortened_tip = kNaN;  ///< of the planet, by its mesh with the sun
-  if (own.ring) ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
+  LayerGears gears{.planet = gear_of(r, GearKind::kExternal, own.planet, x_p)};
+  if (own.ring) gears.ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
   if (own.sun) {
-    sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
+    gears.sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
     const double y = a - reference_radius(own.sun + own.planet);
-    sun->tip_radius_mm = reference_radius(own.sun) + r.rack.addendum + y - x_p;
-    shortened_tip = reference_radius(own.planet) + r.rack.addendum + y - x_s;
-    planet.tip_radius_mm = std::min(planet.tip_radius_mm, shortened_tip);
+    gears.sun->tip_radius_mm = reference_radius(own.sun) + r.rack.addendum + y - x_p;
+    gears.shortened_tip = reference_radius(own.planet) + r.rack.addendum + y - x_s;
+    gears.planet.tip_radius_mm = std::min(gears.planet.tip_radius_mm, gears.shortened_tip);
   }
-  margins.add(spacing_margin(r, set_.planets, a, planet.tip_radius_mm, least_module_mm));
-  const double backlash = backlash_of(r, least_module_mm);
-  const auto add_thickness = [&](const Gear& gear) {
-    margins.add(gear.tip_radius_mm > base_radius_mm(gear)
-                    ? tip_thickness(gear, backlash) - r.tip_thickness
-                    : -1.0);
-  };
-  if (sun) add_thickness(*sun);
-  add_thickness(planet);
-  if (ring) {
-    add_thickness(*ring);
-    margins.add(ring->tip_radius_mm - base_radius_mm(*ring));
-  }
+  margins.add(spacing_margin(r, set_.planets, a, gears.planet.tip_radius_mm, least_module_mm));
+  add_thickness_margins(r, gears, least_module_mm, margins);
   if (margins.stop()) return done();
 
   const double width = r.face_width_mm / least_module_mm;
-  const MeshView outer = sun ? view_of(*sun, planet, a, width) : MeshView{};
-  const MeshView inner = ring ? view_of(planet, *ring, a, width) : MeshView{};
-  if (sun) add_contact_ratio_margins(r, outer, margins);
-  if (ring) add_contact_ratio_margins(r, inner, margins);
-  if (sun) {
-    // The tip circles leave exactly dedendum less addendum: where that is asked for, rounding must
-    // not decide.
-    const bool exact = std::abs(r.rack.dedendum - r.rack.addendum - r.tip_clearance) < kSameClearance;
-    margins.add(exact ? kHair : a - sun->tip_radius_mm - root_radius(planet) - r.tip_clearance);
-    margins.add((exact ? std::max(0.0, shortened_tip - planet.tip_radius_mm) + kHair
-                       : a - planet.tip_radius_mm - root_radius(*sun) - r.tip_clearance));
-  }
-  if (ring) {
-    add_internal_clearances(r, planet, *ring, a, margins);
-    margins.add(trochoid_margin(planet, *ring, a));
-  }
+  const MeshView outer = gears.sun ? view_of(*gears.sun, gears.planet, a, width) : MeshView{};
+  const MeshView inner = gears.ring ? view_of(gears.planet, *gears.ring, a, width) : MeshView{};
+  add_mesh_margins(r, gears, outer, inner, a, margins);
   if (margins.stop()) return done();
-  const bool formula = r.loss_model == LossModel::kContactRatios;
-  const bool known =
-      formula || ((!sun || (surely_whole(r, *sun, outer.path.start_mm) &&
-                            surely_whole(r, planet, outer.span - outer.path.end_mm))) &&
-                  (!ring || (!r.cutter && surely_whole(r, planet, inner.path.start_mm))));
-  const auto loss = [&](const MeshTeeth& mesh, const MeshView& view) {
-    if (formula) return formula_loss(mesh, view.approach, view.recess);
-    return path_loss(!known && profiles == Profiles::kLeftOut ? best_part(view) : view.path);
-  };
-  if (sun) result.sun_planet = loss(own.sun_planet, outer);
-  if (ring) result.planet_ring = loss(own.planet_ring, inner);
-  if (profiles == Profiles::kLeftOut || (known && worth && !worth(result))) return done();
 
-  const auto planet_profile = ToothProfile::make(planet);
-  if (!planet_profile) return done();
-  const auto judge = [&](const GearPair& pair, const MeshView& view, MeshLoss& mesh_loss) {
-    const LineOfAction line = add_root_margins(r, pair, margins);
-    // undercut, or a root form circle above the mate's tip, shortens the path
-    constexpr double kSame_mm = 1e-10;
-    if (!formula && (line.effective_start_mm > view.path.start_mm + kSame_mm ||
-                     line.effective_end_mm < view.path.end_mm - kSame_mm))
-      mesh_loss = path_loss(contact_path(pair, width));
+  const bool formula = r.loss_model == LossModel::kContactRatios;
+  const bool known = formula || is_surely_whole(r, gears, outer, inner);
+  const auto loss = [&](const MeshTeeth& mesh, const MeshView& view) {
+    if (formula) return formula_loss(r, mesh, view.approach, view.recess);
+    return path_loss(r, !known && profiles == Profiles::kLeftOut ? best_part(view) : view.path);
   };
-  if (sun) {
-    const auto profile = ToothProfile::make(*sun);
-    if (!profile) return done();
-    judge({&*profile, &*planet_profile, a}, outer, result.sun_planet);
-  }
-  if (ring) {
-    const auto profile = ToothProfile::make(*ring);
-    if (!profile) return done();
-    judge({&*planet_profile, &*profile, a}, inner, result.planet_ring);
-  }
+  if (gears.sun) result.sun_planet = loss(own.sun_planet, outer);
+  if (gears.ring) result.planet_ring = loss(own.planet_ring, inner);
+  if (profiles == Profiles::kLeftOut || (known && worth && !worth(result))) return done();
+  judge_profiles(r, gears, outer, inner, {a, width}, margins, result);
   return done();
 }
 
@@ -478,8 +235,8 @@ double SearchModel::outer_diameter(const FreeShifts& free) const {
                  a = free.centre_distance / own.module;
     if (own.ring) {
       const double x_r = x[static_cast<std::size_t>(own.ring_at)];
-      largest = std::max(largest, 2.0 * own.module * (reference_radius(own.ring) + r.rack.dedendum +
-                                                      x_r + r.rim));
+      largest = std::max(
+          largest, 2.0 * own.module * (reference_radius(own.ring) + r.rack.dedendum + x_r + r.rim));
     } else {
       const double x_s = x[static_cast<std::size_t>(own.sun_at)],
                    y = a - reference_radius(own.sun + own.planet);
@@ -502,10 +259,10 @@ double SearchModel::greatest_outer_diameter() const {
     const auto tip = [&](int teeth) {
       return reference_radius(teeth) + r.rack.addendum + r.shift_max;
     };
-    const double outer = own.ring ? 2.0 * (reference_radius(own.ring) + r.rack.dedendum +
-                                           r.shift_max + r.rim)
-                         : train().has_planets() ? 2.0 * (a + tip(own.planet))
-                                                 : a + tip(own.planet) + tip(own.sun);
+    const double outer =
+        own.ring ? 2.0 * (reference_radius(own.ring) + r.rack.dedendum + r.shift_max + r.rim)
+        : train().has_planets() ? 2.0 * (a + tip(own.planet))
+                                : a + tip(own.planet) + tip(own.sun);
     largest = std::max(largest, own.module * outer);
   }
   return largest;
@@ -558,8 +315,7 @@ GearboxDesign SearchModel::design(const FreeShifts& free,
     if (module != m1) gear.module_mm = module;
     if (ring)
       gear.outer_diameter_mm =
-          2.0 * module *
-          (reference_radius(gear.teeth) + r.rack.dedendum + *gear.shift + r.rim);
+          2.0 * module * (reference_radius(gear.teeth) + r.rack.dedendum + *gear.shift + r.rim);
     if (ring && r.cutter) {
       gear.root = RingRoot::kShaper;
       gear.cutter = r.cutter;

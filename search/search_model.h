@@ -8,6 +8,7 @@
 
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/search/search_enumerate.h"
+#include "trueflank/search/search_layer.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/train/efficiency_balance.h"
 #include "trueflank/train/efficiency_sliding.h"
@@ -31,16 +32,6 @@ struct DesignDimensions {
   double face_width_mm = kNaN, module_mm = kNaN;  ///< NaN: as the requirements say
 
   bool operator==(const DesignDimensions&) const = default;
-};
-
-/// Loss of one mesh, as the torque balance takes it.
-struct MeshLoss {
-  double driving1 = kNaN, driving2 = kNaN;  ///< efficiency where gear 1, gear 2 drives
-};
-struct LayerEvaluation {
-  MeshLoss sun_planet, planet_ring;            ///< NaN where there is no such mesh
-  std::array<double, kLayerLimits> margins{};  ///< in the order of SearchTrain::limits
-  double least_margin = -1e9;
 };
 
 /// One tooth set.
@@ -135,8 +126,6 @@ class SearchModel {
   /// External torque on the output per unit of torque at the input: the negative ratio where
   /// nothing is lost.
   [[nodiscard]] double output_torque(const std::array<double, 3>& torque_ratios) const;
-  [[nodiscard]] MeshLoss formula_loss(const MeshTeeth& mesh, double approach, double recess) const;
-  [[nodiscard]] MeshLoss path_loss(ContactPath path) const;
 
   const SearchRequirements* requirements_;
   ToothSet set_;

@@ -154,7 +154,10 @@ class Sweep {
   [[nodiscard]] double clearance(const Point2& p, const Position& at, GearDistance::Before& before) const {
     return mate_.nearest(in_mate(p, at), before).distance_mm;
   }
+  class Valleys;
   [[nodiscard]] Place lowest(const std::vector<Sample>& samples, const Wanted& wanted) const;
+  [[nodiscard]] Place lowest_of(const std::vector<Place>& starts, double step,
+                                const Wanted& wanted) const;
   [[nodiscard]] Place refined(const Place& start, double step, double lost_mm) const;
   [[nodiscard]] double fastest_mm_per_rad(const Place& start, double step) const;
 
@@ -244,27 +247,73 @@ bool Sweep::same_place(const Place& a, const Place& b) {
          a.sample.low == b.sample.low && a.sample.high == b.sample.high && a.angle == b.angle;
 }
 
+/// The lowest place of every piece of the mover against every piece of the mate, and along the path
+/// of every corner all values.
+class Sweep::Valleys {
+ public:
+  Valleys(const Sweep& sweep, const std::vector<Sample>& samples, std::size_t columns)
+      : row_of_(samples.size(), kNoRow), of_piece_(sweep.mover_.pieces().size()) {
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (samples[i].low == samples[i].high) row_of_[i] = rows++;
+    along_.assign(rows, std::vector<double>(columns, kUnlimited));
+    for (auto& against : of_piece_)
+      against.resize(sweep.mate_profile_.pieces().size() +
+                     sweep.mate_profile_.clockwise_pieces().size());
+  }
+
+  void keep(std::size_t sample, std::size_t column, double value) {
+    if (row_of_[sample] != kNoRow) along_[row_of_[sample]][column] = value;
+  }
+  void take_in(const GearDistance::Nearest& near, const Sample& sample, double angle) {
+    OfPiece& against =
+        of_piece_[static_cast<std::size_t>(sample.piece)][static_cast<std::size_t>(near.piece)];
+    Place& best = against[near.corner][near.clockwise_half];
+    if (near.distance_mm < best.clearance - kSame_mm) best = {near.distance_mm, sample, angle};
+  }
+  /// Those not above `highest`, in the order in which they are refined; columns lie at angle_of(j).
+  template <typename AngleOf>
+  [[nodiscard]] std::vector<Place> up_to(double highest, const std::vector<Sample>& samples,
+                                         const AngleOf& angle_of) const {
+    std::vector<Place> starts;
+    for (const auto& against : of_piece_)
+      for (const OfPiece& piece : against)
+        for (const auto& halves : piece)
+          for (const Place& place : halves)
+            if (place.clearance <= highest) starts.push_back(place);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (row_of_[i] == kNoRow) continue;
+      const std::vector<double>& row = along_[row_of_[i]];
+      for (std::size_t j = 1; j + 1 < row.size(); ++j) {
+        const double* f = &row[j];
+        if (f[0] <= f[-1] && f[0] < f[1] && f[0] <= highest)
+          starts.push_back({f[0], samples[i], angle_of(j)});
+      }
+    }
+    std::sort(starts.begin(), starts.end(), comes_first);
+    return starts;
+  }
+
+ private:
+  /// Its corners and its halves apart.
+  using OfPiece = std::array<std::array<Place, 2>, 2>;
+  std::vector<std::size_t> row_of_;
+  std::vector<std::vector<double>> along_;
+  std::vector<std::vector<OfPiece>> of_piece_;
+};
+
 Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, const Wanted& wanted) const {
   const double m = mover_.gear().normal_module_mm;
   const double reach = positions_.reach_rad, turning = positions_.turning;
   const int n = positions_.steps;
   const double step = 2.0 * reach / n;
   const auto columns = static_cast<std::size_t>(n) + 1;
+  const auto angle_of = [&](std::size_t j) { return -reach + step * static_cast<double>(j); };
 
-  // The valleys along the paths of corners are sought in their values, at every column.
-  std::vector<std::size_t> row_of(samples.size());
-  std::size_t rows = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    row_of[i] = samples[i].low == samples[i].high ? rows++ : kNoRow;
-  std::vector<std::vector<double>> grid(rows, std::vector<double>(columns, std::numeric_limits<double>::infinity()));
-  // of each piece of the mover against each of the mate, its corners and its halves apart
-  using OfPiece = std::array<std::array<Place, 2>, 2>;
-  std::vector<std::vector<OfPiece>> best_of_kind(mover_.pieces().size());
-  for (auto& against : best_of_kind)
-    against.resize(mate_profile_.pieces().size() + mate_profile_.clockwise_pieces().size());
+  Valleys valleys(*this, samples, columns);
   // A low value from the start saves columns that others would have to show to be no use.
-  double lowest = std::numeric_limits<double>::infinity();
-  const Position at_centres = position_at(-reach + step * static_cast<double>(columns / 2));
+  double lowest = kUnlimited;
+  const Position at_centres = position_at(angle_of(columns / 2));
   GearDistance::Before along_profile;
   for (const Sample& sample : samples)
     lowest = std::min(lowest, clearance(sample.point, at_centres, along_profile));
@@ -279,17 +328,15 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, const Wanted& wan
   for (std::size_t j = 0; j < columns; ++j) {
     const std::vector<std::size_t>& due = due_samples.in(j);
     if (due.empty()) continue;
-    const double angle = -reach + step * static_cast<double>(j);
+    const double angle = angle_of(j);
     const Position at = position_at(angle);
     const double c = at.mover.x(), s = at.mover.y(), c2 = at.mate.x(), s2 = at.mate.y();
     for (const std::size_t i : due) {
-      const auto keep = [&](double value) {
-        if (row_of[i] != kNoRow) grid[row_of[i]][j] = value;
-      };
       const Point2& p = samples[i].point;
       const double along = c * p.x() - s * p.y(), x = along - axis_, y = s * p.x() + c * p.y();
       const double from_pitch_point = norm_of(along - positions_.pitch_radius_mm, y);
       const auto pass_over = [&](double distance_mm) {
+        valleys.keep(i, j, distance_mm);
         const std::size_t passed =
             columns_without(distance_mm - (lowest + kRefineBand * m),
                             step * turning * from_pitch_point, growth_mm[i]);
@@ -299,40 +346,24 @@ Sweep::Place Sweep::lowest(const std::vector<Sample>& samples, const Wanted& wan
       const double radius = norm_of(x, y);
       const double beyond = mate_is_ring ? mate_tip - radius : radius - mate_tip;
       if (beyond > lowest + kRefineBand * m) {
-        keep(beyond);
         pass_over(beyond);
         continue;
       }
       const auto near = mate_.nearest({c2 * x - s2 * y, s2 * x + c2 * y}, before[i]);
-      keep(near.distance_mm);
       lowest = std::min(lowest, near.distance_mm);
       if (lowest < wanted.enough_mm) return {.clearance = lowest};
       pass_over(near.distance_mm);
-      OfPiece& against = best_of_kind[static_cast<std::size_t>(samples[i].piece)][static_cast<std::size_t>(near.piece)];
-      Place& best = against[near.corner][near.clockwise_half];
-      if (near.distance_mm < best.clearance - kSame_mm)
-        best = {near.distance_mm, samples[i], angle};
+      valleys.take_in(near, samples[i], angle);
     }
   }
+  return lowest_of(valleys.up_to(lowest + kRefineBand * m, samples, angle_of), step, wanted);
+}
 
-  std::vector<Place> starts;
-  const double highest = lowest + kRefineBand * m;
-  for (const auto& against : best_of_kind)
-    for (const OfPiece& piece : against)
-      for (const auto& halves : piece)
-        for (const Place& place : halves)
-          if (place.clearance <= highest) starts.push_back(place);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (row_of[i] == kNoRow) continue;
-    for (std::size_t j = 1; j + 1 < columns; ++j) {  // every valley along a corner's path
-      const double* f = &grid[row_of[i]][j];
-      if (f[0] <= f[-1] && f[0] < f[1] && f[0] <= highest)
-        starts.push_back({f[0], samples[i], -reach + step * static_cast<double>(j)});
-    }
-  }
-  std::sort(starts.begin(), starts.end(), comes_first);
+/// The lowest after refinement, of places in the order in which they come.
+Sweep::Place Sweep::lowest_of(const std::vector<Place>& starts, double step,
+                              const Wanted& wanted) const {
   Place best;
-  double least_mm = std::numeric_limits<double>::infinity();
+  double least_mm = kUnlimited;
   for (std::size_t k = 0; k < std::min(starts.size(), kMostRefined); ++k) {
     if (k > 0 && same_place(starts[k], starts[k - 1])) continue;
     Place place = refined(starts[k], step, std::min(best.clearance + 2.0 * kSame_mm, wanted.ample_mm));

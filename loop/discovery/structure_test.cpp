@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <random>
 #include <tuple>
 
@@ -41,11 +40,9 @@ Eigen::VectorXd quadratic_forms(const Eigen::MatrixXd& s, const Eigen::MatrixXd&
 
 /// Signs of a unit in neighbouring flips.
 using FlipSigns = std::array<float, 64>;
-/// Scores of a candidate's columns, a row each.
-using FlipScores = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Signs of all units in all flips, those of one set of flips after the other; the same for the same number of
-/// units. Of flips beyond the last 0.
+/// Signs of all units in all flips, those of one set of flips after the other; the same for the
+/// same number of units. Of flips beyond the last 0.
 std::vector<FlipSigns> flip_signs(std::size_t units, std::size_t flips) {
   constexpr std::size_t kAtOnce = std::tuple_size_v<FlipSigns>;
   std::mt19937_64 random(20260101);
@@ -225,43 +222,50 @@ void StructureTest::judge_what_can_be_seen() {
   }
 }
 
+/// Of a group: how unlikely its statistic is by chance, minus the logarithm of its tail, or below 0
+/// where it cannot be judged. The flips' statistics are taken into the largest of groups of its
+/// size.
+double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const FlipScores>& scores,
+                                        const Eigen::VectorXd& observed,
+                                        LargestOfSize& largest) const {
+  constexpr double kCannotBeJudged = -1.0;
+  const CandidateGroup& group = problem_.groups[g];
+  const SymmetricSolver under_flips(flipped_[g]);
+  if (!under_flips.is_positive()) return kCannotBeJudged;
+  const Eigen::MatrixXd s = scores.cast<double>();
+  const Eigen::MatrixXd inverse =
+      under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
+  const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
+  const Eigen::VectorXd o = observed(Eigen::seqN(group.first_column, group.columns));
+  const double t = o.dot(symmetric_solution(projected_[g], o));
+  // The group's own scale: correlation within units widens low modes more than high ones.
+  const double flips = static_cast<double>(s.cols());
+  const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
+  if (!(scale > 0.0)) return kCannotBeJudged;
+  Eigen::VectorXd& of_size = largest[group.columns];
+  if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(s.cols());
+  of_size = of_size.cwiseMax(statistic / scale);
+  return minus_log_chi_square_tail(t / scale, group.columns);
+}
+
 void StructureTest::test_by_flips(int flips) {
   const std::size_t groups = problem_.groups.size();
   group_p_values_.assign(groups, 1.0);
-  const std::vector<FlipSigns> signs = flip_signs(static_cast<std::size_t>(statistics_.units()),
-                                                  static_cast<std::size_t>(flips));
+  const std::vector<FlipSigns> signs =
+      flip_signs(static_cast<std::size_t>(statistics_.units()), static_cast<std::size_t>(flips));
   const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
-  // The tail falls with the statistic: of groups of one size the largest statistic has it.
-  using LargestOfSize = std::map<int, Eigen::VectorXd>;
-  std::vector<double> own(groups, -1.0);
-  const auto judge = [&](std::size_t g, const auto& scores, LargestOfSize& largest) {
-    const CandidateGroup& group = problem_.groups[g];
-    const SymmetricSolver under_flips(flipped_[g]);
-    if (!under_flips.is_positive()) return;
-    const Eigen::MatrixXd s = scores.template cast<double>();
-    const Eigen::MatrixXd inverse =
-        under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
-    const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
-    const Eigen::VectorXd o = observed(Eigen::seqN(group.first_column, group.columns));
-    const double t = o.dot(symmetric_solution(projected_[g], o));
-    // The group's own scale: correlation within units widens low modes more than high ones.
-    const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
-    if (!(scale > 0.0)) return;
-    own[g] = minus_log_chi_square_tail(t / scale, group.columns);
-    Eigen::VectorXd& of_size = largest[group.columns];
-    if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(flips);
-    of_size = of_size.cwiseMax(statistic / scale);
-  };
-  // Groups do not ask each other: the same statistics on any number of processors. Each piece takes in
-  // all signs, so there are few.
   std::vector<std::size_t> asked;
   for (std::size_t g = 0; g < groups; ++g)
     if (testable_[g] && asked_[g]) asked.push_back(g);
   if (asked.empty()) return;
+  // Groups do not ask each other: the same statistics on any number of processors. Each piece takes
+  // in all signs, so there are few.
   constexpr std::size_t kPieces = 4;
+  std::vector<double> own(groups, -1.0);
   std::vector<LargestOfSize> largest_of_piece(kPieces);
   for_each_piece(kPieces, [&](std::size_t piece) {
-    const std::size_t first = asked.size() * piece / kPieces, end = asked.size() * (piece + 1) / kPieces;
+    const std::size_t first = asked.size() * piece / kPieces,
+                      end = asked.size() * (piece + 1) / kPieces;
     std::vector<Eigen::Index> columns;
     for (std::size_t i = first; i < end; ++i)
       for (int k = 0; k < problem_.groups[asked[i]].columns; ++k)
@@ -271,7 +275,9 @@ void StructureTest::test_by_flips(int flips) {
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
       const int own_columns = problem_.groups[asked[i]].columns;
-      judge(asked[i], scores.middleRows(row, own_columns).leftCols(flips), largest_of_piece[piece]);
+      own[asked[i]] =
+          judge_under_flips(asked[i], scores.middleRows(row, own_columns).leftCols(flips), observed,
+                            largest_of_piece[piece]);
       row += own_columns;
     }
   });
@@ -281,7 +287,14 @@ void StructureTest::test_by_flips(int flips) {
       const auto [known, is_new] = largest_of_size.try_emplace(columns, of_piece);
       if (!is_new) known->second = known->second.cwiseMax(of_piece);
     }
-  for (std::size_t g = 0; g < groups; ++g)
+  compare_with_flips(own, largest_of_size, flips);
+}
+
+/// p-values corrected for all groups: how often the largest statistic of a flip, whichever group it
+/// is of, is as unlikely as a group's own.
+void StructureTest::compare_with_flips(const std::vector<double>& own,
+                                       const LargestOfSize& largest_of_size, int flips) {
+  for (std::size_t g = 0; g < own.size(); ++g)
     if (own[g] >= 0.0 && (likest_ < 0 || own[g] > own[likest_])) likest_ = static_cast<int>(g);
   if (likest_ < 0) return;
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
@@ -289,7 +302,7 @@ void StructureTest::test_by_flips(int flips) {
     for (int k = 0; k < flips; ++k)
       largest[k] = std::max(largest[k], minus_log_chi_square_tail(statistics[k], columns));
   std::sort(largest.data(), largest.data() + flips);
-  for (std::size_t g = 0; g < groups; ++g) {
+  for (std::size_t g = 0; g < own.size(); ++g) {
     if (own[g] < 0.0) continue;
     const auto above =
         largest.data() + flips - std::lower_bound(largest.data(), largest.data() + flips, own[g]);

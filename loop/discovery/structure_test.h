@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/column_panels.h"
 
 namespace trueflank::loop {
+
+/// Scores of a candidate's columns under sign flips: a row a column, a column a flip.
+using FlipScores = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Does the residual of a model hold structure of the candidates' kinds? Sign flips of whole units:
 /// under no structure the scores of independent, symmetric errors are as likely with any signs.
@@ -38,15 +43,23 @@ class StructureTest {
   void project_panel(std::size_t panel, const FittedToUnits& fitted);
   void judge_what_can_be_seen();
   void test_by_flips(int flips);
+  /// Of all groups with so many columns, the largest statistic of each flip: the tail falls with
+  /// the statistic, so that one has it.
+  using LargestOfSize = std::map<int, Eigen::VectorXd>;
+  [[nodiscard]] double judge_under_flips(std::size_t g, const Eigen::Ref<const FlipScores>& scores,
+                                         const Eigen::VectorXd& observed,
+                                         LargestOfSize& largest) const;
+  void compare_with_flips(const std::vector<double>& own, const LargestOfSize& largest_of_size,
+                          int flips);
   void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
-  std::vector<bool> asked_;                 ///< per group: flips judge it, as neither local nor banned
-  Eigen::MatrixXd unit_scores_;             ///< P x units
-  Eigen::MatrixXd absorbed_;                ///< M x P: coefficients of the candidates on the model
-  Eigen::VectorXd fitted_;                  ///< M: of the value
+  std::vector<bool> asked_;      ///< per group: flips judge it, as neither local nor banned
+  Eigen::MatrixXd unit_scores_;  ///< P x units
+  Eigen::MatrixXd absorbed_;     ///< M x P: coefficients of the candidates on the model
+  Eigen::VectorXd fitted_;       ///< M: of the value
   std::vector<Eigen::MatrixXd> projected_;  ///< per group: Gram matrix after projection
   std::vector<Eigen::MatrixXd> flipped_;    ///< per group asked: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;

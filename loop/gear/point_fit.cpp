@@ -120,7 +120,8 @@ using ColumnOfPanel = std::array<double, kPanel>;
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  explicit Gram(std::size_t columns) : sum_((columns + 1) * (columns + 2) / 2), panel_(columns + 1) {}
+  explicit Gram(std::size_t columns)
+      : sum_((columns + 1) * (columns + 2) / 2), panel_(columns + 1) {}
   /// Adds a row of a panel times a factor.
   void add(const std::vector<ColumnOfPanel>& rows, std::size_t row, double factor) {
     for (std::size_t k = 0; k + 1 < panel_.size(); ++k) panel_[k][filled_] = factor * rows[k][row];
@@ -253,7 +254,8 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
       const bool counts = counts_as_error(observation.kind);
       if (in_trace) {
         Eigen::VectorXd part(n);
-        for (Eigen::Index k = 0; k < n; ++k) part[k] = panel.columns[static_cast<std::size_t>(k)][r];
+        for (Eigen::Index k = 0; k < n; ++k)
+          part[k] = panel.columns[static_cast<std::size_t>(k)][r];
         part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
         if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
         if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
@@ -423,26 +425,37 @@ void PointFit::solve() {
   normal.diagonal().array() += 1e-30;
   const Eigen::MatrixXd inverse =
       SymmetricSolver(normal).solve_columns(Eigen::MatrixXd::Identity(p, p));
-  std::set<int> local;
-  for (int k = 0; k < p; ++k) {
+  for (int k = 0; k < p; ++k)
     if (normal(k, k) > 1e-20) retained_[k] = 1.0 / (inverse(k, k) * normal(k, k));
-    double sum = 0.0, squares = 0.0;
-    for (const Eigen::MatrixXd& unit : unit_grams_) {
-      if (unit.size() == 0) continue;
-      sum += unit(k, k);
-      squares += unit(k, k) * unit(k, k);
-    }
-    const double bearing = squares > 0.0 ? sum * sum / squares : 1.0;
-    degrees_[k] = std::max(1.0, bearing - 1.0);
-    // What only sizes tell: their own error is known, and their scatter too few to ask.
-    const double threshold = 1e-6 * sum;
-    bool sizes_only = sum > 0.0;
-    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
-      sizes_only = sizes_only && (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) <= threshold ||
-                                  unit_kind_[b] == static_cast<int>(ObservationKind::kSize));
-    if (bearing < 2.6 || sizes_only) local.insert(k);
+  std::vector<int> of_few;
+  for (int k = 0; k < p; ++k)
+    if (few_units_bear(k)) of_few.push_back(k);
+  spread_between_units(normal);
+  for (const int k : of_few) spread_beside(k, normal(k, k), inverse(k, k));
+}
+
+/// Whether the scatter between units says nothing of a column: few carry it, or sizes alone, whose
+/// own error is known and whose scatter is too small a sample. Sets its degrees of freedom.
+bool PointFit::few_units_bear(int k) {
+  double sum = 0.0, squares = 0.0;
+  for (const Eigen::MatrixXd& unit : unit_grams_) {
+    if (unit.size() == 0) continue;
+    sum += unit(k, k);
+    squares += unit(k, k) * unit(k, k);
   }
-  // Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
+  const double bearing = squares > 0.0 ? sum * sum / squares : 1.0;
+  degrees_[k] = std::max(1.0, bearing - 1.0);
+  const double threshold = 1e-6 * sum;
+  bool sizes_only = sum > 0.0;
+  for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+    sizes_only = sizes_only && (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) <= threshold ||
+                                unit_kind_[b] == static_cast<int>(ObservationKind::kSize));
+  return bearing < 2.6 || sizes_only;
+}
+
+/// Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
+void PointFit::spread_between_units(const Eigen::MatrixXd& normal) {
+  const int p = columns_;
   double used = 0.0;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
   for (const Eigen::MatrixXd& unit : unit_grams_) {
@@ -462,31 +475,34 @@ void PointFit::solve() {
     used += 1.0;
   }
   covariance_ = sum * ((used - 1.0) / std::max(1.0, used));
-  for (const int k : local) {
-    // How far the means of the other units scatter, against what their weights promise.
-    double scatter = 0.0, count = 0.0;
-    std::set<int> kinds;
-    for (std::size_t b = 0; b < unit_grams_.size(); ++b)
-      if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 1e-6 * normal(k, k) &&
-          unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
-          unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
-        kinds.insert(unit_kind_[b]);
-    for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
-      if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 1e-6 * normal(k, k)) continue;
-      if (!kinds.contains(unit_kind_[b])) continue;
-      const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
-      scatter += sum_b * sum_b / unit_sums_[b][p + 1];
-      count += 1.0;
-    }
-    covariance_.row(k).setZero();
-    covariance_.col(k).setZero();
-    // Sizes come with their own error, and are too few to tell a smaller one.
-    const bool sizes_only =
-        kinds.size() == 1 && kinds.contains(static_cast<int>(ObservationKind::kSize));
-    const double scale = count > 0.0 ? scatter / count : 1.0;
-    covariance_(k, k) = inverse(k, k) * (sizes_only ? std::max(1.0, scale) : scale);
-    degrees_[k] = std::max(4.0, count - 1.0);
+}
+
+/// Of a column that few units bear: how far the means of the other units scatter, against what
+/// their weights promise.
+void PointFit::spread_beside(int k, double normal, double inverse) {
+  const int p = columns_;
+  double scatter = 0.0, count = 0.0;
+  std::set<int> kinds;
+  for (std::size_t b = 0; b < unit_grams_.size(); ++b)
+    if (unit_grams_[b].size() > 0 && unit_grams_[b](k, k) > 1e-6 * normal &&
+        unit_kind_[b] != static_cast<int>(ObservationKind::kProfile) &&
+        unit_kind_[b] != static_cast<int>(ObservationKind::kHelix))
+      kinds.insert(unit_kind_[b]);
+  for (std::size_t b = 0; b < unit_grams_.size(); ++b) {
+    if (unit_grams_[b].size() == 0 || unit_grams_[b](k, k) > 1e-6 * normal) continue;
+    if (!kinds.contains(unit_kind_[b])) continue;
+    const double sum_b = unit_sums_[b][p] - coefficients_.dot(unit_sums_[b].head(p));
+    scatter += sum_b * sum_b / unit_sums_[b][p + 1];
+    count += 1.0;
   }
+  covariance_.row(k).setZero();
+  covariance_.col(k).setZero();
+  // Sizes come with their own error, and are too few to tell a smaller one.
+  const bool sizes_only =
+      kinds.size() == 1 && kinds.contains(static_cast<int>(ObservationKind::kSize));
+  const double scale = count > 0.0 ? scatter / count : 1.0;
+  covariance_(k, k) = inverse * (sizes_only ? std::max(1.0, scale) : scale);
+  degrees_[k] = std::max(4.0, count - 1.0);
 }
 
 std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {

@@ -80,6 +80,9 @@ class PointFit {
                              std::size_t end) const;
   void accumulate();
   void solve();
+  [[nodiscard]] bool few_units_bear(int k);
+  void spread_between_units(const Eigen::MatrixXd& normal);
+  void spread_beside(int k, double normal, double inverse);
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
                                          const std::vector<int>& columns) const;
   [[nodiscard]] std::vector<int> columns_with(const std::vector<bool>& with_effect) const;

@@ -8,7 +8,7 @@
 #include "trueflank/base/contract.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/found_effects.h"
-#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {

@@ -140,10 +140,8 @@ class ToothingGrid::SurfaceNet {
   void measure(const NetPatch& net, int tooth, Aims& errors) const;
   [[nodiscard]] Space3 over_edge(int tooth, const Place& surface, const At& p, const At& q,
                                  double share) const;
-  [[nodiscard]] double facet_error(int tooth, const Place& surface, const std::array<At, 3>& corner,
-                                   bool in_strip) const;
+  [[nodiscard]] Space3 over_moved_middle(const At& p, const At& q) const;
   [[nodiscard]] static double land_error(const std::array<At, 3>& corner);
-  [[nodiscard]] double moved_land_error(const std::array<At, 3>& corner) const;
 
   ToothingGrid& g_;
   double tolerance_;

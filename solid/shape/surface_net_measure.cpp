@@ -13,6 +13,33 @@ namespace {
 /// Where a chord's middle lies farther from the surface's own, it is looked for.
 constexpr double kOffMiddle = 0.02;
 
+/// Largest distance of a facet from the surface, whose point over the share of the edge from p to q
+/// is over(p, q, share). In a strip edges may bend in one half alone.
+template <typename Corner, typename Over>
+double facet_error(const std::array<Corner, 3>& corner, bool in_strip, const Over& over) {
+  using Space3 = decltype(Corner::point);
+  const Space3 normal =
+      (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
+  std::array<double, 3> middle{};
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner &p = corner[k], &q = corner[(k + 1) % 3];
+    for (const double share : {0.5, 0.25, 0.75}) {
+      if (share != 0.5 && !in_strip) break;
+      const Space3 away = over(p, q, share) - p.point;
+      const double off = away.dot(normal);
+      // an end face's edge has the surface on one side only
+      if (share == 0.5 && p.z == q.z) {
+        const Space3 chord = (q.point - p.point).normalized();
+        largest = std::max(largest, (away - chord * away.dot(chord)).norm());
+      }
+      if (share == 0.5) middle[k] = off;
+      largest = std::max(largest, std::abs(off));
+    }
+  }
+  return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
+}
+
 }  // namespace
 
 /// The point of the surface over the share of a facet's edge.
@@ -60,9 +87,15 @@ void ToothingGrid::SurfaceNet::measure(const NetPatch& net, int tooth, Aims& err
           surface_point(unmoved_, g_.place_at(place, of_tooth, corner[k].z), corner[k].z);
       corner[k].before = Space3(p.data());
     }
-    const double error = !on_land(edge) ? facet_error(tooth, surface, corner,
-                                                      net_[edge].developable || net_[edge].across)
-                         : moved        ? moved_land_error(corner)
+    const auto over_flank = [&](const At& p, const At& q, double share) {
+      return over_edge(tooth, surface, p, q, share);
+    };
+    const auto over_land = [&](const At& p, const At& q, double) {
+      return over_moved_middle(p, q);
+    };
+    const bool in_strip = net_[edge].developable || net_[edge].across;
+    const double error = !on_land(edge) ? facet_error(corner, in_strip, over_flank)
+                         : moved        ? facet_error(corner, false, over_land)
                                         : land_error(corner);
     const auto [low_sample, high_sample] = samples(
         surface.piece, std::min({corner[0].parameter, corner[1].parameter, corner[2].parameter}),
@@ -72,50 +105,16 @@ void ToothingGrid::SurfaceNet::measure(const NetPatch& net, int tooth, Aims& err
   }
 }
 
-double ToothingGrid::SurfaceNet::facet_error(int tooth, const Place& surface,
-                                             const std::array<At, 3>& corner, bool in_strip) const {
-  const Space3 normal =
-      (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
-  std::array<double, 3> middle{};
-  double largest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const At &p = corner[k], &q = corner[(k + 1) % 3];
-    for (const double share : {0.5, 0.25, 0.75}) {
-      if (share != 0.5 && !in_strip)
-        break;  // only strips have edges that may bend in one half alone
-      const Space3 away = over_edge(tooth, surface, p, q, share) - p.point;
-      const double off = away.dot(normal);
-      // an end face's edge has the surface on one side only
-      if (share == 0.5 && p.z == q.z) {
-        const Space3 chord = (q.point - p.point).normalized();
-        largest = std::max(largest, (away - chord * away.dot(chord)).norm());
-      }
-      if (share == 0.5) middle[k] = off;
-      largest = std::max(largest, std::abs(off));
-    }
-  }
-  return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
-}
-
-/// The displacement bends what was a cylinder or cone.
-double ToothingGrid::SurfaceNet::moved_land_error(const std::array<At, 3>& corner) const {
-  const Space3 normal =
-      (corner[1].point - corner[0].point).cross(corner[2].point - corner[0].point).normalized();
-  std::array<double, 3> middle{};
-  double largest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const At &p = corner[k], &q = corner[(k + 1) % 3];
-    const Space3 half = 0.5 * (p.before + q.before);
-    const double radius = 0.5 * (p.before.head<2>().norm() + q.before.head<2>().norm());
-    const Eigen::Vector2d there = radius * half.head<2>().normalized();
-    const std::array<double, 3> before{there.x(), there.y(), half.z()};
-    const std::array<double, 3> moved = (*g_.toothing_.displacement)(before);
-    const Space3 away = Space3(before.data()) + Space3(moved.data()) - p.point;
-    middle[k] = away.dot(normal);
-    const Space3 chord = (q.point - p.point).normalized();
-    if (p.z == q.z) largest = std::max(largest, (away - chord * away.dot(chord)).norm());
-  }
-  return std::max(largest, triangle_error(middle[0], middle[1], middle[2]));
+/// The point that the displacement makes of a land's over the middle of a facet's edge: it bends
+/// what was a cylinder or cone.
+ToothingGrid::SurfaceNet::Space3 ToothingGrid::SurfaceNet::over_moved_middle(const At& p,
+                                                                             const At& q) const {
+  const Space3 half = 0.5 * (p.before + q.before);
+  const double radius = 0.5 * (p.before.head<2>().norm() + q.before.head<2>().norm());
+  const Eigen::Vector2d there = radius * half.head<2>().normalized();
+  const std::array<double, 3> before{there.x(), there.y(), half.z()};
+  const std::array<double, 3> moved = (*g_.toothing_.displacement)(before);
+  return Space3(before.data()) + Space3(moved.data());
 }
 
 /// Lands are cylinders about the axis, cones where a chamfer lowers tips.

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "trueflank/geometry/linear_equations.h"
-#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/part/part_loop.h"
 
 namespace trueflank::loop {
 

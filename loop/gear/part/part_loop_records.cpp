@@ -8,7 +8,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
-#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/part/part_loop.h"
 
 namespace trueflank::loop {
 

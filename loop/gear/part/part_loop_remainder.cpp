@@ -9,7 +9,7 @@
 #include <map>
 
 #include "trueflank/loop/gear/local/rotation_waves.h"
-#include "trueflank/loop/gear/part_loop.h"
+#include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
