@@ -30,7 +30,8 @@ namespace trueflank {
 [[nodiscard]] ResultAll<MaterialTable> read_materials(const std::string& path,
                                                       MaterialTable table = {});
 
-/// Every table of the file with the rules of its keys, in order: what docs/requirements-file.md lists.
+/// Every table of the file with the rules of its keys, in order: what docs/requirements-file.md
+/// lists.
 struct RequirementsTable {
   std::string name;  ///< empty: top of the file
   std::vector<KeyRule> rules;
