@@ -10,7 +10,7 @@
 #include "trueflank/design/key_rule.h"
 #include "trueflank/search/search_requirements.h"
 
-// The requirements file of a search (docs/search.md): TOML, every key says its unit.
+// The requirements file of a search (docs/requirements-file.md): TOML, every key says its unit.
 namespace trueflank {
 
 /// Reads and checks a whole requirements file; its own [material.NAME] tables extend `materials`.
@@ -30,7 +30,8 @@ namespace trueflank {
 [[nodiscard]] ResultAll<MaterialTable> read_materials(const std::string& path,
                                                       MaterialTable table = {});
 
-/// Every table of the file with the rules of its keys, in order: what docs/search.md lists.
+/// Every table of the file with the rules of its keys, in order: what docs/requirements-file.md
+/// lists.
 struct RequirementsTable {
   std::string name;  ///< empty: top of the file
   std::vector<KeyRule> rules;

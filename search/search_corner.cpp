@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The corner's path in the frame of the gear whose root it visits: at each radius of the root curve
-// the law of cosines gives the mate's position, the ratio the gear's. Derivation: docs/search.md.
+// the law of cosines gives the mate's position, the ratio the gear's.
 #include "trueflank/search/search_corner.h"
 
 #include <algorithm>

@@ -40,7 +40,7 @@ bool surely_whole(const SearchRequirements& r, const Gear& gear, double lowest_m
 /// Distance the tips of planet and ring keep outside the line of action, on the ring's tip circle;
 /// positive and smooth where the tip circles do not even cross.
 /// Source: the corner of the ring's tip reaches the point where both tip circles cross when the
-/// planet's tip corner has already passed it (docs/search.md).
+/// planet's tip corner has already passed it (docs/interference.md).
 double trochoid_margin(const Gear& planet, const Gear& ring, double a) {
   const double r1 = planet.tip_radius_mm, r2 = ring.tip_radius_mm;
   const double cos1 = (r2 * r2 - r1 * r1 - a * a) / (2.0 * a * r1);

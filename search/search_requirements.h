@@ -12,7 +12,7 @@
 #include "trueflank/train/gearbox_design.h"
 #include "trueflank/train/strength.h"
 
-// What a search for designs is asked for (docs/search.md); the file is read by design/.
+// What a search for designs is asked for (docs/requirements-file.md); the file is read by design/.
 namespace trueflank {
 
 /// Inclusive range of tooth numbers.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The seed tables of docs/search.md: each set searched alone reaches what its row says, and the whole search finds it.
+"""The seed tables of docs/search-results.md: each set searched alone reaches what its row says, and the whole search finds it.
 
 Of the paper's prototypes only the first has its teeth and its (measured) efficiencies printed; of the others the least and the
 greatest ratio, and that each could be driven backwards by hand.
@@ -13,7 +13,7 @@ import tomllib
 import unittest
 
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
-PAGE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "docs/search.md"
+PAGE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"]) / "docs/search-results.md"
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 GEARS = ("sun", "planet1", "ring1", "planet2", "ring2")
 PAPERS_OWN = "12/39/90/32/81"
@@ -23,8 +23,8 @@ PRINTED = 1e-4
 
 
 def rows(head):
-    """The table below a bold head, as one dict of column names a row."""
-    text = PAGE.read_text(encoding="utf-8").split(f"**{head}**", 1)[1]
+    """The table below a heading, as one dict of column names a row."""
+    text = PAGE.read_text(encoding="utf-8").split(f"## {head}\n", 1)[1]
     lines = text.split("\n\n|", 1)[1].split("\n\n", 1)[0].splitlines()
     names = [name.strip() for name in lines[0].strip("| ").split("|")]
     return [dict(zip(names, (cell.strip() for cell in line.strip("| ").split("|")))) for line in lines[2:]]

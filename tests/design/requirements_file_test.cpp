@@ -183,7 +183,7 @@ TEST(RequirementsFile, EveryKeyHasItsPlaceInTheListOfTables) {
 
 TEST(RequirementsFile, ThePageInDocsListsEveryKey) {
   std::ostringstream page;
-  page << std::ifstream(TRUEFLANK_SOURCE_DIR "/docs/search.md").rdbuf();
+  page << std::ifstream(TRUEFLANK_SOURCE_DIR "/docs/requirements-file.md").rdbuf();
   for (const RequirementsTable& table : requirements_tables())
     for (const KeyRule& rule : table.rules) {
       const std::string place = table.name.empty() ? "" : "`[" + table.name + "]` ";

@@ -5,7 +5,7 @@
 Nothing is shared with the program: roots come from sweeping the rack's flank and rounded corner over
 the gear, tip corners from turning the mate, losses from the torques on both gears over a mesh cycle,
 the train from the balance of torques. Modules are 1, teeth without backlash, tip circles as
-docs/search.md and docs/gearbox.md define them.
+docs/checks.md defines them.
 
   brute_force.py TRUEFLANK [SETS [SEED [GRID]]]
 
