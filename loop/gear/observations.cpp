@@ -9,6 +9,7 @@
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/table/outliers.h"
+#include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
 #include "trueflank/loop/measured/text_table.h"
 
@@ -115,7 +116,7 @@ class TableBuilder {
                         .remedy = "means of repeated measurements"});
     };
     refuse(index_values_, kMostValues, "values of index and radial runout");
-    refuse(sizes_, kMostSizes, "sizes");
+    refuse(sizes_.size(), kMostSizes, "sizes");
   }
 
   void add_sizes(const SizeData& data, int source) {
@@ -136,13 +137,17 @@ class TableBuilder {
     bad.tell(table.notes);
   }
 
+  void widen_size_errors() {
+    std::string note = loop::widen_size_errors(geometry_, sizes_, table);
+    if (!note.empty()) table.notes.push_back(std::move(note));
+  }
+
   Observations table;
   Errors errors;
 
  private:
   Observation& add_row(ObservationKind kind, double deviation_um, double sigma_um, int source) {
     if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial) ++index_values_;
-    if (kind == ObservationKind::kSize) ++sizes_;
     Observation row;
     row.kind = kind;
     row.deviation_um = deviation_um;
@@ -407,6 +412,7 @@ class TableBuilder {
     if (std::abs(deviation) > 1000.0 * geometry_.gear().normal_module_mm)
       return "a size of " + number_text(size.value_mm) + " mm, designed " + number_text(nominal) +
              " mm, is no size of this gear";
+    sizes_.push_back({table.rows.size(), size.quantity, size.detail});
     Observation& row = add_row(ObservationKind::kSize, deviation, size.sigma_um, source);
     if (surface == Surface::kFlank)
       add_both_flanks(row, roll, weight);
@@ -418,7 +424,8 @@ class TableBuilder {
 
   const FlankGeometry& geometry_;
   ObservationOptions options_;
-  std::size_t index_values_ = 0, sizes_ = 0;
+  std::size_t index_values_ = 0;
+  std::vector<SizeInTable> sizes_;
   TraceZeros zeros_;
 };
 
@@ -435,6 +442,7 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
   builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
+  builder.widen_size_errors();
   leave_out_outliers(geometry, builder.table);
   return std::move(builder.table);
 }

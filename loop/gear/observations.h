@@ -37,6 +37,9 @@ struct Observation {
 };
 static_assert(sizeof(Observation) == 32);
 
+/// Of a size without a sigma of its own.
+inline constexpr double kDefaultSizeSigma_um = 2.0;
+
 /// All inputs in one table. Deviations in um along the surface normal, + = too much material.
 struct Observations {
   std::vector<Observation> rows;
@@ -45,6 +48,8 @@ struct Observations {
   std::vector<std::array<double, 3>> points_mm;
   /// As given with the data, of a row by its first place; NaN: not given. Empty: of none.
   std::vector<double> sigmas_um;
+  /// Degrees of freedom of the scatter that sizes have for their errors; 0: their errors are known.
+  int size_degrees = 0;
   int traces = 0;
   /// Deviations and places of scanned flanks are about a displacement (finite_displacement.h).
   bool is_displaced = false;

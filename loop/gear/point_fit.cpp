@@ -367,11 +367,25 @@ double square_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 }
 }  // namespace
 
+/// Of these columns, those that the training data can tell: a tooth that is held out is in them by its share
+/// of a size alone.
+std::vector<int> PointFit::learnt(std::vector<int> columns) const {
+  constexpr double kHardly = 0.1;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!effects_[e].family->local) continue;
+    const int first = first_column_[e], end = first + effects_[e].columns();
+    std::erase_if(columns, [&](int k) {
+      return k >= first && k < end && !(train_(k, k) > kHardly * all_(k, k));
+    });
+  }
+  return columns;
+}
+
 PointFit::Errors PointFit::errors(const std::vector<bool>& with_effect) const {
   const std::vector<int> columns = columns_with(with_effect);
   Errors result;
   const double all = square_error(plain_all_, solution(all_, columns));
-  const double held = square_error(plain_held_, solution(train_, columns));
+  const double held = square_error(plain_held_, solution(train_, learnt(columns)));
   if (observations_ > 0) result.rms_um = std::sqrt(std::max(0.0, all) / observations_);
   result.held_out_rms_um = held_out_ > 0 ? std::sqrt(std::max(0.0, held) / held_out_) : kNaN;
   return result;
@@ -502,7 +516,8 @@ void PointFit::spread_beside(int k, double normal, double inverse) {
       kinds.size() == 1 && kinds.contains(static_cast<int>(ObservationKind::kSize));
   const double scale = count > 0.0 ? scatter / count : 1.0;
   covariance_(k, k) = inverse * (sizes_only ? std::max(1.0, scale) : scale);
-  degrees_[k] = std::max(4.0, count - 1.0);
+  const bool by_scatter = sizes_only && table_.size_degrees > 0;
+  degrees_[k] = by_scatter ? table_.size_degrees : std::max(4.0, count - 1.0);
 }
 
 std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {

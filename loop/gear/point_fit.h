@@ -86,6 +86,7 @@ class PointFit {
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& gram,
                                          const std::vector<int>& columns) const;
   [[nodiscard]] std::vector<int> columns_with(const std::vector<bool>& with_effect) const;
+  [[nodiscard]] std::vector<int> learnt(std::vector<int> columns) const;
 
   const FlankGeometry& geometry_;
   const Observations& table_;

@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kMostPatches = 24000;
 constexpr int kFewestUnits = 24;         // below, units are cut into parts
-constexpr double kDefaultSizeSigma_um = 2.0;
 
 bool is_trace(ObservationKind kind) {
   return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;

@@ -63,6 +63,9 @@ class PartLoop {
 
  private:
   void hold_to_single_values();
+  std::vector<double> weigh_single_values_by(const PartLoop& alone);
+  [[nodiscard]] bool adopt_from_single_values(const PartLoop& alone, std::vector<Effect> more,
+                                              std::vector<double> p_values);
   [[nodiscard]] bool adopt(const std::vector<Effect>& more, const std::vector<double>& p_values,
                            const std::vector<Effect>& instead_of = {});
   [[nodiscard]] std::vector<Effect> waves_in_place_of(const std::vector<Effect>& alone) const;

@@ -4,6 +4,8 @@
 // be lost in the joint answer.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -16,6 +18,12 @@ namespace {
 
 bool is_one_a_tooth(const Observation& row) {
   return row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial;
+}
+
+bool is_traced(const Observations& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [](const Observation& row) {
+    return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+  });
 }
 
 /// The table with these values alone; its traces and sources keep their numbers.
@@ -35,6 +43,25 @@ Observations values_one_a_tooth(const Observations& table) {
     }
   }
   return single;
+}
+
+/// Of an index or a runout: what is left of it beside the effects that it shows alone, over what its
+/// weight promises.
+struct LeftOfRecord {
+  double square = 0.0, values = 0.0;
+};
+using RecordKey = std::pair<ObservationKind, int>;  ///< with the source
+
+std::map<RecordKey, LeftOfRecord> left_of_records(const Observations& table, const PointFit& fit) {
+  std::map<RecordKey, LeftOfRecord> left;
+  const auto row_um = fit.residuals_um();
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    LeftOfRecord& of = left[{table.rows[i].kind, table.rows[i].source}];
+    const double um = (*row_um)[i];
+    of.square += um * um;
+    of.values += 1.0;
+  }
+  return left;
 }
 
 /// Straight slopes over the profile or the face that come and go once per turn: in these traces
@@ -157,11 +184,7 @@ std::vector<Effect> PartLoop::waves_in_place_of(const std::vector<Effect>& alone
 /// What values one a tooth say alone and the joint answer lacks enters it, with the waves of slopes
 /// in which traces may differ from it, or without them.
 void PartLoop::hold_to_single_values() {
-  const bool traced =
-      std::any_of(table_->rows.begin(), table_->rows.end(), [](const Observation& row) {
-        return row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
-      });
-  if (!traced && table_->points_mm.empty()) return;
+  if (!is_traced(table_) && table_->points_mm.empty()) return;
   Observations single = values_one_a_tooth(table_);
   if (single.rows.empty()) return;
   Options options = options_;
@@ -180,12 +203,54 @@ void PartLoop::hold_to_single_values() {
     if (!alone.effects_[e].family->local)
       add(alone.effects_[e], alone.discovery_.chosen[e].p_value);
   if (more.empty()) return;
+  const std::vector<double> weights = weigh_single_values_by(alone);
+  if (adopt_from_single_values(alone, std::move(more), std::move(p_values))) return;
+  for (std::size_t i = 0; i < weights.size(); ++i) patches_.patches[i].weight = weights[i];
+  forget_fits();
+}
+
+/// Neighbours around the gear do not tell noise from a wave of few teeth: where the effects that values
+/// one a tooth show alone leave clearly less of them, that is their noise. Returns the weights as they
+/// were.
+std::vector<double> PartLoop::weigh_single_values_by(const PartLoop& alone) {
+  constexpr double kClearly = 0.5, kLeast_um2 = 1e-6;
+  std::vector<double> weights;
+  for (const Patches::Patch& patch : patches_.patches) weights.push_back(patch.weight);
+  double columns = 0.0;
+  for (const Effect& effect : alone.effects_) columns += effect.columns();
+  const double all = static_cast<double>(alone.table_->rows.size());
+  const auto left = left_of_records(alone.table_, *alone.fit_of(alone.effects_));
+  for (std::size_t i = 0; i < table_->rows.size(); ++i) {
+    const Observation& row = table_->rows[i];
+    if (!is_one_a_tooth(row) || patches_.patch_of_row[i] < 0 || !std::isnan(table_->sigma_um(row)))
+      continue;
+    const LeftOfRecord& of = left.at({row.kind, row.source});
+    const double zeros = row.kind == ObservationKind::kIndex ? 2.0 : 1.0;
+    const double free = of.values - zeros - columns * of.values / all;
+    if (!(free >= 1.0)) continue;
+    const double variance = std::max(kLeast_um2, of.square / free);
+    double& weight = patches_.patches[static_cast<std::size_t>(patches_.patch_of_row[i])].weight;
+    if (variance < kClearly / weight) weight = 1.0 / variance;
+  }
+  forget_fits();
+  return weights;
+}
+
+/// True where they entered the answer.
+bool PartLoop::adopt_from_single_values(const PartLoop& alone, std::vector<Effect> more,
+                                        std::vector<double> p_values) {
+  const bool traced = is_traced(table_);
   const std::vector<Effect> without_slopes = more;
-  for (std::size_t g = 0; traced && g < candidates_.size(); ++g)
-    if (!banned_[g] && is_wave_of_slopes(candidates_[g])) add(candidates_[g], discovery_.p_left);
+  for (std::size_t g = 0; traced && g < candidates_.size(); ++g) {
+    if (banned_[g] || !is_wave_of_slopes(candidates_[g]) ||
+        std::find(effects_.begin(), effects_.end(), candidates_[g]) != effects_.end())
+      continue;
+    more.push_back(candidates_[g]);
+    p_values.push_back(discovery_.p_left);
+  }
   const std::vector<Effect> waves = waves_in_place_of(alone.effects_);
-  if (!waves.empty() && adopt(more, p_values, waves)) return;
-  if (!adopt(more, p_values)) (void)adopt(without_slopes, p_values);
+  if (!waves.empty() && adopt(more, p_values, waves)) return true;
+  return adopt(more, p_values) || adopt(without_slopes, p_values);
 }
 
 namespace {
@@ -259,7 +324,7 @@ void PartLoop::drop_teeth_within_the_tails() {
     }
     std::vector<double> along, single;
     for (std::size_t i = 0; i < table_->rows.size(); ++i)
-      if (patches_.patch_of_row[i] >= 0)
+      if (patches_.patch_of_row[i] >= 0 && table_->rows[i].kind != ObservationKind::kSize)
         (is_one_a_tooth(table_->rows[i]) ? single : along)
             .push_back(std::abs(static_cast<double>(after_um[i])));
     const double usual_along = robust_sigma(along), usual_single = robust_sigma(single);
