@@ -136,6 +136,7 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
                         .changes = {},
                         .changed = {},
                         .displaced = false,
+                        .operations = correction->operations(),
                         .text = {}};
   const auto on_teeth = std::make_shared<const loop::Correction>(correction->without_scale());
   if (!on_teeth->empty()) {

@@ -18,6 +18,7 @@ struct CorrectedParts {
   std::vector<io::MeshChange> changes;  ///< one a part, of a scale; else empty
   std::vector<std::size_t> changed;     ///< parts that are not as designed, by number
   bool displaced = false;        ///< some teeth are not as designed
+  double operations = 0.0;       ///< that a displacement takes, about
   std::string text;  ///< what was corrected, what was left and why: lines for a person
 };
 

@@ -15,6 +15,8 @@ namespace {
 /// The mesh, what measuring keeps of it and what the writers hold, a facet; measured:
 /// docs/reliability.md.
 constexpr double kMemoryOfFacet_bytes = 220.0;
+/// Of corrected teeth: displacements that a facet takes until it is measured, and operations a second.
+constexpr double kDisplacementsOfFacet = 20.0, kOperationsOfSecond = 1e9;
 /// Coarsest tolerance that make takes.
 constexpr double kCoarsest_mm = 1.0;
 
@@ -36,8 +38,21 @@ double bytes_of_facet(io::FileFormat format) {
   }
 }
 
+bool is_displaced(const Outline& outline) {
+  const auto* toothed = std::get_if<ToothedOutline>(&outline);
+  return toothed != nullptr && toothed->displacement != nullptr;
+}
+bool is_displaced(const PartShape& part) {
+  return std::any_of(part.slabs.begin(), part.slabs.end(), [](const Slab& slab) {
+    return is_displaced(slab.outer) ||
+           std::any_of(slab.holes.begin(), slab.holes.end(),
+                       [](const Outline& hole) { return is_displaced(hole); });
+  });
+}
+
 bool is_too_large(const JobSize& size) {
-  return size.facets > kMostFacets || size.file_bytes > kMostFileBytes;
+  return size.facets > kMostFacets || size.file_bytes > kMostFileBytes ||
+         size.correcting_s > kMostCorrecting_s;
 }
 
 /// "41 million"
@@ -50,9 +65,10 @@ std::string count_text(double count) {
 /// The finest tolerance, in two digits, of a job that is not too large; 0: none is.
 double tolerance_that_would_do_um(const PartShapes& shapes,
                                   const std::vector<io::FileFormat>& formats,
-                                  const std::string& part, double tolerance_mm) {
+                                  const std::string& part, double tolerance_mm,
+                                  double operations) {
   const auto does = [&](double tolerance) {
-    return !is_too_large(job_size(shapes, formats, part, tolerance));
+    return !is_too_large(job_size(shapes, formats, part, tolerance, operations));
   };
   if (!does(kCoarsest_mm)) return 0.0;
   const double finest = sides_of_change([&](double tolerance) { return does(std::exp(tolerance)); },
@@ -60,13 +76,15 @@ double tolerance_that_would_do_um(const PartShapes& shapes,
                             .first;
   const double tolerance_um = um_from_mm(std::exp(finest));
   const double digit = std::pow(10.0, std::floor(std::log10(tolerance_um)) - 1.0);
-  return std::ceil(tolerance_um / digit - 1e-9) * digit;
+  double rounded_um = std::ceil(tolerance_um / digit - 1e-9) * digit;
+  while (rounded_um < um_from_mm(kCoarsest_mm) && !does(mm_from_um(rounded_um))) rounded_um += digit;
+  return rounded_um;
 }
 
 }  // namespace
 
 JobSize job_size(const PartShapes& shapes, const std::vector<io::FileFormat>& formats,
-                 const std::string& part, double tolerance_mm) {
+                 const std::string& part, double tolerance_mm, double operations) {
   double bytes_a_facet = 0.0;
   for (const io::FileFormat format : formats) bytes_a_facet += bytes_of_facet(format);
   if (bytes_a_facet == 0.0) return {};
@@ -76,6 +94,8 @@ JobSize job_size(const PartShapes& shapes, const std::vector<io::FileFormat>& fo
     if (part.empty() || shapes.parts[i].name == part) {
       facets[i] = estimated_facets(shapes.parts[i], tolerance_mm);
       size.facets += facets[i];
+      if (is_displaced(shapes.parts[i]))
+        size.correcting_s += facets[i] * kDisplacementsOfFacet * operations / kOperationsOfSecond;
     }
   double written = size.facets;
   if (part.empty() && shapes.assembly.size() > 1)
@@ -87,23 +107,33 @@ JobSize job_size(const PartShapes& shapes, const std::vector<io::FileFormat>& fo
 }
 
 Errors job_size_errors(const PartShapes& shapes, const std::vector<io::FileFormat>& formats,
-                       const std::string& part, double tolerance_mm) {
-  const JobSize size = job_size(shapes, formats, part, tolerance_mm);
+                       const std::string& part, double tolerance_mm, double operations) {
+  const JobSize size = job_size(shapes, formats, part, tolerance_mm, operations);
   if (!is_too_large(size)) return {};
-  const double would_do_um = tolerance_that_would_do_um(shapes, formats, part, tolerance_mm);
+  const double would_do_um = tolerance_that_would_do_um(shapes, formats, part, tolerance_mm, operations);
   const auto gigabytes = [](double bytes) { return printed_number(1e-9 * bytes, "%.2g") + " GB"; };
+  const auto minutes = [](double seconds) {
+    return printed_number(seconds / 60.0, "%.3g") + " minutes";
+  };
   return {
       {.code = ErrorCode::kInfeasible,
        .message = "these meshes would have about " + count_text(size.facets) + " facets, " +
                   gigabytes(size.memory_bytes) + " of memory and " + gigabytes(size.file_bytes) +
                   " of files; " + count_text(kMostFacets) + " facets and " +
-                  gigabytes(kMostFileBytes) + " of files are the most",
+                  gigabytes(kMostFileBytes) + " of files are the most" +
+                  (size.correcting_s > 0.0
+                       ? "; what the correction bends into them takes about " +
+                             minutes(size.correcting_s) + ", and " + minutes(kMostCorrecting_s) +
+                             " are the most"
+                       : ""),
        .key = "--tolerance-um",
        .value = printed_number(um_from_mm(tolerance_mm), "%.6g"),
        .remedy =
            would_do_um > 0.0
                ? printed_number(would_do_um, "%.3g") + " or more; or one --part, or fewer formats"
-               : "fewer teeth or less face width: no tolerance makes these meshes small enough"}};
+               : operations > 0.0
+                     ? "smoother effects, or fewer: no tolerance makes these meshes small enough"
+                     : "fewer teeth or less face width: no tolerance makes these meshes small enough"}};
 }
 
 }  // namespace trueflank

@@ -66,6 +66,10 @@ class Maker {
       auto made = corrected_shapes();
       if (!made) return fail_all(std::move(made.error()));
       corrected = std::move(*made);
+      if (Errors errors = job_size_errors(corrected.shapes, formats, options_.part,
+                                          mm_from_um(options_.tolerance_um), corrected.operations);
+          !errors.empty())
+        return fail_all(std::move(errors));
       formats = formats_of_corrected(formats, options_.compensate, corrected);
       notes_ += corrected.text;
     }

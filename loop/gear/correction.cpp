@@ -21,6 +21,8 @@ using Point3 = std::array<double, 3>;
 /// Of a loop.json, and of terms of one effect: what is corrected is computed for every corner of a
 /// mesh.
 constexpr std::size_t kMostEffects = 500;
+/// Of a displacement: bounds are then found in half a minute.
+constexpr double kMostOperations = 100'000.0;
 
 Error broken(const std::string& what, const std::string& key = {}) {
   return {.code = ErrorCode::kWrongType, .message = what, .key = key};
@@ -246,6 +248,13 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
     result.parts_.push_back(std::move(part));
     result.corrected_.push_back(id);
   }
+  if (result.operations() > kMostOperations)
+    return fail({.code = ErrorCode::kOutOfRange,
+                 .message = "the effects take more computing at each place than any mesh has time for",
+                 .key = "effects",
+                 .value = std::to_string(std::lround(result.operations())) + " operations",
+                 .remedy = std::to_string(std::lround(kMostOperations)) +
+                           " at most: fewer effects or shorter formulas"});
   return result;
 }
 
@@ -398,6 +407,13 @@ std::vector<std::string> Correction::effects() const {
 bool Correction::moves_whole_part() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [](const Part& p) { return p.effect.family->moves_whole_part; });
+}
+
+double Correction::operations() const {
+  constexpr double kOfPlaces = 500.0, kFlanks = 3.0;
+  double sum = 0.0;
+  for (const Part& part : parts_) sum += part.effect.family->operations;
+  return kOfPlaces + kFlanks * sum;
 }
 
 double Correction::magnification() const { return 1.0 + displacement_mm({1.0, 0.0, 0.0})[0]; }

@@ -42,6 +42,8 @@ class Correction {
   /// correction bends over the face. Guarantees: closed where the mesh was closed.
   [[nodiscard]] TriangleMesh apply(const TriangleMesh& mesh, double z_lower_mm) const;
 
+  /// About how many arithmetic operations a displacement takes, in all its effects.
+  [[nodiscard]] double operations() const;
   /// Whether bore and rim are corrected, too: a scale. Then only meshes can hold it: what without_scale()
   /// holds displaces the toothing first, so that facets follow it, and apply() of the scale comes last.
   [[nodiscard]] bool moves_whole_part() const;

@@ -49,6 +49,7 @@ ResultAll<EffectFamily> declared_family(const DeclaredEffect& declared) {
                       .value = std::to_string(count)});
   EffectFamily family;
   std::vector<Formula> formulas;
+  double operations = 0.0;
   for (const auto& [name, text] : declared.columns) {
     auto formula = Formula::make(text, variable_names());
     if (!formula) {
@@ -56,6 +57,7 @@ ResultAll<EffectFamily> declared_family(const DeclaredEffect& declared) {
       errors.back().key = declared.id + ".form." + name;
       continue;
     }
+    operations += static_cast<double>(formula->operations());
     formulas.push_back(std::move(*formula));
     family.parameters.push_back(name);
   }
@@ -67,6 +69,7 @@ ResultAll<EffectFamily> declared_family(const DeclaredEffect& declared) {
   family.one_flank_too = declared.one_flank_too;
   family.correctable = declared.correctable ? Correctable::kGeometry : Correctable::kNoCause;
   family.formulas = declared.columns;
+  family.operations += operations;
   family.bends_over_the_face = [](const EffectShape&) { return true; };
   family.columns = [count](const std::vector<double>&) { return count; };
   family.evaluate = [formulas](const FlankGeometry& g, const Place& p, const std::vector<double>&,

@@ -57,6 +57,7 @@ struct EffectFamily : EffectFacts {
   /// side: where they share work. Empty: each is evaluated by itself.
   std::function<void(const FlankGeometry&, const Place&, std::span<const Effect>, double* columns)>
       evaluate_together = {};
+  double operations = 40.0;  ///< of an evaluation, about: what it costs
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous

@@ -21,6 +21,7 @@ class Formula {
 
   /// Value for one value a name. Not finite where the expression has no value there.
   [[nodiscard]] double operator()(const double* values) const;
+  [[nodiscard]] std::size_t operations() const { return operations_.size(); }
 
  private:
   enum class Step : unsigned char {

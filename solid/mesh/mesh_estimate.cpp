@@ -8,6 +8,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
 #include "trueflank/solid/mesh/gear_mesh.h"
+#include "trueflank/solid/shape/bend_survey.h"
 #include "trueflank/solid/shape/outline_loop.h"
 
 namespace trueflank {
@@ -19,6 +20,12 @@ constexpr int kHeights = 48;
 constexpr double kLayersOfBentFace = 3.2;
 /// Columns that are added where the flank is bent along the profile, too.
 constexpr double kColumnsOfBentFlank = 1.3;
+
+/// Cuts that the mesher makes of those a displacement asks for: on all lines together, and not always where
+/// halves would do.
+constexpr double kCutsMade = 1.3;
+/// What these have of the tolerance, beside the section's own chords.
+constexpr double kShareOfBends = 2.0 / 3.0;
 
 /// Nets of modified teeth have so much of the facets of rows and columns.
 constexpr double kShareOfNets = 0.6;
@@ -43,7 +50,7 @@ double layers_of_curve(const Curve& curve, double height_mm, double tolerance_mm
   return layers;
 }
 
-/// Layers for what modifications and corrections bend the face into.
+/// Layers for what modifications bend the face into.
 double layers_of_bent_face(const Toothing& toothing, double height_mm, double tolerance_mm) {
   const ToothProfile& profile = *toothing.profile;
   double layers = 0.0;
@@ -58,15 +65,6 @@ double layers_of_bent_face(const Toothing& toothing, double height_mm, double to
                 return {toothing.deviation->deviation_mm(0, Flank::kLeft, roll, z), 0.0, 0.0};
               },
               height_mm, tolerance_mm));
-    if (toothing.displacement != nullptr) {
-      const double turn = kTwoPi * share, radius = profile.tip_radius_mm();
-      layers = std::max(layers, layers_of_curve(
-                                    [&](double z) {
-                                      return (*toothing.displacement)(
-                                          {radius * std::cos(turn), radius * std::sin(turn), z});
-                                    },
-                                    height_mm, tolerance_mm));
-    }
   }
   return layers;
 }
@@ -86,13 +84,19 @@ double facets_of_teeth(const ToothedOutline& outline, double height_mm, double t
   const double radius = std::max(profile.tip_radius_mm(), profile.root_radius_mm());
   const double turn = std::abs(outline.twist.turn_rad_per_mm) * height_mm;
   const double rows = std::max(1.0, std::ceil(turn / widest_turn_rad(radius, tolerance_mm)));
-  const double half_teeth = 2.0 * profile.gear().teeth, caps = 2.0 * half_teeth * (flank + others);
+  const BendCuts cuts = bend_cuts(outline, height_mm, kShareOfBends * tolerance_mm);
+  const double more_layers = kCutsMade * (cuts.layers - 1.0),
+               more_chords = kCutsMade * (cuts.chords - 1.0);
+  const double half_teeth = 2.0 * profile.gear().teeth,
+               caps = 2.0 * half_teeth * (flank + others + more_chords);
   const bool bent = toothing.has_deviation() || toothing.displacement != nullptr;
   if (bent || outline.edge_chamfer_mm > 0.0 || outline.bed != nullptr) {
     const double layers =
         rows + kLayersOfBentFace * layers_of_bent_face(toothing, height_mm, tolerance_mm) +
-        (outline.edge_chamfer_mm > 0.0 ? 2.0 : 0.0) + (outline.bed != nullptr ? 1.0 : 0.0);
-    const double columns = (flank * (bent ? kColumnsOfBentFlank : 1.0)) + others;
+        more_layers + (outline.edge_chamfer_mm > 0.0 ? 2.0 : 0.0) +
+        (outline.bed != nullptr ? 1.0 : 0.0);
+    const double columns =
+        (flank * (bent ? kColumnsOfBentFlank : 1.0)) + others + more_chords;
     const bool net = toothing.displacement == nullptr && outline.bed == nullptr &&
                      !(toothing.has_deviation() && toothing.deviation->varies_by_tooth);
     return half_teeth * 2.0 * columns * layers * (net ? kShareOfNets : 1.0) + caps;

@@ -10,6 +10,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/polyline.h"
 #include "trueflank/geometry/scalar_root.h"
+#include "trueflank/solid/shape/bend_survey.h"
 
 namespace trueflank {
 namespace {
@@ -26,9 +27,6 @@ constexpr double kAim = 0.985;
 constexpr int kRounds = 8;
 /// Teeth looked at while columns and rows are found, where all differ; facets are cut on all.
 constexpr int kSomeTeeth = 6;
-/// Shorter than so many tolerances no edge and no layer is split: a step in a displacement has no
-/// end.
-constexpr double kShortest = 3.0;
 /// An edge whose parameter runs so unevenly that its middle is this share of it away from the
 /// chord's.
 constexpr double kUneven = 0.02;
@@ -73,7 +71,7 @@ int parts_for(double error_mm, double tolerance_mm, int most = kFewParts) {
 
 ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> levels_mm,
                            double tolerance_mm, GridKind kind)
-    : outline_(outline), toothing_(outline.toothing()), levels_mm_(std::move(levels_mm)) {
+    : outline_(&outline), toothing_(outline.toothing()), levels_mm_(std::move(levels_mm)) {
   TRUEFLANK_EXPECTS(tolerance_mm > 0.0 && !levels_mm_.empty());
   teeth_ = toothing_.profile->gear().teeth;
   const bool deviates = toothing_.has_deviation(), moved = toothing_.displacement != nullptr;
@@ -82,24 +80,28 @@ ToothingGrid::ToothingGrid(const ToothedOutline& outline, std::vector<double> le
   layers_alike_ = !moved && toothing_.edge_chamfer_mm == 0.0 && toothing_.bed == nullptr &&
                   !(deviates && toothing_.deviation->varies_along_face);
   const double aim = kAim * tolerance_mm;
+  const bool may_be_net =
+      kind != GridKind::kRows && levels_mm_.size() >= 2 && toothing_.bed == nullptr;
   if (plain_)
     lay_plain(aim);
-  else if (kind == GridKind::kRows || levels_mm_.size() < 2 || toothing_.bed != nullptr ||
-           !try_surface_net(aim, most_net_facets(tolerance_mm))) {
+  else if (may_be_net && !teeth_alike_)
+    lay_different_teeth(tolerance_mm, aim);
+  else if (!may_be_net || !try_surface_net(aim, std::numeric_limits<double>::infinity())) {
     edges_.clear();
     lay_modified(tolerance_mm, aim);
   }
   section_error_mm_ = std::min(section_error_mm_, tolerance_mm);
 }
 
-/// What a net may have a tooth. Where teeth differ it is measured on all of them, so it is to have fewer than
-/// rows and columns, if these keep the tolerance.
-double ToothingGrid::most_net_facets(double tolerance_mm) const {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  if (teeth_alike_) return kAny;
-  const ToothingGrid rows(outline_, levels_mm_, tolerance_mm, GridKind::kRows);
-  if (rows.chord_error_mm() > tolerance_mm) return kAny;
-  return 2.0 * static_cast<double>(rows.heights_mm_.size() - 1) * rows.points_per_tooth();
+/// A net is then measured on all teeth, so it is to have fewer facets than rows and columns, if these keep
+/// the tolerance. It sees no waves shorter than its patches.
+void ToothingGrid::lay_different_teeth(double tolerance_mm, double aim_mm) {
+  ToothingGrid rows(*outline_, levels_mm_, tolerance_mm, GridKind::kRows);
+  const double most = rows.chord_error_mm() > tolerance_mm
+                          ? std::numeric_limits<double>::infinity()
+                          : 2.0 * static_cast<double>(rows.heights_mm_.size() - 1) *
+                                rows.points_per_tooth();
+  if (rows.hid_waves_ || !try_surface_net(aim_mm, most)) *this = std::move(rows);
 }
 
 void ToothingGrid::lay_plain(double aim_mm) {
@@ -223,7 +225,7 @@ bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tol
     const HalfEdge& e = edges_[i];
     const Curve& curve = toothing_.profile->pieces()[e.piece].curve;
     const bool is_short =
-        (point_at(curve, e.to) - point_at(curve, e.from)).norm() < kShortest * tolerance_mm;
+        (point_at(curve, e.to) - point_at(curve, e.from)).norm() < kShortestCut * tolerance_mm;
     const int parts =
         error_mm[i] > tolerance_mm && !is_short ? parts_for(error_mm[i], tolerance_mm) : 1;
     const auto part_end = [&](int k) {
@@ -321,7 +323,7 @@ void ToothingGrid::refine_layers(double tolerance_mm, int most_parts) {
       const double lower = heights_mm_[j], upper = heights_mm_[j + 1];
       const double error =
           stays[j] ? 0.0 : layer_error_mm(lower, upper, upper - lower > tall ? 16 : 4);
-      const bool split = error > tolerance_mm && upper - lower > kShortest * tolerance_mm;
+      const bool split = error > tolerance_mm && upper - lower > kShortestCut * tolerance_mm;
       const int parts = split ? parts_for(error, tolerance_mm, most_parts) : 1;
       for (int k = 1; k < parts; ++k) heights.push_back(lower + (upper - lower) * k / parts);
       heights.push_back(upper);
@@ -417,7 +419,7 @@ void ToothingGrid::add_where_charged(double tolerance_mm) {
   std::vector<double> heights{heights_mm_.front()};
   for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j) {
     const double z0 = heights_mm_[j], z1 = heights_mm_[j + 1], error = layer_error_mm_[j];
-    const bool split = error > tolerance_mm && z1 - z0 > kShortest * tolerance_mm;
+    const bool split = error > tolerance_mm && z1 - z0 > kShortestCut * tolerance_mm;
     const int parts = split ? parts_for(error, tolerance_mm) : 1;
     for (int k = 1; k < parts; ++k) heights.push_back(z0 + (z1 - z0) * k / parts);
     heights.push_back(z1);
@@ -454,7 +456,7 @@ ToothingGrid::RowPlaces ToothingGrid::row_places(std::size_t row) const {
 std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
   std::vector<Point> result;
   result.reserve(points_.size() * static_cast<std::size_t>(teeth_));
-  const double z = z_mm + outline_.z_lower_mm;
+  const double z = z_mm + outline_->z_lower_mm;
   const auto same = [&](double height) { return std::abs(height - z_mm) < 1e-9; };
   const auto row = static_cast<std::size_t>(
       std::find_if(heights_mm_.begin(), heights_mm_.end(), same) - heights_mm_.begin());
@@ -463,7 +465,7 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_on_row(i, row))
         tooth.push_back(section_point(toothing_, place_at(points_[i], 0, z_mm), z_mm));
-    const double turn = outline_.rotation_rad + section_turn_rad(toothing_.twist, z_mm);
+    const double turn = outline_->rotation_rad + section_turn_rad(toothing_.twist, z_mm);
     for (int k = 0; k < teeth_; ++k) {
       const Point2 direction = unit_vector(turn + kTwoPi * k / teeth_);
       for (const Point2& p : tooth)
@@ -480,8 +482,8 @@ std::vector<std::array<double, 3>> ToothingGrid::row(double z_mm) const {
 
 ToothingGrid::Point ToothingGrid::in_part(const Place& place, int tooth, double z_mm) const {
   const Point p = at(place, tooth, z_mm);
-  const Point2 turned = rotated({p[0], p[1]}, outline_.rotation_rad);
-  return {turned.x(), turned.y(), p[2] + outline_.z_lower_mm};
+  const Point2 turned = rotated({p[0], p[1]}, outline_->rotation_rad);
+  return {turned.x(), turned.y(), p[2] + outline_->z_lower_mm};
 }
 
 OutlineLoop toothed_section(const ToothedOutline& outline, double z_mm, double tolerance_mm) {

@@ -108,7 +108,8 @@ class ToothingGrid {
   void add_bend_breaks(double tolerance_mm);
   /// A net of modified teeth. False where the tolerance is not kept.
   bool try_surface_net(double tolerance_mm, double most_facets);
-  [[nodiscard]] double most_net_facets(double tolerance_mm) const;
+  /// Rows and columns instead of a net of teeth that differ, if they are better or the net fails.
+  void lay_different_teeth(double tolerance_mm, double aim_mm);
   /// Finer aims where facets were off by more; false where none was.
   static bool tighten(Aims& aims_mm, const Aims& error_mm, double tolerance_mm);
   /// Where rows and columns share the tolerance, as it takes the fewest facets.
@@ -134,6 +135,11 @@ class ToothingGrid {
   bool split_columns(const std::vector<double>& error_mm, double tolerance_mm);
   void refine_columns(double tolerance_mm);
   void refine_layers(double tolerance_mm, int most_parts);
+  /// toothing_grid_waves.cpp
+  bool cut_hidden_waves(double aim_mm);
+  [[nodiscard]] Point displaced_by(const Place& place, int tooth, double z_mm) const;
+  [[nodiscard]] bool hides_upright(double lower_mm, double upper_mm, double error_mm) const;
+  [[nodiscard]] bool hides_across(const HalfEdge& edge, double error_mm) const;
   [[nodiscard]] double layer_error_mm(double lower_mm, double upper_mm, int samples) const;
   [[nodiscard]] ToothRow tooth_row(int tooth, double z_mm) const;
   /// Cuts all quadrilaterals along the better diagonal and returns the largest error left; what is
@@ -154,10 +160,11 @@ class ToothingGrid {
   [[nodiscard]] double aim_of(const Aims& aims_mm, std::size_t edge) const;
   void add_where_charged(double tolerance_mm);
 
-  const ToothedOutline& outline_;
+  const ToothedOutline* outline_;
   Toothing toothing_;
   int teeth_ = 0;
   bool teeth_alike_ = true, layers_alike_ = true, plain_ = true;
+  bool hid_waves_ = false;  ///< shorter than rows and columns first were apart
   std::vector<double> levels_mm_, breaks_mm_, heights_mm_;
   std::vector<NetPatch> patches_;
   std::vector<HalfEdge> edges_;

@@ -443,8 +443,8 @@ std::vector<std::array<double, 3>> ToothingGrid::inner_points(std::size_t patch)
       const Place& p = points_[i];
       const double z = std::lerp(low, high, share);
       const Point2 turned = rotated(section_point(toothing_, place_at(p, 0, z), z),
-                                    outline_.rotation_rad + section_turn_rad(toothing_.twist, z));
-      tooth.push_back({turned.x(), turned.y(), z + outline_.z_lower_mm});
+                                    outline_->rotation_rad + section_turn_rad(toothing_.twist, z));
+      tooth.push_back({turned.x(), turned.y(), z + outline_->z_lower_mm});
     }
   result.reserve(tooth.size() * static_cast<std::size_t>(teeth_));
   for (int k = 0; k < teeth_; ++k) {

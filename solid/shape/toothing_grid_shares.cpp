@@ -34,6 +34,7 @@ constexpr int kFewShareParts = 8, kMostParts = 64;
 void ToothingGrid::lay_modified(double tolerance_mm, double aim_mm) {
   lay_columns(aim_mm, 0.0, {});
   lay_rows(aim_mm, 0.0);
+  hid_waves_ = cut_hidden_waves(aim_mm);
   const std::vector<bool> crowded = cut_in_rounds(aim_mm);
   if (!teeth_alike_ || std::find(crowded.begin(), crowded.end(), true) == crowded.end()) return;
   std::size_t fewest = points_.size() * heights_mm_.size();

@@ -200,6 +200,51 @@ TEST_F(CorrectedMake, AFormulaWithAPoleBetweenThePlacesLookedAtIsRefused) {
         << formula;
 }
 
+/// An effect of a user with one formula.
+std::string declared_json(const std::string& id, const std::string& formula, double amount) {
+  return "{\"id\": \"" + id + "\", \"form\": {\"a_um\": \"" + formula +
+         "\"}, \"parameters\": {\"a_um\": {\"value\": " + std::to_string(amount) + "}}}";
+}
+
+TEST_F(CorrectedMake, ShortWavesAreMadeWithinTheTolerance) {
+  const auto made = make(declared_json("ripple", "sin(50 * v)", 3.0), 2.0);
+  ASSERT_TRUE(made) << made.error().front().message;
+  EXPECT_FALSE(made->failed);
+  EXPECT_TRUE(written());
+}
+
+TEST_F(CorrectedMake, WavesThatNoMeshFollowsAreRefusedBeforeTheyAreBegun) {
+  const std::string both = declared_json("along", "sin(3e4 * v)", 2.0) + ", " +
+                           declared_json("across", "cos(300 * u) * sin(3e4 * v)", 2.0);
+  for (const std::string& effects :
+       {declared_json("ripple", "sin(1e6 * v)", 3.0), declared_json("grain", "sin(300 * u) * cos(1e4 * v)", 3.0),
+        declared_json("stairs", "step(sin(1e5 * v + theta))", 6.0), both}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto made = make(effects, 2.0);
+    ASSERT_FALSE(made) << effects;
+    const Error& error = made.error().front();
+    EXPECT_EQ(exit_code(error.code), 2) << error.message;
+    EXPECT_EQ(error.key, "--tolerance-um") << error.message;
+    EXPECT_FALSE(written()) << effects;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60)) << effects;
+    const double would_do_um = std::stod(error.remedy);
+    EXPECT_GT(would_do_um, 2.0) << error.remedy;
+    EXPECT_LT(would_do_um, 10.0) << error.remedy;
+    EXPECT_TRUE(make(effects)) << effects;  // no more than its tolerance high
+  }
+}
+
+TEST_F(CorrectedMake, MoreComputingThanAnyMeshHasTimeForIsRefused) {
+  std::string sum = "u", effects;
+  for (int i = 0; i < 500; ++i) sum += " + sin(v)";
+  for (int i = 0; i < 40; ++i)
+    effects += (i > 0 ? ", " : "") + declared_json("e" + std::to_string(i), sum, 0.001);
+  const auto made = make(effects);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(exit_code(made.error().front().code), 2);
+  EXPECT_EQ(made.error().front().key, "effects");
+}
+
 TEST_F(CorrectedMake, ALoopFileOfAnotherVersionIsRefused) {
   for (const auto& [version, code] : {std::pair{"1", 0}, {"2", 2}, {"1.5", 2}, {"\"1\"", 2}}) {
     const std::string file = (folder_ / "loop.json").string();
