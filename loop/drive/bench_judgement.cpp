@@ -55,20 +55,25 @@ Apparent apparent_efficiencies(const DriveModel& model, const BenchData& data, i
   return result;
 }
 
-/// True where torque gained is no less at high load than at low: losses that come out as gains. A
-/// sensor that reads more in either sense gains the same at every load, less what the flanks lose.
-bool gains_as_losses_do(const Apparent& a, bool forward) {
-  constexpr double kNoLess = 0.75;
+/// True where torque gained grows with the load, as losses do that come out as gains. What a sensor
+/// reads too much in either sense is the same at every load, and the flanks' losses take from it:
+/// `loss`, of the driven torque. Between the two, nearer to the gain that stays.
+bool gains_as_losses_do(const Apparent& a, bool forward, double loss) {
+  constexpr double kBetween = -0.25;
   const auto driven = [&](std::size_t i) {
     return forward ? a.rows[i]->output_nm : a.rows[i]->input_nm;
   };
   std::vector<double> torques;
   for (std::size_t i = 0; i < a.rows.size(); ++i) torques.push_back(driven(i));
   const double middle = median(torques);
-  std::vector<double> low, high;
-  for (std::size_t i = 0; i < a.rows.size(); ++i)
-    (driven(i) < middle ? low : high).push_back(driven(i) * (1.0 - 1.0 / a.efficiency[i]));
-  return low.empty() || high.empty() || median(high) >= kNoLess * median(low);
+  std::vector<double> low, high, low_gain, high_gain;
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    (driven(i) < middle ? low : high).push_back(driven(i));
+    (driven(i) < middle ? low_gain : high_gain).push_back(driven(i) * (1.0 - 1.0 / a.efficiency[i]));
+  }
+  if (low.empty() || high.empty()) return true;
+  return median(high_gain) - median(low_gain) >=
+         kBetween * loss * (median(high) - median(low));
 }
 
 Error unit_error(const BenchData& data, const BenchRow& row, const std::string& what) {
@@ -190,7 +195,7 @@ Errors judge_units(const DriveModel& model, const BenchData& data, Impossible& s
       const double other = forward ? e.backward : e.forward;
       const bool above =
           std::all_of(a.efficiency.begin(), a.efficiency.end(), [](double x) { return x > 1.0; });
-      if (above && std::abs(1.0 / middle - other) < 0.1 && gains_as_losses_do(a, forward))
+      if (above && std::abs(1.0 / middle - other) < 0.1 && gains_as_losses_do(a, forward, 1.0 - other))
         ++directions_above;
     }
   if (judged > 0 && columns_swapped == judged)

@@ -43,6 +43,11 @@ double EfficiencyCurve::at(bool forward, double friction) const {
          y[i + 2] * t * (t - 1.0) * (t - 3.0) / 2.0 + y[i + 3] * t * (t - 1.0) * (t - 2.0) / 6.0;
 }
 
+double EfficiencyCurve::secant(bool forward, double from, double to) const {
+  if (std::abs(to - from) < 1e-6) to = from + kFrictionStep;
+  return (at(forward, to) - at(forward, from)) / (to - from);
+}
+
 double DriveContext::friction(const BenchPoint& p) const {
   double mu = designed_friction(p) + state.shift + (p.forward ? -0.5 : 0.5) * state.difference;
   if (state.load_value != 0.0)
@@ -55,26 +60,16 @@ double DriveContext::friction(const BenchPoint& p) const {
   return mu;
 }
 
-namespace {
-
-/// Change of an efficiency per unit of friction, from one to the other.
-double secant(const EfficiencyCurve& curve, bool forward, double from, double to) {
-  if (std::abs(to - from) < 1e-6) to = from + kFrictionStep;
-  return (curve.at(forward, to) - curve.at(forward, from)) / (to - from);
-}
-
-}  // namespace
-
 double DriveContext::friction_slope(const BenchPoint& p) const {
-  return gain(p) * p.driving_nm * secant(curve, p.forward, designed_friction(p), friction(p));
+  return gain(p) * p.driving_nm * last(p).secant(curve, designed_friction(p), friction(p));
 }
 
 double DriveContext::mesh_slope(const BenchPoint& p, std::size_t mesh) const {
   const double designed = designed_friction(p);
   const auto found = state.mesh_value.find(mesh);
   return gain(p) * p.driving_nm *
-         secant(mesh_curves[mesh], p.forward, designed,
-                designed + (found == state.mesh_value.end() ? 0.0 : found->second));
+         mesh_curves[mesh].secant(p.forward, designed,
+                                  designed + (found == state.mesh_value.end() ? 0.0 : found->second));
 }
 
 double DriveContext::load_coordinate(const BenchPoint& p) const {

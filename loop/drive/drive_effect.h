@@ -21,9 +21,32 @@ class EfficiencyCurve {
   EfficiencyCurve(const DriveModel& model, std::size_t mesh);
   /// Accuracy: 1e-7 for friction up to 0.6 (cubic between steps of 0.02); beyond, the end's value.
   [[nodiscard]] double at(bool forward, double friction) const;
+  /// Change per unit of friction, from one to the other; of two that are one the slope.
+  [[nodiscard]] double secant(bool forward, double from, double to) const;
 
  private:
   std::vector<double> forward_, backward_;
+};
+
+/// What was asked of an efficiency's curve last: where the friction is that of the row before, as it mostly
+/// is, it is computed once. Not for several threads.
+class LastEfficiency {
+ public:
+  explicit LastEfficiency(bool forward) : forward_(forward) {}
+  [[nodiscard]] double at(const EfficiencyCurve& curve, double friction) {
+    if (friction != friction_) value_ = curve.at(forward_, friction_ = friction);
+    return value_;
+  }
+  /// Change of the efficiency per unit of friction, from one to the other.
+  [[nodiscard]] double secant(const EfficiencyCurve& curve, double from, double to) {
+    if (from != from_ || to != to_) secant_ = curve.secant(forward_, from_ = from, to_ = to);
+    return secant_;
+  }
+
+ private:
+  bool forward_;
+  double friction_ = -1.0, value_ = 0.0;
+  double from_ = -1.0, to_ = -1.0, secant_ = 0.0;
 };
 
 /// What is found so far of all that changes friction, and of what the sensors misread: about it effects are linear.
@@ -36,6 +59,7 @@ struct DriveState {
   double input_zero_nm = 0.0, output_zero_nm = 0.0;    ///< torque_offset
   double input_drift_nm = 0.0, output_drift_nm = 0.0;  ///< torque_drift
   std::map<std::size_t, double> mesh_value = {};       ///< mesh_friction, of the meshes that have any
+  bool operator==(const DriveState&) const = default;
 };
 
 /// Where columns are evaluated: the drive, the bench's extent, the state.
@@ -45,13 +69,15 @@ struct DriveContext {
   const BenchTable& table;
   const std::vector<EfficiencyCurve>& mesh_curves;  ///< over one mesh's friction alone
   DriveState state;
+  mutable LastEfficiency last_forward{true}, last_backward{false};
 
   /// The meshes' friction at a point: as designed, and as the state has it.
   [[nodiscard]] double designed_friction(const BenchPoint& p) const {
     return model.friction_at(p.at());
   }
   [[nodiscard]] double friction(const BenchPoint& p) const;
-  [[nodiscard]] double efficiency(const BenchPoint& p) const { return curve.at(p.forward, friction(p)); }
+  [[nodiscard]] double efficiency(const BenchPoint& p) const { return last(p).at(curve, friction(p)); }
+  [[nodiscard]] LastEfficiency& last(const BenchPoint& p) const { return p.forward ? last_forward : last_backward; }
   /// Driven torque per unit of driving torque of the lossless drive.
   [[nodiscard]] double gain(const BenchPoint& p) const {
     return p.forward ? model.ratio : 1.0 / model.ratio;

@@ -290,17 +290,40 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
     }
 }
 
-DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorXd& value,
-                               const std::vector<DriveEffect>& candidates) {
+const DiscoveryProblem& DriveProblem::made_for(const DriveContext& context,
+                                               const Eigen::VectorXd& value,
+                                               const std::vector<DriveEffect>& candidates) {
+  const std::vector<std::size_t> groups = changed(context.state, candidates);
+  const bool laid_out = candidates_.size() == candidates.size();
+  candidates_ = candidates;
+  state_ = context.state;
+  if (!laid_out) lay_out(context, value);
+  fill(context, groups);
+  return problem_;
+}
+
+std::vector<std::size_t> DriveProblem::changed(const DriveState& state,
+                                               const std::vector<DriveEffect>& candidates) const {
+  const bool all = candidates_.size() != candidates.size() || !(state == state_);
+  std::vector<std::size_t> groups;
+  for (std::size_t g = 0; g < candidates.size(); ++g)
+    if (all || candidates[g].family != candidates_[g].family ||
+        candidates[g].shape != candidates_[g].shape)
+      groups.push_back(g);
+  return groups;
+}
+
+void DriveProblem::lay_out(const DriveContext& context, const Eigen::VectorXd& value) {
   const auto& points = context.table.points;
   const auto n = static_cast<Eigen::Index>(points.size());
-  DiscoveryProblem problem;
-  problem.value = value;
-  problem.weight.resize(n);
-  problem.nuisance.resize(n, 0);
-  std::map<std::pair<const DriveFamily*, double>, int> kin;
+  problem_ = {};
+  problem_.value = value;
+  problem_.weight.resize(n);
+  problem_.nuisance.resize(n, 0);
+  problem_.zero.assign(points.size(), -1);
+  std::map<const DriveFamily*, int> kin;
   int columns = 0;
-  for (const DriveEffect& candidate : candidates) {
+  for (const DriveEffect& candidate : candidates_) {
     CandidateGroup group;
     group.first_column = columns;
     group.columns = candidate.columns();
@@ -308,34 +331,39 @@ DiscoveryProblem drive_problem(const DriveContext& context, const Eigen::VectorX
     const bool shaped =
         std::any_of(candidate.family->shape_values.begin(), candidate.family->shape_values.end(),
                     [](const DriveShapeValue& shape) { return shape.continuous; });
-    if (shaped)
-      group.kin =
-          kin.emplace(std::pair(candidate.family, 0.0), static_cast<int>(kin.size())).first->second;
+    if (shaped) group.kin = kin.emplace(candidate.family, static_cast<int>(kin.size())).first->second;
     columns += group.columns;
-    problem.groups.push_back(group);
+    problem_.groups.push_back(group);
   }
-  problem.candidates.resize(n, columns);
-  std::vector<double> values(16);
+  problem_.candidates.resize(n, columns);
   for (Eigen::Index i = 0; i < n; ++i) {
     const BenchPoint& p = points[static_cast<std::size_t>(i)];
-    problem.weight[i] = 1.0 / (p.sigma_nm * p.sigma_nm);
-    problem.unit.push_back(unit_to_flip(context.table, p));
-    problem.fold.push_back(p.fold);
-    problem.zero.push_back(-1);
-    for (std::size_t g = 0; g < candidates.size(); ++g) {
-      candidates[g].family->evaluate(context, p, candidates[g].shape, values.data());
-      for (int k = 0; k < problem.groups[g].columns; ++k)
-        problem.candidates(i, problem.groups[g].first_column + k) = static_cast<float>(values[k]);
+    problem_.weight[i] = 1.0 / (p.sigma_nm * p.sigma_nm);
+    problem_.unit.push_back(unit_to_flip(context.table, p));
+    problem_.fold.push_back(p.fold);
+  }
+}
+
+void DriveProblem::fill(const DriveContext& context, const std::vector<std::size_t>& groups) {
+  const auto& points = context.table.points;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  std::vector<double> values(16);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const std::size_t g : groups) {
+      candidates_[g].family->evaluate(context, points[static_cast<std::size_t>(i)], candidates_[g].shape,
+                                      values.data());
+      for (int k = 0; k < problem_.groups[g].columns; ++k)
+        problem_.candidates(i, problem_.groups[g].first_column + k) = static_cast<float>(values[k]);
     }
-  }
   // Columns of one size: the engine's small ridges are relative to none of ours.
-  for (int c = 0; c < columns; ++c) {
-    const double size = std::sqrt(
-        (problem.weight.array() * problem.candidates.col(c).cast<double>().array().square()).sum() /
-        std::max<double>(1.0, static_cast<double>(n)));
-    if (size > 0.0) problem.candidates.col(c) /= static_cast<float>(size);
-  }
-  return problem;
+  for (const std::size_t g : groups)
+    for (int k = 0; k < problem_.groups[g].columns; ++k) {
+      auto column = problem_.candidates.col(problem_.groups[g].first_column + k);
+      const double size =
+          std::sqrt((problem_.weight.array() * column.cast<double>().array().square()).sum() /
+                    std::max<double>(1.0, static_cast<double>(n)));
+      if (size > 0.0) column /= static_cast<float>(size);
+    }
 }
 
 }  // namespace trueflank::loop

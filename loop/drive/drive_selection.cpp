@@ -99,16 +99,20 @@ void DriveSelection::measure_residual() {
         table_.points[i].driven_nm - predicted_nm(model_, curve_, table_.points[i]);
 }
 
-DriveOutcome DriveSelection::select(const std::vector<bool>& banned) const {
-  const DriveContext here = context();
+Discovery DriveSelection::select() {
   DiscoveryOptions options;
-  options.banned = banned;
+  options.banned = banned_;
   options.first_level = share_of_level() * options_.level;
   options.next_level *= share_of_level();
+  return Discovery(problem_.made_for(context(), value_, candidates_), options);
+}
+
+DriveOutcome DriveSelection::outcome_of(const DiscoveryResult& chosen) const {
+  const DriveContext here = context();
   DriveOutcome outcome;
-  outcome.discovery = discover(drive_problem(here, value_, candidates_), options);
-  for (const ChosenGroup& chosen : outcome.discovery.chosen)
-    outcome.effects.push_back(candidates_[chosen.group]);
+  outcome.discovery = chosen;
+  for (const ChosenGroup& group : outcome.discovery.chosen)
+    outcome.effects.push_back(candidates_[group.group]);
   refine_drive_shapes(here, value_, FitRows::kTraining, outcome.effects);
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
   outcome.fold_errors = fit.fold_errors();
@@ -119,15 +123,20 @@ DriveOutcome DriveSelection::select(const std::vector<bool>& banned) const {
 }
 
 DriveOutcome DriveSelection::settle() {
+  constexpr int kMostRounds = 6;
   // A sign that is wrong beside these effects may be right beside others.
   const std::vector<bool> kept_banned = banned_;
   DriveOutcome outcome;
-  for (int round = 0; round < 6; ++round) {
-    outcome = select(banned_);
+  for (int round = 1; round <= kMostRounds; ++round) {
+    Discovery discovery = select();
+    outcome = outcome_of(discovery.chosen());
     bool again = put_shapes_on_the_grid(outcome);
     again = ban_wrong_signs(outcome) || again;
     again = move_state(outcome) || again;
-    if (!again) break;
+    if (again && round < kMostRounds) continue;
+    // What is left, and what looks alike, is asked of the last choice alone.
+    outcome.discovery = std::move(discovery).finished();
+    break;
   }
   banned_ = kept_banned;
   return outcome;

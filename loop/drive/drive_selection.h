@@ -100,7 +100,10 @@ class DriveSelection {
     return any;
   }
 
-  [[nodiscard]] DriveOutcome select(const std::vector<bool>& banned) const;
+  /// The engine's choice among all that is not banned.
+  [[nodiscard]] Discovery select();
+  /// The same with its shapes refined.
+  [[nodiscard]] DriveOutcome outcome_of(const DiscoveryResult& chosen) const;
   /// Selection until shapes, friction and scale stand still and no effect has the wrong sign.
   DriveOutcome settle();
   bool put_shapes_on_the_grid(const DriveOutcome& outcome);
@@ -153,6 +156,7 @@ class DriveSelection {
   DriveState state_;
   Eigen::VectorXd value_;
   std::vector<DriveEffect> candidates_;
+  DriveProblem problem_;  ///< made for candidates and state when they were last asked
   std::vector<bool> banned_;
   std::map<std::string, std::set<std::string>> exchangeable_;
   bool vetoed_ = false;  ///< effects were taken back

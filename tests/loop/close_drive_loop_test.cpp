@@ -176,6 +176,19 @@ TEST(DriveLoop, LossesBesideAScaleHaveTheirSizes) {
   EXPECT_FALSE(cannot_tell(*found(r, "drag_torque"), "torque_scale")) << loop::loop_text(r);
 }
 
+TEST(DriveLoop, ADragBesideAScaleHasItsSizeToAHundredth) {
+  HiddenDrive drive = losing([](const BenchMoment&) { return 0.004; });
+  drive.output_reads = 1.11;
+  // So little noise that a tenth of the loss in one direction is many times its interval.
+  const auto closed = close_hidden(
+      drive, {.noise_forward_nm = 0.01, .noise_backward_nm = 0.0001, .noise_driving = 0.0001});
+  ASSERT_TRUE(closed);
+  const loop::LoopResult& r = closed->result;
+  expect_held(r, "torque_scale", "factor", 1.11);
+  ASSERT_NE(found(r, "drag_torque"), nullptr) << loop::loop_text(r);
+  EXPECT_NEAR(parameter(*found(r, "drag_torque"), "torque_nm")->value, 0.004, 4e-5);
+}
+
 TEST(DriveLoop, OneDirectionCannotTellScaleFromFrictionAndTheOtherCan) {
   HiddenDrive drive;
   drive.output_reads = 1.05;

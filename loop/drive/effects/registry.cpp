@@ -37,6 +37,7 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_step(),
         unnamed_hump(),
         unnamed_change(),
+        unnamed_drift(),
         unnamed_spell(),
         unnamed_wander(),
     };

@@ -45,6 +45,7 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_step();
 [[nodiscard]] DriveFamily unnamed_hump();
 [[nodiscard]] DriveFamily unnamed_change();
+[[nodiscard]] DriveFamily unnamed_drift();
 [[nodiscard]] DriveFamily unnamed_spell();
 [[nodiscard]] DriveFamily unnamed_wander();
 /// @}

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/base/legendre.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/drive/effects/columns.h"
@@ -41,6 +42,8 @@ std::string lines_between(const BenchTable& table, double begin, double end) {
     }
   return first == 0 ? "" : ", lines " + std::to_string(first) + " to " + std::to_string(last);
 }
+
+constexpr int kDriftDegrees = 3;  ///< of the load
 
 std::string of_what(double number) {
   const auto what = static_cast<What>(static_cast<int>(number));
@@ -140,6 +143,32 @@ DriveFamily unnamed_change() {
   };
   f.term_shapes = [](const DriveShape&) {
     return std::vector<DriveShape>{{0.0, 0.0, 0.0, 0.0, 0.0}};
+  };
+  return f;
+}
+
+// A reading of the output that drifts otherwise at every load: a gain that drifts, a lever that
+// creeps once it is loaded. A zero that drifts is the same at all of them, and has a name.
+DriveFamily unnamed_drift() {
+  DriveFamily f = without_a_name();
+  f.parameters = {"degree_0", "degree_1", "degree_2"};
+  f.preference = 8;
+  f.shapes = [](const DriveContext& context) {
+    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees ? std::vector<DriveShape>{{}}
+                                                                          : std::vector<DriveShape>{};
+  };
+  f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
+    const double drifted = p.taken * changed_nm(context, p, kOutputReads);
+    for (int k = 0; k < kDriftDegrees; ++k) c[k] = drifted * legendre(k, context.load_coordinate(p));
+  };
+  f.words = [](const DriveModel&, const DriveShape&, const DriveContext*) {
+    return std::string("that grows in the course of the run, as the output's torque that drifts otherwise at "
+                       "every load (a gain that drifts, a lever that creeps?)");
+  };
+  f.term_shapes = [](const DriveShape&) {
+    std::vector<DriveShape> terms;
+    for (int k = 0; k < kDriftDegrees; ++k) terms.push_back({double(k), 0.0, 0.0, 0.0, 0.0});
+    return terms;
   };
   return f;
 }
