@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/finite_displacement.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -42,6 +43,7 @@ class MoveBack {
   struct Moved {
     Place place;
     double deviation_um = 0.0;
+    double change_um = 0.0;  ///< of what the fit leaves there
   };
   /// Where a row's point lay, and its deviation there; nothing where it is on no flank, or would
   /// come onto another one.
@@ -53,19 +55,25 @@ class MoveBack {
     if (placed.place.tooth != place.tooth || placed.place.side != place.side ||
         !(placed.place.roll_mm > 0.0))
       return {};
-    Moved moved{placed.place, um_from_mm(placed.distance_mm)};
+    const double left_um = um_from_mm(placed.distance_mm);
+    Moved moved{placed.place, left_um + moved_by_um(placed.place),
+                left_um - (row.deviation_um - moved_by_um(place))};
     moved.place.surface = place.surface;
-    double values[8];
-    for (const int e : body_) {
-      const Effect& effect = fit_.effects()[static_cast<std::size_t>(e)];
-      effect.evaluate(geometry_, placed.place, values);
-      for (int k = 0; k < effect.columns(); ++k)
-        moved.deviation_um += values[k] * fit_.coefficients()[fit_.first_column(e) + k];
-    }
     return moved;
   }
 
  private:
+  /// What the columns say the displacement does at a place.
+  [[nodiscard]] double moved_by_um(const Place& place) const {
+    double sum = 0.0, values[8];
+    for (const int e : body_) {
+      const Effect& effect = fit_.effects()[static_cast<std::size_t>(e)];
+      effect.evaluate(geometry_, place, values);
+      for (int k = 0; k < effect.columns(); ++k)
+        sum += values[k] * fit_.coefficients()[fit_.first_column(e) + k];
+    }
+    return sum;
+  }
   [[nodiscard]] std::array<double, 3> moved_back(const std::array<double, 3>& p) const {
     std::array<double, 3> back = p;
     // The displacement belongs to the point before it was moved: two steps find it.
@@ -97,7 +105,7 @@ double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
   double most = 0.0;
   for (std::size_t i = 0; i < table.points_mm.size(); i += stride)
     if (const auto moved = move_back(table, i))
-      most = std::max(most, std::abs(moved->deviation_um - table.rows[i].deviation_um));
+      most = std::max(most, std::abs(moved->change_um));
   return most;
 }
 
@@ -108,11 +116,53 @@ double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observat
     const auto moved = move_back(table, i);
     if (!moved) return 0.0;
     Observation& row = table.rows[i];
-    const double change = std::abs(moved->deviation_um - row.deviation_um);
     row.deviation_um = moved->deviation_um;
     table.places[row.first_place] = moved->place;
-    return change;
+    return std::abs(moved->change_um);
   });
+}
+
+bool settle_poses(const FlankGeometry& geometry, const PointFit& fit, Observations& table) {
+  constexpr double kHeight = 0.005;  // of the face
+  const NuisanceColumns nuisance(geometry, table);
+  const double middle_mm = 0.5 * geometry.face_width_mm();
+  const double radius_mm = std::max(geometry.tip_radius_mm(), geometry.root_radius_mm());
+  std::vector<Pose> back(table.poses.size());
+  bool moves = false;
+  for (std::size_t s = 0; s < back.size(); ++s) {
+    if (!table.pose_is_free[s]) continue;
+    const Eigen::VectorXd by =
+        1e-3 * fit.coefficients().segment(nuisance.first_of(s), NuisanceColumns::kOfFreePose);
+    const Eigen::Vector3d turn(by[3], by[4], by[0]), middle(0.0, 0.0, middle_mm);
+    moves = moves || std::hypot(by[3], by[4]) * radius_mm > kHeight * geometry.face_width_mm();
+    if (turn.norm() > 0.0)
+      back[s].rotation = Eigen::AngleAxisd(-turn.norm(), turn.normalized()).toRotationMatrix();
+    back[s].translation_mm =
+        middle - back[s].rotation * (middle + Eigen::Vector3d(by[1], by[2], 0.0));
+  }
+  if (!moves) return false;
+  for (std::size_t s = 0; s < back.size(); ++s) {
+    Pose& pose = table.poses[s];
+    pose.rotation = back[s].rotation * pose.rotation;
+    pose.translation_mm = back[s].rotation * pose.translation_mm + back[s].translation_mm;
+  }
+  const double reach_mm = kReachOfNearest * geometry.gear().normal_module_mm;
+  largest_of_points(table, [&](std::size_t i) {
+    Observation& row = table.rows[i];
+    auto& point = table.points_mm[i];
+    point = back[static_cast<std::size_t>(row.source)](point);
+    Place& place = table.places[row.first_place];
+    const PlacedPoint placed = row.kind == ObservationKind::kScanFlank
+                                   ? as_designed(geometry, table, i)
+                                   : geometry.nearest(point, reach_mm);
+    if (placed.place.surface == place.surface) {
+      row.deviation_um = um_from_mm(placed.distance_mm);
+      place = placed.place;
+    }
+    return 0.0;
+  });
+  table.is_displaced = false;
+  return true;
 }
 
 void undo_displacement(const FlankGeometry& geometry, Observations& table) {

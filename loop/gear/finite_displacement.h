@@ -8,14 +8,20 @@ namespace trueflank::loop {
 /// Makes the fit exact for finite displacements: every point of a scan is moved back by the body
 /// effects as fitted, its exact distance taken there, and the linear part of the effects put back
 /// on. Near the base circle a flank is so curved that 30 um of shrinkage leave 0.4 um to second
-/// order. The table gets the new deviations and places. Returns the largest change of a deviation
-/// [um].
+/// order. The table gets the new deviations and places. Returns the largest change of what the fit
+/// leaves of a value [um]: at another place its columns say another thing.
 double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table);
 
-/// The largest change of a deviation [um] that linearise_at would make to some thousand points,
-/// every n-th of the table, which stays as it is.
+/// The largest such change [um] that linearise_at would make to some thousand points, every n-th of the table, which stays as it is.
 [[nodiscard]] double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
                                          const Observations& table);
+
+/// Scans in any pose lie as a fit of all says they do: beside an effect the pose may have been off
+/// by what the effect does. Their points are moved, deviations and places are of the gear as designed
+/// again. Nothing is done, and the answer is false, where no point would come to another height by
+/// more than a share of the face (near a step, or low in a foot, it is another value there).
+[[nodiscard]] bool settle_poses(const FlankGeometry& geometry, const PointFit& fit,
+                                Observations& table);
 
 /// Deviations and places of the gear as designed, as make_observations had them: computed again
 /// from the points, which takes no memory beside the table.

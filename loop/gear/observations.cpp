@@ -180,7 +180,7 @@ class TableBuilder {
   }
 
   void add_points(ScanData& scan, const Pose& pose, int source) {
-    const double reach = 0.35 * geometry_.gear().normal_module_mm;
+    const double reach = kReachOfNearest * geometry_.gear().normal_module_mm;
     const double chamfer = geometry_.edge_chamfer_mm();
     const double edge = std::clamp(0.01 * geometry_.face_width_mm(), 0.02, 0.1) + chamfer;
     const double b = geometry_.face_width_mm();

@@ -64,11 +64,17 @@ struct Observations {
   }
 };
 
+/// Points further from every surface, in normal modules, are on none.
+inline constexpr double kReachOfNearest = 0.35;
+
 /// A scanned row of a flank on the gear as designed, whatever the table says of it now: the same
-/// place and distance as when it entered the table.
+/// place and distance as when it entered the table. At the edge it stays one of the flank where its
+/// scan was moved a little since.
 [[nodiscard]] inline PlacedPoint as_designed(const FlankGeometry& geometry,
                                              const Observations& table, std::size_t row) {
-  return geometry.nearest_flank(table.points_mm[row], kFlankMargin);
+  PlacedPoint placed = geometry.nearest_flank(table.points_mm[row], kFlankMargin);
+  if (placed.place.roll_mm > 0.0) placed.place.surface = Surface::kFlank;
+  return placed;
 }
 
 struct ObservationOptions {

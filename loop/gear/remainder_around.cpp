@@ -7,6 +7,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/moved_sector.h"
 
 namespace trueflank::loop {
 namespace {
@@ -44,6 +45,11 @@ class AroundSearch {
           if (static_cast<int>(teeth[static_cast<std::size_t>(side)].size()) >= kFewestTeeth)
             look_around(key, of_teeth, teeth[static_cast<std::size_t>(side)], side);
     }
+  }
+
+  /// Traces have zeros of their own.
+  static bool has_heights(MomentsOf what) {
+    return what == MomentsOf::kScan || what == MomentsOf::kOthers;
   }
 
   /// What one kind of record shows of a tooth by itself.
@@ -148,6 +154,13 @@ class AroundSearch {
         what.push_back(one);
       }
     if (what.empty()) return;
+    if (const auto moved = side < 0 && has_heights(key.first) ? moved_sector(geometry_, of_teeth)
+                                                              : std::nullopt) {
+      found_.push_back(finding_of("unnamed_moved_sector", FlankChoice::kBoth,
+                                  {double(moved->first), double(moved->count)}, moved->p_value,
+                                  moved->amount_um, false));
+      return;
+    }
     std::vector<int> place = teeth;
     for (int& at : place) --at;
     RingFinding found = scan_ring(series, place, geometry_.teeth());

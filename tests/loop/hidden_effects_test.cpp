@@ -251,5 +251,38 @@ TEST(HiddenEffects, FiveTracesAreEnoughForWhatTheyShow) {
             result.not_observable.end());
 }
 
+TEST(HiddenEffects, ALargeHelicalGearThatLeansIsNotStretched) {
+  // Its points come to other heights by a third of a millimetre: columns are taken there anew.
+  MadeGear gear = helical(70, 21);
+  gear.module_mm *= 3.0;
+  gear.tip_mm *= 3.0;
+  gear.root_form_mm *= 3.0;
+  ScanOptions scan = small_scan(5);
+  scan.points = 9000;
+  scan.noise_um = 1.5;
+  const auto result =
+      close(gear, scan_of(gear, {leaning_as_a_body(4.0, 100.0), twisted(-17.0)}, scan), true);
+  EXPECT_EQ(result.effects.size(), 2u) << list(result);
+  EXPECT_NE(find(result, "axis_tilt"), nullptr) << list(result);
+  EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
+}
+
+TEST(HiddenEffects, ALayerShiftOfALargeThinGearInAnyPoseKeepsItsHeightAllAround) {
+  // Without the shift its pose leans, and the step stands at another height all around the gear.
+  MadeGear gear = spur(95);
+  gear.face_mm = 5.0;
+  ScanOptions scan = small_scan(6);
+  scan.points = 4000;
+  scan.noise_um = 4.0;
+  scan.any_pose = true;
+  const auto result = close(gear, scan_of(gear, {shifted_above(3.6, 40.0, 30.0)}, scan), false);
+  const auto* found = find(result, "layer_shift");
+  ASSERT_NE(found, nullptr) << list(result);
+  EXPECT_EQ(result.effects.size(), 1u) << list(result);
+  EXPECT_NEAR(std::hypot(parameter(*found, "dx_um").value, parameter(*found, "dy_um").value), 50.0,
+              1.5);
+  EXPECT_NEAR(parameter(*found, "height_mm").value, 3.6, 0.05);
+}
+
 }  // namespace
 }  // namespace trueflank::test

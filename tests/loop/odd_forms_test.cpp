@@ -181,6 +181,22 @@ TEST(OddForms, AProfileThatIsSShapedInAScanIsNoSumOfNames) {
     EXPECT_TRUE(!effect.named || effect.id == "helix_error") << list(result);
 }
 
+TEST(OddForms, TeethThatStandAsideAsABodyAreNoEccentricityAndNoStretch) {
+  const MadeGear gear = spur(14);
+  const Process views{.move_um = [](const MadeGear&, const FlankSpot& s, const Vec3&) -> Vec3 {
+    return s.tooth >= 5 && s.tooth <= 11 ? Vec3{14.0, 11.0, 0.0} : Vec3{0.0, 0.0, 0.0};
+  }};
+  ScanOptions options;
+  options.points = 5000;
+  options.noise_um = 3.0;
+  const auto result = close(gear, scan_of(gear, {views}, options), true);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+  ASSERT_FALSE(result.effects.empty()) << list(result);
+  EXPECT_NE(result.effects[0].description.find("7 teeth from tooth 5 on stand aside as one body"),
+            std::string::npos)
+      << list(result);
+}
+
 TEST(OddForms, SeveralTeethThatStandOutSideBySideAreOneSwelling) {
   const MadeGear gear = spur(44);
   const auto hump = [](auto&, const FlankSpot& s, auto&) {

@@ -37,6 +37,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_waviness(),
         unnamed_marks(),
         unnamed_sector(),
+        unnamed_moved_sector(),
         unnamed_alternation(),
         unnamed_ramp(),
         unnamed_comb(),

@@ -55,6 +55,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
+[[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
 [[nodiscard]] EffectFamily unnamed_comb();

@@ -15,7 +15,7 @@ NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observatio
   // Scans come first among the sources (make_observations).
   for (const bool free : table.pose_is_free) {
     sources_.push_back({count_, free});
-    count_ += free ? 5 : 1;
+    count_ += free ? kOfFreePose : 1;
   }
 }
 

@@ -68,6 +68,10 @@ class NuisanceColumns {
  public:
   NuisanceColumns(const FlankGeometry& geometry, const Observations& table);
   [[nodiscard]] int count() const { return count_; }
+  /// Of a scan in any pose: a turn about the axis, shifts along x and y, turns about x and y through
+  /// the middle of the face, in thousandths and um.
+  static constexpr int kOfFreePose = 5;
+  [[nodiscard]] int first_of(std::size_t scan) const { return sources_[scan].first; }
   /// The columns at a place of a source.
   void set(const Place& place, ObservationKind kind, int source, double* values) const {
     for (int k = 0; k < count_; ++k) values[k] = 0.0;

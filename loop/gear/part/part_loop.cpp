@@ -102,7 +102,7 @@ void PartLoop::explain() {
     // leaves is taken for another effect.
     bool again = put_refined_shapes_on_the_grid();
     again = ban_misnamed() || again;
-    again = linearise() || again;
+    again = settle_poses_of_scans() || linearise() || again;
     if (!again) break;
   }
   finish_choice();
@@ -253,6 +253,20 @@ void PartLoop::choose_motions() {
       candidates_[discovery_.chosen[e].group].shape = effects_[e].shape = other;
     }
   }
+}
+
+/// True where scans lie otherwise beside the effects than without them.
+bool PartLoop::settle_poses_of_scans() {
+  if (std::none_of(table_->pose_is_free.begin(), table_->pose_is_free.end(),
+                   [](bool free) { return free; }) ||
+      table_->points_mm.empty())
+    return false;
+  const auto fit = fit_of(effects_);
+  if (!settle_poses(geometry_, *fit, table_.own())) return false;
+  forget_fits();
+  divide_into_patches();
+  leave_out_across_steps();
+  return true;
 }
 
 /// True where finite displacements changed the deviations by more than the noise can hide, or are taken back.

@@ -96,6 +96,7 @@ class PartLoop {
   const std::vector<RemainderFinding>& remainder_of(const std::vector<Effect>& effects,
                                                     RemainderOf which);
   [[nodiscard]] bool put_refined_shapes_on_the_grid();
+  [[nodiscard]] bool settle_poses_of_scans();
   [[nodiscard]] bool linearise();
   [[nodiscard]] bool moves_points() const;
   void choose_motions();

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+/// Found around the gear (moved_sector.h), and no candidate of its own.
+EffectFamily unnamed_moved_sector() {
+  EffectFamily f;
+  f.id = "unnamed_moved_sector";
+  f.description = "structure that no named effect explains";
+  f.parameters = {"cos_um", "sin_um"};
+  f.shape_names = {"first_tooth", "teeth"};
+  f.named = false;
+  f.preference = 3;
+  f.correctable = Correctable::kNoCause;
+  f.columns = [](const EffectShape&) { return 2; };
+  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const int z = g.teeth(), from = static_cast<int>(shape[0]);
+    const bool on = ((p.tooth - from) % z + z) % z < static_cast<int>(shape[1]);
+    two_directions(g, p, on ? 1.0 : 0.0, c);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double first : {-1.0, 0.0, 1.0})
+      for (const double last : {-1.0, 0.0, 1.0}) {
+        const EffectShape beside{std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0,
+                                 shape[1] + last - first};
+        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth()) shapes.push_back(beside);
+      }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"}, {"teeth"}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("%.0f teeth from tooth %.0f on stand aside as one body: two views of a scan, "
+                   "halves of a mould or two clampings that do not meet",
+                   shape[1], shape[0]);
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/moved_sector.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+
+#include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/ring_scan.h"
+#include "trueflank/loop/gear/effect.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr Eigen::Index kFewestInRing = 8;
+constexpr Eigen::Index kOfGear = 4;  // both flanks' heights, and the whole gear aside
+constexpr Eigen::Index kOfSector = 2;
+
+using Index = Eigen::Index;
+using Matrix2 = Eigen::Matrix<double, kOfSector, kOfSector>;
+using Vector2 = Eigen::Matrix<double, kOfSector, 1>;
+
+/// Heights of both flanks of the teeth, a tooth's right flank before its left one.
+class SectorSearch {
+ public:
+  SectorSearch(const FlankGeometry& geometry, const std::vector<ToothMoments>& of_teeth)
+      : geometry_(geometry) {
+    for (int tooth = 1; tooth <= geometry.teeth(); ++tooth)
+      if (of_teeth[ToothMoments::at(0, tooth)].square[0] > 0.0 &&
+          of_teeth[ToothMoments::at(1, tooth)].square[0] > 0.0)
+        teeth_.push_back(tooth);
+    n_ = static_cast<Index>(teeth_.size());
+    height_um_.resize(2 * n_);
+    gear_.setZero(2 * n_, kOfGear);
+    aside_.resize(2 * n_, kOfSector);
+    const double roll_mm = 0.5 * (geometry.root_form_roll_mm() + geometry.tip_form_roll_mm());
+    for (Index i = 0; i < 2 * n_; ++i) {
+      const int tooth = tooth_of(i / 2), side = static_cast<int>(i % 2);
+      const ToothMoments& own = of_teeth[ToothMoments::at(side, tooth)];
+      const Place place = geometry.on_flank(tooth, side == 1 ? 1 : -1, roll_mm,
+                                            0.5 * geometry.face_width_mm());
+      height_um_[i] = own.sum[0] / own.square[0];
+      aside_.row(i) << normal_part(geometry, place, 1.0, 0.0), normal_part(geometry, place, 0.0, 1.0);
+      gear_(i, side) = 1.0;
+    }
+    gear_.rightCols(kOfSector) = aside_;
+  }
+
+  std::optional<MovedSector> run() {
+    if (n_ < kFewestInRing) return {};
+    const Eigen::MatrixXd normal = gear_.transpose() * gear_;
+    whole_um_ = symmetric_solution(normal, gear_.transpose() * height_um_);
+    height_um_ -= gear_ * whole_um_;
+    // Of every sector's columns the whole gear takes its part.
+    const Eigen::MatrixXd of_gear = SymmetricSolver(normal).solve_columns(gear_.transpose());
+    Best best;
+    for (Index first = 0; first < n_; ++first) {
+      Matrix2 own = Matrix2::Zero();
+      Vector2 right = Vector2::Zero();
+      Eigen::Matrix<double, kOfGear, kOfSector> cross, taken;
+      cross.setZero();
+      taken.setZero();
+      for (Index count = 1; 2 * count <= n_; ++count) {
+        const Index at = 2 * ((first + count - 1) % n_);
+        for (const Index i : {at, at + 1}) {
+          own += aside_.row(i).transpose() * aside_.row(i);
+          right += height_um_[i] * aside_.row(i).transpose();
+          cross += gear_.row(i).transpose() * aside_.row(i);
+          taken += of_gear.col(i) * aside_.row(i);
+        }
+        if (count < 2) continue;
+        const Matrix2 left = own - cross.transpose() * taken;
+        const double size = left.determinant();
+        if (!(size > 1e-6 * left.trace() * left.trace())) continue;
+        const Vector2 aside = Vector2(left(1, 1) * right[0] - left(0, 1) * right[1],
+                                      left(0, 0) * right[1] - left(1, 0) * right[0]) /
+                              size;
+        if (aside.dot(right) > best.square)
+          best = {aside.dot(right), first, count, aside};
+      }
+    }
+    return judged(best);
+  }
+
+ private:
+  struct Best {
+    double square = 0.0;
+    Index first = 0, count = 0;
+    Vector2 aside = Vector2::Zero();
+  };
+
+  [[nodiscard]] int tooth_of(Index place) const {
+    return teeth_[static_cast<std::size_t>(place % n_)];
+  }
+
+  [[nodiscard]] std::optional<MovedSector> judged(const Best& best) const {
+    const double degrees = static_cast<double>(2 * n_ - kOfGear - kOfSector);
+    const double left = height_um_.squaredNorm() - best.square;
+    if (best.count == 0 || !(left > 0.0)) return {};
+    const double asked = static_cast<double>(n_ * (n_ / 2 - 1));
+    const double p = asked * f_tail(best.square / kOfSector / (left / degrees),
+                                    static_cast<double>(kOfSector), degrees);
+    const double noise = left / degrees;
+    if (p > kSure || largest_of_simpler() > best.square - kClearly * noise || is_more_left(best))
+      return {};
+    // The rest standing aside is the same but for the whole gear's place: what moves that less is told.
+    Vector2 gear_aside = whole_um_.tail(kOfSector);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(2 * n_);
+    for_rows_of(best, [&](Index i) { moved[i] = aside_.row(i) * best.aside; });
+    gear_aside -= symmetric_solution(gear_.transpose() * gear_, gear_.transpose() * moved).tail(kOfSector);
+    const bool others = (gear_aside + best.aside).norm() < gear_aside.norm();
+    const Index begin = others ? best.first + best.count : best.first,
+                count = others ? n_ - best.count : best.count;
+    const int first = tooth_of(begin), last = tooth_of(begin + count - 1), z = geometry_.teeth();
+    return MovedSector{first, ((last - first) % z + z) % z + 1, p, best.aside.norm()};
+  }
+
+  template <class Work>
+  void for_rows_of(const Best& sector, const Work& work) const {
+    for (Index k = 0; k < sector.count; ++k)
+      for (const Index side : {0, 1}) work(2 * ((sector.first + k) % n_) + side);
+  }
+
+  /// What a sector of another height, or a drift once around, takes out: with a column less.
+  [[nodiscard]] double largest_of_simpler() const {
+    const Eigen::MatrixXd normal = gear_.transpose() * gear_;
+    const Eigen::MatrixXd of_gear = SymmetricSolver(normal).solve_columns(gear_.transpose());
+    double largest = 0.0;
+    const auto ask = [&](const Eigen::VectorXd& form) {
+      const double size = form.squaredNorm() - (gear_.transpose() * form).dot(of_gear * form);
+      const double product = form.dot(height_um_);
+      if (size > 1e-6 * form.squaredNorm()) largest = std::max(largest, product * product / size);
+    };
+    for (const double left : {1.0, -1.0})
+      for (Index first = 0; first < n_; ++first) {
+        Eigen::VectorXd sector = Eigen::VectorXd::Zero(2 * n_), drift(2 * n_);
+        for (Index count = 1; count <= n_; ++count) {
+          const Index at = 2 * ((first + count - 1) % n_);
+          sector.segment(at, 2) << 1.0, left;
+          drift.segment(at, 2) = static_cast<double>(count) * sector.segment(at, 2);
+          if (2 * count <= n_) ask(sector);
+        }
+        ask(drift);
+      }
+    return largest;
+  }
+
+  /// True where the ring of teeth has structure beside the sector.
+  [[nodiscard]] bool is_more_left(const Best& best) const {
+    constexpr double kNone = 0.02;
+    Eigen::VectorXd rest = height_um_;
+    for_rows_of(best, [&](Index i) { rest[i] -= aside_.row(i) * best.aside; });
+    rest -= gear_ * symmetric_solution(gear_.transpose() * gear_, gear_.transpose() * rest);
+    Eigen::MatrixXd series(n_, 2);
+    std::vector<int> place;
+    for (Index i = 0; i < n_; ++i) {
+      series.row(i) << rest[2 * i + 1] + rest[2 * i], rest[2 * i + 1] - rest[2 * i];
+      place.push_back(tooth_of(i) - 1);
+    }
+    return scan_ring(series, place, geometry_.teeth()).p_value <= kNone;
+  }
+
+  /// So sure that the other tests' levels need not be shared with it.
+  static constexpr double kSure = 1e-4;
+  /// Chi-square by which it must beat what is simpler.
+  static constexpr double kClearly = 9.0;
+
+  const FlankGeometry& geometry_;
+  std::vector<int> teeth_;
+  Index n_ = 0;
+  Eigen::VectorXd height_um_, whole_um_;  ///< beside the whole gear, and that
+  Eigen::MatrixXd gear_, aside_;
+};
+
+}  // namespace
+
+std::optional<MovedSector> moved_sector(const FlankGeometry& geometry,
+                                        const std::vector<ToothMoments>& of_teeth) {
+  return SectorSearch(geometry, of_teeth).run();
+}
+
+}  // namespace trueflank::loop
