@@ -71,7 +71,7 @@ void refine_drive_shapes(const DriveContext& context, const Eigen::VectorXd& val
                          std::vector<DriveEffect>& effects);
 
 /// The engine's problem for the candidates of a bench. Columns that neither state nor shape changed since
-/// are kept: half of the time of a long bench went into them.
+/// are kept.
 class DriveProblem {
  public:
   [[nodiscard]] const DiscoveryProblem& made_for(const DriveContext& context,

@@ -153,9 +153,11 @@ DriveFamily unnamed_drift() {
   DriveFamily f = without_a_name();
   f.parameters = {"degree_0", "degree_1", "degree_2"};
   f.preference = 8;
+  f.differs_by_direction = true;
   f.shapes = [](const DriveContext& context) {
-    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees ? std::vector<DriveShape>{{}}
-                                                                          : std::vector<DriveShape>{};
+    return has_one_course(context) && context.table.levels[0] >= kDriftDegrees
+               ? std::vector<DriveShape>{{}}
+               : std::vector<DriveShape>{};
   };
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     const double drifted = p.taken * changed_nm(context, p, kOutputReads);
