@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "trueflank/geometry/gear.h"
+#include "trueflank/search/search_model.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/search/search_train.h"
 #include "trueflank/train/efficiency_sliding.h"
@@ -14,16 +15,6 @@
 // Margins and losses of one layer of gears at one centre distance: what an optimiser asks most.
 // Lengths are in modules of the layer.
 namespace trueflank {
-
-/// Loss of one mesh, as the torque balance takes it.
-struct MeshLoss {
-  double driving1 = kNaN, driving2 = kNaN;  ///< efficiency where gear 1, gear 2 drives
-};
-struct LayerEvaluation {
-  MeshLoss sun_planet, planet_ring;            ///< NaN where there is no such mesh
-  std::array<double, kLayerLimits> margins{};  ///< in the order of SearchTrain::limits
-  double least_margin = -1e9;
-};
 
 /// Writes margins in order and knows when to stop.
 class Margins {

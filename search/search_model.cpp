@@ -7,6 +7,7 @@
 
 #include "trueflank/base/contract.h"
 #include "trueflank/geometry/involute.h"
+#include "trueflank/search/search_layer.h"
 
 namespace trueflank {
 

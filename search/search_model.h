@@ -8,7 +8,6 @@
 
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/search/search_enumerate.h"
-#include "trueflank/search/search_layer.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/train/efficiency_balance.h"
 #include "trueflank/train/efficiency_sliding.h"
@@ -32,6 +31,16 @@ struct DesignDimensions {
   double face_width_mm = kNaN, module_mm = kNaN;  ///< NaN: as the requirements say
 
   bool operator==(const DesignDimensions&) const = default;
+};
+
+/// Loss of one mesh, as the torque balance takes it.
+struct MeshLoss {
+  double driving1 = kNaN, driving2 = kNaN;  ///< efficiency where gear 1, gear 2 drives
+};
+struct LayerEvaluation {
+  MeshLoss sun_planet, planet_ring;            ///< NaN where there is no such mesh
+  std::array<double, kLayerLimits> margins{};  ///< in the order of SearchTrain::limits
+  double least_margin = -1e9;
 };
 
 /// One tooth set.
