@@ -64,10 +64,10 @@ void PartLoop::look_at_sizes() {
     }
     if (best < 0) return;
     const double tests = static_cast<double>(tried.size()) * options_.tables;
-    const double gain = tried[best].second;
+    const double best_gain = tried[best].second;
     const double alone = table_->size_degrees > 0
-                             ? f_tail(gain, 1.0, table_->size_degrees)
-                             : std::exp(-minus_log_chi_square_tail(gain, 1));
+                             ? f_tail(best_gain, 1.0, table_->size_degrees)
+                             : std::exp(-minus_log_chi_square_tail(best_gain, 1));
     const double p = std::min(1.0, tests * alone);
     if (p > kSure) return;
     ChosenGroup record;
