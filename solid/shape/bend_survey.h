@@ -48,7 +48,7 @@ struct BendCuts {
   double layers = 1.0, chords = 1.0;
 };
 /// By halving what is off its chords, of many ways of one length some: a sample of all cuts.
-/// Cost: some ten thousand displacements at most, however short the waves are.
+/// Cost: some hundred thousand displacements at most, however short the waves are.
 [[nodiscard]] BendCuts bend_cuts(const ToothedOutline& teeth, double height_mm, double tolerance_mm);
 
 }  // namespace trueflank
