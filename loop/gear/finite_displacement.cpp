@@ -122,7 +122,8 @@ double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observat
   });
 }
 
-bool settle_poses(const FlankGeometry& geometry, const PointFit& fit, Observations& table) {
+std::vector<Pose> poses_beside(const FlankGeometry& geometry, const PointFit& fit,
+                               const Observations& table) {
   constexpr double kHeight = 0.005;  // of the face
   const NuisanceColumns nuisance(geometry, table);
   const double middle_mm = 0.5 * geometry.face_width_mm();
@@ -140,17 +141,21 @@ bool settle_poses(const FlankGeometry& geometry, const PointFit& fit, Observatio
     back[s].translation_mm =
         middle - back[s].rotation * (middle + Eigen::Vector3d(by[1], by[2], 0.0));
   }
-  if (!moves) return false;
-  for (std::size_t s = 0; s < back.size(); ++s) {
+  if (!moves) back.clear();
+  return back;
+}
+
+void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Observations& table) {
+  for (std::size_t s = 0; s < by.size(); ++s) {
     Pose& pose = table.poses[s];
-    pose.rotation = back[s].rotation * pose.rotation;
-    pose.translation_mm = back[s].rotation * pose.translation_mm + back[s].translation_mm;
+    pose.rotation = by[s].rotation * pose.rotation;
+    pose.translation_mm = by[s].rotation * pose.translation_mm + by[s].translation_mm;
   }
   const double reach_mm = kReachOfNearest * geometry.gear().normal_module_mm;
   largest_of_points(table, [&](std::size_t i) {
     Observation& row = table.rows[i];
     auto& point = table.points_mm[i];
-    point = back[static_cast<std::size_t>(row.source)](point);
+    point = by[static_cast<std::size_t>(row.source)](point);
     Place& place = table.places[row.first_place];
     const PlacedPoint placed = row.kind == ObservationKind::kScanFlank
                                    ? as_designed(geometry, table, i)
@@ -162,7 +167,6 @@ bool settle_poses(const FlankGeometry& geometry, const PointFit& fit, Observatio
     return 0.0;
   });
   table.is_displaced = false;
-  return true;
 }
 
 void undo_displacement(const FlankGeometry& geometry, Observations& table) {

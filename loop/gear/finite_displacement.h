@@ -16,12 +16,14 @@ double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observat
 [[nodiscard]] double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
                                          const Observations& table);
 
-/// Scans in any pose lie as a fit of all says they do: beside an effect the pose may have been off
-/// by what the effect does. Their points are moved, deviations and places are of the gear as designed
-/// again. Nothing is done, and the answer is false, where no point would come to another height by
-/// more than a share of the face (near a step, or low in a foot, it is another value there).
-[[nodiscard]] bool settle_poses(const FlankGeometry& geometry, const PointFit& fit,
-                                Observations& table);
+/// By what scans in any pose lie otherwise as a fit of all says: beside an effect the pose may have
+/// been off by what the effect does. Empty where no point would come to another height by more than a
+/// share of the face (near a step, or low in a foot, it is another value there).
+[[nodiscard]] std::vector<Pose> poses_beside(const FlankGeometry& geometry, const PointFit& fit,
+                                             const Observations& table);
+
+/// Moves the points of each scan; deviations and places are of the gear as designed again.
+void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Observations& table);
 
 /// Deviations and places of the gear as designed, as make_observations had them: computed again
 /// from the points, which takes no memory beside the table.

@@ -257,12 +257,11 @@ void PartLoop::choose_motions() {
 
 /// True where scans lie otherwise beside the effects than without them.
 bool PartLoop::settle_poses_of_scans() {
-  if (std::none_of(table_->pose_is_free.begin(), table_->pose_is_free.end(),
-                   [](bool free) { return free; }) ||
-      table_->points_mm.empty())
-    return false;
-  const auto fit = fit_of(effects_);
-  if (!settle_poses(geometry_, *fit, table_.own())) return false;
+  const std::vector<bool>& free = table_->pose_is_free;
+  if (effects_.empty() || std::find(free.begin(), free.end(), true) == free.end()) return false;
+  const std::vector<Pose> by = poses_beside(geometry_, *fit_of(effects_), table_);
+  if (by.empty()) return false;
+  move_scans(geometry_, by, table_.own());
   forget_fits();
   divide_into_patches();
   leave_out_across_steps();
