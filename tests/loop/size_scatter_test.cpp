@@ -131,5 +131,19 @@ TEST(SizeScatter, AKnockedToothIsFoundBesideSpansThatRestOnIt) {
   EXPECT_FALSE(tells_of_thickness(result)) << list(result);
 }
 
+// Whichever tooth it is, also one that is held out: there the size alone says something of it.
+TEST(SizeScatter, AnIndexKeepsItsKnockedToothBesideOneSpan) {
+  const MadeGear gear = spur(40);
+  for (int tooth = 2; tooth <= 12; ++tooth) {
+    loop::MeasuredData data;
+    data.inspections.push_back(index_of(gear, std::vector<double>(40, 0.0)));
+    for (loop::InspectionRow& row : data.inspections.back().rows)
+      if (row.tooth == tooth) row.deviation_um += 8.0;
+    data.sizes.push_back(spans_of(gear, {-2.5}));
+    const loop::LoopResult result = closed(gear, data);
+    EXPECT_TRUE(find(result, "single_tooth")) << tooth << ": " << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test
