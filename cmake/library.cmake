@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 # The library of one folder:
-#   trueflank_library(<folder>
+#   trueflank_library(<folder> [GLUE]
 #     DEPENDS <other folders>...       may be included in our headers
 #     PUBLIC_PACKAGES <packages>...    header-only, may be included in our headers
 #     PACKAGES <packages>...           included in .cpp only
@@ -9,9 +9,10 @@
 #     HEADERS <file>...                installed where cmake/public_headers.cmake names them
 #     SOURCES <file>...)
 # Target trueflank_<folder>, alias trueflank::<folder>. A folder without sources is header-only, and
-# its PACKAGES are not looked for.
+# its PACKAGES are not looked for. GLUE: it calls what computes and computes little itself; a release compiles it with -O1,
+# in half the time (docs/decisions/0250).
 function(trueflank_library folder)
-  cmake_parse_arguments(arg "" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;ALONE;HEADERS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "GLUE" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;ALONE;HEADERS;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_library(${folder}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -59,7 +60,11 @@ function(trueflank_library folder)
     return()
   endif()
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:trueflank_options>)
-  target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
+  if(arg_GLUE)
+    trueflank_glue(${target})
+  else()
+    target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
+  endif()
   foreach(package IN LISTS arg_PACKAGES)
     trueflank_find_package(${package} package_targets call)
     target_link_libraries(${target} PRIVATE ${package_targets})
@@ -82,4 +87,10 @@ function(trueflank_library folder)
     target_link_libraries(${target} INTERFACE ${package_targets})
     set_property(GLOBAL APPEND PROPERTY TRUEFLANK_DEPENDENCIES ${call})
   endif()
+endfunction()
+
+# Compiles a target of the release with -O1, and with headers precompiled that way.
+function(trueflank_glue target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_glue)
 endfunction()

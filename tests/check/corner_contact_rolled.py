@@ -61,7 +61,11 @@ def meshing(rng):
 def depth(mesh):
     plus, minus = mesh.conjugate_plays()
     turns = mesh.turns(STEPS)
-    return max(mesh.deepest(side, t) for side in (plus, -minus) for t in turns)
+    deepest = 0.0
+    for side in (plus, -minus):
+        for turned in turns:
+            deepest = mesh.deepest(side, turned, deepest)
+    return deepest
 
 
 def told(numbers, distance):

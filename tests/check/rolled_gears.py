@@ -147,10 +147,11 @@ class Mesh:
         """The play of the flanks alone. Where a corner meets a flank it is less: the largest counts."""
         return self.plays(steps, True).max(axis=1)
 
-    def deepest(self, turned2, turned1):
-        """How deep any point of one gear stands in the other, gear 2 turned by `turned2` out of the middle."""
-        return max(depth_in(self.gear2, self.points_in_2(turned1, turned2)),
-                   depth_in(self.gear1, self.points_in_1(turned1, turned2)))
+    def deepest(self, turned2, turned1, least=0.0):
+        """How deep any point of one gear stands in the other, gear 2 turned by `turned2` out of the middle; no less than
+        `least`."""
+        least = depth_in(self.gear2, self.points_in_2(turned1, turned2), least)
+        return depth_in(self.gear1, self.points_in_1(turned1, turned2), least)
 
     def points_in_2(self, turned1, turned2):
         radius, angle = self.points_of_1()
@@ -173,22 +174,28 @@ class Mesh:
         return np.hypot(x, y), (seen + pitch / 2) % pitch - pitch / 2
 
 
-def depth_in(gear, points):
-    """Deepest of the points in a gear's material: distance to its contour. Points in polar coordinates of a space."""
+def depth_in(gear, points, least=0.0):
+    """Deepest of the points in a gear's material: distance to its contour, or `least` where that is more. Points in polar
+    coordinates of a space. No point is farther from the contour than along the arc at its own radius, so those with
+    shorter arcs than the deepest so far are not measured."""
     radius, angle = points
     low, high = sorted((gear.root, gear.tip))
     space = np.interp(radius, gear.radii, gear.space)
     inside = (radius > low) & (radius < high) & (np.abs(angle) > space)
+    arc = (np.abs(angle) - space) * radius
+    inside &= arc > least
     if not inside.any():
-        return 0.0
-    r, a = radius[inside], np.abs(angle[inside])
+        return least
+    r, a, arc = radius[inside], np.abs(angle[inside]), arc[inside]
     tooth = np.column_stack([gear.radii * np.cos(gear.space), gear.radii * np.sin(gear.space)])
     p = np.column_stack([r * np.cos(a), r * np.sin(a)])
-    order = np.argsort(-(a - space[inside]) * r)[:400]
-    best = 0.0
+    order = np.argsort(-arc)[:400]
+    best = least
     start, step = tooth[:-1], np.diff(tooth, axis=0)
     length2 = (step**2).sum(axis=1)
-    for point in p[order]:
+    for point, longest in zip(p[order], arc[order]):
+        if longest <= best:
+            break
         t = np.clip(((point - start) * step).sum(axis=1) / length2, 0, 1)
         nearest = np.hypot(*(point - start - t[:, None] * step).T).min()
         best = max(best, min(nearest, abs(np.hypot(*point) - gear.tip)))
