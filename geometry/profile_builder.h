@@ -49,6 +49,15 @@ class ProfileBuilder {
   [[nodiscard]] Status ring_ends();
   [[nodiscard]] Status ring_fillet_root();
   [[nodiscard]] Status ring_shaper_root();
+  /// How ring and cutter mesh while the cutter, at its final depth, rolls in the ring without backlash.
+  struct ShaperMesh {
+    double pressure_angle_rad = 0.0, centre_distance_mm = 0.0;  ///< transverse, working
+    double cutter_base_radius_mm = 0.0, cutter_tip_radius_mm = 0.0;
+    double cutter_half_angle_rad = 0.0;  ///< of the cutter's tooth on its base circle
+  };
+  [[nodiscard]] Result<ShaperMesh> shaper_mesh(const ShaperCutter& cutter) const;
+  /// What the rounding of the cutter's tip cuts; a rounding wider than the tooth becomes the full round one.
+  [[nodiscard]] Result<CutterTrochoid> shaper_corner(const ShaperCutter& cutter, const ShaperMesh& mesh);
   [[nodiscard]] Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
 
   ToothProfile p_;

@@ -115,14 +115,7 @@ Status ProfileBuilder::ring_fillet_root() {
   return {};
 }
 
-Status ProfileBuilder::ring_shaper_root() {
-  if (!g().cutter)
-    return fail({.code = ErrorCode::kMissingKey,
-                 .message = "root = \"shaper\" needs a cutter",
-                 .key = "cutter",
-                 .remedy = "a table [<ring>.cutter] with teeth, shift, tip_radius"});
-  const ShaperCutter& cutter = *g().cutter;
-  const double m = transverse_module_mm(g()), m_n = g().normal_module_mm;
+Result<ProfileBuilder::ShaperMesh> ProfileBuilder::shaper_mesh(const ShaperCutter& cutter) const {
   const double alpha_n = g().rack.pressure_angle_rad;
   const double alpha = transverse_pressure_angle_rad(g());
   const int z = g().teeth, z_c = cutter.teeth;
@@ -137,57 +130,76 @@ Status ProfileBuilder::ring_shaper_root() {
     return fail(no_tooth("cutter.shift", cutter.shift,
                          "cutter and ring do not mesh without backlash at any centre distance",
                          "a smaller cutter shift"));
-  const double alpha_w = inverse_involute_rad(inv_w);
-  const double a = 0.5 * m * (z - z_c) * std::cos(alpha) / std::cos(alpha_w);
-  const double cutter_tip = p_.root_radius_mm_ - a;
-  const double r_bc = 0.5 * m * z_c * std::cos(alpha);
-  const double pitch_c = r_bc / std::cos(alpha_w);
-  if (!(cutter_tip > r_bc))
+  const double m = transverse_module_mm(g());
+  ShaperMesh mesh;
+  mesh.pressure_angle_rad = inverse_involute_rad(inv_w);
+  mesh.centre_distance_mm = 0.5 * m * (z - z_c) * std::cos(alpha) / std::cos(mesh.pressure_angle_rad);
+  mesh.cutter_base_radius_mm = 0.5 * m * z_c * std::cos(alpha);
+  mesh.cutter_tip_radius_mm = p_.root_radius_mm_ - mesh.centre_distance_mm;
+  mesh.cutter_half_angle_rad = 0.5 * kPi / z_c + 2.0 * cutter.shift * std::tan(alpha_n) / z_c +
+                               involute_function(alpha) + 0.5 * g().thinning_mm / (0.5 * m * z_c);
+  if (!(mesh.cutter_tip_radius_mm > mesh.cutter_base_radius_mm))
     return fail(no_tooth("cutter.teeth", z_c, "the cutter's tip circle lies inside its base circle",
                          "a cutter with a larger shift or fewer teeth"));
-  const double psi_c = 0.5 * kPi / z_c + 2.0 * cutter.shift * std::tan(alpha_n) / z_c +
-                       involute_function(alpha) + 0.5 * g().thinning_mm / (0.5 * m * z_c);
+  return mesh;
+}
+
+Result<CutterTrochoid> ProfileBuilder::shaper_corner(const ShaperCutter& cutter, const ShaperMesh& mesh) {
+  const double r_bc = mesh.cutter_base_radius_mm, tip = mesh.cutter_tip_radius_mm;
   const auto corner_angle = [&](double rho) {
-    return psi_c - rho / r_bc -
-           involute_function(pressure_angle_at_radius_rad(cutter_tip - rho, r_bc));
+    return mesh.cutter_half_angle_rad - rho / r_bc -
+           involute_function(pressure_angle_at_radius_rad(tip - rho, r_bc));
   };
   if (corner_angle(0.0) < 0.0)
     return fail(no_tooth("cutter.shift", cutter.shift,
                          "the cutter's teeth are pointed before they reach the ring's root circle",
                          "a smaller cutter shift or a smaller dedendum"));
-  double rho = cutter.tip_radius * m_n;
-  const double largest = cutter_tip - r_bc;
+  double rho = cutter.tip_radius * g().normal_module_mm;
+  const double largest = tip - r_bc;
   if (rho > largest || corner_angle(rho) < 0.0) {
     p_.notes_.full_round = true;
     rho = corner_angle(largest) >= 0.0 ? largest
                                        : find_root(corner_angle, 0.0, largest);
   }
-  p_.root_radius_coefficient_ = rho / m_n;
-  const double roll_c = roll_length_mm(cutter_tip - rho, r_bc) + rho;  // at the corner's joint
-  const CutterTrochoid corner{.centre_distance_mm = a,
-                              .cutter_pitch_radius_mm = pitch_c,
-                              .corner_centre_radius_mm = cutter_tip - rho,
-                              .corner_centre_angle_rad = std::max(corner_angle(rho), 0.0),
-                              .corner_radius_mm = rho,
-                              .ratio = static_cast<double>(z_c) / z,
-                              .gap_angle_rad = gap_angle()};
-  const double eta_joint = 0.5 * kPi + psi_c - roll_c / r_bc;
-  p_.root_form_radius_mm_ = radius_at(a * std::sin(alpha_w) + roll_c);
-  const double r_b = base_radius_mm(g());
-  const double first_roll = a * std::sin(alpha_w);  // the cutter's involute starts on its base circle
-  if (roll_length_mm(p_.tip_form_radius_mm_, r_b) < first_roll) {
+  return CutterTrochoid{.centre_distance_mm = mesh.centre_distance_mm,
+                        .cutter_pitch_radius_mm = r_bc / std::cos(mesh.pressure_angle_rad),
+                        .corner_centre_radius_mm = tip - rho,
+                        .corner_centre_angle_rad = std::max(corner_angle(rho), 0.0),
+                        .corner_radius_mm = rho,
+                        .ratio = static_cast<double>(cutter.teeth) / g().teeth,
+                        .gap_angle_rad = gap_angle()};
+}
+
+Status ProfileBuilder::ring_shaper_root() {
+  if (!g().cutter)
+    return fail({.code = ErrorCode::kMissingKey,
+                 .message = "root = \"shaper\" needs a cutter",
+                 .key = "cutter",
+                 .remedy = "a table [<ring>.cutter] with teeth, shift, tip_radius"});
+  const auto mesh = shaper_mesh(*g().cutter);
+  if (!mesh) return fail(mesh.error());
+  const auto corner = shaper_corner(*g().cutter, *mesh);
+  if (!corner) return fail(corner.error());
+  const double rho = corner->corner_radius_mm, r_bc = mesh->cutter_base_radius_mm;
+  p_.root_radius_coefficient_ = rho / g().normal_module_mm;
+  const double roll_c = roll_length_mm(mesh->cutter_tip_radius_mm - rho, r_bc) + rho;  // at the corner's joint
+  const double eta_joint = 0.5 * kPi + mesh->cutter_half_angle_rad - roll_c / r_bc;
+  // the cutter's involute starts on its base circle
+  const double first_roll = mesh->centre_distance_mm * std::sin(mesh->pressure_angle_rad);
+  p_.root_form_radius_mm_ = radius_at(first_roll + roll_c);
+  if (roll_length_mm(p_.tip_form_radius_mm_, base_radius_mm(g())) < first_roll) {
     // Inside this the cutter has no involute flank to generate with.
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
-                         "a cutter with " + std::to_string(z_c) +
+                         "a cutter with " + std::to_string(g().cutter->teeth) +
                          " teeth generates the ring's involute only outside diameter " +
                          trimmed_number(2.0 * radius_at(first_roll)) + " mm",
                          "tip_diameter_mm of at least that, a larger shift, or a cutter with "
                          "more teeth"));
   }
-  if (auto ok = trim_ring_tip(corner, eta_joint); !ok) return ok;
-  add(PieceKind::kFillet, {corner, eta_joint, corner.corner_centre_angle_rad});
+  if (auto ok = trim_ring_tip(*corner, eta_joint); !ok) return ok;
+  add(PieceKind::kFillet, {*corner, eta_joint, corner->corner_centre_angle_rad});
   add_arc(PieceKind::kRoot, p_.root_radius_mm_,
-          gap_angle() - corner.corner_centre_angle_rad * corner.ratio, gap_angle());
+          gap_angle() - corner->corner_centre_angle_rad * corner->ratio, gap_angle());
   return {};
 }
 

@@ -243,78 +243,87 @@ class DeviationBuilder {
   }
 
   void check(const FlankDeviation& field) {
-    if (!field.empty()) {
-      if (const double slope = steepest_slope(field); slope > kSteepestSlope) {
-        errors_.push_back({.code = ErrorCode::kInfeasible,
-                           .message = "the flank would lean by " + trimmed_number(slope) +
-                                      " against the involute or the helix",
-                           .key = "modifications",
-                           .remedy = "smaller amounts or longer reliefs: a lean of at most " +
-                                     trimmed_number(kSteepestSlope)});
-        return;
-      }
-    }
+    if (!field.empty() && leans_too_far(field)) return;
     if (field.empty() && m_.edge_chamfer_mm == 0.0) return;
     const Toothing toothing{.profile = &profile_,
                             .twist = face_,
                             .deviation = field.empty() ? nullptr : &field,
                             .edge_chamfer_mm = m_.edge_chamfer_mm};
-    // the chamfer lowers the tip at the end faces, where the fillet must not be reached
+    if (chamfer_takes_the_flank() || parts_flanks_that_meet(toothing)) return;
+    check_tip_lands(toothing);
+  }
+
+  bool leans_too_far(const FlankDeviation& field) {
+    const double slope = steepest_slope(field);
+    if (!(slope > kSteepestSlope)) return false;
+    errors_.push_back({.code = ErrorCode::kInfeasible,
+                       .message = "the flank would lean by " + trimmed_number(slope) +
+                                  " against the involute or the helix",
+                       .key = "modifications",
+                       .remedy = "smaller amounts or longer reliefs: a lean of at most " +
+                                 trimmed_number(kSteepestSlope)});
+    return true;
+  }
+
+  /// The chamfer lowers the tip at the end faces, where the fillet must not be reached.
+  bool chamfer_takes_the_flank() {
     const double flank_mm = std::abs(profile_.tip_form_radius_mm() - profile_.root_form_radius_mm());
-    if (m_.edge_chamfer_mm >= flank_mm && m_.edge_chamfer_mm > 0.0) {
-      report("edge_chamfer_mm", m_.edge_chamfer_mm,
-             "lowers the tip at the end faces below the flank, which is " + trimmed_number(flank_mm) +
-                 " mm high between its form circles",
-             "less than " + trimmed_number(flank_mm));
-      return;
-    }
-    double least = 1e300, most = -1e300, at = 0.0;
-    constexpr int kHeights = 16;
-    if (const ProfilePiece& last = profile_.pieces().back(); last.kind == PieceKind::kInvolute) {
-      // the flanks of neighbours meet in the gap's middle: what moves them there parts or crosses
-      // them
-      const ToothPlace end{.tooth = 0,
-                           .side = 1,
-                           .piece = profile_.pieces().size() - 1,
-                           .parameter = last.curve.end};
-      for (int i = 0; i <= kHeights; ++i) {
-        const double turn = deviation_turn_rad(toothing, end, face_.face_width_mm * i / kHeights);
-        if (std::abs(turn) * profile_.root_radius_mm() < tolerance::kShortestPiece_mm) continue;
-        const std::string key = deepest_key("root_relief_um");
-        report(key, value_of(key),
-               "moves flanks that meet in the middle of the gap, before the root circle",
-               "none, or a rack.dedendum small enough to leave a root between them");
-        return;
-      }
-    }
+    if (!(m_.edge_chamfer_mm >= flank_mm && m_.edge_chamfer_mm > 0.0)) return false;
+    report("edge_chamfer_mm", m_.edge_chamfer_mm,
+           "lowers the tip at the end faces below the flank, which is " + trimmed_number(flank_mm) +
+               " mm high between its form circles",
+           "less than " + trimmed_number(flank_mm));
+    return true;
+  }
+
+  /// Where the flanks of neighbours meet in the gap's middle, what moves them there parts or crosses them.
+  bool parts_flanks_that_meet(const Toothing& toothing) {
+    const ProfilePiece& last = profile_.pieces().back();
+    if (last.kind != PieceKind::kInvolute) return false;
+    const ToothPlace end{.tooth = 0,
+                         .side = 1,
+                         .piece = profile_.pieces().size() - 1,
+                         .parameter = last.curve.end};
     for (int i = 0; i <= kHeights; ++i) {
-      const double z = face_.face_width_mm * i / kHeights;
-      const double land = tip_land_half_angle_rad(toothing, z);
-      if (land < least) least = land, at = z;
+      const double turn = deviation_turn_rad(toothing, end, height_mm(i));
+      if (std::abs(turn) * profile_.root_radius_mm() < tolerance::kShortestPiece_mm) continue;
+      const std::string key = deepest_key("root_relief_um");
+      report(key, value_of(key),
+             "moves flanks that meet in the middle of the gap, before the root circle",
+             "none, or a rack.dedendum small enough to leave a root between them");
+      return true;
+    }
+    return false;
+  }
+
+  void check_tip_lands(const Toothing& toothing) {
+    double least = 1e300, most = -1e300, at = 0.0;
+    for (int i = 0; i <= kHeights; ++i) {
+      const double land = tip_land_half_angle_rad(toothing, height_mm(i));
+      if (land < least) least = land, at = height_mm(i);
       most = std::max(most, land);
     }
     const double design = tooth_half_angle_rad(
         profile_.gear(), std::max(profile_.tip_radius_mm(), base_radius_mm(profile_.gear())));
     const double r_a = profile_.tip_radius_mm();
-    if (profile_.notes().pointed && most * r_a > tolerance::kShortestPiece_mm) {
-      const std::string key = deepest_key("tip_relief_um");
+    const std::string key = deepest_key("tip_relief_um");
+    if (profile_.notes().pointed && most * r_a > tolerance::kShortestPiece_mm)
       report(key, value_of(key), "adds to flanks that meet in a pointed tip, which would cross",
              "none, or a tip_diameter_mm below " + trimmed_number(2.0 * r_a) +
                  " mm, where the tooth has a land");
-      return;
-    }
-    if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12)) {
+    else if (least > 0.0 || (design <= 0.0 && least >= design - 1e-12))
       check_waist(toothing);
-      return;
-    }
-    const std::string key = deepest_key("tip_relief_um");
-    report(key, value_of(key),
-           "the modifications remove " + trimmed_number(1e3 * r_a * (design - least)) +
-               " um of arc at the tip of a flank (at z = " + trimmed_number(at) +
-               " mm), and half the tip land has " + trimmed_number(1e3 * r_a * std::max(design, 0.0)) +
-               " um",
-           "less, or a tip_diameter_mm with a wider land");
+    else
+      report(key, value_of(key),
+             "the modifications remove " + trimmed_number(1e3 * r_a * (design - least)) +
+                 " um of arc at the tip of a flank (at z = " + trimmed_number(at) +
+                 " mm), and half the tip land has " +
+                 trimmed_number(1e3 * r_a * std::max(design, 0.0)) + " um",
+             "less, or a tip_diameter_mm with a wider land");
   }
+
+  static constexpr int kHeights = 16;  // equal steps over the face width
+  [[nodiscard]] double height_mm(int step) const { return face_.face_width_mm * step / kHeights; }
 
   const ModificationsDesign& m_;
   const ToothProfile& profile_;

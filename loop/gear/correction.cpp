@@ -180,6 +180,35 @@ Result<CorrectableTerms> correctable_terms(const std::string& id, const Json& it
   return found;
 }
 
+/// The family an effect is of; one with formulas of a user's own is kept in `declared`.
+Result<const EffectFamily*> family_of_effect(const std::string& id, const Json& item,
+                                             std::vector<std::shared_ptr<const EffectFamily>>& declared) {
+  if (const EffectFamily* known = find_family(id)) return known;
+  if (!item.contains("form"))
+    return fail({.code = ErrorCode::kUnknownKey,
+                 .message = "an effect nobody knows",
+                 .key = "effects.id",
+                 .value = id});
+  auto own = declared_family_of(item);
+  if (!own) return fail(own.error());
+  declared.push_back(std::make_shared<const EffectFamily>(std::move(*own)));
+  return declared.back().get();
+}
+
+/// An effect with a name, from the flanks, shape and amounts that loop.json says.
+Result<Correction::Part> named_part(const std::string& id, const Json& item, const EffectFamily& family) {
+  Correction::Part part;
+  part.effect.family = &family;
+  const auto flank = flank_of(item);
+  if (!flank) return fail(broken("flank is neither left nor right nor both", "effects." + id));
+  part.effect.flank = *flank;
+  if (!read_parameters(item, family, part.effect.shape, part.coefficients))
+    return fail(broken("an effect without its parameters", "effects." + id));
+  if (!closes_around(family, part.effect.shape))
+    return fail(broken("the order of a wave around the gear is a whole number", "effects." + id));
+  return part;
+}
+
 }  // namespace
 
 Result<std::string> Correction::gear_of(std::string_view loop_json) {
@@ -208,45 +237,25 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                              " only; what does not repeat is not corrected");
       continue;
     }
-    const EffectFamily* family = find_family(id);
-    if (family == nullptr && item.contains("form")) {
-      auto declared = declared_family_of(item);
-      if (!declared) return fail(declared.error());
-      result.declared_.push_back(std::make_shared<const EffectFamily>(std::move(*declared)));
-      family = result.declared_.back().get();
-    }
-    if (family == nullptr)
-      return fail({.code = ErrorCode::kUnknownKey,
-                   .message = "an effect nobody knows",
-                   .key = "effects.id",
-                   .value = id});
-    if (!family->named && !flag_of(item, "correctable", true)) {
+    const auto found = family_of_effect(id, item, result.declared_);
+    if (!found) return fail(found.error());
+    const EffectFamily& family = **found;
+    if (!family.named && !flag_of(item, "correctable", true)) {
       result.left_.push_back(id + ": described only; its cause is not known");
-      continue;
-    }
-    if (!family->named) {
-      auto terms = correctable_terms(id, item, *family);
+    } else if (!family.named) {
+      auto terms = correctable_terms(id, item, family);
       if (!terms) return fail(std::move(terms.error()));
       std::move(terms->parts.begin(), terms->parts.end(), std::back_inserter(result.parts_));
       std::move(terms->left.begin(), terms->left.end(), std::back_inserter(result.left_));
       if (terms->any) result.corrected_.push_back(id);
-      continue;
+    } else if (family.correctable != Correctable::kGeometry) {
+      result.left_.push_back(id + ": " + family.correction);
+    } else {
+      auto part = named_part(id, item, family);
+      if (!part) return fail(std::move(part.error()));
+      result.parts_.push_back(std::move(*part));
+      result.corrected_.push_back(id);
     }
-    if (family->correctable != Correctable::kGeometry) {
-      result.left_.push_back(id + ": " + family->correction);
-      continue;
-    }
-    Part part;
-    part.effect.family = family;
-    const auto flank = flank_of(item);
-    if (!flank) return fail(broken("flank is neither left nor right nor both", "effects." + id));
-    part.effect.flank = *flank;
-    if (!read_parameters(item, *family, part.effect.shape, part.coefficients))
-      return fail(broken("an effect without its parameters", "effects." + id));
-    if (!closes_around(*family, part.effect.shape))
-      return fail(broken("the order of a wave around the gear is a whole number", "effects." + id));
-    result.parts_.push_back(std::move(part));
-    result.corrected_.push_back(id);
   }
   if (result.operations() > kMostOperations)
     return fail({.code = ErrorCode::kOutOfRange,
