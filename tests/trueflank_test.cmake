@@ -15,7 +15,7 @@ endfunction()
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
 # SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
-# tests that share something dear. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
+# tests that share something expensive. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
 # in a release, in two thirds of the time (docs/decisions/0250). COST: the longest start first, so that no processor waits for them at the end; seconds
 # on a quiet one, for SLOW 10 where nothing is said.
 function(trueflank_test name)

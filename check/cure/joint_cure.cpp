@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kMoreForHousing =
-    1.0;  // dearer teeth are tried too: a housing may not take the first
+    1.0;  // more expensive teeth are tried too: a housing may not take the first
 constexpr int kMostSets = 40, kMostPairs = 150;  // tooth counts tried of planetary sets and of pairs
 constexpr int kMostJudged = 6;                // candidates that every check judges
 

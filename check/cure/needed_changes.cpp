@@ -32,7 +32,7 @@ bool no_worse(const Findings& after, const Findings& before) {
   return within(CheckStatus::kFail) && within(CheckStatus::kWarn);
 }
 
-/// The dearest first.
+/// The most expensive first.
 std::vector<TakeOver> keys_of(const GearboxDesign& design) {
   using D = GearboxDesign;
   std::vector<TakeOver> keys{[](D& to, const D& from) { to.planets = from.planets; }};

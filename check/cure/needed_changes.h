@@ -20,7 +20,7 @@ using DesignJudge = std::function<std::optional<Findings>(const GearboxDesign&)>
 
 /// A changed design with every single key as it was, or nearer to what it was, for which the
 /// findings get no worse: nothing else fails or warns. Keys are taken back one after the other, the
-/// dearest first, until none can be. `most_judged`: how often the judge may be asked. Guarantees:
+/// most expensive first, until none can be. `most_judged`: how often the judge may be asked. Guarantees:
 /// taking back one more key that was changed brings a failure or a warning, unless the judge was
 /// asked that often.
 [[nodiscard]] JudgedDesign with_needed_changes(const GearTrain& before, JudgedDesign changed,

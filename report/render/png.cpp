@@ -56,12 +56,12 @@ void filter_row(int filter, const Row& row, const Row& above, Row& out) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     const int left = i < kChannels ? 0 : row[i - kChannels];
     const int corner = i < kChannels ? 0 : above[i - kChannels];
-    const int foretold = filter == 0   ? 0
+    const int predicted = filter == 0   ? 0
                          : filter == 1 ? left
                          : filter == 2 ? above[i]
                          : filter == 3 ? (left + above[i]) / 2
                                        : paeth(left, above[i], corner);
-    out[i] = static_cast<std::uint8_t>(row[i] - foretold);
+    out[i] = static_cast<std::uint8_t>(row[i] - predicted);
   }
 }
 

@@ -330,7 +330,7 @@ class RealGears(unittest.TestCase):
         phase = math.radians(e["parameters"]["phase_deg"]["value"])
         used = gear.evaluated("profile")
         rolls = gear.rolls()[used]
-        measured, foretold = {}, {}
+        measured, predicted = {}, {}
         for flank, side in SIDE.items():
             slopes = numpy.array([slope(rolls, gear.profile[flank, t][used])
                                   for t in range(1, gear.teeth + 1)])
@@ -339,11 +339,11 @@ class RealGears(unittest.TestCase):
             shape = [slope(rolls, amplitude * math.cos(gear.beta_b) * numpy.cos(
                 gear.normal_direction(t, side, rolls, gear.nominal["face_width_mm"] / 2) - phase))
                 for t in range(1, gear.teeth + 1)]
-            foretold[flank] = 2 / gear.teeth * numpy.sum(numpy.array(shape) * numpy.exp(-1j * angle))
-        print("gear B, once-per-turn profile slope, measured:", measured, "foretold:", foretold)
-        self.assertAlmostEqual(abs(foretold["R"]), abs(measured["R"]), delta=0.15)
-        for flank in "LR":  # the amplitude of the left does not agree (0.6 foretold, 0.2 found): more is in it
-            turn = math.degrees(numpy.angle(foretold[flank] / measured[flank]))
+            predicted[flank] = 2 / gear.teeth * numpy.sum(numpy.array(shape) * numpy.exp(-1j * angle))
+        print("gear B, once-per-turn profile slope, measured:", measured, "predicted:", predicted)
+        self.assertAlmostEqual(abs(predicted["R"]), abs(measured["R"]), delta=0.15)
+        for flank in "LR":  # the amplitude of the left does not agree (0.6 predicted, 0.2 found): more is in it
+            turn = math.degrees(numpy.angle(predicted[flank] / measured[flank]))
             self.assertLess(abs(turn), 6.0, flank)
 
     def test_pitch_by_the_standard_is_what_the_sheets_print(self):

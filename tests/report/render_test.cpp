@@ -190,12 +190,12 @@ Image read_png(const std::string& file) {
     for (std::size_t i = 0; i < row; ++i) {
       const int a = i < 3 ? 0 : now[i - 3], b = above[i], c = i < 3 ? 0 : above[i - 3];
       const int p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-      const std::array<int, 5> foretold{0, a, b, (a + b) / 2,
+      const std::array<int, 5> predicted{0, a, b, (a + b) / 2,
                                         pa <= pb && pa <= pc ? a
                                         : pb <= pc           ? b
                                                              : c};
       now[i] = (static_cast<unsigned char>(rows[start + 1 + i]) +
-                foretold[static_cast<std::size_t>(rows[start])]) &
+                predicted[static_cast<std::size_t>(rows[start])]) &
                255;
     }
     for (std::size_t i = 0; i < row; i += 3)
