@@ -14,6 +14,7 @@
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/several_parts.h"
 #include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/gear/table/canonical_order.h"
 
 namespace trueflank::loop {
 namespace {
@@ -228,6 +229,7 @@ ResultAll<GearLoop> close_with_process(const FlankGeometry& geometry, const std:
 
 ResultAll<GearLoop> close_loop(const FlankGeometry& geometry, const std::string& gear_name,
                                MeasuredData data, const LoopOptions& options) {
+  put_files_in_order(data);
   const KnownProcess known = process_of(data, options);
   LoopOptions open = options;
   open.makings = known.makings;

@@ -8,6 +8,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
+#include "trueflank/loop/gear/table/canonical_order.h"
 #include "trueflank/loop/gear/table/outliers.h"
 #include "trueflank/loop/gear/table/size_scatter.h"
 #include "trueflank/loop/gear/table/trace_zeros.h"
@@ -135,6 +136,13 @@ class TableBuilder {
     }
     take_design_off(before);
     bad.tell(table.notes);
+  }
+
+  void put_rows_in_order() {
+    const std::vector<std::size_t> new_place = loop::put_rows_in_order(table);
+    for (SizeInTable& size : sizes_) size.row = new_place[size.row];
+    std::sort(sizes_.begin(), sizes_.end(),
+              [](const SizeInTable& a, const SizeInTable& b) { return a.row < b.row; });
   }
 
   void widen_size_errors() {
@@ -442,6 +450,7 @@ ResultAll<Observations> make_observations(const FlankGeometry& geometry, Measure
   for (const SizeData& sizes : data.sizes) builder.add_sizes(sizes, source++);
   builder.refuse_too_many_single_values();
   if (!builder.errors.empty()) return fail_all(std::move(builder.errors));
+  builder.put_rows_in_order();
   builder.widen_size_errors();
   leave_out_outliers(geometry, builder.table);
   return std::move(builder.table);

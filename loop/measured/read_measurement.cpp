@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "trueflank/export/input_file.h"
 #include "trueflank/export/mesh_reader.h"
@@ -131,7 +132,15 @@ void read_one(const std::string& argument, MeasuredData& data, Errors& errors) {
 ResultAll<MeasuredData> read_measured_files(const std::vector<std::string>& paths) {
   MeasuredData data;
   Errors errors;
-  for (const std::string& path : paths) read_one(path, data, errors);
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  for (const std::string& path : paths) {
+    read_one(path, data, errors);
+    notes.emplace_back(path, std::exchange(data.notes, {}));
+  }
+  // What is said does not depend on the order in which files are named.
+  std::sort(notes.begin(), notes.end());
+  for (auto& [path, of_file] : notes)
+    data.notes.insert(data.notes.end(), of_file.begin(), of_file.end());
   if (!errors.empty()) return fail_all(std::move(errors));
   return data;
 }
