@@ -76,7 +76,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.held_out = fit.held_out();
   result.outliers = loop.table().outliers;
   const RandomError noise =
-      random_error(geometry, loop.table(), loop.patches(), left_um, !loop.structure_is_left());
+      random_error(geometry, loop.table(), loop.patches(), left_um, loop.what_is_left());
   result.noise = noise.um;
   result.notes = loop.table().notes;
   const auto none = loop.plain_fit()->errors({});

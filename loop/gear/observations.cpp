@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_span.h"
 #include "trueflank/loop/gear/local/measured_lands.h"
 #include "trueflank/loop/gear/table/canonical_order.h"
@@ -69,21 +71,38 @@ class TableBuilder {
       pose = *fitted;
     }
     const PoseQuality quality = pose_quality(geometry_, scan, pose);
-    if (!(quality.share > 0.2) || !(quality.median_mm < 0.15 * geometry_.gear().normal_module_mm)) {
+    if (!fits(quality)) {
       errors.push_back({.code = ErrorCode::kInconsistent,
                         .message = "the scan does not fit the gear as designed: " +
                                    number_text(std::round(1000.0 * quality.share) / 10.0) +
                                    " % of its points in the ring of the teeth lie near a flank" +
                                    (options_.aligned ? ", taken as aligned" : ""),
-                        .remedy = options_.aligned
-                                      ? "leave out --aligned, or check the gear and the unit (mm)"
-                                      : "check --gear, the design and the unit (mm)",
+                        .remedy = options_.aligned ? remedy_of_aligned(scan)
+                                                   : "check --gear, the design and the unit (mm)",
                         .file = scan.file});
       return;
     }
     table.poses.push_back(pose);
     table.pose_is_free.push_back(!options_.aligned);
     add_points(scan, pose, source);
+  }
+
+  [[nodiscard]] bool fits(const PoseQuality& quality) const {
+    return quality.share > 0.2 && quality.median_mm < 0.15 * geometry_.gear().normal_module_mm;
+  }
+
+  /// For a scan that does not fit as it stands: how it would have to be moved to fit, if that helps.
+  [[nodiscard]] std::string remedy_of_aligned(const ScanData& scan) const {
+    const auto pose = fit_pose(geometry_, scan);
+    if (!pose || !fits(pose_quality(geometry_, scan, *pose)))
+      return "check --gear, the design and the unit (mm)";
+    const double lean_rad = std::acos(std::clamp(pose->rotation(2, 2), -1.0, 1.0));
+    const Eigen::Vector3d middle(0.0, 0.0, 0.5 * geometry_.face_width_mm());
+    const Eigen::Vector3d stands = pose->rotation.transpose() * (middle - pose->translation_mm) - middle;
+    return printed("leave out --aligned: moved freely it fits, its axis leaning by %.3g degrees and its middle "
+                   "off by %.3g mm across and %.3g mm along the axis; one that leans as far in truth is "
+                   "compared without its lean then",
+                   deg_from_rad(lean_rad), std::hypot(stands.x(), stands.y()), stands.z());
   }
 
   void add_inspection(const InspectionData& data, int source) {

@@ -299,15 +299,16 @@ Pose least_turned(const FlankGeometry& geometry, Pose pose) {
 
 PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan, const Pose& pose) {
   const double reach = 0.3 * geometry.gear().normal_module_mm;
+  const auto [low, high] = std::minmax({std::hypot(geometry.base_radius_mm(), geometry.root_form_roll_mm()),
+                                        std::hypot(geometry.base_radius_mm(), geometry.tip_form_roll_mm())});
   std::vector<double> distances;
   double near = 0.0, all = 0.0;
   for (const auto& p : thinned(scan.points_mm, 5000)) {
     const auto q = pose(p);
     const double radius = std::hypot(q[0], q[1]);
-    // Faces, hub and rim are no teeth: only what lies in the ring of the teeth counts.
-    const double low = std::min(geometry.tip_radius_mm(), geometry.root_radius_mm());
-    const double high = std::max(geometry.tip_radius_mm(), geometry.root_radius_mm());
-    if (radius < low - reach || radius > high + reach) continue;
+    // Faces, hub and rim are no teeth, and lands of tips and roots, which a mesh may hold in many points,
+    // no flanks: only what lies in the ring of the flanks counts.
+    if (radius < low || radius > high) continue;
     all += 1.0;
     const PlacedPoint placed = geometry.nearest_flank(q, 0.03);
     if (placed.place.surface != Surface::kFlank) continue;

@@ -188,11 +188,12 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost) {
 class ScannedFlanks {
  public:
   ScannedFlanks(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                const std::vector<float>& row_um, int source)
+                const std::vector<float>& row_um, int source, const WhatIsLeft& left)
       : geometry_(geometry),
         table_(table),
         row_um_(row_um),
         patches_(patches),
+        left_(left),
         rows_(table.rows.size(), 2 * static_cast<std::size_t>(geometry.teeth()),
               [&, flank_of = flanks_of(geometry, patches, source)](std::size_t i) {
                 const int patch = patches.patch_of_row[i];
@@ -372,8 +373,39 @@ class ScannedFlanks {
     gram.diagonal().array() += 1e-9 * n;
     const Eigen::VectorXd score = right;
     const Eigen::VectorXd plane = symmetric_solution(gram, score);
-    const double left = squares - score.dot(plane);
-    return {std::max(0.0, left) / std::max(1.0, n - kForms), close_by(flank, common, plane)};
+    const Courses own = own_courses(flank, common, plane);
+    const double left = squares - score.dot(plane) - own.square;
+    return {std::max(0.0, left) / std::max(1.0, n - kForms - own.degrees), close_by(flank, common, plane)};
+  }
+
+  /// What the courses of its own take out of a flank beside the plane.
+  struct Courses {
+    double square = 0.0, degrees = 0.0;
+  };
+  [[nodiscard]] Courses own_courses(std::size_t flank, const Common& common,
+                                    const Eigen::VectorXd& plane) const {
+    constexpr double kInAPart = 12.0, kFewestParts = 4.0, kMostParts = 24.0;
+    const double parts = std::min(kMostParts, std::floor(static_cast<double>(rows_.count(flank)) / kInAPart));
+    Courses own;
+    if (parts < kFewestParts) return own;
+    for (const bool face : {false, true}) {
+      if (!(face ? left_.own_leads : left_.own_profiles)) continue;
+      std::vector<double> sum(static_cast<std::size_t>(parts)), count(sum);
+      for_each(flank, [&](double u, double v, double value) {
+        const auto at = static_cast<std::size_t>(std::clamp(0.5 * ((face ? v : u) + 1.0) * parts, 0.0, parts - 1.0));
+        const Forms form = forms_at(u, v);
+        double um = value - common.um[cell_of(u, v)];
+        for (int k = 0; k < kForms; ++k) um -= plane[k] * form[static_cast<std::size_t>(k)];
+        sum[at] += um;
+        count[at] += 1.0;
+      });
+      for (std::size_t at = 0; at < sum.size(); ++at)
+        if (count[at] > 0.0) {
+          own.square += sum[at] * sum[at] / count[at];
+          own.degrees += 1.0;
+        }
+    }
+    return own;
   }
 
   /// Of differences between values that stand in one small part of the flank.
@@ -402,6 +434,7 @@ class ScannedFlanks {
   const Observations& table_;
   const std::vector<float>& row_um_;
   const Patches& patches_;
+  const WhatIsLeft left_;
   RowsByClass rows_;
   std::array<std::vector<std::size_t>, 2> of_side_;
 };
@@ -534,7 +567,7 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
                                                      const Observations& table,
                                                      const Patches& patches,
                                                      const std::vector<float>& row_um,
-                                                     bool nothing_left) {
+                                                     const WhatIsLeft& left) {
   std::map<Class, Gathered> classes;
   // Of each patch, the values it belongs to: nullptr where these are not asked.
   std::vector<Gathered*> class_of(patches.patches.size(), nullptr);
@@ -565,8 +598,8 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     error.square += data.squares;
     const Variance variance =
         key.kind == ObservationKind::kScanFlank
-            ? variance_of_scan({geometry, table, patches, row_um, key.source}, data, nothing_left)
-            : variance_of_readings(key, data, steps, nothing_left);
+            ? variance_of_scan({geometry, table, patches, row_um, key.source, left}, data, left.nothing)
+            : variance_of_readings(key, data, steps, left.nothing);
     error.random_square += data.count * variance.all;
     error.held_out_count += data.held_out;
     error.held_out_random_square += data.held_out * variance.held_out;
@@ -576,10 +609,10 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
 
 RandomError random_error(const FlankGeometry& geometry, const Observations& table,
                          const Patches& patches, const std::vector<float>& row_um,
-                         bool nothing_left) {
+                         const WhatIsLeft& left) {
   KindError all;
   for (const auto& [kind, error] :
-       errors_of_kinds(geometry, table, patches, row_um, nothing_left)) {
+       errors_of_kinds(geometry, table, patches, row_um, left)) {
     all.random_square += error.random_square;
     all.count += error.count;
     all.held_out_random_square += error.held_out_random_square;

@@ -8,6 +8,13 @@
 
 namespace trueflank::loop {
 
+/// What is known of the values beside their random error.
+struct WhatIsLeft {
+  bool nothing = false;  ///< no structure was found: scans and single values are taken as they are
+  /// Flanks of scans have courses of their own, over the profile or over the face.
+  bool own_profiles = false, own_leads = false;
+};
+
 /// Sums over the values of one kind of record [um^2]: residuals, and the random error among them.
 struct KindError {
   double count = 0.0, square = 0.0, random_square = 0.0;
@@ -17,7 +24,7 @@ struct KindError {
 /// As random_error, each kind of record apart.
 [[nodiscard]] std::map<ObservationKind, KindError> errors_of_kinds(
     const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-    const std::vector<float>& row_um, bool nothing_left);
+    const std::vector<float>& row_um, const WhatIsLeft& left);
 
 /// Standard deviations [um] of the random error of all values, and of those on the locked hold-out:
 /// some teeth may be measured worse.
@@ -29,13 +36,12 @@ struct RandomError {
 /// Traces: their spectrum, at every wavelength the median over the teeth and the neighbouring
 /// wavelengths, what the teeth have in common taken off: a line, a form that repeats or one odd
 /// tooth is no noise, an error that hangs together is. Scans: the median flank, less what all flanks
-/// have in common and a low form of its own. In both each tooth counts by how loud its own short
-/// waves are (discovery/loudness.h). One value a tooth: second differences around the gear. Where
-/// `nothing_left`, scans and single values are taken as they are: nothing but noise is in them.
+/// have in common, a low form of its own and the courses of its own that `left` knows of. In both each tooth counts by how loud its own short
+/// waves are (discovery/loudness.h). One value a tooth: second differences around the gear.
 /// `row_um`: residuals of the table's rows.
 /// Accuracy: in blind runs (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true one.
 [[nodiscard]] RandomError random_error(const FlankGeometry& geometry, const Observations& table,
                                        const Patches& patches, const std::vector<float>& row_um,
-                                       bool nothing_left);
+                                       const WhatIsLeft& left);
 
 }  // namespace trueflank::loop

@@ -23,7 +23,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr int kFewestPlaces = 12;
+constexpr int kFewestPlaces = 12, kFewestLines = 8;
 
 bool is_of_trace(ObservationKind kind) {
   return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
@@ -246,7 +246,7 @@ class RemainderSearch {
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
-    if (places < kFewestPlaces || !(courses.high > courses.low)) return;
+    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || !(courses.high > courses.low)) return;
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
@@ -348,7 +348,7 @@ class RemainderSearch {
   /// Waves across the flanks of scans, and flanks that stand each by itself.
   void look_across(const FlankSpectrum& spectrum) {
     if (table_.points_mm.empty()) return;
-    looks_ += 2;
+    looks_ += 3;
     if (const auto& wave = spectrum.waves)
       add_form("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
           {wave->waves_profile, wave->waves_face, double(wave->order)}, wave->p_value,
@@ -359,14 +359,25 @@ class RemainderSearch {
                        "tooth to tooth",
                        apart->spread_um),
                apart->spread_um);
+    if (const auto& forms = spectrum.forms) {
+      const double long_mm = forms->face ? geometry_.face_width_mm()
+                                         : std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
+      add_text(forms->p_value,
+               printed("every flank has a form of its own over the %s, alike all over the %s: waves of "
+                       "about %.3g mm%s, with a standard deviation of %.3g um",
+                       forms->face ? "face" : "profile", forms->face ? "profile" : "face",
+                       long_mm / forms->waves, forms->face ? "" : " (of roll length)", forms->spread_um),
+               forms->spread_um);
+      found_.back().own = forms->face ? OwnCourse::kLead : OwnCourse::kProfile;
+    }
   }
 
   /// Waves over the generating rotation that are no candidates: of one flank, or of higher orders.
   void look_over_rotation() {
     if (std::none_of(patches_.patches.begin(), patches_.patches.end(), [](const auto& patch) {
-          return patch.kind == ObservationKind::kProfile;
+          return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kScanFlank;
         }))
-      return;  // it is traces that are asked
+      return;
     std::vector<bool> used(table_.rows.size());
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
     const RotationWave wave = likeliest_rotation_wave(geometry_, table_, row_um_, used);

@@ -9,6 +9,9 @@
 
 namespace trueflank::loop {
 
+/// Every flank of a scan has a course of its own, alike all along the other direction.
+enum class OwnCourse { kNone, kProfile, kLead };
+
 /// One structure in what a model leaves.
 struct RemainderFinding {
   double p_value = 1.0;  ///< corrected for all places, lengths and orders looked at
@@ -18,6 +21,7 @@ struct RemainderFinding {
   std::optional<Effect>
       effect;  ///< the form as columns; empty: no form that comes back (phases of their own)
   bool local = false;  ///< stands on one tooth
+  OwnCourse own = OwnCourse::kNone;
 };
 
 /// Which values are looked at: what is to be learnt must not come from the hold-out; what stands on

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdint>
 #include <span>
 
 #include "trueflank/base/threads.h"
@@ -13,6 +12,7 @@
 #include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/table/thinned_rows.h"
 
 namespace trueflank::loop {
 namespace {
@@ -92,9 +92,11 @@ class Spectrum {
 
   FlankSpectrum run() {
     if (known_ < 2 * kFewestTeeth) return {};
+    most_profile_ = most_waves(&Value::u, kProfile);
+    most_face_ = most_waves(&Value::v, kFace);
     take_means_off();
     transform();
-    return {largest_wave(), apart()};
+    return {largest_wave(), apart(), forms_apart()};
   }
 
  private:
@@ -114,24 +116,36 @@ class Spectrum {
     for (std::size_t i = 0; i < used.size(); ++i)
       count += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
     if (count == 0) return;
-    // Of many values some, in no rhythm with the lines of the scan.
-    const double share =
-        std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
-    const auto most = static_cast<std::uint64_t>(share * 4294967296.0);
+    const ThinnedRows some(count, kMostValues);
+    share_ = std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
     for (std::size_t i = 0; i < used.size(); ++i) {
-      if (((i * 2654435761ull) & 0xffffffffull) >= most) continue;
-      if (!used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
+      if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
       const Place& place = table.place(table.rows[i]);
       values_.push_back({place.tooth, place.side > 0 ? 1 : 0,
                          0.5 * (geometry.profile_coordinate(place.roll_mm) + 1.0),
                          0.5 * (geometry.face_coordinate(place.z_mm) + 1.0), row_um[i]});
-      Flank& flank = flank_of(values_.back());
-      ++flank.count;
-      flank.mean += row_um[i];
+      ++flank_of(values_.back()).count;
     }
   }
 
+  /// In halves of a wave: where the values of all flanks stand in few lines, as those of a mesh of rows and
+  /// columns do, shorter waves look like longer ones.
+  [[nodiscard]] int most_waves(double Value::*along, int most) const {
+    constexpr std::size_t kPlaces = 128;
+    constexpr double kScattered = 0.7;
+    std::array<bool, kPlaces> known{};
+    for (const Value& value : values_)
+      known[static_cast<std::size_t>(std::clamp(value.*along * kPlaces, 0.0, kPlaces - 1.0))] = true;
+    if (static_cast<double>(std::count(known.begin(), known.end(), true)) > kScattered * kPlaces) return most;
+    int lines = known[0] ? 1 : 0;
+    for (std::size_t i = 1; i < kPlaces; ++i) lines += known[i] && !known[i - 1] ? 1 : 0;
+    return std::min(most, lines - 1);
+  }
+
   void take_means_off() {
+    take_common_courses_off();
+    for (Flank& flank : flanks_) flank.mean = 0.0;
+    for (const Value& value : values_) flank_of(value).mean += value.um;
     for (Flank& flank : flanks_) flank.mean /= std::max(1, flank.count);
     double square = 0.0;
     for (Value& value : values_) {
@@ -141,6 +155,29 @@ class Spectrum {
     // Wild values count no more than a few spreads.
     const double most = 4.0 * std::sqrt(square / static_cast<double>(values_.size()));
     for (Value& value : values_) value.um = std::clamp(value.um, -most, most);
+  }
+
+  /// What the teeth of a side share along one direction, over the profile or over the face, is looked for
+  /// elsewhere: it would show as the waves next to it.
+  void take_common_courses_off() {
+    constexpr std::size_t kParts = 96;
+    constexpr double kValuesAPart = 20.0;
+    for (const auto along : {&Value::u, &Value::v}) {
+      struct Part {
+        double sum = 0.0, count = 0.0;
+      };
+      std::array<std::array<Part, kParts>, 2> parts{};
+      const auto part_of = [&](const Value& value) -> Part& {
+        const auto at = static_cast<std::size_t>(std::clamp(value.*along * kParts, 0.0, kParts - 1.0));
+        return parts[static_cast<std::size_t>(value.side)][at];
+      };
+      for (const Value& value : values_) {
+        part_of(value).sum += value.um;
+        part_of(value).count += 1.0;
+      }
+      for (Value& value : values_)
+        if (const Part& part = part_of(value); part.count >= kValuesAPart) value.um -= part.sum / part.count;
+    }
   }
 
   /// Values in the order of their flanks; `first` of each flank.
@@ -215,13 +252,13 @@ class Spectrum {
     std::array<double, 2> usual{};  // a probe may be noisier on one side
     std::vector<double> power;
     for (std::size_t side = 0; side < 2; ++side)
-      for (int a = 0; a <= kProfile; ++a)
-        for (int b = a == 0 ? 4 : -kFace; b <= kFace; ++b) {
+      for (int a = 0; a <= most_profile_; ++a)
+        for (int b = a == 0 ? 4 : -most_face_; b <= most_face_; ++b) {
           if (a + std::abs(b) < 4) continue;
           of_side[side].push_back(orders_at(a, b, static_cast<int>(side), power));
           usual[side] += of_side[side].back().median;
         }
-    if (!(usual[0] > 0.0 && usual[1] > 0.0)) return {};
+    if (of_side[0].empty() || !(usual[0] > 0.0 && usual[1] > 0.0)) return {};
     double best = 0.0;
     FlankWaves found;
     for (std::size_t i = 0; i < of_side[0].size(); ++i) {
@@ -340,38 +377,118 @@ class Spectrum {
     return {0.5 * (one * (1.0 + x) + two * (1.0 + 4.0 * x)), kToldByWaves * known_};
   }
 
+  /// A sum over the flanks' values, as one of their forms makes it, against what the errors alone make
+  /// of it, told by one and two waves more along one direction.
+  struct Against {
+    double p_value = 1.0, level = 0.0;
+  };
+  [[nodiscard]] Against against(const LevelOfHeights& errors, double usual, double degrees) const {
+    constexpr double kClearly = 1.6;
+    if (!(errors.level > 0.0) || usual < kClearly * errors.level) return {};
+    return {f_tail(usual / errors.level, degrees, errors.degrees), errors.level};
+  }
+  /// Either bound of the errors holds: two tests.
+  [[nodiscard]] Against against_either(double usual, double degrees, double one, double two) const {
+    const Against extended = against(extended_level(one, two), usual, degrees),
+                  most = against(most_level(one, two, values_a_flank()), usual, degrees);
+    const Against& best = most.p_value < extended.p_value ? most : extended;
+    return {2.0 * best.p_value, best.level};
+  }
+  /// Beyond both bounds; so many values stand in a row.
+  [[nodiscard]] Against against_both(double usual, double degrees, double one, double two,
+                                     double values) const {
+    const Against extended = against(extended_level(one, two), usual, degrees),
+                  most = against(most_level(one, two, values), usual, degrees);
+    return most.p_value < extended.p_value ? extended : most;
+  }
+  [[nodiscard]] double usual_at(int a, int b) const { return median(squares_at(a, b)) / std::log(2.0); }
+  [[nodiscard]] double values_a_flank() const {
+    double values = 0.0;
+    for (const Flank& flank : flanks_) values += flank.count;
+    return values / known_;
+  }
+  /// Along one direction. Where the scan runs to and fro along it, in lines, errors of a line hang together
+  /// over all that lines are long; where the values come in no order, they stand anywhere.
+  [[nodiscard]] double values_in_a_row(double Value::*along) const {
+    constexpr double kLine = 3.0;
+    std::vector<const Value*> last(flanks_.size(), nullptr);
+    struct Run {
+      int way = 0, steps = 0;
+    };
+    std::vector<Run> runs(flanks_.size());
+    double all = 0.0, rows = 0.0;  // a jump back to where the next line begins is a run, and no row
+    for (const Value& value : values_) {
+      const auto f = static_cast<std::size_t>(2 * (value.tooth - 1) + value.side);
+      if (last[f] != nullptr && value.*along != last[f]->*along) {
+        const int way = value.*along > last[f]->*along ? 1 : -1;
+        Run& run = runs[f];
+        if (way != run.way) {
+          run = {way, 0};
+          all += 1.0;
+        }
+        rows += ++run.steps == 2 ? 1.0 : 0.0;
+      }
+      last[f] = &value;
+    }
+    const auto values = static_cast<double>(values_.size());
+    const double in_a_row = values < kLine * all ? 0.0 : values / std::max(1.0, rows);
+    return in_a_row < kLine ? values_a_flank() : in_a_row / share_;
+  }
+  [[nodiscard]] double spread_of(const std::vector<double>& squares, double level) const {
+    double sum = 0.0;
+    for (const double square : squares) sum += square;
+    return std::sqrt(std::max(0.0, sum / known_ - level) / values_a_flank());
+  }
+
   /// Heights of the flanks against the longest waves within them, over the face and over the
   /// profile: the direction that allows more.
   std::optional<TeethApart> apart() const {
-    constexpr double kMedianOfSquare = 0.4549, kClearly = 1.6;
+    constexpr double kMedianOfSquare = 0.4549;
     // A median tells less than a mean: of a chi-square with one degree as much as 0.37 of the
     // values.
     constexpr double kToldByMedian = 0.37;
     std::vector<double> squares = squares_at(0, 0);
     const double height = median(squares) / kMedianOfSquare;
-    double values = 0.0, sum = 0.0;
-    for (const Flank& flank : flanks_) values += flank.count;
-    for (const double square : squares) sum += square;
-    TeethApart found;
-    found.p_value = 0.0;
+    TeethApart found{.p_value = 0.0};
     double level = 0.0;
     for (const auto& [a, b] : {std::array{0, 2}, std::array{2, 0}}) {
-      const double one = median(squares_at(a, b)) / std::log(2.0),
-                   two = median(squares_at(2 * a, 2 * b)) / std::log(2.0);
-      double least = 1.0, of_least = 0.0;
-      for (const LevelOfHeights& errors : {extended_level(one, two), most_level(one, two, values / known_)}) {
-        if (!(errors.level > 0.0) || height < kClearly * errors.level) continue;
-        // Either bound holds: two tests.
-        const double p = 2.0 * f_tail(height / errors.level, kToldByMedian * known_, errors.degrees);
-        if (p >= least) continue;
-        least = p;
-        of_least = errors.level;
-      }
-      if (least >= 1.0) return {};
-      found.p_value = std::max(found.p_value, least);
-      level = std::max(level, of_least);
+      const Against errors =
+          against_either(height, kToldByMedian * known_, usual_at(a, b), usual_at(2 * a, 2 * b));
+      if (errors.p_value >= 1.0) return {};
+      found.p_value = std::max(found.p_value, errors.p_value);
+      level = std::max(level, errors.level);
     }
-    found.spread_um = std::sqrt(std::max(0.0, sum / known_ - level)) / std::sqrt(values / known_);
+    found.spread_um = spread_of(squares, level);
+    return found;
+  }
+
+  /// Waves that are constant along one direction, in a phase and height of their own on every flank,
+  /// against those of the same length that are not.
+  std::optional<FormsApart> forms_apart() const {
+    constexpr int kLongest = 2, kAcross = 4;  // halves: one whole wave, two
+    if (std::min(most_profile_, most_face_) < kAcross) return {};
+    const auto shortest = [&](bool face) { return face ? std::min(most_face_, kFace / 2) : most_profile_; };
+    FormsApart found;
+    int looks = 0;
+    double squares = 0.0;
+    for (const bool face : {false, true})
+      for (int n = kLongest; n <= shortest(face); ++n) {
+        ++looks;
+        const auto at = [&](int across) { return face ? usual_at(across, n) : usual_at(n, across); };
+        const double usual = at(0);
+        const Against errors = against_both(usual, kToldByWaves * known_, at(kLongest), at(kAcross),
+                                            values_in_a_row(face ? &Value::u : &Value::v));
+        if (errors.p_value < found.p_value)
+          found = {.p_value = errors.p_value, .face = face, .waves = 0.5 * n};
+      }
+    found.p_value = std::min(1.0, looks * found.p_value);
+    if (found.p_value >= 1.0) return {};
+    // Whole waves make up the form; the sum of a wave's squares is half of a flank's.
+    for (int n = kLongest; n <= shortest(found.face); n += 2) {
+      const auto at = [&](int across) { return found.face ? squares_at(across, n) : squares_at(n, across); };
+      squares += 2.0 * std::pow(spread_of(at(0), median(at(2)) / std::log(2.0)), 2);
+    }
+    found.spread_um = std::sqrt(squares);
     return found;
   }
 
@@ -379,6 +496,8 @@ class Spectrum {
   static constexpr double kToldByWaves = 0.48;
 
   int teeth_, known_ = 0;
+  double share_ = 1.0;  ///< of the scan's values that are asked
+  int most_profile_ = kProfile, most_face_ = kFace;
   std::vector<Flank> flanks_;
   std::vector<Value> values_;
 };

@@ -25,14 +25,25 @@ struct TeethApart {
   double spread_um = 0.0;  ///< standard deviation from flank to flank beyond the noise
 };
 
+/// A course over the profile that every flank of a scan has for itself, constant over the face; or one over
+/// the face, constant over the profile.
+struct FormsApart {
+  double p_value = 1.0;    ///< corrected for all wavelengths and both directions
+  bool face = false;       ///< the direction in which it varies
+  double waves = 0.0;      ///< the clearest, over the involute or over the face
+  double spread_um = 0.0;  ///< standard deviation beyond the noise, of all whole waves
+};
+
 struct FlankSpectrum {
   std::optional<FlankWaves> waves;
   std::optional<TeethApart> apart;
+  std::optional<FormsApart> forms;
 };
 
 /// Fourier sums over every flank of a scan, and over the teeth. A wave is judged by the other orders at its
 /// own wavelengths, so that errors that hang together along the lines of a scan are no finding; the heights
-/// of the flanks by the longest waves within them. `row_um`: residuals of the rows; `used`: which are asked.
+/// of the flanks by the longest waves within them, and courses of their own by waves as long that run askew.
+/// `row_um`: residuals of the rows; `used`: which are asked.
 [[nodiscard]] FlankSpectrum flank_spectrum(const FlankGeometry& geometry, const Observations& table,
                                            const std::vector<float>& row_um,
                                            const std::vector<bool>& used);

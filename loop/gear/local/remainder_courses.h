@@ -39,6 +39,7 @@ struct Courses {
   double low = 1e300, high = -1e300;
   std::size_t samples = 0;
   bool scanned = false;
+  int lines = 0;  ///< of a mesh of rows and columns, whose values stand in so many; 0: anywhere
 
   void add(int side, int course, int tooth, double at, double um) {
     of_flank[side][course].push_back({at, um});
@@ -84,10 +85,13 @@ struct Courses {
     const double first = low + cell * empty_before(counts.begin(), counts.end());
     high -= cell * empty_before(counts.rbegin(), counts.rend());
     low = first;
+    count_lines(counts);
   }
 
   [[nodiscard]] int places(bool scan) const {
-    if (scan) return std::clamp(static_cast<int>(samples / (2 * kScanCourses * 6)), 0, kMostPlaces);
+    if (scan)
+      return std::clamp(static_cast<int>(samples / (2 * kScanCourses * 6)), 0,
+                        lines > 0 ? std::min(lines, kMostPlaces) : kMostPlaces);
     std::vector<std::size_t> counts;
     for (const auto& flank : of_flank)
       for (const auto& [course, list] : flank) counts.push_back(list.size());
@@ -128,6 +132,17 @@ struct Courses {
   }
 
  private:
+  void count_lines(const std::vector<double>& counts) {
+    constexpr double kScattered = 0.5;
+    int known = 0, runs = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (!(counts[i] > 0.0)) continue;
+      ++known;
+      runs += i == 0 || !(counts[i - 1] > 0.0) ? 1 : 0;
+    }
+    lines = known < kScattered * kCells ? runs : 0;
+  }
+
   static bool bridge(const std::vector<double>& sum, const std::vector<double>& count,
                      Eigen::Ref<Eigen::VectorXd> to) {
     const auto n = static_cast<int>(sum.size());

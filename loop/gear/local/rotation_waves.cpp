@@ -12,37 +12,49 @@
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/table/thinned_rows.h"
 
 namespace trueflank::loop {
 namespace {
 
 constexpr int kMostRotationOrder = 1000;
+/// Of a scan's many values so many tell as much as is asked.
+constexpr std::size_t kMostScanned = 30000;
 /// On fewer teeth waves of other orders look the same.
 constexpr double kFewestProfiledTeeth = 8.0, kLeastShareOfTeeth = 0.6;
 
-/// Its values stand at these rotations: that of the tooth, and what the profile adds to it.
+/// Its values stand at these rotations: that of the tooth at a height, and what the profile adds to it.
 struct ProfileTrace {
   int side = 1;
-  double middle_rad = 0.0;
-  std::vector<double> along_rad, um;
+  std::vector<double> middle_rad, along_rad, um;
 };
 
 struct ProfileTraces {
   std::map<int, ProfileTrace> of;  ///< by tooth and side, or by the trace
   std::set<int> teeth;
+  bool scanned = false;  ///< the values of a scanned flank as one trace
 };
 
 ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
                        const std::vector<float>& row_um, const std::vector<bool>& used) {
   ProfileTraces traces;
+  const auto is_of = [&](std::size_t i, ObservationKind kind) { return used[i] && table.rows[i].kind == kind; };
+  std::size_t profiles = 0, scanned = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    profiles += is_of(i, ObservationKind::kProfile) ? 1 : 0;
+    scanned += is_of(i, ObservationKind::kScanFlank) ? 1 : 0;
+  }
+  traces.scanned = profiles == 0;
+  const ObservationKind kind = traces.scanned ? ObservationKind::kScanFlank : ObservationKind::kProfile;
+  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : scanned);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (!is_of(i, kind) || !some.has(i)) continue;
     const Observation& row = table.rows[i];
-    if (!used[i] || row.kind != ObservationKind::kProfile) continue;
     const Place& place = table.place(row);
     const int flank = -2 * place.tooth - (place.side > 0 ? 1 : 0);
     ProfileTrace& trace = traces.of[row.trace >= 0 ? row.trace : flank];
     trace.side = place.side;
-    trace.middle_rad = geometry.centre_rad(place.tooth) + geometry.twist_rad(place.z_mm);
+    trace.middle_rad.push_back(geometry.centre_rad(place.tooth) + geometry.twist_rad(place.z_mm));
     trace.along_rad.push_back(-geometry.sense() * place.side * place.roll_mm /
                               geometry.base_radius_mm());
     trace.um.push_back(row_um[i]);
@@ -63,16 +75,18 @@ void take_slow_part(ProfileTrace& trace) {
   um -= powers * symmetric_solution(powers.transpose() * powers, powers.transpose() * um);
 }
 
-/// First and last order: of one and a half waves on a usual trace, of four values a wave.
+/// First and last order: of one and a half waves on a usual trace, of four values a wave. Those of a scanned
+/// flank stand in two directions.
 std::pair<int, int> orders_of(const ProfileTraces& traces) {
-  constexpr double kFewestWaves = 1.5, kFewestValues = 4.0;
+  constexpr double kFewestWaves = 1.5, kFewestValues = 4.0, kMostWavesScanned = 8.0;
   std::vector<double> first, last;
   for (const auto& [key, trace] : traces.of) {
     const auto [low, high] = std::minmax_element(trace.along_rad.begin(), trace.along_rad.end());
     if (!(*high > *low)) continue;
     const double whole = kTwoPi / (*high - *low);
     first.push_back(kFewestWaves * whole);
-    last.push_back(static_cast<double>(trace.um.size()) / kFewestValues * whole);
+    const auto values = static_cast<double>(trace.um.size());
+    last.push_back((traces.scanned ? std::min(kMostWavesScanned, 0.5 * std::sqrt(values)) : values / kFewestValues) * whole);
   }
   if (first.empty()) return {1, 0};
   return {static_cast<int>(std::ceil(median(first))),
@@ -86,7 +100,7 @@ OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most,
   OrderSums sums(static_cast<std::size_t>(most - least + 1));
   for (const auto& [key, trace] : traces.of)
     for (std::size_t i = 0; trace.side == side && i < trace.um.size(); ++i) {
-      const double rotation = trace.middle_rad + (backwards ? -1.0 : 1.0) * trace.along_rad[i];
+      const double rotation = trace.middle_rad[i] + (backwards ? -1.0 : 1.0) * trace.along_rad[i];
       const std::complex<double> step = std::polar(1.0, rotation);
       std::complex<double> wave = std::polar(1.0, least * rotation) * trace.um[i];
       for (std::complex<double>& sum : sums) {
@@ -146,6 +160,7 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
   }
   RotationWave best;
   for (const bool backwards : {false, true}) {
+    if (backwards && traces.scanned) break;  // scans have no numbers of teeth
     std::map<int, OrderSums> sums;
     for (const auto& [side, count] : values)
       sums[side] = order_sums(traces, side, least, most, backwards);

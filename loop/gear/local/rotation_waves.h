@@ -23,8 +23,8 @@ struct RotationWave {
 /// flanks are cut at another place of the machine's turn, so each may have a phase of its own.
 /// Waves of nearly the same length that march otherwise from tooth to tooth are other orders: each
 /// order is judged by as many of these as the gear has teeth, so waves in a phase of their own on
-/// every tooth, and those that all teeth share, are none. `row_um`: residuals of the table's rows;
-/// `used`: which rows are looked at.
+/// every tooth, and those that all teeth share, are none. Without traces the flanks of scans are asked.
+/// `row_um`: residuals of the table's rows; `used`: which rows are looked at.
 [[nodiscard]] RotationWave likeliest_rotation_wave(const FlankGeometry& geometry,
                                                    const Observations& table,
                                                    const std::vector<float>& row_um,

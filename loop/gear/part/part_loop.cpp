@@ -305,6 +305,15 @@ bool PartLoop::structure_is_left() const {
   return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
 }
 
+WhatIsLeft PartLoop::what_is_left() const {
+  WhatIsLeft left{.nothing = !structure_is_left()};
+  for (const RemainderFinding& finding : remainder_) {
+    left.own_profiles = left.own_profiles || finding.own == OwnCourse::kProfile;
+    left.own_leads = left.own_leads || finding.own == OwnCourse::kLead;
+  }
+  return left;
+}
+
 double PartLoop::structure_left_p_value() const {
   return remainder_.empty() ? discovery_.p_left
                             : std::min(discovery_.p_left, remainder_.front().p_value);

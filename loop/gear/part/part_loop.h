@@ -11,6 +11,7 @@
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/local/neighbour_teeth.h"
 #include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/remainder.h"
 #include "trueflank/loop/gear/table/shared_table.h"
 
@@ -55,6 +56,7 @@ class PartLoop {
   [[nodiscard]] std::vector<std::string> not_observable() const;
   /// True where the test of structure that is left answers yes, how sure, and what it looks like.
   [[nodiscard]] bool structure_is_left() const;
+  [[nodiscard]] WhatIsLeft what_is_left() const;
   [[nodiscard]] double structure_left_p_value() const;
   [[nodiscard]] std::string structure_left() const;
   /// Named effects that values one a tooth (index, runout) show alone; empty: none, or nothing else

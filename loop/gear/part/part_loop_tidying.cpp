@@ -292,8 +292,9 @@ void PartLoop::doubt_names_below_what_is_left() {
   if (effects_.size() == told) return;
   const PointFit fit(geometry_, table_, patches_, effects_);
   const auto after_um = fit.residuals_um();
+  const WhatIsLeft known = what_is_left();
   std::map<ObservationKind, double> left, with;
-  for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *after_um, false)) {
+  for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *after_um, known)) {
     with[kind] = error.square / error.count;
     left[kind] = std::max(0.0, error.square - error.random_square) / error.count;
   }
@@ -309,7 +310,7 @@ void PartLoop::doubt_names_below_what_is_left() {
     // What it takes out beside the others: two that undo each other take out nothing.
     std::map<ObservationKind, double> taken;
     double most = 0.0;
-    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *bare_um, false)) {
+    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *bare_um, known)) {
       taken[kind] = error.square / error.count - with[kind];
       most = std::max(most, taken[kind]);
     }
