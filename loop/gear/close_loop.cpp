@@ -107,10 +107,11 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.verdict = loop.effects().empty() ? Verdict::kNoEffect : Verdict::kExplained;
   if (result.verdict != Verdict::kPartlyExplained && is_more_than_noise(result, noise)) {
     result.verdict = Verdict::kPartlyExplained;
+    const bool held_out = result.held_out > 0;
     result.structure_left = printed(
-        "what is left, %.3g um on held-out data, is more than the measurement's own noise of %.3g "
-        "um",
-        result.after.held_out_rms, noise.held_out_um);
+        "what is left, %.3g um%s, is more than the measurement's own noise of %.3g um",
+        held_out ? result.after.held_out_rms : result.after.rms, held_out ? " on held-out data" : "",
+        held_out ? noise.held_out_um : noise.um);
   }
   return result;
 }

@@ -34,7 +34,8 @@ struct Accuracy {
 /// place.
 /// Guarantees: a wall, tooth, hole or plane face that is missing, added or moved is found. That the mesh is
 /// closed is mesh_validity()'s to say.
-/// Accuracy: 2 % of the largest distance for chords of smooth curves. Cost: linear, about 1 us a facet.
+/// Accuracy: 2 % of the largest distance for chords of smooth curves; of displaced teeth also the share by which
+/// the displacement stretches the place: distances are taken before it. Cost: linear, about 1 us a facet.
 [[nodiscard]] Accuracy measure_accuracy(const TriangleMesh& mesh, const PartShape& shape);
 
 }  // namespace trueflank

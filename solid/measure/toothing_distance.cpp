@@ -12,6 +12,10 @@
 namespace trueflank {
 namespace {
 
+/// Steps back to where a displaced point came from, each as much nearer as the displacement changes from place
+/// to place; until they are as short as this.
+constexpr int kMostSteps = 40;
+constexpr double kShortestStep_mm = 1e-7;
 /// Nodes of the table that gives the share of the flank's turn at a circle of the fillet.
 constexpr int kFilletNodes = 129;
 /// Nearer than this a point lies on the surface, and the direction of its distance is rounding.
@@ -87,9 +91,11 @@ Point3 ToothingDistance::in_gear(const Point3& point) const {
 Point3 ToothingDistance::undisplaced(const Point3& in_gear) const {
   if (toothing_.displacement == nullptr) return in_gear;
   Point3 origin = in_gear;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Point3 before = origin;
     const auto d = (*toothing_.displacement)({origin.x(), origin.y(), origin.z()});
     origin = in_gear - Point3(d.data());
+    if ((origin - before).squaredNorm() <= kShortestStep_mm * kShortestStep_mm) break;
   }
   return origin;
 }

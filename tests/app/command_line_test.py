@@ -337,6 +337,16 @@ class Make(Case):
         result = run("loop", self.design(), "p1=", "--gear", "pinion", "-o", self.folder / "out")
         self.expect_error(result, 3, "p1=: there is no such file")
 
+    def test_where_nothing_is_held_out_what_is_left_is_told_of_all_values(self):
+        (self.folder / "one.csv").write_text("record,tooth,flank,diameter_mm,z_mm,deviation_um\n" +
+                                             "".join(f"helix,1,left,17,4,{k}\n" for k in range(300)))
+        result = run("loop", self.design(), self.folder / "one.csv", "--gear", "pinion", "-o", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        loop = json.loads((self.folder / "out" / "loop.json").read_text())
+        self.assertEqual(loop["data"]["held_out"], 0)
+        told = loop["structure_left"]["description"]
+        self.assertIn("what is left, 86.6 um, is more than the measurement's own noise", told)
+
     def test_a_correction_too_sharp_for_splines_goes_into_meshes_only(self):
         loop = {"format": "trueflank-loop", "version": 1, "gear": "pinion", "effects": [
             {"id": "contour_offset", "flank": "both", "parameters": {"offset_um": {"value": 20}}}]}

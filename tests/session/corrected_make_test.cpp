@@ -128,6 +128,15 @@ TEST_F(CorrectedMake, WritesWhatProcessesRepeat) {
   }
 }
 
+TEST_F(CorrectedMake, AFootThatNarrowsTheGapsByAThirdKeepsAFineTolerance) {
+  // Between two flanks that move towards each other a displacement changes so fast that the way back from the mesh
+  // to the design takes many steps.
+  const auto made = make(effect_json(family("elephant_foot"), 120.0, 0.3), 5.0);
+  ASSERT_TRUE(made) << made.error().front().message;
+  EXPECT_FALSE(made->failed) << made->report.files.front().accuracy_um;
+  EXPECT_LE(made->report.files.front().accuracy_um, 5.0);
+}
+
 TEST_F(CorrectedMake, OfEveryEffectWithEverySizeNothingWrongIsWritten) {
   int made_it = 0, refused = 0;
   for (const loop::EffectFamily& family : loop::effect_library())
@@ -229,8 +238,11 @@ TEST_F(CorrectedMake, WavesThatNoMeshFollowsAreRefusedBeforeTheyAreBegun) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60)) << effects;
     const double would_do_um = std::stod(error.remedy);
     EXPECT_GT(would_do_um, 2.0) << error.remedy;
-    EXPECT_LT(would_do_um, 10.0) << error.remedy;
-    EXPECT_TRUE(make(effects)) << effects;  // no more than its tolerance high
+    EXPECT_LT(would_do_um, 12.0) << error.remedy;  // twice the height of the highest
+    const auto at_named = make(effects, would_do_um);
+    ASSERT_TRUE(at_named) << effects << " " << error.remedy;
+    EXPECT_FALSE(at_named->failed) << effects << " " << error.remedy;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(120)) << effects;
   }
 }
 

@@ -46,8 +46,11 @@ TEST(SolidFault, IsToldOfTetrahedraWithEachFault) {
   EXPECT_EQ(solid_fault(both(both(tetrahedron(3.0), tetrahedron(5.0)), inside_out)),
             SolidFault::kInsideOut)
       << "one of three";
-  TriangleMesh open = tetrahedron(0.0);
-  open.triangles.pop_back();
+  // a facet is missing that takes all the volume seen from the origin, or that takes off from it
+  TriangleMesh flat = tetrahedron(0.0), open = tetrahedron(1.0);
+  flat.triangles.pop_back();
+  EXPECT_EQ(solid_fault(flat), SolidFault::kBroken);
+  open.triangles.erase(open.triangles.begin());
   EXPECT_EQ(solid_fault(open), SolidFault::kBroken);
 }
 
