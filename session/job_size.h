@@ -23,8 +23,7 @@ struct JobSize {
                                const std::string& part, double tolerance_mm,
                                double operations = 0.0);
 
-/// Beyond these a job is a slip more often than a wish, and ends on most machines with nothing. A correction that
-/// takes longer follows waves that no process makes twice.
+/// Beyond these a job is a slip more often than a wish, and ends on most machines with nothing.
 constexpr double kMostFacets = 4e7;
 constexpr double kMostFileBytes = 2e10;
 constexpr double kMostCorrecting_s = 120.0;

@@ -69,9 +69,9 @@ class MeshSampler {
     if (edge[1].first < 8.0 * edge[0].first) return;
     const Point& a = p[edge[1].second];
     const Point& b = p[(edge[1].second + 1) % 3];
-    constexpr int kParts = 12;
-    for (int i = 1; i < kParts; ++i) {
-      const double f = static_cast<double>(i) / kParts;
+    constexpr int kPlacesOfEdge = 12;
+    for (int i = 1; i < kPlacesOfEdge; ++i) {
+      const double f = static_cast<double>(i) / kPlacesOfEdge;
       add({a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2])}, n);
     }
   }

@@ -128,7 +128,7 @@ TEST_F(CorrectedMake, WritesWhatProcessesRepeat) {
   }
 }
 
-TEST_F(CorrectedMake, AFootThatNarrowsTheGapsByAThirdKeepsAFineTolerance) {
+TEST_F(CorrectedMake, AFootOfAnEighthOfTheModuleKeepsAFineTolerance) {
   // Between two flanks that move towards each other a displacement changes so fast that the way back from the mesh
   // to the design takes many steps.
   const auto made = make(effect_json(family("elephant_foot"), 120.0, 0.3), 5.0);
