@@ -68,8 +68,8 @@ TEST(Observations, ATraceMeasuredAgainHasAZeroOfItsOwn) {
   ASSERT_TRUE(table);
   EXPECT_EQ(table->traces, 2);
   ASSERT_EQ(table->rows.size(), 80U);
-  for (std::size_t i = 0; i < 80; ++i)
-    EXPECT_EQ(table->rows[i].trace, static_cast<int>(i / 20 % 2)) << i;
+  for (const loop::Observation& row : table->rows)
+    EXPECT_EQ(row.trace, row.deviation_um < 20.0 ? 0 : 1) << row.deviation_um;
 }
 
 TEST(Observations, ValuesInNoOrderAreOneTrace) {
