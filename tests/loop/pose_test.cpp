@@ -90,26 +90,6 @@ TEST(Pose, AScanThatDoesNotFitAsAlignedSaysHowItWould) {
       << result.error().front().remedy;
 }
 
-TEST(Pose, AThinGearThatLeansByDegreesAsAlignedIsNotNarrowerOneWay) {
-  MadeGear made = spur(60);
-  made.face_mm = 6.0;
-  ScanOptions options;
-  options.points = 6000;
-  options.noise_um = 2.0;
-  loop::MeasuredData data;
-  data.scans.push_back(scan_of(made, {}, options));
-  const double lean = 1.3 * M_PI / 180.0;
-  for (auto& p : data.scans[0].points_mm) {
-    const double z = p[2] - 3.0;
-    p = {p[0], p[1] * std::cos(lean) - z * std::sin(lean), 3.0 + p[1] * std::sin(lean) + z * std::cos(lean)};
-  }
-  const auto result = loop::close_loop(geometry_of(made), "gear", data, {.aligned = true});
-  ASSERT_TRUE(result);
-  ASSERT_EQ(result->result.effects.size(), 1u) << list(result->result);
-  EXPECT_EQ(result->result.effects[0].id, "axis_tilt");
-  EXPECT_NEAR(parameter(result->result.effects[0], "slope_um_per_mm").value, 1000.0 * std::tan(lean), 0.1);
-}
-
 TEST(Pose, NeedsEnoughPoints) {
   loop::ScanData scan;
   scan.points_mm = {{1, 2, 3}, {2, 3, 4}};

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -46,13 +44,9 @@ EffectFamily axis_tilt() {
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
   f.displacement_mm = [](const FlankGeometry& g, const Point3& p, const EffectShape& shape,
                          const double* b) -> Point3 {
-    const double z = p[2] - 0.5 * g.face_width_mm(), slope = 1e-3 * std::hypot(b[0], b[1]);
-    if (!leans_as_a_body(shape) || slope == 0.0) return {1e-3 * z * b[0], 1e-3 * z * b[1], 0.0};
-    // Turned, not sheared: a large gear is else told to be narrower one way.
-    const double to_x = 1e-3 * b[0] / slope, to_y = 1e-3 * b[1] / slope, along = to_x * p[0] + to_y * p[1];
-    const double shorter = 1.0 / std::hypot(1.0, slope) - 1.0, turned = slope * (shorter + 1.0);
-    const double aside = shorter * along + turned * z;
-    return {aside * to_x, aside * to_y, shorter * z - turned * along};
+    const double z = 1e-3 * (p[2] - 0.5 * g.face_width_mm());
+    const double down = leans_as_a_body(shape) ? 1e-3 * (b[0] * p[0] + b[1] * p[1]) : 0.0;
+    return {z * b[0], z * b[1], -down};
   };
   f.other_motions = [](const FlankGeometry& g, const EffectShape& shape) {
     return g.gear().helix_angle_rad != 0.0

@@ -46,7 +46,7 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
   }
   traces.scanned = profiles == 0;
   const ObservationKind kind = traces.scanned ? ObservationKind::kScanFlank : ObservationKind::kProfile;
-  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : scanned);
+  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : std::max<std::size_t>(1, scanned));
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (!is_of(i, kind) || !some.has(i)) continue;
     const Observation& row = table.rows[i];
