@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -28,7 +27,7 @@ using Vector2 = Eigen::Matrix<double, kOfSector, 1>;
 class SectorSearch {
  public:
   SectorSearch(const FlankGeometry& geometry, const std::vector<ToothMoments>& of_teeth)
-      : geometry_(geometry), of_teeth_(of_teeth) {
+      : geometry_(geometry) {
     for (int tooth = 1; tooth <= geometry.teeth(); ++tooth)
       if (of_teeth[ToothMoments::at(0, tooth)].square[0] > 0.0 &&
           of_teeth[ToothMoments::at(1, tooth)].square[0] > 0.0)
@@ -105,8 +104,7 @@ class SectorSearch {
     const double p = asked * f_tail(best.square / kOfSector / (left / degrees),
                                     static_cast<double>(kOfSector), degrees);
     const double noise = left / degrees;
-    if (p > kSure || largest_of_simpler() > best.square - kClearly * noise || is_more_left(best) ||
-        bends_flanks(best))
+    if (p > kSure || largest_of_simpler() > best.square - kClearly * noise || is_more_left(best))
       return {};
     // The rest standing aside is the same but for the whole gear's place: what moves that less is told.
     Vector2 gear_aside = whole_um_.tail(kOfSector);
@@ -150,32 +148,6 @@ class SectorSearch {
     return largest;
   }
 
-  /// True where the sector's flanks lean or bend otherwise than the others, nearly as far as they stand
-  /// off: teeth that are burned or knocked stand aside with a form.
-  [[nodiscard]] bool bends_flanks(const Best& best) const {
-    constexpr double kOfHeight = 0.5, kSurely = 0.01;
-    const auto in_sector = [&](Index i) { return (i / 2 - best.first + n_) % n_ < best.count; };
-    double height = 0.0;
-    for_rows_of(best, [&](Index i) { height += std::pow(aside_.row(i) * best.aside, 2); });
-    const auto inside = static_cast<double>(2 * best.count), outside = static_cast<double>(2 * n_) - inside;
-    for (std::size_t form = 1; form < ToothMoments::kForms; ++form) {
-      Eigen::VectorXd value(2 * n_);
-      std::array<double, 2> mean{};
-      for (Index i = 0; i < 2 * n_; ++i) {
-        const ToothMoments& own = of_teeth_[ToothMoments::at(static_cast<int>(i % 2), tooth_of(i / 2))];
-        if (!(own.square[form] > 0.0)) return false;
-        value[i] = own.sum[form] / own.square[form];
-        if (!in_sector(i)) mean[static_cast<std::size_t>(i % 2)] += 2.0 * value[i] / outside;
-      }
-      double in = 0.0, out = 0.0;
-      for (Index i = 0; i < 2 * n_; ++i)
-        (in_sector(i) ? in : out) += std::pow(value[i] - mean[static_cast<std::size_t>(i % 2)], 2);
-      const double usual = out / (outside - 2.0);
-      if (in > kOfHeight * kOfHeight * height && f_tail(in / inside / usual, inside, outside - 2.0) < kSurely) return true;
-    }
-    return false;
-  }
-
   /// True where the ring of teeth has structure beside the sector.
   [[nodiscard]] bool is_more_left(const Best& best) const {
     constexpr double kNone = 0.02;
@@ -197,7 +169,6 @@ class SectorSearch {
   static constexpr double kClearly = 9.0;
 
   const FlankGeometry& geometry_;
-  const std::vector<ToothMoments>& of_teeth_;
   std::vector<int> teeth_;
   Index n_ = 0;
   Eigen::VectorXd height_um_, whole_um_;  ///< beside the whole gear, and that

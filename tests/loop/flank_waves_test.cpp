@@ -65,6 +65,82 @@ TEST(FlankWaves, FlanksThatStandEachByItselfAreNoNoise) {
   EXPECT_LT(result.noise, 4.5);
 }
 
+/// Stripes over the whole part, as lines of an infill press through its walls: um along the normal.
+auto stripes(double um, double length_mm) {
+  return [=](const MadeGear&, const FlankSpot&, const Vec3& p) {
+    return um * std::cos(kTurn * (0.8 * p[0] + 0.6 * p[1]) / length_mm);
+  };
+}
+
+TEST(FlankWaves, ProfilesThatEveryFlankHasForItselfAreNoNoise) {
+  const MadeGear gear = spur(29);
+  for (const unsigned seed : {11u, 12u}) {
+    const auto result = close(gear, scan_of(gear, {grown(stripes(9.0, 1.9))}, scan_with(3.0, seed)), true);
+    EXPECT_EQ(result.verdict, loop::Verdict::kPartlyExplained) << list(result);
+    EXPECT_NE(result.structure_left.find("every flank has a form of its own over the profile"),
+              std::string::npos)
+        << result.structure_left;
+    EXPECT_NEAR(result.noise, 3.0, 0.6);
+    for (const auto& effect : result.effects) EXPECT_FALSE(effect.named) << list(result);
+  }
+}
+
+TEST(FlankWaves, AMachinesOrderAboveTheCandidatesIsNamedInAScan) {
+  const MadeGear gear = spur(29);
+  const auto ghost = [&](auto&, const FlankSpot& s, const Vec3& p) {
+    const double unwound = roll_of_radius(gear, std::hypot(p[0], p[1])) / gear.base();
+    // Either flank is cut at another place of the machine's turn.
+    return 6.0 * std::cos(95.0 * (kTurn * (s.tooth - 1) / 29.0 + s.side * (0.05 - unwound)));
+  };
+  const auto result = close(gear, scan_of(gear, {grown(ghost)}, scan_with(2.5, 13)), true);
+  ASSERT_FALSE(result.effects.empty());
+  for (const auto& effect : result.effects) {
+    EXPECT_EQ(effect.id, "ghost_order") << list(result);
+    EXPECT_EQ(parameter(effect, "order").value, 95.0);
+  }
+  EXPECT_LT(result.after.held_out_rms, 1.15 * 2.5);
+}
+
+/// The values of a mesh of rows over the face, as they stand in a scan.
+loop::ScanData rows_of(const MadeGear& gear, const Process& process, int rows, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, 2.0);
+  loop::ScanData scan;
+  for (int tooth = 1; tooth <= gear.teeth; ++tooth)
+    for (const int side : {1, -1})
+      for (int i = 0; i < rows; ++i)
+        for (int k = 0; k < 10; ++k) {
+          const FlankSpot spot{tooth, side, -0.95 + 0.2 * k, -0.99 + 1.98 * i / (rows - 1.0)};
+          scan.points_mm.push_back(made_point(gear, spot, {process, grown([&](auto&, auto&, auto&) { return noise(random); })}));
+        }
+  return scan;
+}
+
+TEST(FlankWaves, ARidgeOnAMeshOfRowsIsOneRidgeAndNoShortWave) {
+  const MadeGear gear = spur(29);
+  const auto ridge = grown([](auto&, const FlankSpot& s, auto&) {
+    return 14.0 * std::exp(-std::pow((s.v + 0.2) / 0.12, 2));
+  });
+  const auto result = close(gear, rows_of(gear, ridge, 25, 21), true);
+  ASSERT_EQ(result.effects.size(), 1u) << list(result);
+  ASSERT_EQ(result.effects[0].terms.size(), 1u) << list(result);
+  EXPECT_NE(result.effects[0].description.find("a groove or ridge over the face"), std::string::npos);
+  EXPECT_NEAR(std::stod(result.effects[0].description.substr(result.effects[0].description.find("height of ") + 10)),
+              4.0, 0.1);
+  EXPECT_NEAR(result.noise, 2.0, 0.15);
+}
+
+TEST(FlankWaves, ASlowFormOnAMeshOfRowsIsNoShortWave) {
+  const MadeGear gear = spur(29);
+  const auto bent = grown([](auto&, const FlankSpot& s, auto&) {
+    return 9.0 * s.v * std::cos(3.0 * kTurn * (s.tooth - 1) / 29.0);
+  });
+  const auto result = close(gear, rows_of(gear, bent, 17, 22), true);
+  ASSERT_FALSE(result.effects.empty());
+  for (const auto& effect : result.effects)
+    EXPECT_EQ(effect.description.find("waves across the flanks"), std::string::npos) << list(result);
+}
+
 TEST(FlankWaves, AHollowOfTwentyTimesTheNoiseIsWearAndNoSumOfForms) {
   const MadeGear gear = spur(29);
   const auto hollow = [](auto&, const FlankSpot& s, auto&) {

@@ -62,6 +62,34 @@ TEST(Pose, OfAnotherGearIsRefused) {
   EXPECT_NE(result.error().front().message.find("does not fit"), std::string::npos);
 }
 
+TEST(Pose, LandsOfTipsInManyPointsSpeakAgainstNoScan) {
+  const MadeGear made = spur(24);
+  ScanOptions options;
+  options.points = 3000;
+  auto scan = scan_of(made, {}, options);
+  for (int i = 0; i < 40000; ++i) {
+    const double angle = 2.0 * M_PI * i / 40000.0, radius = made.tip_mm + 0.01;
+    scan.points_mm.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.002 * (i % 5000)});
+  }
+  EXPECT_GT(loop::pose_quality(geometry_of(made), scan, {}).share, 0.9);
+}
+
+TEST(Pose, AScanThatDoesNotFitAsAlignedSaysHowItWould) {
+  const MadeGear made = spur(60);
+  ScanOptions options;
+  options.points = 6000;
+  options.noise_um = 1.0;
+  loop::MeasuredData data;
+  data.scans.push_back(scan_of(made, {}, options));
+  const double lean = 20.0 * M_PI / 180.0;
+  for (auto& p : data.scans[0].points_mm)
+    p = {p[0], p[1] * std::cos(lean) - p[2] * std::sin(lean), p[1] * std::sin(lean) + p[2] * std::cos(lean)};
+  const auto result = loop::close_loop(geometry_of(made), "gear", data, {.aligned = true});
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().front().remedy.find("its axis leaning by 20 degrees"), std::string::npos)
+      << result.error().front().remedy;
+}
+
 TEST(Pose, NeedsEnoughPoints) {
   loop::ScanData scan;
   scan.points_mm = {{1, 2, 3}, {2, 3, 4}};

@@ -46,7 +46,7 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
   }
   traces.scanned = profiles == 0;
   const ObservationKind kind = traces.scanned ? ObservationKind::kScanFlank : ObservationKind::kProfile;
-  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : scanned);
+  const ThinnedRows some(scanned, traces.scanned ? kMostScanned : std::max<std::size_t>(1, scanned));
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (!is_of(i, kind) || !some.has(i)) continue;
     const Observation& row = table.rows[i];
@@ -78,7 +78,7 @@ void take_slow_part(ProfileTrace& trace) {
 /// First and last order: of one and a half waves on a usual trace, of four values a wave. Those of a scanned
 /// flank stand in two directions.
 std::pair<int, int> orders_of(const ProfileTraces& traces) {
-  constexpr double kFewestWaves = 1.5, kFewestValues = 4.0, kMostWavesScanned = 8.0;
+  constexpr double kFewestWaves = 1.5, kFewestValues = 4.0, kMostWavesScanned = 8.0, kOfRow = 0.7;
   std::vector<double> first, last;
   for (const auto& [key, trace] : traces.of) {
     const auto [low, high] = std::minmax_element(trace.along_rad.begin(), trace.along_rad.end());
@@ -86,7 +86,7 @@ std::pair<int, int> orders_of(const ProfileTraces& traces) {
     const double whole = kTwoPi / (*high - *low);
     first.push_back(kFewestWaves * whole);
     const auto values = static_cast<double>(trace.um.size());
-    last.push_back((traces.scanned ? std::min(kMostWavesScanned, 0.5 * std::sqrt(values)) : values / kFewestValues) * whole);
+    last.push_back((traces.scanned ? std::min(kMostWavesScanned, kOfRow * std::sqrt(values)) : values / kFewestValues) * whole);
   }
   if (first.empty()) return {1, 0};
   return {static_cast<int>(std::ceil(median(first))),
@@ -139,6 +139,19 @@ RotationWave likeliest(const OrderSums& sums, int least, int teeth) {
   return best;
 }
 
+/// True where no other order of as many as the gear has teeth is nearly as strong. Stripes in space, which
+/// a scan can hold, are made of many.
+bool stands_alone(const OrderSums& sums, int least, int order, int teeth) {
+  constexpr double kClearly = 2.5;
+  const double own = std::norm(sums[static_cast<std::size_t>(order - least)]);
+  const int most = least + static_cast<int>(sums.size()) - 1;
+  for (int other = std::max(least, order - teeth / 2); other <= std::min(most, order + teeth / 2); ++other)
+    if (other != order && other % teeth != 0 &&
+        own < kClearly * std::norm(sums[static_cast<std::size_t>(other - least)]))
+      return false;
+  return true;
+}
+
 /// Orders, flanks and ways of counting.
 double looks_at(int least, int most) { return 4.0 * (most - least + 1); }
 
@@ -167,6 +180,7 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
     for (const auto& [side, of_side] : sums) {
       RotationWave wave = likeliest(of_side, least, geometry.teeth());
       if (!(wave.p_value < best.p_value)) continue;
+      if (traces.scanned && !stands_alone(of_side, least, wave.order, geometry.teeth())) continue;
       const auto at = static_cast<std::size_t>(wave.order - least);
       wave.side = side;
       wave.backwards = backwards;

@@ -53,10 +53,9 @@ Eigen::VectorXd crossed_part(const FlankField& field) {
   return crossed;
 }
 
-/// True for what bends or leans the flanks of every tooth alike, and does not only lift them: a foot of the
-/// highest that there are lifts by six tenths.
+/// True for what bends or leans the flanks of every tooth alike, and does not only lift them.
 bool shapes_every_tooth(const FlankField& field) {
-  constexpr double kMostly = 0.75, kAlike = 1e-6;
+  constexpr double kMostly = 0.5, kAlike = 1e-6;
   const Eigen::VectorXd mean = field.rowwise().mean();
   if ((field.colwise() - mean).squaredNorm() > kAlike * field.squaredNorm()) return false;
   double lifts = 0.0;
