@@ -102,24 +102,71 @@ struct Agreement {
   int degrees = 0;     ///< and with how many numbers
 };
 
-void add_whole(Agreement& sum, const GroupMatrix& gram, const GroupVector& score,
-               double information) {
-  if (gram.rows() == 1) {  // its own direction
-    if (!(gram(0, 0) > kNone * information)) return;
-    sum.gram += gram;
-    sum.score += score;
-    sum.total += score[0] * score[0] / gram(0, 0);
+/// Eigenvalues of a symmetric matrix of two rows, and the direction (cosine and sine) of the first.
+struct TwoDirections {
+  double first = 0.0, second = 0.0, cosine = 1.0, sine = 0.0;
+};
+
+TwoDirections two_directions(double a, double mixed, double b) {
+  const double half = 0.5 * (a - b), middle = 0.5 * (a + b), off = std::sqrt(half * half + mixed * mixed);
+  if (!(off > 0.0)) return {middle, middle};
+  // of the two forms of the direction the one without cancellation
+  const double along = half > 0.0 ? half + off : mixed, across = half > 0.0 ? mixed : off - half;
+  const double length = std::sqrt(along * along + across * across), larger = middle + off;
+  return {larger, (a * b - mixed * mixed) / larger, along / length, across / length};
+}
+
+/// What a whole says along one direction of a group with two columns.
+void add_direction(Agreement& sum, double value, double cosine, double sine, const double* score) {
+  const double along = cosine * score[0] + sine * score[1];
+  sum.gram(0, 0) += value * cosine * cosine;
+  sum.gram(1, 1) += value * sine * sine;
+  sum.gram(1, 0) += value * cosine * sine;
+  sum.gram(0, 1) = sum.gram(1, 0);
+  sum.score[0] += along * cosine;
+  sum.score[1] += along * sine;
+  sum.total += along * along / value;
+  ++sum.degrees;
+}
+
+/// The part of a group's Gram matrix in a whole that stands in a panel's products.
+GroupMatrix gram_of(const std::vector<PanelRow>& products, int at, int columns) {
+  GroupMatrix gram(columns, columns);
+  for (int k = 0; k < columns; ++k)
+    for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
+  return gram;
+}
+
+/// Takes in what a whole says of a group whose columns stand in a panel from `at` on: directions with
+/// more than `least`. Nearly all groups have one column or two, for which it is written out.
+void add_whole(Agreement& sum, const std::vector<PanelRow>& products, const double* score, int at,
+               double least) {
+  const auto columns = static_cast<int>(sum.score.size());
+  if (columns == 1) {
+    const double gram = products[0][at];
+    if (!(gram > least)) return;
+    sum.gram(0, 0) += gram;
+    sum.score[0] += score[0];
+    sum.total += score[0] * score[0] / gram;
     ++sum.degrees;
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram};
-  for (Eigen::Index k = 0; k < gram.rows(); ++k) {
-    if (!(own.eigenvalues()[k] > kNone * information)) continue;
+  if (columns == 2) {
+    const TwoDirections own = two_directions(products[0][at], products[1][at], products[0][at + 1]);
+    if (own.first > least) add_direction(sum, own.first, own.cosine, own.sine, score);
+    if (own.second > least) add_direction(sum, own.second, -own.sine, own.cosine, score);
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram_of(products, at, columns)};
+  const Eigen::Map<const Eigen::VectorXd> scores(score, columns);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const double value = own.eigenvalues()[k];
+    if (!(value > least)) continue;
     const GroupVector direction = own.eigenvectors().col(k);
-    const double along = direction.dot(score);
-    sum.gram += own.eigenvalues()[k] * direction * direction.transpose();
+    const double along = direction.dot(scores);
+    sum.gram += value * direction * direction.transpose();
     sum.score += along * direction;
-    sum.total += along * along / own.eigenvalues()[k];
+    sum.total += along * along / value;
     ++sum.degrees;
   }
 }
@@ -185,15 +232,16 @@ class PanelOfWhole {
                   products[d].begin());
     }
     scores = {};
-    for (const int unit : whole.sums.units)
-      for (std::size_t c = 0; c < columns; ++c)
-        scores[c] +=
-            asked_.model.unit_scores(panel_.first_column + static_cast<Eigen::Index>(c), unit);
+    for (const int unit : whole.sums.units) {
+      const double* const of_unit = asked_.model.unit_scores.col(unit).data() + panel_.first_column;
+      for (std::size_t c = 0; c < columns; ++c) scores[c] += of_unit[c];
+    }
     for (std::size_t k = 0; k < absorbed_.size(); ++k) {
-      PanelRow cross{};
-      for (const int unit : whole.sums.units) {
+      PanelRow cross = asked_.statistics.unit_candidates(asked_.model.columns[k], number_,
+                                                         whole.sums.units.front());
+      for (std::size_t i = 1; i < whole.sums.units.size(); ++i) {
         const PanelRow& of_unit =
-            asked_.statistics.unit_candidates(asked_.model.columns[k], number_, unit);
+            asked_.statistics.unit_candidates(asked_.model.columns[k], number_, whole.sums.units[i]);
         for (std::size_t j = 0; j < kPanelColumns; ++j) cross[j] += of_unit[j];
       }
       subtract_products(products, cross, absorbed_[k]);
@@ -215,19 +263,15 @@ class PanelOfWhole {
   Panel absorbed_;
 };
 
-/// The part of a group's Gram matrix in a whole that stands in a panel's products.
-GroupMatrix gram_of(const std::vector<PanelRow>& products, int at, int columns) {
-  GroupMatrix gram(columns, columns);
-  for (int k = 0; k < columns; ++k)
-    for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
-  return gram;
-}
-
 /// Numbers that a whole says of a group at least.
-int degrees_of(const GroupMatrix& gram, double information) {
-  if (gram.rows() == 1) return gram(0, 0) > information ? 1 : 0;
-  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram, Eigen::EigenvaluesOnly};
-  return static_cast<int>((own.eigenvalues().array() > information).count());
+int degrees_of(const std::vector<PanelRow>& products, int at, int columns, double least) {
+  if (columns == 1) return products[0][at] > least ? 1 : 0;
+  if (columns == 2) {
+    const TwoDirections own = two_directions(products[0][at], products[1][at], products[0][at + 1]);
+    return (own.first > least ? 1 : 0) + (own.second > least ? 1 : 0);
+  }
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram_of(products, at, columns), Eigen::EigenvaluesOnly};
+  return static_cast<int>((own.eigenvalues().array() > least).count());
 }
 
 /// Marks the groups of a panel that surely live in too many wholes. Some values of a whole bound from below
@@ -260,7 +304,7 @@ void mark_too_many(const std::vector<FittedWhole>& wholes, const Asked& asked, s
     std::erase_if(open, [&](int g) {
       const int own = groups[g].columns;
       int& sure = degrees[static_cast<std::size_t>(g - panel.first_group)];
-      sure += degrees_of(gram_of(products, groups[g].first_column - panel.first_column, own),
+      sure += degrees_of(products, groups[g].first_column - panel.first_column, own,
                          kSurely * kNone * asked.projected[g].trace() / static_cast<double>(wholes.size()));
       if (sure <= static_cast<int>(kMostTried) * own) return false;
       sums[g].degrees = sure;
@@ -292,11 +336,9 @@ void add_wholes(const std::vector<FittedWhole>& wholes, const Asked& asked, std:
     for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
       if (!is_open(g)) continue;
       any = true;
-      const int own = groups[g].columns, at = groups[g].first_column - panel.first_column;
-      GroupVector score(own);
-      for (int k = 0; k < own; ++k) score[k] = beside.scores[at + k];
-      add_whole(sums[g], gram_of(beside.products, at, own), score,
-                asked.projected[g].trace() / static_cast<double>(wholes.size()));
+      const int at = groups[g].first_column - panel.first_column;
+      add_whole(sums[g], beside.products, beside.scores.data() + at, at,
+                kNone * asked.projected[g].trace() / static_cast<double>(wholes.size()));
     }
     if (!any) return;
   }

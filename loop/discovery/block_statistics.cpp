@@ -39,31 +39,65 @@ BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
     scatter_within_ = loop::scatter_within(problem_, *this);
 }
 
+namespace {
+
+/// Takes the weighted mean of rows of single precision out of each; `sums` and `means` are room for one.
+void centre_rows(const std::vector<float*>& rows, const std::vector<double>& weights, double weight,
+                 std::vector<double>& sums, std::vector<float>& means) {
+  double* const sum = sums.data();
+  float* const mean = means.data();
+  const std::size_t columns = sums.size();
+  std::fill(sums.begin(), sums.end(), 0.0);
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const float* const row = rows[r];
+      const double w = weights[r];
+      for (std::size_t k = 0; k < columns; ++k) sum[k] += w * static_cast<double>(row[k]);
+    }
+    for (std::size_t k = 0; k < columns; ++k) mean[k] = static_cast<float>(sum[k] / weight);
+    for (float* const row : rows)
+      for (std::size_t k = 0; k < columns; ++k) row[k] -= mean[k];
+  });
+}
+
+}  // namespace
+
 /// Takes the weighted mean of every trace (apart in training and hold-out) out of all columns.
 void BlockStatistics::centre_on_zeros() {
   std::map<int, std::vector<int>> traces;
   for (const int i : order_)
     if (problem_.zero[i] >= 0) traces[problem_.zero[i]].push_back(i);
-  if (!traces.empty()) centred_ = problem_.candidates;
-  for (const auto& [trace, rows] : traces) {
-    double weight = 0.0, value = 0.0;
-    Eigen::RowVectorXd model = Eigen::RowVectorXd::Zero(model_.cols());
-    Eigen::RowVectorXd candidate = Eigen::RowVectorXd::Zero(centred_.cols());
-    for (const int i : rows) {
-      const double w = problem_.weight[i];
-      weight += w;
-      value += w * value_[i];
-      model += w * model_.row(i);
-      candidate += w * centred_.row(i).cast<double>();
+  if (traces.empty()) return;
+  centred_ = problem_.candidates;
+  std::vector<const std::vector<int>*> rows_of_traces;
+  for (const auto& [trace, rows] : traces) rows_of_traces.push_back(&rows);
+  // Traces do not ask each other: the same digits on any number of processors.
+  constexpr std::size_t kAtOnce = 16;
+  for_each_run(rows_of_traces.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+    std::vector<double> weights, sums(static_cast<std::size_t>(centred_.cols()));
+    std::vector<float> means(sums.size());
+    std::vector<float*> candidates;
+    for (std::size_t t = from; t < to; ++t) {
+      const std::vector<int>& rows = *rows_of_traces[t];
+      double weight = 0.0, value = 0.0;
+      Eigen::RowVectorXd model = Eigen::RowVectorXd::Zero(model_.cols());
+      weights.clear(), candidates.clear();
+      for (const int i : rows) {
+        const double w = problem_.weight[i];
+        weight += w;
+        value += w * value_[i];
+        model += w * model_.row(i);
+        weights.push_back(w);
+        candidates.push_back(centred_.row(i).data());
+      }
+      model /= weight;
+      for (const int i : rows) {
+        value_[i] -= value / weight;
+        model_.row(i) -= model;
+      }
+      centre_rows(candidates, weights, weight, sums, means);
     }
-    model /= weight;
-    const Eigen::RowVectorXf mean = (candidate / weight).cast<float>();
-    for (const int i : rows) {
-      value_[i] -= value / weight;
-      model_.row(i) -= model;
-      centred_.row(i) -= mean;
-    }
-  }
+  });
 }
 
 void BlockStatistics::find_wholes() {
@@ -186,6 +220,8 @@ void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
   int widest = 1;
   for (std::size_t g = from; g < to; ++g) widest = std::max(widest, groups[g].columns);
   std::map<std::pair<int, int>, Eigen::VectorXd> trace_parts;
+  double* trace_part = nullptr;  // of the value before
+  std::pair<int, int> part_of;
   ColumnProducts products(folds_, columns, widest);
   for (std::size_t r = 0; r < order_.size(); ++r) {
     const int i = order_[r];
@@ -199,9 +235,15 @@ void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
       products.close_part(fold, products_of_whole(i, first),
                           static_cast<std::size_t>(candidates.cols()));
     if (problem_.zero[i] < 0) continue;
-    Eigen::VectorXd& sum = trace_parts[{problem_.zero[i], unit}];
-    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);
-    sum += w * candidates.row(i).segment(first, columns).transpose().cast<double>();
+    if (trace_part == nullptr || part_of != std::pair(problem_.zero[i], unit)) {
+      part_of = {problem_.zero[i], unit};
+      Eigen::VectorXd& sum = trace_parts[part_of];
+      if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns);
+      trace_part = sum.data();
+    }
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      for (int k = 0; k < columns; ++k) trace_part[k] += w * static_cast<double>(row[k]);
+    });
   }
   for (std::size_t g = from; g < to; ++g) {
     const CandidateGroup& group = groups[g];
@@ -263,13 +305,14 @@ void BlockStatistics::add_model_sums(int first) {
   for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
     const int unit = problem_.unit[order_[begin]], fold = problem_.fold[order_[begin]];
     Eigen::MatrixXd part_model = Eigen::MatrixXd::Zero(m, added);
-    Eigen::VectorXd part_value = Eigen::VectorXd::Zero(added);
+    Eigen::VectorXd part_value = Eigen::VectorXd::Zero(added), row(m);
     for (; end < order_.size(); ++end) {
       const int i = order_[end];
       if (problem_.unit[i] != unit || problem_.fold[i] != fold) break;
+      row = model_.row(i).transpose();  // (once: it stands in as many places as it has values)
       for (int k = 0; k < added; ++k) {
-        const double a = problem_.weight[i] * model_(i, first + k);
-        part_model.col(k) += a * model_.row(i).transpose();
+        const double a = problem_.weight[i] * row[first + k];
+        part_model.col(k) += a * row;
         part_value[k] += a * value_[i];
       }
     }

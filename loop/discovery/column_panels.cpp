@@ -12,21 +12,14 @@
 namespace trueflank::loop {
 namespace {
 
-/// row += or, with `sign` -1, -= sum of factors[k] * others[k].
-template <int sign>
-void add_or_subtract(PanelRow& row, const double* factors, const PanelRow* others,
-                     std::size_t count) {
+/// Does `add(sum, k)` for every k to what stands in a row, which stays in registers meanwhile.
+template <class Add>
+void sum_up(PanelRow& row, std::size_t count, const Add& add) {
   in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
     for (std::size_t from = 0; from < kPanelColumns; from += kPanelStep) {
       double sum[kPanelStep];
       for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] = row[from + j];
-      for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t j = 0; j < kPanelStep; ++j) {
-          if constexpr (sign > 0)
-            sum[j] += factors[k] * others[k][from + j];
-          else
-            sum[j] -= factors[k] * others[k][from + j];
-        }
+      for (std::size_t k = 0; k < count; ++k) add(sum, k, from);
       for (std::size_t j = 0; j < kPanelStep; ++j) row[from + j] = sum[j];
     }
   });
@@ -34,13 +27,24 @@ void add_or_subtract(PanelRow& row, const double* factors, const PanelRow* other
 
 }  // namespace
 
-void add_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count) {
-  add_or_subtract<1>(row, factors, others, count);
+void add_rows(PanelRow& row, const double* factors, const PanelRow* const* others, std::size_t count) {
+  sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] += factors[k] * (*others[k])[from + j];
+  });
 }
 
-void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others,
-                   std::size_t count) {
-  add_or_subtract<-1>(row, factors, others, count);
+void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count) {
+  sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] -= factors[k] * others[k][from + j];
+  });
+}
+
+void subtract_rows(PanelRow& row, const double* factors, const PanelRow* const* others, const double* more,
+                   const PanelRow* beside, std::size_t count) {
+  sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t j = 0; j < kPanelStep; ++j)
+      sum[j] -= factors[k] * (*others[k])[from + j] + more[k] * beside[k][from + j];
+  });
 }
 
 void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& row) {

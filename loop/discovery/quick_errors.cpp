@@ -10,11 +10,8 @@
 namespace trueflank::loop {
 namespace {
 
-/// Of the columns of one group: few, and so without memory of their own.
+/// Columns of one group.
 constexpr int kMostOfGroup = 8;
-using OwnMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostOfGroup, kMostOfGroup>;
-using OwnVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostOfGroup, 1>;
 
 /// Of a column's own square in the training data: with less left beside the others digits are lost.
 constexpr double kToldApart = 1e-7;
@@ -140,21 +137,34 @@ QuickErrors::Less QuickErrors::errors_less(const std::vector<Eigen::Index>& plac
                     2.0 * without.base.dot(f.test_value) + without.base.dot(tested);
     less.base[i] = without.error;
     for (std::size_t g = 0; g < groups.size(); ++g)
-      less.with[g][i] = error_with(static_cast<int>(i), groups[g], without);
+      less.with[g][i] = error_with_group(static_cast<int>(i), groups[g], without);
   }
   return less;
 }
 
+double QuickErrors::error_with_group(int fold, int group, const Without& without) const {
+  switch (problem_.groups[static_cast<std::size_t>(group)].columns) {
+    case 1: return error_with<1>(fold, group, without);
+    case 2: return error_with<2>(fold, group, without);
+    default: return error_with<Eigen::Dynamic>(fold, group, without);
+  }
+}
+
 /// With coefficients b of the group the error is that without it, and b'l + b'Qb more.
+template <int kColumns>
 double QuickErrors::error_with(int fold, int group, const Without& without) const {
+  // few columns, and so without memory of their own
+  constexpr int kMost = kColumns == Eigen::Dynamic ? kMostOfGroup : kColumns;
+  using OwnMatrix = Eigen::Matrix<double, kColumns, kColumns, 0, kMost, kMost>;
+  using OwnVector = Eigen::Matrix<double, kColumns, 1, 0, kMost, 1>;
   const Fold& f = folds_[static_cast<std::size_t>(fold)];
   const auto g = static_cast<std::size_t>(group);
   const auto slot = static_cast<std::size_t>(slot_[g]);
-  const Eigen::Index at = first_[g], columns = problem_.groups[g].columns,
-                     less = without.change.cols();
+  const Eigen::Index at = first_[g], less = without.change.cols();
   const auto& test = statistics_.fold(fold + 1);
   OwnMatrix schur = f.schur[slot], squares = f.squares[slot];
-  OwnVector right = f.right[slot], linear(columns);
+  OwnVector right = f.right[slot], linear = OwnVector::Zero(right.size());
+  const Eigen::Index columns = right.size();
   for (Eigen::Index c = 0; c < columns; ++c) {
     const auto on_model = f.on_model.col(at + c);
     linear[c] = 2.0 * (f.crossed.col(at + c).dot(without.base) - on_model.dot(without.left) -
@@ -180,10 +190,6 @@ double QuickErrors::error_with(int fold, int group, const Without& without) cons
         }
       }
     }
-  if (columns == 1) {
-    const double b = right[0] / schur(0, 0);
-    return without.error + b * (linear[0] + squares(0, 0) * b);
-  }
   const OwnVector b = schur.ldlt().solve(right);
   return without.error + b.dot(linear) + b.dot(squares * b);
 }

@@ -49,6 +49,8 @@ class QuickErrors {
   };
   struct Without;
   void add_fold(int fold, const std::vector<int>& columns, const std::vector<int>& groups);
+  [[nodiscard]] double error_with_group(int fold, int group, const Without& without) const;
+  template <int kColumns>
   [[nodiscard]] double error_with(int fold, int group, const Without& without) const;
 
   const DiscoveryProblem& problem_;

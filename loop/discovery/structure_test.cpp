@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <tuple>
 
@@ -47,13 +48,15 @@ std::vector<FlipSigns> flip_signs(std::size_t units, std::size_t flips) {
   constexpr std::size_t kAtOnce = std::tuple_size_v<FlipSigns>;
   std::mt19937_64 random(20260101);
   std::vector<FlipSigns> signs(units * ((flips + kAtOnce - 1) / kAtOnce), FlipSigns{});
-  for (std::size_t k = 0; k < flips; ++k) {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < units; ++i) {
-      if (i % 64 == 0) bits = random();
-      signs[k / kAtOnce * units + i][k % kAtOnce] = (bits & 1u) != 0u ? 1.0f : -1.0f;
-      bits >>= 1;
-    }
+  const std::size_t words = (units + 63) / 64;  // of a flip
+  std::vector<std::uint64_t> bits(kAtOnce * words);
+  for (std::size_t first = 0; first < flips; first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, flips - first);
+    std::generate_n(bits.begin(), count * words, std::ref(random));
+    FlipSigns* const of_set = signs.data() + first / kAtOnce * units;
+    for (std::size_t i = 0; i < units; ++i)
+      for (std::size_t j = 0; j < count; ++j)
+        of_set[i][j] = ((bits[j * words + i / 64] >> (i % 64)) & 1u) != 0u ? 1.0f : -1.0f;
   }
   return signs;
 }
@@ -145,11 +148,14 @@ void StructureTest::project(const std::vector<int>& columns) {
     units.push_back({sums.model_value(columns) - own * fitted_, UnitSpread(own, inverse)});
   }
   unit_scores_.resize(p, statistics_.units());
+  single_scores_.resize(p, statistics_.units());
   const FittedToUnits fitted{columns, units};
   constexpr std::size_t kAtOnce = 4;
   for_each_run(statistics_.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) project_panel(k, fitted);
   });
+  observed_ = Eigen::VectorXd::Zero(p);
+  for (Eigen::Index unit = 0; unit < unit_scores_.cols(); ++unit) observed_ += unit_scores_.col(unit);
   judge_what_can_be_seen();
 }
 
@@ -164,7 +170,8 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
   for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
     if (asked_[static_cast<std::size_t>(g)])
       most = std::max(most, problem_.groups[static_cast<std::size_t>(g)].columns);
-  Panel absorbed(m, PanelRow{}), own_rows(m), spread(m);
+  Panel absorbed(m, PanelRow{}), spread(m);
+  std::vector<const PanelRow*> cross(m), own_rows(m);
   for (std::size_t k = 0; k < m; ++k)
     for (std::size_t c = 0; c < columns; ++c)
       absorbed[k][c] = absorbed_(static_cast<Eigen::Index>(k),
@@ -176,19 +183,16 @@ void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
     PanelRow score{};
     std::copy_n(statistics_.unit(unit).candidate_value.data() + panel.first_column, columns,
                 score.begin());
-    for (std::size_t k = 0; k < m; ++k) {
-      const PanelRow& cross = statistics_.unit_candidates(fitted.columns[k], p, unit);
-      const double own = fitted_[static_cast<Eigen::Index>(k)],
-                   left = sums.left[static_cast<Eigen::Index>(k)];
-      for (std::size_t j = 0; j < kPanelColumns; ++j)
-        score[j] -= own * cross[j] + left * absorbed[k][j];
-    }
+    for (std::size_t k = 0; k < m; ++k)
+      cross[k] = &statistics_.unit_candidates(fitted.columns[k], p, unit);
+    subtract_rows(score, fitted_.data(), cross.data(), sums.left.data(), absorbed.data(), m);
     std::copy_n(score.begin(), columns, unit_scores_.col(unit).data() + panel.first_column);
+    for (std::size_t c = 0; c < columns; ++c)
+      single_scores_(panel.first_column + static_cast<Eigen::Index>(c), unit) = static_cast<float>(score[c]);
     if (most == 0 || m == 0) continue;
     const UnitSpread& taken = sums.spread;
-    for (std::size_t k = 0; k < taken.rank(); ++k)
-      own_rows[k] = statistics_.unit_candidates(fitted.columns[taken.rows()[k]], p, unit);
-    taken.spread_of(own_rows, absorbed, spread);
+    for (std::size_t k = 0; k < taken.rank(); ++k) own_rows[k] = cross[taken.rows()[k]];
+    taken.spread_of(own_rows.data(), absorbed, spread);
     for (std::size_t k = 0; k < taken.rank(); ++k) add_products(lost, 1.0, spread[k]);
   }
   for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
@@ -226,7 +230,6 @@ void StructureTest::judge_what_can_be_seen() {
 /// where it cannot be judged. The flips' statistics are taken into the largest of groups of its
 /// size.
 double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const FlipScores>& scores,
-                                        const Eigen::VectorXd& observed,
                                         LargestOfSize& largest) const {
   constexpr double kCannotBeJudged = -1.0;
   const CandidateGroup& group = problem_.groups[g];
@@ -236,7 +239,7 @@ double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const Fl
   const Eigen::MatrixXd inverse =
       under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
   const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
-  const Eigen::VectorXd o = observed(Eigen::seqN(group.first_column, group.columns));
+  const Eigen::VectorXd o = observed_(Eigen::seqN(group.first_column, group.columns));
   const double t = o.dot(symmetric_solution(projected_[g], o));
   // The group's own scale: correlation within units widens low modes more than high ones.
   const double flips = static_cast<double>(s.cols());
@@ -253,7 +256,6 @@ void StructureTest::test_by_flips(int flips) {
   group_p_values_.assign(groups, 1.0);
   const std::vector<FlipSigns> signs =
       flip_signs(static_cast<std::size_t>(statistics_.units()), static_cast<std::size_t>(flips));
-  const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
   std::vector<std::size_t> asked;
   for (std::size_t g = 0; g < groups; ++g)
     if (testable_[g] && asked_[g]) asked.push_back(g);
@@ -270,13 +272,13 @@ void StructureTest::test_by_flips(int flips) {
     for (std::size_t i = first; i < end; ++i)
       for (int k = 0; k < problem_.groups[asked[i]].columns; ++k)
         columns.push_back(problem_.groups[asked[i]].first_column + k);
-    const FlipScores own_scores = unit_scores_(columns, Eigen::all).cast<float>();
+    const FlipScores own_scores = single_scores_(columns, Eigen::all);
     const FlipScores scores = flipped(own_scores, signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
       const int own_columns = problem_.groups[asked[i]].columns;
       own[asked[i]] =
-          judge_under_flips(asked[i], scores.middleRows(row, own_columns).leftCols(flips), observed,
+          judge_under_flips(asked[i], scores.middleRows(row, own_columns).leftCols(flips),
                             largest_of_piece[piece]);
       row += own_columns;
     }
@@ -346,7 +348,6 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     families[group.local_family].push_back(g);
     ++tested;
   }
-  const Eigen::VectorXd observed = unit_scores_.rowwise().sum();
   for (const auto& [family, members] : families) {
     const double n = static_cast<double>(members.size());
     if (n < 8) continue;
@@ -355,7 +356,7 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     double sum = 0.0, squares = 0.0;
     for (const int g : members) {
       const double value =
-          observed[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
+          observed_[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
       score.push_back(value);
       sum += value;
       squares += value * value;

@@ -47,7 +47,6 @@ class StructureTest {
   /// the statistic, so that one has it.
   using LargestOfSize = std::map<int, Eigen::VectorXd>;
   [[nodiscard]] double judge_under_flips(std::size_t g, const Eigen::Ref<const FlipScores>& scores,
-                                         const Eigen::VectorXd& observed,
                                          LargestOfSize& largest) const;
   void compare_with_flips(const std::vector<double>& own, const LargestOfSize& largest_of_size,
                           int flips);
@@ -58,6 +57,8 @@ class StructureTest {
   const BlockStatistics& statistics_;
   std::vector<bool> asked_;      ///< per group: flips judge it, as neither local nor banned
   Eigen::MatrixXd unit_scores_;  ///< P x units
+  FlipScores single_scores_;     ///< the same in single precision, a candidate's beside each other
+  Eigen::VectorXd observed_;     ///< P: sums over all units
   Eigen::MatrixXd absorbed_;     ///< M x P: coefficients of the candidates on the model
   Eigen::VectorXd fitted_;       ///< M: of the value
   std::vector<Eigen::MatrixXd> projected_;  ///< per group: Gram matrix after projection

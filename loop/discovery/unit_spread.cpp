@@ -76,11 +76,11 @@ UnitSpread::UnitSpread(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& inver
   of_absorbed_ = (root * rows).transpose();
 }
 
-void UnitSpread::spread_of(const Panel& own, const Panel& absorbed, Panel& spread) const {
+void UnitSpread::spread_of(const PanelRow* const* own, const Panel& absorbed, Panel& spread) const {
   for (std::size_t k = 0; k < rank(); ++k) {
     PanelRow& row = spread[k];
     row.fill(0.0);
-    add_rows(row, of_own_.col(static_cast<Eigen::Index>(k)).data(), own.data(), rank());
+    add_rows(row, of_own_.col(static_cast<Eigen::Index>(k)).data(), own, rank());
     subtract_rows(row, of_absorbed_.col(static_cast<Eigen::Index>(k)).data(), absorbed.data(),
                   absorbed.size());
   }

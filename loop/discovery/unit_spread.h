@@ -25,9 +25,9 @@ class UnitSpread {
   [[nodiscard]] std::size_t rank() const { return rows_.size(); }
   /// The rows of C that are needed, as many as the rank.
   [[nodiscard]] const std::vector<std::size_t>& rows() const { return rows_; }
-  /// Rows whose squares add up to O^T G^-1 O; `own` are the rows of C asked for by rows(), `absorbed`
-  /// those of A. As many as the rank are written into `spread`, which must have room for them.
-  void spread_of(const Panel& own, const Panel& absorbed, Panel& spread) const;
+  /// Rows whose squares add up to O^T G^-1 O; `own` are where the rows of C asked for by rows() stand,
+  /// `absorbed` those of A. As many as the rank are written into `spread`, which must have room for them.
+  void spread_of(const PanelRow* const* own, const Panel& absorbed, Panel& spread) const;
 
  private:
   std::vector<std::size_t> rows_;

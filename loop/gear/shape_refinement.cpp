@@ -137,7 +137,7 @@ std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, 
 }  // namespace
 
 bool refine_nearby(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect>& effects) {
+                   std::vector<Effect>& effects, TriedColumns* tried_before) {
   constexpr double kWorthIt = 4.0;  // chi-square
   constexpr int kMostSteps = 8;
   const bool any = std::any_of(effects.begin(), effects.end(), [](const Effect& effect) {
@@ -145,7 +145,7 @@ bool refine_nearby(const FlankGeometry& geometry, const Observations& table, con
   });
   if (!any) return false;
   bool moved = false;
-  TrialFit fit(geometry, table, patches, effects, stride_for(table));
+  TrialFit fit(geometry, table, patches, effects, stride_for(table), tried_before);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!effects[e].family->nearby) continue;
     TrialFit::Trial now = fit.as_is(e);
@@ -172,14 +172,14 @@ bool refine_nearby(const FlankGeometry& geometry, const Observations& table, con
 }
 
 void refine_shapes(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect>& effects, std::size_t first) {
+                   std::vector<Effect>& effects, std::size_t first, TriedColumns* tried) {
   bool smooth = false, steps = false;
   for (std::size_t e = first; e < effects.size(); ++e) {
     steps = steps || is_step(effects[e]);
     smooth = smooth || (effects[e].family->shape_is_continuous && !is_step(effects[e]));
   }
   if (!smooth && !steps) return;
-  TrialFit fit(geometry, table, patches, effects, stride_for(table));
+  TrialFit fit(geometry, table, patches, effects, stride_for(table), tried);
   refine_steps(geometry, first, fit);
   effects = fit.effects();
   double least = fit.residual_square(), damping = 1.0;

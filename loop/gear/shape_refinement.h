@@ -2,6 +2,7 @@
 #pragma once
 
 #include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
 
@@ -9,7 +10,8 @@ namespace trueflank::loop {
 /// chosen on to the best fit: Gauss-Newton jointly with all coefficients, a step's height by trial.
 /// Those before the first stay as they are.
 void refine_shapes(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect>& effects, std::size_t first = 0);
+                   const Patches& patches, std::vector<Effect>& effects, std::size_t first = 0,
+                   TriedColumns* tried = nullptr);
 
 /// Least share of a column that must be left beside all others: two waves of nearly one length
 /// that fit with large sizes of opposite signs describe nothing.
@@ -19,7 +21,7 @@ inline constexpr double kToldApart = 0.1;
 /// (EffectFamily::nearby) that fit the single values better and are told apart from all others.
 /// True where any moved.
 bool refine_nearby(const FlankGeometry& geometry, const Observations& table,
-                   const Patches& patches, std::vector<Effect>& effects);
+                   const Patches& patches, std::vector<Effect>& effects, TriedColumns* tried = nullptr);
 
 /// Uncertainty of a fit with what the shapes add to it.
 struct ShapeUncertainty {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
@@ -42,9 +43,22 @@ TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::I
 
 }  // namespace
 
+const Eigen::MatrixXd* TriedColumns::find(const Effect& effect) const {
+  const auto found = std::find_if(tried_.begin(), tried_.end(),
+                                  [&](const Tried& tried) { return tried.effect == effect; });
+  return found == tried_.end() ? nullptr : &found->columns;
+}
+
+void TriedColumns::keep(const Effect& effect, const Eigen::MatrixXd& columns) {
+  constexpr Eigen::Index kMostValues = 6'000'000;
+  if (values_ + columns.size() > kMostValues || find(effect) != nullptr) return;
+  values_ += columns.size();
+  tried_.push_back({effect, columns});
+}
+
 TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect> effects, std::size_t stride)
-    : geometry_(geometry), table_(table), effects_(std::move(effects)) {
+                   std::vector<Effect> effects, std::size_t stride, TriedColumns* tried)
+    : geometry_(geometry), table_(table), effects_(std::move(effects)), tried_(tried) {
   trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
   for (std::size_t i = 0; i < table.rows.size(); i += stride) {
     if (patches.patch_of_row[i] < 0) continue;
@@ -78,9 +92,9 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   centre(own);
   columns_.leftCols(nuisance.count()) = own.leftCols(nuisance.count());
   columns_.col(columns) = own.col(nuisance.count());
-  for_each_piece(effects_.size(), [&](std::size_t e) {
-    columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
-  });
+  std::vector<std::size_t> all(effects_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  put_columns(all);
   gram_ = columns_.transpose() * columns_;
   solve();
 }
@@ -135,21 +149,37 @@ TrialFit::Trial TrialFit::as_is(std::size_t effect) const {
                 std::numeric_limits<double>::infinity());
 }
 
+/// Puts the columns of effects where they belong.
+void TrialFit::put_columns(const std::vector<std::size_t>& effects) {
+  for_each_piece(effects.size(), [&](std::size_t i) {
+    const std::size_t e = effects[i];
+    const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(effects_[e]) : nullptr;
+    auto place = columns_.middleCols(first_column_[e], effects_[e].columns());
+    if (known != nullptr) place = *known;
+    else place = columns_of(effects_[e]);
+  });
+}
+
 std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
                                                    const std::vector<EffectShape>& shapes,
                                                    double below) const {
   std::vector<Trial> trials(shapes.size());
-  for_each_piece(shapes.size(),
-                 [&](std::size_t i) { trials[i] = with_shape(effect, shapes[i], below); });
+  std::vector<Effect> moved(shapes.size(), effects_[effect]);
+  std::vector<Eigen::MatrixXd> own(shapes.size());
+  for_each_piece(shapes.size(), [&](std::size_t i) {
+    moved[i].shape = shapes[i];
+    const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(moved[i]) : nullptr;
+    if (known == nullptr) own[i] = columns_of(moved[i]);
+    trials[i] = with_columns(effect, known != nullptr ? *known : own[i], below);
+  });
+  for (std::size_t i = 0; tried_ != nullptr && i < shapes.size(); ++i)
+    if (own[i].size() > 0) tried_->keep(moved[i], own[i]);
   return trials;
 }
 
-TrialFit::Trial TrialFit::with_shape(std::size_t effect, const EffectShape& shape,
-                                     double below) const {
-  Effect moved = effects_[effect];
-  moved.shape = shape;
-  const Eigen::Index first = first_column_[effect], count = moved.columns();
-  const Eigen::MatrixXd columns = columns_of(moved);
+TrialFit::Trial TrialFit::with_columns(std::size_t effect, const Eigen::MatrixXd& columns,
+                                       double below) const {
+  const Eigen::Index first = first_column_[effect], count = columns.cols();
   Eigen::MatrixXd gram = gram_;
   // (of few columns: a product of matrices would copy all the others first)
   for (Eigen::Index k = 0; k < count; ++k)
@@ -167,10 +197,7 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
     effects_[e].shape = effects[e].shape;
     moved.push_back(e);
   }
-  for_each_piece(moved.size(), [&](std::size_t i) {
-    const std::size_t e = moved[i];
-    columns_.middleCols(first_column_[e], effects_[e].columns()) = columns_of(effects_[e]);
-  });
+  put_columns(moved);
   for (const std::size_t e : moved) {
     const Eigen::Index first = first_column_[e], count = effects_[e].columns();
     gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);

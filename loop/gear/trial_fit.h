@@ -9,13 +9,30 @@
 
 namespace trueflank::loop {
 
+/// Columns of effects that were tried on the same values, so that a shape that is tried again is not computed
+/// again: as many as memory for them is given.
+class TriedColumns {
+ public:
+  /// nullptr where the effect was not tried.
+  [[nodiscard]] const Eigen::MatrixXd* find(const Effect& effect) const;
+  void keep(const Effect& effect, const Eigen::MatrixXd& columns);
+
+ private:
+  struct Tried {
+    Effect effect;
+    Eigen::MatrixXd columns;
+  };
+  std::vector<Tried> tried_;
+  Eigen::Index values_ = 0;
+};
+
 /// The least squares of PointFit where shapes are tried one after another: columns of effects that
 /// stay as they are, and their products, are kept. Of a fit only the residual square and the
 /// coefficients are known; no errors. With a stride only every n-th value is used.
 class TrialFit {
  public:
   TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-           std::vector<Effect> effects, std::size_t stride = 1);
+           std::vector<Effect> effects, std::size_t stride = 1, TriedColumns* tried = nullptr);
 
   struct Trial {
     double square = 0.0;    ///< weighted residual square
@@ -46,12 +63,14 @@ class TrialFit {
     double root = 0.0;  ///< of its weight
   };
   void centre(Eigen::MatrixXd& columns) const;
-  [[nodiscard]] Trial with_shape(std::size_t effect, const EffectShape& shape, double below) const;
+  [[nodiscard]] Trial with_columns(std::size_t effect, const Eigen::MatrixXd& columns, double below) const;
+  void put_columns(const std::vector<std::size_t>& effects);
   void solve();
 
   const FlankGeometry& geometry_;
   const Observations& table_;
   std::vector<Effect> effects_;
+  TriedColumns* tried_ = nullptr;
   std::vector<Eigen::Index> first_column_;
   std::vector<Row> rows_;
   std::vector<double> trace_weight_;

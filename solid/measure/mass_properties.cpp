@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_profile.h"
 #include "trueflank/solid/shape/outline_loop.h"
@@ -135,14 +136,21 @@ SectionMoments integrated(const Outline& outline, double z_lower_mm, double z_up
   if (toothed->toothing().has_deviation())
     for (const double z : toothed->deviation->z_breaks_mm) add_break(z);
   std::sort(breaks.begin(), breaks.end());
+  struct Section {
+    double z_mm = 0.0, height_mm = 0.0;
+    SectionMoments moments = {};
+  };
+  std::vector<Section> sections;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
     for (int band = 0; band < kBands; ++band) {
       const double height = (breaks[i + 1] - breaks[i]) / kBands;
       for (std::size_t k = 0; k < kGaussPlaces.size(); ++k)
-        add(moments(toothed_section(*toothed, breaks[i] + height * (band + kGaussPlaces[k]),
-                                    kChordError_mm)),
-            kGaussWeights[k] * height);
+        sections.push_back({breaks[i] + height * (band + kGaussPlaces[k]), kGaussWeights[k] * height});
     }
+  for_each_piece(sections.size(), [&](std::size_t i) {
+    sections[i].moments = moments(toothed_section(*toothed, sections[i].z_mm, kChordError_mm));
+  });
+  for (const Section& section : sections) add(section.moments, section.height_mm);
   return sum;
 }
 

@@ -43,15 +43,19 @@ double off_chord(const Point3& from, const Point3& to, const Point3& on_surface,
   return (away - along * (away.dot(along) / length2)).norm();
 }
 
-/// Parameter at which a curve passes the middle of its chord. The middle of the parameters is far
-/// from it where an involute starts on its base circle: its way grows with the square of the roll
-/// angle.
+/// Parameter at which a curve passes the middle of its chord; the middle of the parameters where that is
+/// near. It is far from it where an involute starts on its base circle: its way grows with the square of
+/// the roll angle.
 double middle_of_chord(const Curve& curve, double from, double to) {
   const Point2 a = point_at(curve, from), chord = point_at(curve, to) - a;
-  const double half = 0.5 * chord.squaredNorm();
+  const double half = 0.5 * chord.squaredNorm(), middle = 0.5 * (from + to);
   const auto before = [&](double place) { return (point_at(curve, place) - a).dot(chord) < half; };
+  // (nearly all edges are even, and the search asks for thirty points)
+  const double surely_near = 0.98 * kUneven * (to - from);
+  if (before(middle - surely_near) && !before(middle + surely_near)) return middle;
   const auto [low, high] = sides_of_change(before, from, to, 30);
-  return 0.5 * (low + high);
+  const double there = 0.5 * (low + high);
+  return std::abs(there - middle) > kUneven * std::abs(to - from) ? there : middle;
 }
 
 std::vector<double> sorted_heights(std::vector<double> heights) {
@@ -207,20 +211,19 @@ void ToothingGrid::place_columns() {
   for (std::size_t i = 0; i < m; ++i) add(place(i, 1), middle(i, 1), i);
   if (!vertex_at_gap_middle_)
     add(place(m, 1), {1, pieces.size() - 1, pieces.back().curve.end}, m - 1);
+  std::vector<double> at_chord;
+  for (const HalfEdge& e : edges_) at_chord.push_back(middle_of_chord(pieces[e.piece].curve, e.from, e.to));
   for (std::size_t i = 0; i < middles_.size(); ++i) {
     const HalfEdge& e = edges_[edge_of_[i]];
-    Place at_chord = middles_[i];
-    if (at_chord.parameter == 0.5 * (e.from + e.to)) {
-      const double there = middle_of_chord(pieces[e.piece].curve, e.from, e.to);
-      if (std::abs(there - at_chord.parameter) > kUneven * std::abs(e.to - e.from))
-        at_chord.parameter = there;
-    }
-    chord_middles_.push_back(at_chord);
+    chord_middles_.push_back(middles_[i]);
+    if (middles_[i].parameter == 0.5 * (e.from + e.to))
+      chord_middles_.back().parameter = at_chord[edge_of_[i]];
   }
 }
 
-bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tolerance_mm) {
+std::vector<bool> ToothingGrid::split_columns(const std::vector<double>& error_mm, double tolerance_mm) {
   std::vector<HalfEdge> split;
+  std::vector<bool> stay;
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const HalfEdge& e = edges_[i];
     const Curve& curve = toothing_.profile->pieces()[e.piece].curve;
@@ -232,11 +235,12 @@ bool ToothingGrid::split_columns(const std::vector<double>& error_mm, double tol
       return k == parts ? e.to : e.from + (e.to - e.from) * k / parts;
     };
     for (int k = 0; k < parts; ++k) split.push_back({e.piece, part_end(k), part_end(k + 1)});
+    stay.insert(stay.end(), static_cast<std::size_t>(parts), parts == 1);
   }
   const bool added = split.size() > edges_.size();
   edges_ = std::move(split);
   if (added) place_columns();
-  return added;
+  return stay;
 }
 
 void ToothingGrid::refine_columns(double tolerance_mm) {
@@ -246,23 +250,29 @@ void ToothingGrid::refine_columns(double tolerance_mm) {
     for (std::size_t j = 0; j + 1 < heights_mm_.size(); ++j)
       for (const double share : {0.0, 0.5, 1.0})
         heights.push_back(std::lerp(heights_mm_[j], heights_mm_[j + 1], share));
+  std::vector<bool> stays(edges_.size(), false);  // looked at before
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> error(edges_.size(), 0.0);
     for (const int tooth : teeth)
       for (const double z : heights)
         for (const int side : {-1, 1})
-          for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const HalfEdge& e = edges_[i];
-            const Point3 from = vector_of(at({side, e.piece, e.from}, tooth, z));
-            const Point3 to = vector_of(at({side, e.piece, e.to}, tooth, z));
-            for (const double share : {0.25, 0.5, 0.75}) {
-              const Place inside{side, e.piece, std::lerp(e.from, e.to, share)};
-              error[i] =
-                  std::max(error[i], off_chord(from, to, vector_of(at(inside, tooth, z)), share));
-            }
-          }
-    if (!split_columns(error, tolerance_mm)) return;
+          for (std::size_t i = 0; i < edges_.size(); ++i)
+            if (!stays[i]) error[i] = std::max(error[i], edge_error_mm(edges_[i], side, tooth, z));
+    const std::size_t before = edges_.size();
+    stays = split_columns(error, tolerance_mm);
+    if (edges_.size() == before) return;
   }
+}
+
+double ToothingGrid::edge_error_mm(const HalfEdge& e, int side, int tooth, double z_mm) const {
+  const Point3 from = vector_of(at({side, e.piece, e.from}, tooth, z_mm));
+  const Point3 to = vector_of(at({side, e.piece, e.to}, tooth, z_mm));
+  double error = 0.0;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const Place inside{side, e.piece, std::lerp(e.from, e.to, share)};
+    error = std::max(error, off_chord(from, to, vector_of(at(inside, tooth, z_mm)), share));
+  }
+  return error;
 }
 
 // -------------------------------------------------------------- rows

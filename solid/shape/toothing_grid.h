@@ -132,8 +132,10 @@ class ToothingGrid {
   void find_ends();
   void place_columns();
   void start_layers(double tolerance_mm);
-  bool split_columns(const std::vector<double>& error_mm, double tolerance_mm);
+  /// Cuts edges that are off by more; which of all are whole as they were.
+  std::vector<bool> split_columns(const std::vector<double>& error_mm, double tolerance_mm);
   void refine_columns(double tolerance_mm);
+  [[nodiscard]] double edge_error_mm(const HalfEdge& edge, int side, int tooth, double z_mm) const;
   void refine_layers(double tolerance_mm, int most_parts);
   /// toothing_grid_waves.cpp
   bool cut_hidden_waves(double aim_mm);

@@ -336,15 +336,19 @@ TEST(PanelRows, AreAddedAndSubtractedColumnByColumn) {
   }
   const Panel both{row, other};
   const double factors[] = {2.0, -3.0};
-  PanelRow added = row, subtracted = row;
-  add_rows(added, factors, both.data(), 2);
+  PanelRow added = row, subtracted = row, both_subtracted = row;
+  const PanelRow* const where[] = {&both[0], &both[1]};
+  add_rows(added, factors, where, 2);
   subtract_rows(subtracted, factors, both.data(), 2);
+  const double more[] = {0.5, 4.0};
+  subtract_rows(both_subtracted, factors, where, more, both.data(), 2);
   std::vector<PanelRow> products(3, row), less(3, row);
   add_products(products, 2.0, other);
   subtract_products(less, row, other);
   for (std::size_t j = 0; j < kPanelColumns; ++j) {
     EXPECT_DOUBLE_EQ(added[j], row[j] + 2.0 * row[j] - 3.0 * other[j]);
     EXPECT_DOUBLE_EQ(subtracted[j], row[j] - 2.0 * row[j] + 3.0 * other[j]);
+    EXPECT_DOUBLE_EQ(both_subtracted[j], row[j] - 2.5 * row[j] - 1.0 * other[j]);
     for (std::size_t apart = 0; apart < 3; ++apart) {
       const bool inside = j + apart < kPanelColumns;
       EXPECT_DOUBLE_EQ(products[apart][j],

@@ -62,6 +62,26 @@ TEST_F(TrialFits, SquaresAndCoefficientsAreThoseOfTheWholeFit) {
   EXPECT_NEAR(trial.residual_square() / square(other), 1.0, 1e-9);
 }
 
+TEST_F(TrialFits, ColumnsThatWereTriedAreThoseOfTheirEffectAndNoOther) {
+  loop::TriedColumns tried;
+  const std::vector<Effect> effects{wave(3.3), wave(1.7)};
+  loop::TrialFit knowing(geometry_, table_, patches_, effects, 1, &tried);
+  const loop::TrialFit fresh(geometry_, table_, patches_, effects);
+  const std::vector<loop::EffectShape> shapes{{1.0, 3.1}, {1.0, 3.2}};
+  for (int turn = 0; turn < 2; ++turn) {  // the second time they are known
+    const auto trials = knowing.with_shapes(0, shapes, 0.0), anew = fresh.with_shapes(0, shapes, 0.0);
+    for (std::size_t i = 0; i < shapes.size(); ++i) EXPECT_EQ(trials[i].square, anew[i].square);
+  }
+  ASSERT_NE(tried.find(wave(3.1)), nullptr);
+  EXPECT_EQ(*tried.find(wave(3.1)), fresh.columns_of(wave(3.1)));
+  EXPECT_EQ(tried.find(wave(3.15)), nullptr);
+  Effect on_one_flank = wave(3.1);
+  on_one_flank.flank = loop::FlankChoice::kLeft;
+  EXPECT_EQ(tried.find(on_one_flank), nullptr);
+  knowing.set_shapes({wave(3.2), wave(1.7)});
+  EXPECT_NEAR(knowing.residual_square() / square({wave(3.2), wave(1.7)}), 1.0, 1e-9);
+}
+
 TEST_F(TrialFits, OneFitKnowsTheSquareWithoutAnyOfItsEffects) {
   const std::vector<Effect> effects{{family("eccentricity"), loop::FlankChoice::kBoth, {}},
                                     wave(3.3), wave(1.7)};

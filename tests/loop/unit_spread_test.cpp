@@ -54,9 +54,10 @@ TEST(UnitSpread, IsWhatTheInverseTakesOfTheUnitsProductsWhateverTheirRank) {
       const UnitSpread spread(own, inverse);
       ASSERT_EQ(spread.rank(), static_cast<std::size_t>(rank));
       const Panel all = panel_of(cross);
-      Panel rows, squares(spread.rank());
-      for (const std::size_t row : spread.rows()) rows.push_back(all[row]);
-      spread.spread_of(rows, panel_of(absorbed), squares);
+      std::vector<const PanelRow*> rows;
+      Panel squares(spread.rank());
+      for (const std::size_t row : spread.rows()) rows.push_back(&all[row]);
+      spread.spread_of(rows.data(), panel_of(absorbed), squares);
       for (Eigen::Index a = 0; a < kColumns; ++a)
         for (Eigen::Index b = 0; b < kColumns; ++b) {
           double sum = 0.0;

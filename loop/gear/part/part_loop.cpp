@@ -196,9 +196,10 @@ bool PartLoop::put_refined_shapes_on_the_grid() {
   const std::vector<Effect> chosen = effects_;
   // What one moves to another makes room for: both in turn until neither moves.
   constexpr int kMostTurns = 8;
+  TriedColumns tried;
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    refine_shapes(geometry_, table_, patches_, effects_, options_.given.size());
-    if (!refine_nearby(geometry_, table_, patches_, effects_)) break;
+    refine_shapes(geometry_, table_, patches_, effects_, options_.given.size(), &tried);
+    if (!refine_nearby(geometry_, table_, patches_, effects_, &tried)) break;
   }
   std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
   leave_out_across_steps();
