@@ -60,7 +60,7 @@ class Discovery::Selection {
     if (active() == tested_) return result_;
     const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
     result_.p_left = test.p_value();
-    result_.likest_left = test.likest();
+    result_.most_likely_left = test.most_likely();
     return result_;
   }
 
@@ -136,12 +136,12 @@ class Discovery::Selection {
         result_.first_p_value = std::min(test.p_value(), test.local_p_value());
       }
       result_.p_left = test.p_value();
-      result_.likest_left = test.likest();
+      result_.most_likely_left = test.most_likely();
       if (most <= 0) return;
       if (test.local_p_value() < options_.local_level &&
-          (test.local_p_value() < test.likest_single_p_value() || test.p_value() > 0.02) &&
-          allowed(test.likest_local())) {
-        add(test.likest_local(), test.local_p_value());
+          (test.local_p_value() < test.most_likely_single_p_value() || test.p_value() > 0.02) &&
+          allowed(test.most_likely_local())) {
+        add(test.most_likely_local(), test.local_p_value());
         continue;
       }
       const double level = first ? options_.first_level : options_.next_level;

@@ -64,7 +64,7 @@ struct DiscoveryResult {
   double first_common_p_value = 1.0;  ///< of structure that does not live in one unit
   std::vector<ChosenGroup> chosen;
   double p_left = 1.0;         ///< of structure beyond the chosen effects
-  int likest_left = -1;        ///< group most like what is left
+  int most_likely_left = -1;        ///< group most like what is left
   std::vector<bool> observable; ///< per group: not absorbed by the nuisance columns
 };
 

@@ -297,8 +297,8 @@ void StructureTest::test_by_flips(int flips) {
 void StructureTest::compare_with_flips(const std::vector<double>& own,
                                        const LargestOfSize& largest_of_size, int flips) {
   for (std::size_t g = 0; g < own.size(); ++g)
-    if (own[g] >= 0.0 && (likest_ < 0 || own[g] > own[likest_])) likest_ = static_cast<int>(g);
-  if (likest_ < 0) return;
+    if (own[g] >= 0.0 && (most_likely_ < 0 || own[g] > own[most_likely_])) most_likely_ = static_cast<int>(g);
+  if (most_likely_ < 0) return;
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
   for (const auto& [columns, statistics] : largest_of_size)
     for (int k = 0; k < flips; ++k)
@@ -310,8 +310,8 @@ void StructureTest::compare_with_flips(const std::vector<double>& own,
         largest.data() + flips - std::lower_bound(largest.data(), largest.data() + flips, own[g]);
     group_p_values_[g] = (1.0 + static_cast<double>(above)) / (flips + 1.0);
   }
-  p_value_ = group_p_values_[likest_];
-  likest_single_p_value_ = std::exp(-own[likest_]);
+  p_value_ = group_p_values_[most_likely_];
+  most_likely_single_p_value_ = std::exp(-own[most_likely_]);
 }
 
 /// The groups that live in few whole traces or flanks, by how much these agree.
@@ -332,8 +332,8 @@ void StructureTest::test_wholes(const std::vector<int>& columns, const std::vect
     group_p_values_[g] = std::min(group_p_values_[g], p);
     if (p >= p_value_) continue;
     p_value_ = p;
-    likest_ = static_cast<int>(g);
-    likest_single_p_value_ = std::min(likest_single_p_value_, single[g]);
+    most_likely_ = static_cast<int>(g);
+    most_likely_single_p_value_ = std::min(most_likely_single_p_value_, single[g]);
   }
 }
 
@@ -369,7 +369,7 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
       const double p = tested * student_two_sided(std::abs(t), n - 2.0);
       if (p < local_p_value_) {
         local_p_value_ = p;
-        likest_local_ = members[i];
+        most_likely_local_ = members[i];
       }
     }
   }

@@ -28,12 +28,12 @@ class StructureTest {
   [[nodiscard]] double p_value() const { return p_value_; }
   /// Of one group, corrected for all candidates; 1 where it cannot be tested.
   [[nodiscard]] double p_value_of(int group) const { return group_p_values_[group]; }
-  [[nodiscard]] int likest() const { return likest_; }
-  /// chi-square p of the likest group alone, uncorrected: for comparison with the local ones.
-  [[nodiscard]] double likest_single_p_value() const { return likest_single_p_value_; }
+  [[nodiscard]] int most_likely() const { return most_likely_; }
+  /// chi-square p of the most likely group alone, uncorrected: for comparison with the local ones.
+  [[nodiscard]] double most_likely_single_p_value() const { return most_likely_single_p_value_; }
   /// Of one local group standing out of its family, corrected for all local groups.
   [[nodiscard]] double local_p_value() const { return local_p_value_; }
-  [[nodiscard]] int likest_local() const { return likest_local_; }
+  [[nodiscard]] int most_likely_local() const { return most_likely_local_; }
   [[nodiscard]] const std::vector<bool>& observable() const { return observable_; }
 
  private:
@@ -65,8 +65,8 @@ class StructureTest {
   std::vector<Eigen::MatrixXd> flipped_;    ///< per group asked: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;
   std::vector<double> group_p_values_;
-  double p_value_ = 1.0, local_p_value_ = 1.0, likest_single_p_value_ = 1.0;
-  int likest_ = -1, likest_local_ = -1;
+  double p_value_ = 1.0, local_p_value_ = 1.0, most_likely_single_p_value_ = 1.0;
+  int most_likely_ = -1, most_likely_local_ = -1;
 };
 
 }  // namespace trueflank::loop

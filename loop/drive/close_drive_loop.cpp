@@ -98,7 +98,7 @@ class DriveReport {
   void judge(const DriveOutcome& outcome, const BenchRemainder& remainder, LoopResult& r) {
     constexpr double kLeft = 0.01, kSureThoughDenied = 0.0015;
     const DiscoveryResult& d = outcome.discovery;
-    const bool left = d.p_left <= kLeft && d.likest_left >= 0;
+    const bool left = d.p_left <= kLeft && d.most_likely_left >= 0;
     if (outcome.effects.empty())
       // What the hold-out denied must be surer than what it was not asked about.
       r.verdict = d.first_p_value <= selection_.share_of_level() *
@@ -109,7 +109,7 @@ class DriveReport {
       r.verdict = left ? Verdict::kPartlyExplained : Verdict::kExplained;
     if (left)
       r.structure_left = "what is left looks most like " +
-                         words_for(selection_.model(), selection_.candidates()[d.likest_left]);
+                         words_for(selection_.model(), selection_.candidates()[d.most_likely_left]);
     else
       r.structure_left = "nothing beyond the measurement's own noise was found";
     if (!left && outcome.effects.empty() && r.verdict == Verdict::kPartlyExplained)

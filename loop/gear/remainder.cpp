@@ -140,8 +140,8 @@ class RemainderSearch {
     return scan;
   }
 
-  /// Teeth have their sums side by side: they are added up apart, lest processors wait for each
-  /// other's memory.
+  /// Teeth have their sums side by side: they are added up apart, so that processors do not
+  /// wait for each other's memory.
   void gather_course(const RowsByClass& rows, std::size_t of_class, const Course& of) const {
     const auto flank = static_cast<std::size_t>(of.side);
     std::vector<RemainderSample>&profile = of.scan->profile->of_flank[flank].at(of.course),

@@ -174,7 +174,7 @@ TEST(StructureTest, OfALocalGroupIsStudentsTestAgainstTheOthersOfItsFamily) {
       scores.push_back(hand.product(own, hand.value, all) / std::sqrt(hand.product(own, own, all)));
     }
     double least = 1.0;
-    int likest = -1;
+    int most_likely = -1;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       double mean = 0.0, variance = 0.0;
       for (std::size_t k = 0; k < scores.size(); ++k) mean += k == i ? 0.0 : scores[k] / 11.0;
@@ -184,16 +184,16 @@ TEST(StructureTest, OfALocalGroupIsStudentsTestAgainstTheOthersOfItsFamily) {
       const double p = std::min(1.0, 12.0 * student_two_sided(std::abs(t), 10.0));
       if (p >= least) continue;
       least = p;
-      likest = static_cast<int>(i) + 12;
+      most_likely = static_cast<int>(i) + 12;
     }
-    EXPECT_EQ(likest, 17);
-    EXPECT_EQ(test.likest_local(), likest);
+    EXPECT_EQ(most_likely, 17);
+    EXPECT_EQ(test.most_likely_local(), most_likely);
     EXPECT_NEAR(test.local_p_value(), least, 1e-4 * least);
     // a banned one is not asked, and counts for nothing
     std::vector<bool> banned(problem.groups.size(), false);
     banned[17] = true;
     const StructureTest without(problem, statistics, columns, 99, banned);
-    EXPECT_NE(without.likest_local(), 17);
+    EXPECT_NE(without.most_likely_local(), 17);
     EXPECT_GT(without.local_p_value(), 10.0 * least);
   }
 }
@@ -211,10 +211,10 @@ TEST(StructureTest, ByFlipsFindsWhatIsThereAndSeldomWhatIsNot) {
       problem.value += 1.5 * problem.candidates.col(group.first_column + k).cast<double>();
     const BlockStatistics statistics(problem);
     const StructureTest test(problem, statistics, {0, 1}, 99, {});
-    EXPECT_EQ(test.likest(), hidden) << seed;
+    EXPECT_EQ(test.most_likely(), hidden) << seed;
     EXPECT_DOUBLE_EQ(test.p_value(), 0.01) << seed;  // none of 99 flips has as much
     EXPECT_EQ(test.p_value(), test.p_value_of(hidden));
-    EXPECT_LT(test.likest_single_p_value(), 2e-3);
+    EXPECT_LT(test.most_likely_single_p_value(), 2e-3);
   }
   EXPECT_LE(alarms, 8);  // 3 are expected; nine or more come once in 400 such tests
 }

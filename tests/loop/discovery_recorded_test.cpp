@@ -28,7 +28,7 @@ std::string number(double value) {
 std::string told(const DiscoveryResult& r) {
   std::string text =
       number(r.first_p_value) + number(r.first_common_p_value) + number(r.p_left) +
-      number(r.likest_left) +
+      number(r.most_likely_left) +
       number(static_cast<double>(std::count(r.observable.begin(), r.observable.end(), true)));
   for (const ChosenGroup& c : r.chosen) {
     text += ';' + number(c.group) + number(c.p_value) + number(c.gain) + number(c.gain_error) +
@@ -41,8 +41,8 @@ std::string told(const DiscoveryResult& r) {
 std::string told(const StructureTest& t, int groups) {
   double sum = 0.0;
   for (int g = 0; g < groups; ++g) sum += (g + 1.0) * t.p_value_of(g);
-  return number(t.p_value()) + number(sum) + number(t.likest()) +
-         number(t.likest_single_p_value()) + number(t.local_p_value()) + number(t.likest_local());
+  return number(t.p_value()) + number(sum) + number(t.most_likely()) +
+         number(t.most_likely_single_p_value()) + number(t.local_p_value()) + number(t.most_likely_local());
 }
 
 std::string of_problem(int seed) {

@@ -108,9 +108,9 @@ class SpotSearch {
     for (const Window& window : windows()) tests += judge(window, best);
     std::vector<FlankSpot> spots;
     for (auto& [key, found] : best) {
-      const double p = tests * found.likest.p_value;
+      const double p = tests * found.most_likely.p_value;
       if (p >= 1.0) continue;
-      spots.push_back(found.square > 0.0 ? found.fullest : found.likest);
+      spots.push_back(found.square > 0.0 ? found.fullest : found.most_likely);
       spots.back().p_value = p;
     }
     add_far_points(spots);
@@ -121,11 +121,11 @@ class SpotSearch {
   }
 
  private:
-  /// What is found on a flank: the window that is the likest no accident, by values that are cut
-  /// off lest a wild one counts; and of those beyond doubt the one that takes out most, by the
+  /// What is found on a flank: the window that is the least likely to be an accident, by values that are
+  /// cut off so that a wild one does not count; and of those beyond doubt the one that takes out most, by the
   /// values as they are: where a burr stands.
   struct OfFlank {
-    FlankSpot likest, fullest;
+    FlankSpot most_likely, fullest;
     double square = 0.0;
   };
 
@@ -240,7 +240,7 @@ class SpotSearch {
       OfFlank& found = best[key];
       const double sum = within(field.plain, u, v, du, dv), square = sum * sum / count;
       const bool fuller = p < kBeyondDoubt && square > found.square;
-      if (!(p < found.likest.p_value) && !fuller) return;
+      if (!(p < found.most_likely.p_value) && !fuller) return;
       const FlankSpot spot{p,
                            key.first,
                            key.second,
@@ -249,7 +249,7 @@ class SpotSearch {
                            window.profile > 0 ? 0.5 * du * mm_u : 0.0,
                            window.face > 0 ? 0.5 * dv * mm_v : 0.0,
                            sum / count};
-      if (p < found.likest.p_value) found.likest = spot;
+      if (p < found.most_likely.p_value) found.most_likely = spot;
       if (!fuller) return;
       found.fullest = spot;
       found.square = square;

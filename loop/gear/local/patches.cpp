@@ -323,8 +323,8 @@ class PatchMaker {
   }
 
   void assign_folds() {
-    // Traces are often of three or four teeth, an index of all: each is shared out by itself, lest
-    // the lock takes most of the traces.
+    // Traces are often of three or four teeth, an index of all: each is shared out by itself, so
+    // that the lock does not take most of the traces.
     std::set<int> trace_teeth, single_teeth;
     std::set<int> traces;
     for (const auto& patch : result_.patches) {

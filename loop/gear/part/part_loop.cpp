@@ -98,8 +98,8 @@ void PartLoop::explain() {
     select();
     // Of a scan the sums that are kept for the rest take memory; after the last round they go with the patches.
     if (!table_->points_mm.empty() || round + 1 == kRounds) finish_choice();
-    // Off the grid: the choice is made again with the shapes that fit, lest what a coarse shape
-    // leaves is taken for another effect.
+    // Off the grid: the choice is made again with the shapes that fit, so that what a coarse
+    // shape leaves is not taken for another effect.
     bool again = put_refined_shapes_on_the_grid();
     again = ban_misnamed() || again;
     again = settle_poses_of_scans() || linearise() || again;
@@ -173,7 +173,7 @@ void PartLoop::finish_choice() {
   const DiscoveryResult told = std::move(*choice_).finished();
   choice_.reset();
   discovery_.p_left = told.p_left;
-  discovery_.likest_left = told.likest_left;
+  discovery_.most_likely_left = told.most_likely_left;
   for (std::size_t i = 0; i < told.chosen.size(); ++i) {
     ChosenGroup& record = discovery_.chosen[options_.given.size() + i];
     record.bic_gain = told.chosen[i].bic_gain;
@@ -303,7 +303,7 @@ bool PartLoop::structure_is_left() const {
     const double p = vetoed_ && !single ? discovery_.first_p_value : discovery_.first_common_p_value;
     return p <= sure / options_.tables;
   }
-  return discovery_.p_left <= kLeft / options_.tables && discovery_.likest_left >= 0;
+  return discovery_.p_left <= kLeft / options_.tables && discovery_.most_likely_left >= 0;
 }
 
 WhatIsLeft PartLoop::what_is_left() const {
@@ -325,9 +325,9 @@ std::string PartLoop::structure_left() const {
     return words_for(neighbours_) + (remainder_.empty() ? "" : "; and " + remainder_.front().text);
   if (!remainder_.empty()) return remainder_.front().text;
   if (denied_spot_) return words_for(*denied_spot_) + ", which the values held out do not bear out";
-  if (!structure_is_left() || discovery_.likest_left < 0)
+  if (!structure_is_left() || discovery_.most_likely_left < 0)
     return "nothing beyond the measurement's own noise was found";
-  return "what is left looks most like " + words_for(candidates_[discovery_.likest_left]);
+  return "what is left looks most like " + words_for(candidates_[discovery_.most_likely_left]);
 }
 
 }  // namespace trueflank::loop

@@ -305,11 +305,11 @@ bool PartLoop::is_likeliest_order(const Effect& wave, const std::vector<Effect>&
   const DiscoveryResult all = discover(problem, options);
   problem.fold = folds;
   problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
-  if (all.p_left > kNextLevel / options_.tables || all.likest_left < 0) return false;
-  const Effect& likest = candidates_[static_cast<std::size_t>(all.likest_left)];
-  if (std::abs(likest.order() - wave.order()) <= kSame) return true;
+  if (all.p_left > kNextLevel / options_.tables || all.most_likely_left < 0) return false;
+  const Effect& most_likely = candidates_[static_cast<std::size_t>(all.most_likely_left)];
+  if (std::abs(most_likely.order() - wave.order()) <= kSame) return true;
   // On few teeth, or over short profiles, orders look alike.
-  const PointFit both(geometry_, table_, patches_, {likest, wave});
+  const PointFit both(geometry_, table_, patches_, {most_likely, wave});
   return both.retained(both.first_column(1)) < kOwn;
 }
 
