@@ -4,8 +4,8 @@ twelve teeth, an index of all, with or without radial runout and spans, each in 
 effects at once. Gears, effects and errors are those of drawn_anew.py; what a ball in a gap and a caliper over some
 teeth read is worked out here.
 Usage: mixed_records.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--list] [--least SHARE]
-Right: as in drawn_anew.py; and the same loop.json, byte for byte, from the files in another order with their rows
-shuffled."""
+Right: as in drawn_anew.py; and the same loop.json, byte for byte, from the files in another order, and in them the
+records: traces as they were measured, one after the other in any order."""
 import math
 import shutil
 
@@ -31,6 +31,16 @@ def below(f, target, low, high):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if f(middle) < target else (low, middle)
     return low
+
+
+def in_another_order(r, rows):
+    """The traces in any order, the values within them as they were; what is no trace is a record of one row."""
+    records = {}
+    for i, row in enumerate(rows):
+        trace = row.startswith(("profile", "helix"))
+        records.setdefault(tuple(row.split(",")[:3]) if trace else i, []).append(row)
+    keys = list(records)
+    return [row for k in r.permutation(len(keys)) for row in records[keys[k]]]
 
 
 class Case(drawn_anew.Case):
@@ -99,7 +109,7 @@ class Case(drawn_anew.Case):
             (folder_of / "part.toml").write_text(self.g.toml())
             for name, rows in files.items():
                 first = next(i for i, row in enumerate(rows) if row.startswith(("record", "quantity"))) + 1
-                values = [str(row) for row in self.r.permutation(rows[first:])] if shuffled else rows[first:]
+                values = in_another_order(self.r, rows[first:]) if shuffled else rows[first:]
                 (folder_of / f"{name}.csv").write_text("\n".join(rows[:first] + values) + "\n")
         trial.close_loop(self, program, where, "part.toml", *(f"{name}.csv" for name in files))
         first = self.answer, self.why, self.seconds
