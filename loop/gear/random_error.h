@@ -36,8 +36,8 @@ struct RandomError {
 /// Traces: their spectrum, at every wavelength the median over the teeth and the neighbouring
 /// wavelengths, what the teeth have in common taken off: a line, a form that repeats or one odd
 /// tooth is no noise, an error that hangs together is. Scans: the median flank, less what all flanks
-/// have in common, a low form of its own and the courses of its own that `left` knows of. In both each tooth counts by how loud its own short
-/// waves are (discovery/loudness.h). One value a tooth: second differences around the gear.
+/// have in common, a low form of its own and the courses of its own that `left` knows of. In both each
+/// tooth counts by how loud its own short waves are (discovery/loudness.h). One value a tooth: second differences around the gear.
 /// `row_um`: residuals of the table's rows.
 /// Accuracy: in blind runs (docs/loop.md) the middle 90 % lie at 0.94 to 1.17 of the true one.
 [[nodiscard]] RandomError random_error(const FlankGeometry& geometry, const Observations& table,
