@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>

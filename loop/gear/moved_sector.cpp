@@ -73,7 +73,7 @@ class SectorSearch {
         }
         if (count < kFewestInSector) continue;
         const Matrix2 left = own - cross.transpose() * taken;
-        const double size = left.determinant();
+        const double size = left(0, 0) * left(1, 1) - left(1, 0) * left(0, 1);
         if (!(size > 1e-6 * left.trace() * left.trace())) continue;
         const Vector2 aside = Vector2(left(1, 1) * right[0] - left(0, 1) * right[1],
                                       left(0, 0) * right[1] - left(1, 0) * right[0]) /

@@ -3,7 +3,7 @@
 """Who may include whom: keeps the table of CONTRIBUTING.md true.
 
 CMake cannot: all folders share one include root. Also checked here, because it is the same walk
-through the tree: the licence line, kernels kept out of headers, every file listed for the build.
+through the tree: the licence line, kernels kept out of headers, Eigen's headers, every file listed for the build.
 Usage: check_layers.py [ROOT]
 """
 import os
@@ -56,6 +56,16 @@ THIRD_PARTY = {
     "CLI11": (r"CLI/", ["app"], []),
 }
 
+# What Eigen/Core declares and another of its headers defines. Without that header a source compiles, and links only
+# where a precompiled header has it: the sanitizers' builds have none.
+EIGEN_PARTS = {
+    "Cholesky": re.compile(r"\.(?:ldlt|llt)\(\)"),
+    "Geometry": re.compile(r"\.(?:cross|cross3)\("),
+    "LU": re.compile(r"\.(?:determinant|inverse|lu|partialPivLu|fullPivLu)\(\)"),
+    "QR": re.compile(r"\.(?:householderQr|colPivHouseholderQr|fullPivHouseholderQr)\(\)"),
+    "SVD": re.compile(r"\.(?:jacobiSvd|bdcSvd)\("),
+}
+
 # top-level folders that nobody includes
 OUTSIDE = ["tests", "examples", "bench", "fuzz", "python", "docs", "cmake", "scripts", "templates",
            "build"]
@@ -97,6 +107,14 @@ def check_includes(path, folder, text):
         else:
             if bracket == '"':
                 yield where + f'write the whole path: "trueflank/<folder>/{name}"'
+
+
+def check_eigen(path, text):
+    for part, call in EIGEN_PARTS.items():
+        match = call.search(text)
+        if match and f"<Eigen/{part}>" not in text and "<Eigen/Dense>" not in text:
+            line = text.count("\n", 0, match.start()) + 1
+            yield f"{path}:{line}: {match.group().strip('.()')}() of Eigen needs <Eigen/{part}>"
 
 
 def first_line_is_licence(text):
@@ -172,6 +190,7 @@ def check(root):
             complaints.append(f"{shown}: {folder}/ is in no row of the include table")
             continue
         complaints += check_includes(shown, folder, text)
+        complaints += check_eigen(shown, text)
         if path.suffix == ".h" and "#pragma once" not in text:
             complaints.append(f"{shown}: no #pragma once")
         # in the CMakeLists.txt of its room, where that has one, or of its folder

@@ -69,6 +69,11 @@ class Layers(Tree):
         self.write("train/cut.cpp", LICENCE + "#include <CGAL/Surface_mesh.h>\n")
         self.assert_one("train/ may not use CGAL")
 
+    def test_what_another_header_of_eigen_defines(self):
+        self.write("geometry/area.cpp", LICENCE + "#include <Eigen/Core>\n"
+                   "double area(const Eigen::Matrix2d& m) { return m.determinant(); }\n")
+        self.assert_one("area.cpp:3: determinant() of Eigen needs <Eigen/LU>")
+
     def test_opencascade_anywhere(self):
         self.write("export/step.cpp", LICENCE + "#include <STEPControl_Writer.hxx>\n")
         self.assert_one("may not use OpenCASCADE")
