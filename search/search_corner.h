@@ -16,4 +16,18 @@ namespace trueflank {
 [[nodiscard]] double corner_clearance_in_gear2_mm(const GearPair& pair);  ///< tip 1 in root 2
 /// @}
 
+/// A clearance that was asked for only as far as it matters.
+struct CornerLook {
+  double clearance_mm = kNaN;
+  bool least = true;  ///< the least clearance; else that of some place, which is below what was enough
+};
+/// Enough is no clearance: what is found is the least one.
+inline constexpr double kLeastOfAll_mm = -1e300;
+/// Ends at the first place found whose clearance is below `enough_mm`. `first` is the sample of the
+/// fillet to look at first, and becomes the one found: neighbours in a search are close at the same.
+/// @{
+[[nodiscard]] CornerLook look_for_corner_in_gear1(const GearPair& pair, double enough_mm, int& first);
+[[nodiscard]] CornerLook look_for_corner_in_gear2(const GearPair& pair, double enough_mm, int& first);
+/// @}
+
 }  // namespace trueflank
