@@ -90,17 +90,15 @@ CornerLook least_over(const CornerPath& path, const SampledStretch& stretch, int
   };
   int nearest = 0;
   double least = 1e9;
-  for (int i = 0; i <= count; i += kSkipped) {
-    least = std::min(least, sample(i));
-    if (least < enough_mm) return first = i, CornerLook{least, false};
-  }
+  for (int i = 0; i <= count; i += kSkipped) least = std::min(least, sample(i));
   if (least > kFar_mm) return {least};
   least = 1e9;
   for (int i = 0; i <= count; ++i) {
     const double here = i % kSkipped == 0 ? line[static_cast<std::size_t>(i)] : sample(i);
     if (here < least) least = here, nearest = i;
-    if (least < enough_mm) return first = i, CornerLook{least, false};
   }
+  first = nearest;
+  if (least < enough_mm) return {least, false};
   if (least > kClose_mm) return {least};
   const double at_nearest = nearest / static_cast<double>(count);
   // A corner that reaches no farther than a little beyond a sample is at its closest there: the
@@ -165,28 +163,49 @@ CornerLook least_clearance(const CornerPath& path, const ToothProfile& profile,
   return {least};
 }
 
+CornerPath::Kind kind_of(const Gear& root, const Gear& mate) {
+  if (root.kind == GearKind::kInternal) return CornerPath::Kind::kPlanetTipInRing;
+  return mate.kind == GearKind::kInternal ? CornerPath::Kind::kRingTipInPlanet
+                                          : CornerPath::Kind::kExternalPair;
+}
+CornerPath path_of(const Gear& root, const Gear& mate, double mate_tip_mm, double centre_distance) {
+  return {.centre_distance = centre_distance,
+          .tip_radius = mate_tip_mm,
+          .half_angle = tooth_half_angle_rad(mate, mate_tip_mm),
+          .mate_per_gear = static_cast<double>(mate.teeth) / root.teeth,
+          .kind = kind_of(root, mate)};
+}
+
 }  // namespace
 
+std::optional<double> corner_clearance_at_sample_mm(const CornerSample& of, int sample) {
+  const Gear& mate = *of.mate;
+  // a cutter may trim a ring's tip
+  if (mate.cutter || mate.tip_rounding_mm != 0.0 || sample < 0 || sample > kFilletPoints)
+    return std::nullopt;
+  if (!(mate.tip_radius_mm > base_radius_mm(mate))) return std::nullopt;
+  const CornerPath path =
+      path_of(of.root->gear(), mate, mate.tip_radius_mm, of.centre_distance_mm);
+  if (!(path.half_angle >= 0.0)) return std::nullopt;  // pointed
+  for (const ProfilePiece& piece : of.root->pieces()) {
+    if (piece.kind != PieceKind::kFillet) continue;
+    const SampledStretch fillet{&piece.curve, piece.curve.begin, piece.curve.end, kFilletPoints};
+    return clearance_at(path, fillet.at(static_cast<double>(sample) / kFilletPoints),
+                        of.root->gear().teeth);
+  }
+  return std::nullopt;
+}
+
 CornerLook look_for_corner_in_gear1(const GearPair& pair, double enough_mm, int& first) {
-  const ToothProfile& mate = *pair.profile2;
-  CornerPath path;
-  path.centre_distance = pair.centre_distance_mm;
-  path.tip_radius = mate.tip_form_radius_mm();
-  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
-  path.mate_per_gear = static_cast<double>(pair.gear2().teeth) / pair.gear1().teeth;
-  path.kind = pair.internal() ? CornerPath::Kind::kRingTipInPlanet : CornerPath::Kind::kExternalPair;
+  const CornerPath path = path_of(pair.gear1(), pair.gear2(), pair.profile2->tip_form_radius_mm(),
+                                  pair.centre_distance_mm);
   return least_clearance(
       path, *pair.profile1, [&] { return -line_of_action(pair).start_mm; }, enough_mm, first);
 }
 
 CornerLook look_for_corner_in_gear2(const GearPair& pair, double enough_mm, int& first) {
-  const ToothProfile& mate = *pair.profile1;
-  CornerPath path;
-  path.centre_distance = pair.centre_distance_mm;
-  path.tip_radius = mate.tip_form_radius_mm();
-  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
-  path.mate_per_gear = static_cast<double>(pair.gear1().teeth) / pair.gear2().teeth;
-  path.kind = pair.internal() ? CornerPath::Kind::kPlanetTipInRing : CornerPath::Kind::kExternalPair;
+  const CornerPath path = path_of(pair.gear2(), pair.gear1(), pair.profile1->tip_form_radius_mm(),
+                                  pair.centre_distance_mm);
   const auto beyond = [&] {
     if (pair.internal()) return 0.0;
     const double span = pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair));

@@ -252,6 +252,19 @@ CornerLook ProfileJudge::look(std::size_t margin, double enough, int& first) {
           r_->contact_ratio_min};
 }
 
+std::optional<double> ProfileJudge::at_sample(std::size_t margin, int sample) {
+  if (margin % 3 == 2) return std::nullopt;
+  const bool outer = is_outer(margin), in_planet = outer == (margin % 3 == 1);
+  const auto& other = outer ? setting_.gears.sun : setting_.gears.ring;
+  const ToothProfile* root =
+      in_planet ? made(planet_gear_, planet_) : made(other, outer ? sun_ : ring_);
+  if (!root) return std::nullopt;
+  return corner_clearance_at_sample_mm({.root = root,
+                                        .mate = in_planet ? &*other : &*planet_gear_,
+                                        .centre_distance_mm = setting_.lengths.centre_distance},
+                                       sample);
+}
+
 void ProfileJudge::correct_losses(LayerEvaluation& result) {
   if (r_->loss_model == LossModel::kContactRatios) return;
   const auto correct = [&](bool outer, const MeshView& view, MeshLoss& loss) {

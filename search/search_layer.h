@@ -106,6 +106,9 @@ class ProfileJudge {
   [[nodiscard]] bool exists(std::size_t margin);
   /// Requires: it exists. `first`: see look_for_corner_in_gear1().
   [[nodiscard]] CornerLook look(std::size_t margin, double enough, int& first);
+  /// Of a corner: its clearance at one sample of the root, from the profile of that gear alone. Nothing
+  /// where that does not tell it, or for another margin.
+  [[nodiscard]] std::optional<double> at_sample(std::size_t margin, int sample);
   /// Replaces the losses of paths that undercut, or a root form circle above the mate's tip, shortens.
   void correct_losses(LayerEvaluation& result);
 

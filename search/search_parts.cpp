@@ -5,6 +5,12 @@
 #include <utility>
 
 namespace trueflank {
+namespace {
+
+/// The margin of a limit that could not be computed.
+constexpr double kNoTooth = -1e9;
+
+}  // namespace
 
 PlaceInParts::PlaceInParts(SetValues& values, int layer, double distance, double shift,
                            double stop_below, CornerPlaces& corners)
@@ -40,10 +46,20 @@ double PlaceInParts::kept(std::size_t limit, double enough) {
   const auto known = [&] { return values_.kept(layer_, limit, margin); };
   if (state == State::kComputed || (state == State::kBounded && known() < enough)) return known();
   const std::size_t of_profiles = limit - first_of_profiles_;
+  const double below = values_.surely_below(layer_, limit, enough);
+  if (state == State::kOpen && enough > kLeastOfAll_mm)
+    if (const auto here = profiles_->at_sample(of_profiles, corners_[limit]);
+        here && *here < below) {
+      state = State::kBounded;
+      margin = *here;
+      return known();
+    }
   state = State::kComputed;
-  if (!profiles_->exists(of_profiles)) return known();
-  const CornerLook look =
-      profiles_->look(of_profiles, values_.surely_below(layer_, limit, enough), corners_[limit]);
+  if (!profiles_->exists(of_profiles)) {
+    margin = kNoTooth;
+    return known();
+  }
+  const CornerLook look = profiles_->look(of_profiles, below, corners_[limit]);
   margin = look.clearance_mm;
   if (!look.least) state = State::kBounded;
   return known();
@@ -84,22 +100,14 @@ bool break_the_same(PlaceInParts& p, PlaceInParts& q) {
   return false;
 }
 
-bool are_close(PlaceInParts& p, PlaceInParts& q, double least) {
-  std::array<std::size_t, kLayerLimits> both;
-  std::size_t count = 0, looked_at = 0;
+bool may_be_close(const PlaceInParts& p, const PlaceInParts& q, double least) {
   bool far_p = false, far_q = false;
-  const auto is_kept = [](PlaceInParts& place, std::size_t i) {
-    return place.is_known(i) && !place.breaks(i);
-  };
   for (std::size_t i = 0; i < p.limits(); ++i) {
-    if (is_kept(p, i) || is_kept(q, i) || !p.breaks(i) || !q.breaks(i)) continue;
-    both[count++] = i;
-    far_p = far_p || !(p.kept(i, least) > least);
-    for (; far_p && !far_q && looked_at < count; ++looked_at)
-      far_q = !(q.kept(both[looked_at], least) > least);
-    if (far_p && far_q) return false;
+    if (!p.is_known_broken(i) || !q.is_known_broken(i)) continue;
+    far_p = far_p || !(p.keeps_at_most(i) > least);
+    far_q = far_q || !(q.keeps_at_most(i) > least);
   }
-  return true;
+  return !(far_p && far_q);
 }
 
 }  // namespace trueflank

@@ -33,9 +33,18 @@ class PlaceInParts {
   /// What a limit keeps; where that is less than `enough`, anything between that and `enough`. Not
   /// a number, or far below all else: no such limit could be computed.
   [[nodiscard]] double kept(std::size_t limit, double enough);
-  /// Whether a limit is known to be broken; one that could not be computed is not.
+  /// Whether a limit is broken. One that cannot be computed is not; but a corner counts that cuts
+  /// into a gear's root where another gear of the layer has no teeth.
   [[nodiscard]] bool breaks(std::size_t limit) {
     return kept(limit, 0.0) < 0.0 && evaluation_.margins[limit] > kNotComputed;
+  }
+  [[nodiscard]] bool is_known_broken(std::size_t limit) const {
+    return is_known(limit) && keeps_at_most(limit) < 0.0 &&
+           evaluation_.margins[limit] > kNotComputed;
+  }
+  /// Requires: something is known of the limit.
+  [[nodiscard]] double keeps_at_most(std::size_t limit) const {
+    return values_.kept(layer_, limit, evaluation_.margins[limit]);
   }
   /// Whether every limit is kept. Looks at those first that `beside` breaks; of one that is broken
   /// no more is computed than that it keeps less than `enough`.
@@ -63,7 +72,8 @@ class PlaceInParts {
 
 /// Whether a limit is broken at both places.
 [[nodiscard]] bool break_the_same(PlaceInParts& p, PlaceInParts& q);
-/// Whether at one of two places all limits that both break keep more than `least`.
-[[nodiscard]] bool are_close(PlaceInParts& p, PlaceInParts& q, double least);
+/// Whether at one of two places all limits that both break may keep more than `least`, as far as is
+/// known: false only where they do not.
+[[nodiscard]] bool may_be_close(const PlaceInParts& p, const PlaceInParts& q, double least);
 
 }  // namespace trueflank

@@ -151,7 +151,7 @@ class LayerProblem {
     // a limit ends suddenly: a corner that no longer reaches a fillet
     const double most_margin = std::max(p.margin, q.margin);
     PlaceInParts left = in_parts(p), right = in_parts(q);
-    if (are_close(left, right, -kClose)) return split(left, right, kSplits, kHalvings);
+    if (may_be_close(left, right, -kClose)) return split(left, right, kSplits, kHalvings);
     if (std::min(p.margin, q.margin) < -2.0 * kSteepest * step) return;
     for (const std::size_t beside : {i - 1, i + 2})
       if (beside < line_.size() && line_[beside].margin > most_margin) return;
@@ -182,8 +182,8 @@ class LayerProblem {
       return split(middle, q, depth, halvings - 1);
     }
     if (depth == 1) return;
-    if (are_close(p, middle, -kClose)) split(p, middle, depth - 1, halvings - 1);
-    if (are_close(middle, q, -kClose)) split(middle, q, depth - 1, halvings - 1);
+    if (may_be_close(p, middle, -kClose)) split(p, middle, depth - 1, halvings - 1);
+    if (may_be_close(middle, q, -kClose)) split(middle, q, depth - 1, halvings - 1);
   }
 
   /// What an infeasible place must keep more than to be the best so far.
