@@ -59,6 +59,8 @@ STAGES = {
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
                      r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",
+    "shifts of tooth sets": r"trueflank::optimise_set\(",
+    "certificate of a search": r"trueflank::certified_bound\(",
     "reading meshes": r"trueflank::io::read_mesh\(",
     "testing that meshes are closed": r"trueflank::mesh_validity\(",
     "tree of facets": r"trueflank::TriangleTree::TriangleTree\(",
@@ -89,6 +91,23 @@ face_width_mm = 10.0
 crowning_um = 8.0
 tip_relief_um = 10.0
 tip_relief_start_diameter_mm = 26.6
+"""
+SEARCH = """format = 1
+[gearbox]
+kind = "3k"
+output = "any"
+[ratio]
+min = 95.9
+max = 96.1
+[teeth]
+identical_planets = true
+sun_min = 12
+sun_max = 13
+planet1_min = 38
+planet1_max = 39
+[search]
+results = 1
+listed = 0
 """
 
 
@@ -125,9 +144,11 @@ def jobs(program, folder):
                 "-q", "--formats", formats], folder / name
     (folder / "gear.toml").write_text(PAIR)
     (folder / "crowned.toml").write_text(CROWNED)
+    (folder / "search.toml").write_text(SEARCH)
     scan(folder / "scan.ply", 20000)
     ring = folder / "helical/ring"
     return {
+        "search 3k": ([program, "search", folder / "search.toml", "-o", folder / "search", "-q", "--threads", "1"], None),
         "check 3k": ([program, "check", SOURCE / "examples/bilateral_drive/design.toml"], None),
         "3k": make("bilateral_drive", "stl,3mf", "3k"),
         "3k step": make("bilateral_drive", "stl,3mf,step", "3k_step"),

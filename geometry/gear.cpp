@@ -9,6 +9,7 @@
 namespace trueflank {
 
 double transverse_module_mm(const Gear& gear) {
+  if (gear.helix_angle_rad == 0.0) return gear.normal_module_mm;
   return gear.normal_module_mm / std::cos(gear.helix_angle_rad);
 }
 

@@ -26,9 +26,11 @@ class ProfileBuilder {
  private:
   [[nodiscard]] const Gear& g() const { return p_.gear_; }
   double gap_angle() const { return kPi / g().teeth; }
-  double radius_at(double roll_mm) const { return std::hypot(base_radius_mm(g()), roll_mm); }
+  /// tooth_half_angle_rad() of the gear.
+  [[nodiscard]] double half_angle_at(double radius_mm) const;
+  double radius_at(double roll_mm) const { return std::hypot(base_radius_mm_, roll_mm); }
 
-  void add(PieceKind kind, Curve curve);
+  void add(PieceKind kind, Curve curve, double least_mm = 0.0);
   void add_arc(PieceKind kind, double radius, double from, double to);
   /// The tip's land, and its rounding into the flank where there is one.
   void add_tip();
@@ -61,6 +63,7 @@ class ProfileBuilder {
   [[nodiscard]] Status trim_ring_tip(const CutterTrochoid& fillet, double eta_joint);
 
   ToothProfile p_;
+  double base_radius_mm_ = kNaN, base_half_angle_rad_ = kNaN;  ///< of the gear
   Curve rounding_;  ///< of the tip corner, where there is one
 };
 

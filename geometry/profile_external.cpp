@@ -11,15 +11,15 @@
 namespace trueflank {
 
 Status ProfileBuilder::find_pointed_tip() {
-  const double r_b = base_radius_mm(g());
+  const double r_b = base_radius_mm_;
   p_.tip_radius_mm_ = g().tip_radius_mm;
-  if (base_half_angle_rad(g()) <= 0.0)
+  if (base_half_angle_rad_ <= 0.0)
     return fail(no_tooth("shift", g().shift,
                          "the teeth have no thickness left at the base circle",
                          "a larger profile shift or less thinning"));
-  if (tooth_half_angle_rad(g(), g().tip_radius_mm) < 0.0) {
+  if (half_angle_at(g().tip_radius_mm) < 0.0) {
     p_.notes_.pointed = true;
-    p_.tip_radius_mm_ = r_b / std::cos(inverse_involute_rad(base_half_angle_rad(g())));
+    p_.tip_radius_mm_ = r_b / std::cos(inverse_involute_rad(base_half_angle_rad_));
   }
   return {};
 }
@@ -27,8 +27,8 @@ Status ProfileBuilder::find_pointed_tip() {
 Status ProfileBuilder::find_undercut(const Curve& fillet, double& fillet_end) {
   // Seen along the trochoid from its joint with the rack's flank inwards, it starts on the gap's
   // side of the involute and dives into the tooth: that crossing is where the involute ends.
-  const double r_b = base_radius_mm(g());
-  const double psi = base_half_angle_rad(g());
+  const double r_b = base_radius_mm_;
+  const double psi = base_half_angle_rad_;
   const auto outside = [&](double t) {
     const Point2 q = point_at(fillet, t);
     const double r = q.norm();
@@ -178,7 +178,7 @@ Status ProfileBuilder::build_external() {
 
   p_.tip_form_radius_mm_ = p_.tip_radius_mm_;
   if (auto ok = round_tip(); !ok) return ok;
-  const double r_b = base_radius_mm(g());
+  const double r_b = base_radius_mm_;
   const double roll_root = roll_length_mm(p_.root_form_radius_mm_, r_b);
   const double roll_tip = roll_length_mm(p_.tip_form_radius_mm_, r_b);
   if (!p_.notes_.pointed) add_tip();

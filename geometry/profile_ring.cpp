@@ -11,8 +11,8 @@
 namespace trueflank {
 
 Status ProfileBuilder::ring_ends() {
-  const double r_b = base_radius_mm(g());
-  const double psi = base_half_angle_rad(g());
+  const double r_b = base_radius_mm_;
+  const double psi = base_half_angle_rad_;
   p_.root_radius_mm_ = nominal_root_radius_mm(g());
   p_.tip_radius_mm_ = g().tip_radius_mm;
   if (!(p_.root_radius_mm_ > r_b))
@@ -30,7 +30,7 @@ Status ProfileBuilder::ring_ends() {
     p_.notes_.space_closed = true;
     p_.root_radius_mm_ = r_b / std::cos(inverse_involute_rad(gap_angle() - psi));
   }
-  const double tip_half = tooth_half_angle_rad(g(), std::max(p_.tip_radius_mm_, r_b));
+  const double tip_half = half_angle_at(std::max(p_.tip_radius_mm_, r_b));
   if (tip_half < 0.0) {
     p_.notes_.pointed = true;
     // psi < 0: the flanks meet where inv a = -psi
@@ -46,8 +46,8 @@ Status ProfileBuilder::ring_ends() {
 
 Status ProfileBuilder::build_ring() {
   if (auto ok = ring_ends(); !ok) return ok;
-  const double r_b = base_radius_mm(g());
-  const double psi = base_half_angle_rad(g());
+  const double r_b = base_radius_mm_;
+  const double psi = base_half_angle_rad_;
   // The root first: it may trim the tip.
   std::vector<ProfilePiece> tip_pieces;
   auto root = g().ring_root == RingRoot::kFillet ? ring_fillet_root() : ring_shaper_root();
@@ -82,8 +82,8 @@ Status ProfileBuilder::build_ring() {
 }
 
 Status ProfileBuilder::ring_fillet_root() {
-  const double r_b = base_radius_mm(g()), r_f = p_.root_radius_mm_;
-  const double psi = base_half_angle_rad(g());
+  const double r_b = base_radius_mm_, r_f = p_.root_radius_mm_;
+  const double psi = base_half_angle_rad_;
   // Angle of the centre of a circle of radius rho that touches flank and root circle.
   const auto centre_angle = [&](double rho) {
     return psi + rho / r_b + involute_function(pressure_angle_at_radius_rad(r_f - rho, r_b));
@@ -105,7 +105,7 @@ Status ProfileBuilder::ring_fillet_root() {
   const double roll = roll_length_mm(r_f - rho, r_b) + rho;
   p_.root_form_radius_mm_ = radius_at(roll);
   const double angle = rho > 0.0 ? std::min(centre_angle(rho), gap_angle())
-                                 : tooth_half_angle_rad(g(), r_f);
+                                 : half_angle_at(r_f);
   if (rho > 0.0) {
     // From the flank's touching point (inward normal of the space) to the root circle.
     const double from = psi + roll / r_b - 0.5 * kPi;
@@ -187,7 +187,7 @@ Status ProfileBuilder::ring_shaper_root() {
   // the cutter's involute starts on its base circle
   const double first_roll = mesh->centre_distance_mm * std::sin(mesh->pressure_angle_rad);
   p_.root_form_radius_mm_ = radius_at(first_roll + roll_c);
-  if (roll_length_mm(p_.tip_form_radius_mm_, base_radius_mm(g())) < first_roll) {
+  if (roll_length_mm(p_.tip_form_radius_mm_, base_radius_mm_) < first_roll) {
     // Inside this the cutter has no involute flank to generate with.
     return fail(no_tooth("tip_diameter_mm", 2.0 * p_.tip_radius_mm_,
                          "a cutter with " + std::to_string(g().cutter->teeth) +
@@ -209,8 +209,8 @@ Status ProfileBuilder::trim_ring_tip(const CutterTrochoid& fillet, double eta_jo
   CutterTrochoid sweep = fillet;
   sweep.contact = CutterContact::kTrimming;
   const Curve envelope{sweep, sweep.corner_centre_angle_rad, eta_joint};
-  const double r_b = base_radius_mm(g());
-  const double psi = base_half_angle_rad(g());
+  const double r_b = base_radius_mm_;
+  const double psi = base_half_angle_rad_;
   const auto depth = [&](double eta) {  // < 0: inside the tooth, past the flank
     const Point2 q = point_at(envelope, eta);
     const double inv = involute_function(pressure_angle_at_radius_rad(q.norm(), r_b));

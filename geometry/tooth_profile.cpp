@@ -65,35 +65,50 @@ Error impossible_value(std::string key, double value, std::string remedy) {
 
 Result<ToothProfile> ProfileBuilder::build() {
   if (auto ok = check_values(g()); !ok) return fail(ok.error());
+  base_radius_mm_ = base_radius_mm(g());
+  base_half_angle_rad_ = base_half_angle_rad(g());
   auto made = g().kind == GearKind::kExternal ? build_external() : build_ring();
   if (!made) return fail(made.error());
   return std::move(p_);
 }
 
-void ProfileBuilder::add(PieceKind kind, Curve curve) {
-  if ((curve.end_point() - curve.start_point()).norm() < tolerance::kShortestPiece_mm) return;
+double ProfileBuilder::half_angle_at(double radius_mm) const {
+  const double inv =
+      involute_function(pressure_angle_at_radius_rad(radius_mm, base_radius_mm_));
+  return g().kind == GearKind::kExternal ? base_half_angle_rad_ - inv : base_half_angle_rad_ + inv;
+}
+
+/// `least_mm`: the ends are at least that far apart, where more than rounding is known of it.
+void ProfileBuilder::add(PieceKind kind, Curve curve, double least_mm) {
+  const bool surely = least_mm > 2.0 * tolerance::kShortestPiece_mm;
+  if (!surely &&
+      (curve.end_point() - curve.start_point()).norm() < tolerance::kShortestPiece_mm)
+    return;
   p_.pieces_.push_back({kind, std::move(curve)});
 }
 
 void ProfileBuilder::add_arc(PieceKind kind, double radius, double from, double to) {
   if (radius * (to - from) < tolerance::kShortestPiece_mm) return;
-  add(kind, {CircularArc{Point2::Zero(), radius}, from, to});
+  // up to a half turn a chord is at least 2 / pi of its arc
+  const double chord = to - from < kPi ? 0.6 * radius * (to - from) : 0.0;
+  add(kind, {CircularArc{Point2::Zero(), radius}, from, to}, chord);
 }
 
 void ProfileBuilder::add_tip() {
-  const double r_b = base_radius_mm(g());
+  const double r_b = base_radius_mm_;
   if (g().tip_rounding_mm == 0.0)
     return add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0,
-                   tooth_half_angle_rad(g(), std::max(p_.tip_radius_mm_, r_b)));
+                   half_angle_at(std::max(p_.tip_radius_mm_, r_b)));
   add_arc(PieceKind::kTip, p_.tip_radius_mm_, 0.0, polar_angle_rad(rounding_.start_point()));
   add(PieceKind::kTipRounding, rounding_);
 }
 
 void ProfileBuilder::add_involute(double from_roll_mm, double to_roll_mm) {
-  const double r_b = base_radius_mm(g());
+  const double r_b = base_radius_mm_;
   const int sense = g().kind == GearKind::kExternal ? -1 : 1;
   add(PieceKind::kInvolute,
-      {Involute{r_b, base_half_angle_rad(g()), sense}, from_roll_mm / r_b, to_roll_mm / r_b});
+      {Involute{r_b, base_half_angle_rad_, sense}, from_roll_mm / r_b, to_roll_mm / r_b},
+      std::abs(radius_at(from_roll_mm) - radius_at(to_roll_mm)));
 }
 
 /// The arc's centre lies on the involute parallel to the flank, the radius inside the tooth: turned by
@@ -112,12 +127,12 @@ Status ProfileBuilder::round_tip() {
     return fail(no_tooth(kKey, rho, why + ": there is no corner of tip circle and flank to round",
                          none + ", or another tip_diameter_mm"));
   }
-  const double r_b = base_radius_mm(g()), r_a = p_.tip_radius_mm_;
+  const double r_b = base_radius_mm_, r_a = p_.tip_radius_mm_;
   const double sense = g().kind == GearKind::kExternal ? 1.0 : -1.0;
   const auto centre_angle = [&](double radius) {
     const double inv = involute_function(
         pressure_angle_at_radius_rad(std::max(r_a - sense * radius, r_b), r_b));
-    return base_half_angle_rad(g()) - radius / r_b - sense * inv;
+    return base_half_angle_rad_ - radius / r_b - sense * inv;
   };
   const auto contact_roll = [&](double radius) {
     return roll_length_mm(r_a - sense * radius, r_b) + sense * radius;
@@ -133,15 +148,15 @@ Status ProfileBuilder::round_tip() {
         sides_of_change([&](double radius) { return room(radius) >= 0.0; }, 0.0, rho, 60).first;
     return fail(no_tooth(kKey, rho,
                          "no room for this rounding on a tip land of " +
-                         trimmed_number(2.0 * r_a * tooth_half_angle_rad(g(), r_a)) + " mm",
+                         trimmed_number(2.0 * r_a * half_angle_at(r_a)) + " mm",
                          "at most " + trimmed_number(most)));
   }
   const double roll = contact_roll(rho), angle = centre_angle(rho);
   p_.tip_form_radius_mm_ = radius_at(roll);
   // The flank's normal out of the material is the base tangent, at -+ 90 degrees from its radius.
   const double normal = g().kind == GearKind::kExternal
-                            ? base_half_angle_rad(g()) - roll / r_b + 0.5 * kPi
-                            : base_half_angle_rad(g()) + roll / r_b + 0.5 * kPi;
+                            ? base_half_angle_rad_ - roll / r_b + 0.5 * kPi
+                            : base_half_angle_rad_ + roll / r_b + 0.5 * kPi;
   const double at_tip = g().kind == GearKind::kExternal ? angle : angle + kPi;
   rounding_ = {CircularArc{(r_a - sense * rho) * unit_vector(angle), rho}, at_tip, normal};
   return {};

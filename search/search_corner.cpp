@@ -65,13 +65,24 @@ double clearance_at(const CornerPath& path, const Point2& point, int teeth) {
   return radius * (gap - widest);
 }
 
-/// Smallest clearance over a stretch of a curve: sampled, then refined between the neighbours of the
-/// smallest sample where that is close enough to matter.
-double least_over(const CornerPath& path, const Curve& curve, double from, double to, int count,
-                  int teeth) {
-  const auto clearance = [&](double u) {
-    return clearance_at(path, point_at(curve, from + (to - from) * u), teeth);
-  };
+/// A stretch of a curve, sampled.
+struct SampledStretch {
+  const Curve* curve;
+  double from, to;
+  int count;
+
+  [[nodiscard]] Point2 at(double u) const { return point_at(*curve, from + (to - from) * u); }
+};
+
+/// Smallest clearance over a stretch: sampled, then refined between the neighbours of the smallest
+/// sample where that is close enough to matter.
+CornerLook least_over(const CornerPath& path, const SampledStretch& stretch, int teeth, double enough_mm,
+                      int& first) {
+  const int count = stretch.count;
+  const auto clearance = [&](double u) { return clearance_at(path, stretch.at(u), teeth); };
+  if (enough_mm > kLeastOfAll_mm && first >= 0 && first <= count)
+    if (const double here = clearance(static_cast<double>(first) / count); here < enough_mm)
+      return {here, false};
   std::array<double, kFilletPoints + 1> line{};
   static_assert(kFlankPoints <= kFilletPoints);
   const auto sample = [&](int i) {
@@ -80,13 +91,15 @@ double least_over(const CornerPath& path, const Curve& curve, double from, doubl
   int nearest = 0;
   double least = 1e9;
   for (int i = 0; i <= count; i += kSkipped) least = std::min(least, sample(i));
-  if (least > kFar_mm) return least;
+  if (least > kFar_mm) return {least};
   least = 1e9;
   for (int i = 0; i <= count; ++i) {
     const double here = i % kSkipped == 0 ? line[static_cast<std::size_t>(i)] : sample(i);
     if (here < least) least = here, nearest = i;
   }
-  if (least > kClose_mm) return least;
+  first = nearest;
+  if (least < enough_mm) return {least, false};
+  if (least > kClose_mm) return {least};
   const double at_nearest = nearest / static_cast<double>(count);
   // A corner that reaches no farther than a little beyond a sample is at its closest there: the
   // search goes as far as it reaches.
@@ -115,55 +128,100 @@ double least_over(const CornerPath& path, const Curve& curve, double from, doubl
       at_right = clearance(right = low + kGolden * (high - low));
     }
   }
-  return std::min({least, at_left, at_right});
+  return {std::min({least, at_left, at_right})};
 }
 
 /// `beyond_mm`: how far the mate's tip reaches past the tangent point of the base circle, if > 0.
-double least_clearance(const CornerPath& path, const ToothProfile& profile, double beyond_mm) {
+template <class Beyond>
+CornerLook least_clearance(const CornerPath& path, const ToothProfile& profile,
+                           const Beyond& beyond_mm, double enough_mm, int& first) {
   const int teeth = profile.gear().teeth;
   double least = 1e9;
+  const auto look = [&](const SampledStretch& stretch, int& at) {
+    const CornerLook found = least_over(path, stretch, teeth, enough_mm, at);
+    least = std::min(least, found.clearance_mm);
+    return found.least;
+  };
   for (const ProfilePiece& piece : profile.pieces()) {
     const Curve& curve = piece.curve;
-    if (piece.kind == PieceKind::kFillet)
-      least = std::min(least, least_over(path, curve, curve.begin, curve.end, kFilletPoints, teeth));
-    if (piece.kind == PieceKind::kInvolute && beyond_mm > 0.0) {
-      // parameter = roll angle; pieces run from the tip, so `end` is at the root form circle
-      const double reach = 2.0 * beyond_mm / base_radius_mm(profile.gear());
-      const double span = std::min(reach, std::abs(curve.end - curve.begin));
-      const double top = curve.end + (curve.begin > curve.end ? span : -span);
-      least = std::min(least, least_over(path, curve, curve.end, top, kFlankPoints, teeth));
-    }
+    if (piece.kind == PieceKind::kFillet &&
+        !look({&curve, curve.begin, curve.end, kFilletPoints}, first))
+      return {least, false};
   }
-  return least;
+  const double beyond = beyond_mm();
+  if (!(beyond > 0.0)) return {least};
+  for (const ProfilePiece& piece : profile.pieces()) {
+    if (piece.kind != PieceKind::kInvolute) continue;
+    const Curve& curve = piece.curve;
+    // parameter = roll angle; pieces run from the tip, so `end` is at the root form circle
+    const double reach = 2.0 * beyond / base_radius_mm(profile.gear());
+    const double span = std::min(reach, std::abs(curve.end - curve.begin));
+    const double top = curve.end + (curve.begin > curve.end ? span : -span);
+    int anywhere = -1;
+    if (!look({&curve, curve.end, top, kFlankPoints}, anywhere)) return {least, false};
+  }
+  return {least};
+}
+
+CornerPath::Kind kind_of(const Gear& root, const Gear& mate) {
+  if (root.kind == GearKind::kInternal) return CornerPath::Kind::kPlanetTipInRing;
+  return mate.kind == GearKind::kInternal ? CornerPath::Kind::kRingTipInPlanet
+                                          : CornerPath::Kind::kExternalPair;
+}
+CornerPath path_of(const Gear& root, const Gear& mate, double mate_tip_mm, double centre_distance) {
+  return {.centre_distance = centre_distance,
+          .tip_radius = mate_tip_mm,
+          .half_angle = tooth_half_angle_rad(mate, mate_tip_mm),
+          .mate_per_gear = static_cast<double>(mate.teeth) / root.teeth,
+          .kind = kind_of(root, mate)};
 }
 
 }  // namespace
 
+std::optional<double> corner_clearance_at_sample_mm(const CornerSample& of, int sample) {
+  const Gear& mate = *of.mate;
+  // a cutter may trim a ring's tip
+  if (mate.cutter || mate.tip_rounding_mm != 0.0 || sample < 0 || sample > kFilletPoints)
+    return std::nullopt;
+  if (!(mate.tip_radius_mm > base_radius_mm(mate))) return std::nullopt;
+  const CornerPath path =
+      path_of(of.root->gear(), mate, mate.tip_radius_mm, of.centre_distance_mm);
+  if (!(path.half_angle >= 0.0)) return std::nullopt;  // pointed
+  for (const ProfilePiece& piece : of.root->pieces()) {
+    if (piece.kind != PieceKind::kFillet) continue;
+    const SampledStretch fillet{&piece.curve, piece.curve.begin, piece.curve.end, kFilletPoints};
+    return clearance_at(path, fillet.at(static_cast<double>(sample) / kFilletPoints),
+                        of.root->gear().teeth);
+  }
+  return std::nullopt;
+}
+
+CornerLook look_for_corner_in_gear1(const GearPair& pair, double enough_mm, int& first) {
+  const CornerPath path = path_of(pair.gear1(), pair.gear2(), pair.profile2->tip_form_radius_mm(),
+                                  pair.centre_distance_mm);
+  return least_clearance(
+      path, *pair.profile1, [&] { return -line_of_action(pair).start_mm; }, enough_mm, first);
+}
+
+CornerLook look_for_corner_in_gear2(const GearPair& pair, double enough_mm, int& first) {
+  const CornerPath path = path_of(pair.gear2(), pair.gear1(), pair.profile1->tip_form_radius_mm(),
+                                  pair.centre_distance_mm);
+  const auto beyond = [&] {
+    if (pair.internal()) return 0.0;
+    const double span = pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair));
+    return line_of_action(pair).end_mm - span;
+  };
+  return least_clearance(path, *pair.profile2, beyond, enough_mm, first);
+}
+
 double corner_clearance_in_gear1_mm(const GearPair& pair) {
-  const ToothProfile& mate = *pair.profile2;
-  CornerPath path;
-  path.centre_distance = pair.centre_distance_mm;
-  path.tip_radius = mate.tip_form_radius_mm();
-  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
-  path.mate_per_gear = static_cast<double>(pair.gear2().teeth) / pair.gear1().teeth;
-  path.kind = pair.internal() ? CornerPath::Kind::kRingTipInPlanet : CornerPath::Kind::kExternalPair;
-  return least_clearance(path, *pair.profile1, -line_of_action(pair).start_mm);
+  int anywhere = -1;
+  return look_for_corner_in_gear1(pair, kLeastOfAll_mm, anywhere).clearance_mm;
 }
 
 double corner_clearance_in_gear2_mm(const GearPair& pair) {
-  const ToothProfile& mate = *pair.profile1;
-  CornerPath path;
-  path.centre_distance = pair.centre_distance_mm;
-  path.tip_radius = mate.tip_form_radius_mm();
-  path.half_angle = tooth_half_angle_rad(mate.gear(), path.tip_radius);
-  path.mate_per_gear = static_cast<double>(pair.gear1().teeth) / pair.gear2().teeth;
-  path.kind = pair.internal() ? CornerPath::Kind::kPlanetTipInRing : CornerPath::Kind::kExternalPair;
-  double beyond = 0.0;
-  if (!pair.internal()) {
-    const double span = pair.centre_distance_mm * std::sin(working_pressure_angle_rad(pair));
-    beyond = line_of_action(pair).end_mm - span;
-  }
-  return least_clearance(path, *pair.profile2, beyond);
+  int anywhere = -1;
+  return look_for_corner_in_gear2(pair, kLeastOfAll_mm, anywhere).clearance_mm;
 }
 
 }  // namespace trueflank

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "trueflank/geometry/gear_pair.h"
 #include "trueflank/geometry/involute.h"
@@ -67,16 +68,6 @@ double tip_thickness(const Gear& gear, double backlash) {
   const double thinning = 0.55 * backlash;
   return 2.0 * gear.tip_radius_mm * tooth_half_angle_rad(gear, gear.tip_radius_mm) -
          thinning * gear.tip_radius_mm / reference_radius_mm(gear);
-}
-
-/// Tip corners in the mate's roots, both ways, and the contact that undercut and root form leave.
-LineOfAction add_root_margins(const SearchRequirements& r, const GearPair& pair, Margins& margins) {
-  margins.add(corner_clearance_in_gear1_mm(pair));
-  margins.add(corner_clearance_in_gear2_mm(pair));
-  const LineOfAction line = line_of_action(pair);
-  margins.add((line.effective_end_mm - line.effective_start_mm) / line.base_pitch_mm -
-              r.contact_ratio_min);
-  return line;
 }
 
 void add_contact_ratio_margins(const SearchRequirements& r, const MeshView& view,
@@ -217,29 +208,83 @@ MeshLoss path_loss(const SearchRequirements& r, ContactPath path) {
   return {s.gear1_driving, s.gear2_driving};
 }
 
-void judge_profiles(const SearchRequirements& r, const LayerGears& gears, const MeshView& outer,
-                    const MeshView& inner, const LayerLengths& lengths, Margins& margins,
-                    LayerEvaluation& result) {
-  const auto planet = ToothProfile::make(gears.planet);
-  if (!planet) return;
-  const auto judge = [&](const GearPair& pair, const MeshView& view, MeshLoss& loss) {
-    const LineOfAction line = add_root_margins(r, pair, margins);
+ProfileJudge::ProfileJudge(const SearchRequirements& r, LayerSetting setting)
+    : r_(&r),
+      setting_(std::move(setting)),
+      outer_(setting_.gears.sun ? 1 : 0),
+      inner_(setting_.gears.ring ? 1 : 0),
+      planet_gear_(setting_.gears.planet) {}
+
+const ToothProfile* ProfileJudge::made(const std::optional<Gear>& gear, Maker& profile) {
+  if (!profile) profile = ToothProfile::make(*gear);
+  return *profile ? &**profile : nullptr;
+}
+
+bool ProfileJudge::exists(std::size_t margin) {
+  if (!made(planet_gear_, planet_)) return false;
+  if (outer_ > 0 && !made(setting_.gears.sun, sun_)) return false;
+  return is_outer(margin) || made(setting_.gears.ring, ring_);
+}
+
+GearPair ProfileJudge::pair_of(bool outer) {
+  const ToothProfile* planet = made(planet_gear_, planet_);
+  const double a = setting_.lengths.centre_distance;
+  return outer ? GearPair{made(setting_.gears.sun, sun_), planet, a}
+               : GearPair{planet, made(setting_.gears.ring, ring_), a};
+}
+
+const LineOfAction& ProfileJudge::line_of(bool outer) {
+  auto& line = lines_[outer ? 0 : 1];
+  if (!line) line = line_of_action(pair_of(outer));
+  return *line;
+}
+
+CornerLook ProfileJudge::look(std::size_t margin, double enough, int& first) {
+  const bool outer = is_outer(margin);
+  switch (margin % 3) {
+    case 0: return look_for_corner_in_gear1(pair_of(outer), enough, first);
+    case 1: return look_for_corner_in_gear2(pair_of(outer), enough, first);
+    default: break;
+  }
+  // the contact that undercut and root form leave
+  const LineOfAction& line = line_of(outer);
+  return {(line.effective_end_mm - line.effective_start_mm) / line.base_pitch_mm -
+          r_->contact_ratio_min};
+}
+
+std::optional<double> ProfileJudge::at_sample(std::size_t margin, int sample) {
+  if (margin % 3 == 2) return std::nullopt;
+  const bool outer = is_outer(margin), in_planet = outer == (margin % 3 == 1);
+  const auto& other = outer ? setting_.gears.sun : setting_.gears.ring;
+  const ToothProfile* root =
+      in_planet ? made(planet_gear_, planet_) : made(other, outer ? sun_ : ring_);
+  if (!root) return std::nullopt;
+  return corner_clearance_at_sample_mm({.root = root,
+                                        .mate = in_planet ? &*other : &*planet_gear_,
+                                        .centre_distance_mm = setting_.lengths.centre_distance},
+                                       sample);
+}
+
+void ProfileJudge::correct_losses(LayerEvaluation& result) {
+  if (r_->loss_model == LossModel::kContactRatios) return;
+  const auto correct = [&](bool outer, const MeshView& view, MeshLoss& loss) {
     constexpr double kSame_mm = 1e-10;
-    if (r.loss_model != LossModel::kContactRatios &&
-        (line.effective_start_mm > view.path.start_mm + kSame_mm ||
-         line.effective_end_mm < view.path.end_mm - kSame_mm))
-      loss = path_loss(r, contact_path(pair, lengths.face_width));
+    const LineOfAction& line = line_of(outer);
+    if (line.effective_start_mm > view.path.start_mm + kSame_mm ||
+        line.effective_end_mm < view.path.end_mm - kSame_mm)
+      loss = path_loss(*r_, contact_path(pair_of(outer), setting_.lengths.face_width));
   };
-  if (gears.sun) {
-    const auto sun = ToothProfile::make(*gears.sun);
-    if (!sun) return;
-    judge({&*sun, &*planet, lengths.centre_distance}, outer, result.sun_planet);
-  }
-  if (gears.ring) {
-    const auto ring = ToothProfile::make(*gears.ring);
-    if (!ring) return;
-    judge({&*planet, &*ring, lengths.centre_distance}, inner, result.planet_ring);
-  }
+  if (outer_ > 0 && exists(0)) correct(true, setting_.outer, result.sun_planet);
+  if (inner_ > 0 && exists(3 * outer_)) correct(false, setting_.inner, result.planet_ring);
+}
+
+void judge_profiles(const SearchRequirements& r, const LayerSetting& setting, Margins& margins,
+                    LayerEvaluation& result) {
+  ProfileJudge judge(r, setting);
+  int anywhere = -1;
+  for (std::size_t i = 0; i < judge.count() && judge.exists(i); ++i)
+    margins.add(judge.look(i, kLeastOfAll_mm, anywhere).clearance_mm);
+  judge.correct_losses(result);
 }
 
 }  // namespace trueflank

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "trueflank/geometry/gear.h"
+#include "trueflank/geometry/gear_pair.h"
+#include "trueflank/search/search_corner.h"
 #include "trueflank/search/search_model.h"
 #include "trueflank/search/search_requirements.h"
 #include "trueflank/search/search_train.h"
@@ -28,6 +30,7 @@ class Margins {
     least_ = margin < least_ ? margin : least_;
   }
   [[nodiscard]] bool stop() const { return least_ < stop_below_; }
+  [[nodiscard]] std::size_t added() const { return next_; }
   [[nodiscard]] double least() const { return next_ == count_ ? least_ : std::min(least_, -1e9); }
 
  private:
@@ -84,9 +87,56 @@ void add_mesh_margins(const SearchRequirements& r, const LayerGears& gears, cons
 /// By the sliding along the path.
 [[nodiscard]] MeshLoss path_loss(const SearchRequirements& r, ContactPath path);
 
+/// A layer as its tip circles and centre distance lay it out.
+struct LayerSetting {
+  LayerGears gears;
+  MeshView outer = {}, inner = {};
+  LayerLengths lengths = {};
+};
+
+/// The margins of a layer that need profiles, each computed when it is asked for: of the mesh with the
+/// sun the corners in root 1 and in root 2 and the contact ratio, then those of the mesh with the ring.
+class ProfileJudge {
+ public:
+  /// The requirements must outlive it.
+  ProfileJudge(const SearchRequirements& r, LayerSetting setting);
+
+  [[nodiscard]] std::size_t count() const { return 3 * (outer_ + inner_); }
+  /// Whether the gears that a margin is of have teeth.
+  [[nodiscard]] bool exists(std::size_t margin);
+  /// Requires: it exists. `first`: see look_for_corner_in_gear1().
+  [[nodiscard]] CornerLook look(std::size_t margin, double enough, int& first);
+  /// Of a corner: its clearance at one sample of the root, from the profile of that gear alone. Nothing
+  /// where that does not tell it, or for another margin.
+  [[nodiscard]] std::optional<double> at_sample(std::size_t margin, int sample);
+  /// Replaces the losses of paths that undercut, or a root form circle above the mate's tip, shortens.
+  void correct_losses(LayerEvaluation& result);
+
+ private:
+  using Maker = std::optional<Result<ToothProfile>>;
+  [[nodiscard]] static const ToothProfile* made(const std::optional<Gear>& gear, Maker& profile);
+  [[nodiscard]] bool is_outer(std::size_t margin) const { return outer_ > 0 && margin < 3; }
+  /// Requires: both gears have teeth.
+  [[nodiscard]] GearPair pair_of(bool outer);
+  [[nodiscard]] const LineOfAction& line_of(bool outer);
+
+  const SearchRequirements* r_;
+  LayerSetting setting_;
+  std::size_t outer_, inner_;  ///< 1 or 0 meshes
+  std::optional<Gear> planet_gear_;
+  Maker planet_, sun_, ring_;
+  std::array<std::optional<LineOfAction>, 2> lines_;
+};
+
+/// A layer of which the margins that need profiles are computed one by one.
+struct PartlyJudged {
+  LayerEvaluation evaluation;
+  std::optional<ProfileJudge> profiles;  ///< none: all margins are computed, or those before end it
+  std::size_t first_of_profiles = 0;
+};
+
 /// The margins that need profiles, and the losses of paths that undercut, or a root form circle above
 /// the mate's tip, shortens. Ends early where a gear has no tooth.
-void judge_profiles(const SearchRequirements& r, const LayerGears& gears, const MeshView& outer,
-                    const MeshView& inner, const LayerLengths& lengths, Margins& margins,
+void judge_profiles(const SearchRequirements& r, const LayerSetting& setting, Margins& margins,
                     LayerEvaluation& result);
 }  // namespace trueflank

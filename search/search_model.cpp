@@ -128,33 +128,25 @@ LayerEvaluation SearchModel::outline(int number, double centre_distance, double 
   return layer(number, centre_distance, shift, stop_below, {}, Profiles::kLeftOut);
 }
 
-LayerEvaluation SearchModel::layer(int number, double a1, double shift, double stop_below,
-                                   const std::function<bool(const LayerEvaluation&)>& worth,
-                                   Profiles profiles) const {
+std::size_t SearchModel::limits_of(int number) const {
+  return number == 0 ? train().layer1_limits : limits() - train().layer1_limits;
+}
+
+std::optional<LayerSetting> SearchModel::set_out(int number, double a1, double shift,
+                                                 Margins& margins) const {
   const SearchRequirements& r = *requirements_;
-  LayerEvaluation result;
-  if (static_cast<std::size_t>(number) >= layers_.size()) {
-    result.least_margin = 1e9;
-    return result;
-  }
   const Layer& own = layers_[static_cast<std::size_t>(number)];
-  const std::size_t first = number == 0 ? 0 : train().layer1_limits;
-  Margins margins(result.margins, number == 0 ? train().layer1_limits : limits() - first,
-                  stop_below);
-  const auto done = [&] {
-    result.least_margin = margins.least();
-    return result;
-  };
   Shifts x{};
   add_shifts(number, a1, shift, x);
   const auto shift_at = [&](TrainPlace place) { return x[static_cast<std::size_t>(place)]; };
   const double x_s = own.sun ? shift_at(own.sun_at) : 0.0, x_p = shift_at(own.planet_at);
   if (own.sun) add_shift_margins(r, x_s, margins);
   if (own.ring) add_shift_margins(r, x_p, margins);
-  if (margins.stop()) return done();
+  if (margins.stop()) return std::nullopt;
 
   const double a = a1 / own.module, least_module_mm = least_module_mm_ * own.module;
-  LayerGears gears{.planet = gear_of(r, GearKind::kExternal, own.planet, x_p)};
+  LayerSetting setting{.gears = {.planet = gear_of(r, GearKind::kExternal, own.planet, x_p)}};
+  LayerGears& gears = setting.gears;
   if (own.ring) gears.ring = gear_of(r, GearKind::kInternal, own.ring, shift_at(own.ring_at));
   if (own.sun) {
     gears.sun = gear_of(r, GearKind::kExternal, own.sun, x_s);
@@ -165,24 +157,53 @@ LayerEvaluation SearchModel::layer(int number, double a1, double shift, double s
   }
   margins.add(spacing_margin(r, set_.planets, a, gears.planet.tip_radius_mm, least_module_mm));
   add_thickness_margins(r, gears, least_module_mm, margins);
-  if (margins.stop()) return done();
+  if (margins.stop()) return std::nullopt;
 
-  const double width = r.face_width_mm / least_module_mm;
-  const MeshView outer = gears.sun ? view_of(*gears.sun, gears.planet, a, width) : MeshView{};
-  const MeshView inner = gears.ring ? view_of(gears.planet, *gears.ring, a, width) : MeshView{};
-  add_mesh_margins(r, gears, outer, inner, a, margins);
-  if (margins.stop()) return done();
+  setting.lengths = {a, r.face_width_mm / least_module_mm};
+  const double width = setting.lengths.face_width;
+  if (gears.sun) setting.outer = view_of(*gears.sun, gears.planet, a, width);
+  if (gears.ring) setting.inner = view_of(gears.planet, *gears.ring, a, width);
+  add_mesh_margins(r, gears, setting.outer, setting.inner, a, margins);
+  if (margins.stop()) return std::nullopt;
+  return setting;
+}
 
+PartlyJudged SearchModel::in_parts(int number, double a1, double shift, double stop_below) const {
+  PartlyJudged result;
+  Margins margins(result.evaluation.margins, limits_of(number), stop_below);
+  auto setting = set_out(number, a1, shift, margins);
+  result.first_of_profiles = margins.added();
+  if (setting) result.profiles.emplace(*requirements_, std::move(*setting));
+  return result;
+}
+
+LayerEvaluation SearchModel::layer(int number, double a1, double shift, double stop_below,
+                                   const std::function<bool(const LayerEvaluation&)>& worth,
+                                   Profiles profiles) const {
+  const SearchRequirements& r = *requirements_;
+  LayerEvaluation result;
+  if (static_cast<std::size_t>(number) >= layers_.size()) {
+    result.least_margin = 1e9;
+    return result;
+  }
+  const Layer& own = layers_[static_cast<std::size_t>(number)];
+  Margins margins(result.margins, limits_of(number), stop_below);
+  const auto done = [&] {
+    result.least_margin = margins.least();
+    return result;
+  };
+  const auto setting = set_out(number, a1, shift, margins);
+  if (!setting) return done();
   const bool formula = r.loss_model == LossModel::kContactRatios;
-  const bool known = formula || is_surely_whole(r, gears, outer, inner);
+  const bool known = formula || is_surely_whole(r, setting->gears, setting->outer, setting->inner);
   const auto loss = [&](const MeshTeeth& mesh, const MeshView& view) {
     if (formula) return formula_loss(r, mesh, view.approach, view.recess);
     return path_loss(r, !known && profiles == Profiles::kLeftOut ? best_part(view) : view.path);
   };
-  if (gears.sun) result.sun_planet = loss(own.sun_planet, outer);
-  if (gears.ring) result.planet_ring = loss(own.planet_ring, inner);
+  if (own.sun) result.sun_planet = loss(own.sun_planet, setting->outer);
+  if (own.ring) result.planet_ring = loss(own.planet_ring, setting->inner);
   if (profiles == Profiles::kLeftOut || (known && worth && !worth(result))) return done();
-  judge_profiles(r, gears, outer, inner, {a, width}, margins, result);
+  judge_profiles(r, *setting, margins, result);
   return done();
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ struct LayerEvaluation {
   double least_margin = -1e9;
 };
 
+struct LayerSetting;
+struct PartlyJudged;
+class Margins;
+
 /// One tooth set.
 class SearchModel {
  public:
@@ -62,6 +67,11 @@ class SearchModel {
       const std::function<bool(const LayerEvaluation&)>& worth = {}) const {
     return layer(1, centre_distance, shift, stop_below, worth);
   }
+
+  /// The margins that need no profiles, computed; those that do, when they are asked for. No losses.
+  /// Where a margin is below `stop_below`, what was not computed is -1e9.
+  [[nodiscard]] PartlyJudged in_parts(int layer, double centre_distance, double shift,
+                                      double stop_below) const;
 
   /// The margins that need no profiles, and losses no greater than the true ones: where undercut or
   /// a fillet may shorten the path, those of its best part.
@@ -121,6 +131,10 @@ class SearchModel {
   };
   enum class Profiles { kMade, kLeftOut };
 
+  /// Up to the margins that need profiles; nothing where one before is below what ends it.
+  [[nodiscard]] std::optional<LayerSetting> set_out(int number, double centre_distance,
+                                                    double shift, Margins& margins) const;
+  [[nodiscard]] std::size_t limits_of(int number) const;
   [[nodiscard]] LayerEvaluation layer(
       int number, double centre_distance, double shift, double stop_below,
       const std::function<bool(const LayerEvaluation&)>& worth,

@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "trueflank/search/search_parts.h"
+
 namespace trueflank {
 namespace {
 
@@ -56,15 +58,39 @@ class LayerProblem {
   LayerProblem(SetValues& values, int layer, double distance, Merit merit)
       : values_(values), layer_(layer), distance_(distance), merit_(std::move(merit)) {}
 
-  /// The best place of a range; without a feasible one the place of the least breach.
-  Place best(double low, double high, int count) {
-    if (!(high >= low)) return {.shift = 0.5 * (low + high)};
-    const double inside = kInside * (high - low), step = (high - low) / (count - 1);
+  /// Lays out the grid, and looks at it as far as the best of it needs.
+  void look_at_grid(int count) {
+    const auto [low, high] = values_.model().shift_range(layer_, distance_);
+    middle_ = 0.5 * (low + high);
+    if (!(high >= low)) return;
+    const double inside = kInside * (high - low);
+    step_ = (high - low) / (count - 1);
     for (int i = 0; i < count; ++i)
       line_.push_back(look(low + inside + (high - low - 2.0 * inside) * i / (count - 1), false));
+    outlines_ = line_;
+    whole_.resize(line_.size());
     best_of_grid();
-    for (std::size_t i = 0; i + 1 < line_.size(); ++i) cell(i, step);
-    return best_.value_or(Place{});
+  }
+  /// Begins again with another merit; nothing of the grid is computed twice.
+  void begin_again(Merit merit) {
+    merit_ = std::move(merit);
+    best_.reset();
+    line_ = outlines_;
+    for (Place& place : line_) place.merit = merit_(place.evaluation);
+    best_of_grid();
+  }
+  [[nodiscard]] bool is_feasible() const { return best_ && best_->feasible(); }
+  /// Requires: it is feasible.
+  [[nodiscard]] const Place& best_so_far() const { return *best_; }
+
+  /// The best place; without a feasible one the place of the least breach. Ends at any place that
+  /// keeps more than `enough`.
+  Place best(double enough = 1e300) {
+    for (std::size_t i = 0; i + 1 < line_.size(); ++i) {
+      if (best_ && best_->margin > enough) break;
+      cell(i, step_);
+    }
+    return line_.empty() ? Place{.shift = middle_} : best_.value_or(Place{});
   }
 
  private:
@@ -76,11 +102,23 @@ class LayerProblem {
                                      : values_.layer2(distance_, shift, -kFarBreach);
     place.margin = values_.layer_margin(layer_, place.evaluation, !whole);
     place.merit = merit_(place.evaluation);
-    if (whole && (!best_ || better(place, *best_))) best_ = place;
+    if (whole) keep(place);
     return place;
   }
-  void complete(Place& place) {
-    if (!place.whole) place = look(place.shift, true);
+  void keep(const Place& place) {
+    if (!best_ || better(place, *best_)) best_ = place;
+  }
+  /// A place of the grid with its profiles.
+  void complete(std::size_t i) {
+    if (line_[i].whole) return;
+    auto& known = whole_[i];
+    if (!known) {
+      known = line_[i] = look(line_[i].shift, true);
+      return;
+    }
+    line_[i] = *known;
+    line_[i].merit = merit_(known->evaluation);
+    keep(line_[i]);
   }
 
   /// From the best merit downwards until no other can be better than the best feasible one.
@@ -90,8 +128,8 @@ class LayerProblem {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t i, std::size_t j) { return line_[i].merit > line_[j].merit; });
     for (const std::size_t i : order) {
-      if (best_ && best_->feasible() && !(line_[i].merit > best_->merit)) return;
-      if (line_[i].margin >= 0.0) complete(line_[i]);
+      if (is_feasible() && !(line_[i].merit > best_->merit)) return;
+      if (line_[i].margin >= 0.0) complete(i);
     }
   }
 
@@ -100,10 +138,10 @@ class LayerProblem {
     Place &p = line_[i], &q = line_[i + 1];
     if (std::max(p.margin, q.margin) < -kSteepest * step) return;
     const double most = std::max(p.merit, q.merit) + 0.25 * std::abs(p.merit - q.merit);
-    const bool had = best_ && best_->feasible();
+    const bool had = is_feasible();
     if (had && most < best_->merit) return;
-    if (p.margin >= 0.0) complete(p);
-    if (q.margin >= 0.0) complete(q);
+    if (p.margin >= 0.0) complete(i);
+    if (q.margin >= 0.0) complete(i + 1);
     if (p.feasible() != q.feasible()) return p.feasible() ? border(p, q) : border(q, p);
     if (p.feasible()) {
       if (had && std::max(p.merit, q.merit) < best_->merit) return;
@@ -112,49 +150,75 @@ class LayerProblem {
     // the same limit at both ends: an interval between them lies at a peak of the margin, or where
     // a limit ends suddenly: a corner that no longer reaches a fillet
     const double most_margin = std::max(p.margin, q.margin);
-    if (close(p, q)) return split(p, q, kSplits, kHalvings);
+    PlaceInParts left = in_parts(p), right = in_parts(q);
+    if (may_be_close(left, right, -kClose)) return split(left, right, kSplits, kHalvings);
     if (std::min(p.margin, q.margin) < -2.0 * kSteepest * step) return;
     for (const std::size_t beside : {i - 1, i + 2})
       if (beside < line_.size() && line_[beside].margin > most_margin) return;
     narrow(p, q);
   }
 
-  /// Whether the limits that both places break are close to being kept.
-  [[nodiscard]] bool close(const Place& p, const Place& q) const {
-    const std::uint64_t both = broken(p) & broken(q);
-    return std::max(values_.margin_of_limits(layer_, p.evaluation, both),
-                    values_.margin_of_limits(layer_, q.evaluation, both)) > -kClose;
+  [[nodiscard]] PlaceInParts in_parts(const Place& place) {
+    return {values_, layer_, place.shift, place.evaluation, place.margin, corners_};
   }
 
   /// Looks between two infeasible places by halving. Where no limit is broken at both ends there is
   /// but one half to go on with: however narrow the interval is, it is found. Else both halves are
   /// looked at, `depth` times.
-  void split(const Place& p, const Place& q, int depth, int halvings) {
+  void split(PlaceInParts& p, PlaceInParts& q, int depth, int halvings) {
     if (depth == 0 || halvings == 0) return;
-    const Place middle = look(0.5 * (p.shift + q.shift), true);
-    if (middle.feasible()) {
-      border(middle, p);
-      border(middle, q);
-      return inner_peak(p.shift, q.shift);
+    PlaceInParts middle(values_, layer_, distance_, 0.5 * (p.shift() + q.shift()), -kFarBreach,
+                        corners_);
+    if (middle.is_feasible(p, std::min(0.0, infeasible_best()))) {
+      const Place found = look(middle.shift(), true);
+      border(found, {.shift = p.shift(), .margin = p.margin()});
+      border(found, {.shift = q.shift(), .margin = q.margin()});
+      return inner_peak(p.shift(), q.shift());
     }
-    const bool apart_p = (broken(p) & broken(middle)) == 0,
-               apart_q = (broken(q) & broken(middle)) == 0;
+    keep_infeasible(middle);
+    const bool apart_p = !break_the_same(p, middle), apart_q = !break_the_same(q, middle);
     if (apart_p != apart_q) {
       if (apart_p) return split(p, middle, depth, halvings - 1);
       return split(middle, q, depth, halvings - 1);
     }
-    if (close(p, middle)) split(p, middle, depth - 1, halvings - 1);
-    if (close(middle, q)) split(middle, q, depth - 1, halvings - 1);
+    if (depth == 1) return;
+    if (may_be_close(p, middle, -kClose)) split(p, middle, depth - 1, halvings - 1);
+    if (may_be_close(middle, q, -kClose)) split(middle, q, depth - 1, halvings - 1);
   }
 
-  [[nodiscard]] std::uint64_t broken(const Place& place) const {
-    return values_.broken_limits(layer_, place.evaluation);
+  /// What an infeasible place must keep more than to be the best so far.
+  [[nodiscard]] double infeasible_best() const {
+    return !best_ ? kLeastOfAll_mm : is_feasible() ? 0.0 : best_->margin;
+  }
+  void keep_infeasible(PlaceInParts& place) {
+    if (is_feasible()) return;
+    if (const auto margin = place.margin_above(infeasible_best()))
+      best_ = {.shift = place.shift(),
+               .margin = *margin,
+               .whole = true,
+               .evaluation = place.evaluation()};
   }
 
-  /// The best inside of an interval, where it is better than its ends.
+  /// The best inside of an interval, where it is better than its ends. Looks without profiles first:
+  /// mostly the merit is best at an end, and what a layer is worth without them is no less than with.
   void inner_peak(double low, double high) {
+    if (is_feasible() && !(most_between(low, high) > best_->merit)) return;
     golden(
-        low, high, [](const Place& p, const Place& q) { return better(p, q); }, false);
+        low, high, [](const Place& p, const Place& q) { return better(p, q); },
+        [&](double shift) { return look(shift, true); }, false);
+  }
+  /// The best merit found between two places, without profiles.
+  double most_between(double low, double high) {
+    double most = 0.0;
+    golden(
+        low, high, [](const Place& p, const Place& q) { return p.merit > q.merit; },
+        [&](double shift) {
+          const Place place = look(shift, false);
+          most = std::max(most, place.merit);
+          return place;
+        },
+        false);
+    return most;
   }
 
   /// Closes in on the end of a feasible interval.
@@ -173,18 +237,17 @@ class LayerProblem {
   void narrow(const Place& left, const Place& right) {
     const auto found = golden(
         left.shift, right.shift, [](const Place& p, const Place& q) { return p.margin > q.margin; },
-        true);
+        [&](double shift) { return look(shift, true); }, true);
     if (!found) return;
     border(*found, left);
     border(*found, right);
     inner_peak(left.shift, right.shift);
   }
 
-  template <class Better>
-  std::optional<Place> golden(double low, double high, const Better& is_better,
+  template <class Better, class Look>
+  std::optional<Place> golden(double low, double high, const Better& is_better, const Look& look_at,
                               bool until_feasible) {
-    Place p = look(high - kGolden * (high - low), true),
-          q = look(low + kGolden * (high - low), true);
+    Place p = look_at(high - kGolden * (high - low)), q = look_at(low + kGolden * (high - low));
     for (int k = 0; k < kShiftSteps; ++k) {
       if (until_feasible && (p.feasible() || q.feasible())) return p.feasible() ? p : q;
       // nothing can be hidden here that is feasible
@@ -192,10 +255,10 @@ class LayerProblem {
         return std::nullopt;
       if (is_better(p, q)) {
         high = q.shift, q = p;
-        p = look(high - kGolden * (high - low), true);
+        p = look_at(high - kGolden * (high - low));
       } else {
         low = p.shift, p = q;
-        q = look(low + kGolden * (high - low), true);
+        q = look_at(low + kGolden * (high - low));
       }
     }
     return std::nullopt;
@@ -210,8 +273,12 @@ class LayerProblem {
   int layer_;
   double distance_;
   Merit merit_;
-  std::vector<Place> line_;
+  double middle_ = kNaN, step_ = 0.0;
+  std::vector<Place> line_;      ///< the grid, as far as it is known
+  std::vector<Place> outlines_;  ///< without profiles
+  std::vector<std::optional<Place>> whole_;
   std::optional<Place> best_;
+  CornerPlaces corners_{};
 };
 
 class Sweep {
@@ -261,27 +328,42 @@ class Sweep {
   }
 
  private:
-  /// Best shifts at a centre distance.
+  /// Best shifts at a centre distance. Where one layer has none, no more of the other is computed than
+  /// that it lacks less.
   SweepPoint at(double distance, int count) {
     SweepPoint point{.free = {distance, 0.0, 0.0}};
     const SearchModel& model = values_.model();
-    Place second{.shift = 0.0, .margin = 1e9, .merit = 0.0, .evaluation = ideal_};
-    if (model.has_layer2()) {
-      const auto range = model.shift_range(1, distance);
-      second = LayerProblem(values_, 1, distance, [&](const LayerEvaluation& e) {
-                 return model.efficiency(ideal_, e, direction_);
-               }).best(range[0], range[1], count);
+    const auto merit_beside = [&](const LayerEvaluation& second) {
+      return [this, &model, second](const LayerEvaluation& e) {
+        return model.efficiency(e, second, direction_);
+      };
+    };
+    const auto worth = [&](const Place& first, const Place& second) {
+      point.free.layer1_shift = first.shift;
+      point.free.layer2_shift = second.shift;
+      point.margin = std::min(first.margin, second.margin);
+      if (point.feasible()) point.merit = first.merit;
+      return point;
+    };
+    LayerProblem layer1(values_, 0, distance, merit_beside(ideal_));
+    layer1.look_at_grid(count);
+    if (!model.has_layer2())
+      return worth(layer1.best(), {.shift = 0.0, .margin = 1e9, .merit = 0.0});
+    LayerProblem layer2(values_, 1, distance, [&](const LayerEvaluation& e) {
+      return model.efficiency(ideal_, e, direction_);
+    });
+    layer2.look_at_grid(count);
+    if (layer2.is_feasible() && !layer1.is_feasible()) {
+      const Place first = layer1.best();
+      if (!first.feasible()) return worth(first, layer2.best_so_far());
     }
-    const auto range = model.shift_range(0, distance);
-    const Place first =
-        LayerProblem(values_, 0, distance, [&](const LayerEvaluation& e) {
-          return model.efficiency(e, second.margin >= 0.0 ? second.evaluation : ideal_, direction_);
-        }).best(range[0], range[1], count);
-    point.free.layer1_shift = first.shift;
-    point.free.layer2_shift = second.shift;
-    point.margin = std::min(first.margin, second.margin);
-    if (point.feasible()) point.merit = first.merit;
-    return point;
+    const Place second = layer2.best();
+    if (!second.feasible()) {
+      const bool computed = second.margin > PlaceInParts::kNotComputed;
+      return worth(computed ? layer1.best(second.margin) : layer1.best(), second);
+    }
+    layer1.begin_again(merit_beside(second.evaluation));
+    return worth(layer1.best(), second);
   }
 
   /// A stretch of centre distances with the best point seen in it.

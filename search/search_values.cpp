@@ -74,28 +74,6 @@ double SetValues::layer_margin(int layer, const LayerEvaluation& evaluation,
   return least + kLimitReserve;
 }
 
-std::uint64_t SetValues::broken_limits(int layer, const LayerEvaluation& evaluation) const {
-  const std::size_t first = layer == 0 ? 0 : model_.train().layer1_limits;
-  const std::size_t last = layer == 0 ? model_.train().layer1_limits : model_.limits();
-  std::uint64_t broken = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    const double margin = evaluation.margins[i - first];
-    if (margin > -1e8 && margin - offset_[i] + kLimitReserve < 0.0)
-      broken |= std::uint64_t{1} << (i - first);
-  }
-  return broken;
-}
-
-double SetValues::margin_of_limits(int layer, const LayerEvaluation& evaluation,
-                                   std::uint64_t limits) const {
-  const std::size_t first = layer == 0 ? 0 : model_.train().layer1_limits;
-  double least = 1e9;
-  for (std::size_t i = 0; limits != 0; ++i, limits >>= 1)
-    if (limits & 1)
-      least = std::min(least, evaluation.margins[i] - offset_[first + i] + kLimitReserve);
-  return least;
-}
-
 double SetValues::bound_margin(const State& s, const FreeShifts& free,
                                const MeritBound& bound) const {
   const double margin =

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 
+#include "trueflank/search/search_layer.h"
 #include "trueflank/search/search_optimise.h"
 
 // What the points of a tooth set's optimisation are worth, and what they lack; for its parts alone.
@@ -83,6 +84,13 @@ class SetValues {
     return model_.layer2(arguments...);
   }
 
+  /// Of layer 0 or 1, margin by margin.
+  [[nodiscard]] PartlyJudged in_parts(int layer, double centre_distance, double shift,
+                                      double stop_below) {
+    ++evaluations_;
+    return model_.in_parts(layer, centre_distance, shift, stop_below);
+  }
+
   /// Of layer 0 or 1, without profiles.
   [[nodiscard]] LayerEvaluation outline(int layer, double centre_distance, double shift,
                                         double stop_below) {
@@ -99,10 +107,18 @@ class SetValues {
   /// Of one layer alone, 0 or 1; of what was computed before the profiles, where there are none.
   [[nodiscard]] double layer_margin(int layer, const LayerEvaluation& evaluation,
                                     bool without_profiles) const;
-  /// Limits of a layer that are known to be broken, a bit each.
-  [[nodiscard]] std::uint64_t broken_limits(int layer, const LayerEvaluation& evaluation) const;
-  /// The least margin among some limits of a layer.
-  [[nodiscard]] double margin_of_limits(int layer, const LayerEvaluation& evaluation, std::uint64_t limits) const;
+  [[nodiscard]] std::size_t limits_of(int layer) const {
+    const std::size_t first2 = model_.train().layer1_limits;
+    return layer == 0 ? first2 : model_.limits() - first2;
+  }
+  /// What a limit of a layer keeps at a margin of it: below 0 it is broken.
+  [[nodiscard]] double kept(int layer, std::size_t limit, double margin) const {
+    return margin - offset_of(layer, limit) + kLimitReserve;
+  }
+  /// A margin that surely keeps less than this.
+  [[nodiscard]] double surely_below(int layer, std::size_t limit, double kept) const {
+    return kept + offset_of(layer, limit) - kLimitReserve - kRounding;
+  }
   /// Relative, so that newton metres and efficiencies weigh alike.
   [[nodiscard]] double bound_margin(const State& state, const FreeShifts& free,
                                     const MeritBound& bound) const;
@@ -121,7 +137,13 @@ class SetValues {
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
+  /// More than sums of margins and offsets are rounded by.
+  static constexpr double kRounding = 1e-12;
+
   [[nodiscard]] const DesignValues& design_values(const State& state, const FreeShifts& free) const;
+  [[nodiscard]] double offset_of(int layer, std::size_t limit) const {
+    return offset_[layer == 0 ? limit : model_.train().layer1_limits + limit];
+  }
 
   const SearchRequirements& r_;
   SearchModel model_;

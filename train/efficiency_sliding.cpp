@@ -34,32 +34,58 @@ struct Torques {
   double load = 0.0;  ///< normal forces, so summed up
 };
 
-/// Adds every tooth pair in contact whose first possible place is `offset` (in base pitches) after
-/// the start of the path. `friction` > 0: gear 1 drives; < 0: gear 2 drives.
-void add_pairs(const ContactPath& path, double friction, LoadSharing sharing, double offset,
-               Torques& sum) {
+/// Torques with friction as it is where gear 1 drives, and where gear 2 does.
+struct TorquesBothWays {
+  Torques gear1_drives, gear2_drives;
+};
+
+/// Calls `add(load, roll length on gear 1, on gear 2, beyond the pitch point)` for every tooth pair in
+/// contact whose first possible place is `offset` (in base pitches) after the start of the path.
+template <class Add>
+void for_each_pair(const ContactPath& path, LoadSharing sharing, double offset, const Add& add) {
   const double pitch_point2 = path.pitch_point_mm * path.base_radius2_mm / path.base_radius1_mm;
   for (double roll = path.start_mm + offset * path.base_pitch_mm; roll <= path.end_mm;
        roll += path.base_pitch_mm) {
     const double s = roll - path.pitch_point_mm;
-    const double roll2 = pitch_point2 + (path.internal ? s : -s);
-    const double f = s < 0.0 ? -friction : friction;
-    const double load = share(sharing, path, roll);
-    sum.load += load;
-    sum.torque1 += load * (path.base_radius1_mm + f * roll);
-    sum.torque2 += load * (path.base_radius2_mm + f * roll2);
+    add(share(sharing, path, roll), roll, pitch_point2 + (path.internal ? s : -s), !(s < 0.0));
   }
+}
+
+/// `friction` > 0: gear 1 drives; < 0: gear 2 drives.
+void add_pair(const ContactPath& path, double friction, double load, double roll, double roll2,
+              bool beyond, Torques& sum) {
+  const double f = beyond ? friction : -friction;
+  sum.load += load;
+  sum.torque1 += load * (path.base_radius1_mm + f * roll);
+  sum.torque2 += load * (path.base_radius2_mm + f * roll2);
+}
+
+/// Of all tooth pairs in contact.
+void add_pairs(const ContactPath& path, double friction, LoadSharing sharing, double offset,
+               Torques& sum) {
+  for_each_pair(path, sharing, offset, [&](double load, double roll, double roll2, bool beyond) {
+    add_pair(path, friction, load, roll, roll2, beyond, sum);
+  });
+}
+TorquesBothWays both_ways(const ContactPath& path, double friction, LoadSharing sharing,
+                          double offset) {
+  TorquesBothWays sum;
+  for_each_pair(path, sharing, offset, [&](double load, double roll, double roll2, bool beyond) {
+    add_pair(path, friction, load, roll, roll2, beyond, sum.gear1_drives);
+    add_pair(path, -friction, load, roll, roll2, beyond, sum.gear2_drives);
+  });
+  return sum;
 }
 
 /// Moments of the cycle (fractions of a base pitch) at which a pair enters or leaves or passes the
 /// pitch point, with 0 and 1.
-std::vector<double> cycle_breaks(const ContactPath& path) {
+std::array<double, 4> cycle_breaks(const ContactPath& path) {
   const auto fraction = [&](double length_mm) {
     const double f = length_mm / path.base_pitch_mm;
     return f - std::floor(f);
   };
-  std::vector<double> breaks{0.0, fraction(path.end_mm - path.start_mm),
-                             fraction(path.pitch_point_mm - path.start_mm), 1.0};
+  std::array<double, 4> breaks{0.0, fraction(path.end_mm - path.start_mm),
+                               fraction(path.pitch_point_mm - path.start_mm), 1.0};
   std::sort(breaks.begin(), breaks.end());
   return breaks;
 }
@@ -97,7 +123,7 @@ class FaceTorques {
 
   /// Where the torques over a face change their polynomials, with 0 and 1.
   [[nodiscard]] std::vector<double> breaks(double overlap) const {
-    std::vector<double> all = breaks_;
+    std::vector<double> all(breaks_.begin(), breaks_.end());
     for (const double at : breaks_) {
       const double shifted = at - overlap;
       all.push_back(shifted - std::floor(shifted));
@@ -145,7 +171,7 @@ class FaceTorques {
     return piece.width > 0.0 ? integral(piece, (moment - piece.begin) / piece.width) : piece.before;
   }
 
-  std::vector<double> breaks_;
+  std::array<double, 4> breaks_;
   std::vector<Piece> pieces_;
   Sums whole_{};
 };
@@ -156,36 +182,42 @@ struct TorqueRatio {
   bool interrupted = false;  ///< at some moment no teeth touch
 };
 
-/// Mean over the mesh cycle of (torque of the driving gear / torque of the driven gear).
-TorqueRatio mean_torque_ratio(const ContactPath& path, double friction, LoadSharing sharing) {
-  const bool gear1_drives = friction >= 0.0;
-  TorqueRatio result;
-  const auto ratio_of = [&](const Torques& t) {
-    const double driving = gear1_drives ? t.torque1 : t.torque2;
-    const double driven = gear1_drives ? t.torque2 : t.torque1;
-    result.interrupted = result.interrupted || t.load == 0.0;
-    result.blocked = result.blocked || !(driven > 0.0);
-    return driving / driven;
-  };
-  const auto mean_over = [&](const std::vector<double>& breaks, const auto& torques_at) {
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-      const double half = 0.5 * (breaks[i + 1] - breaks[i]);
-      for (std::size_t g = 0; half > 0.0 && g < kNode.size(); ++g)
-        result.mean += half * kWeight[g] * ratio_of(torques_at(breaks[i] + half * (1.0 + kNode[g])));
+/// Adds a moment of the cycle, with its share of it, to the mean of (torque of the driving gear / torque
+/// of the driven gear).
+void add_moment(double share, double driving, double driven, double load, TorqueRatio& ratio) {
+  ratio.interrupted = ratio.interrupted || load == 0.0;
+  ratio.blocked = ratio.blocked || !(driven > 0.0);
+  ratio.mean += share * (driving / driven);
+}
+
+/// Means over the mesh cycle.
+struct TorqueRatios {
+  TorqueRatio gear1_drives, gear2_drives;
+};
+template <class Breaks, class TorquesAt>
+TorqueRatios mean_over(const Breaks& breaks, const TorquesAt& torques_at) {
+  TorqueRatios ratios;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double half = 0.5 * (breaks[i + 1] - breaks[i]);
+    for (std::size_t g = 0; half > 0.0 && g < kNode.size(); ++g) {
+      const TorquesBothWays t = torques_at(breaks[i] + half * (1.0 + kNode[g]));
+      const Torques &one = t.gear1_drives, &two = t.gear2_drives;
+      add_moment(half * kWeight[g], one.torque1, one.torque2, one.load, ratios.gear1_drives);
+      add_moment(half * kWeight[g], two.torque2, two.torque1, two.load, ratios.gear2_drives);
     }
-  };
-  if (path.overlap_ratio == 0.0) {
-    mean_over(cycle_breaks(path), [&](double moment) {
-      Torques t;
-      add_pairs(path, friction, sharing, moment, t);
-      return t;
-    });
-  } else {
-    const FaceTorques face(path, friction, sharing);
-    mean_over(face.breaks(path.overlap_ratio),
-              [&](double moment) { return face.over(moment, path.overlap_ratio); });
   }
-  return result;
+  return ratios;
+}
+TorqueRatios mean_torque_ratios(const ContactPath& path, double friction, LoadSharing sharing) {
+  if (path.overlap_ratio == 0.0)
+    return mean_over(cycle_breaks(path), [&](double moment) {
+      return both_ways(path, friction, sharing, moment);
+    });
+  const FaceTorques face1(path, friction, sharing), face2(path, -friction, sharing);
+  const double overlap = path.overlap_ratio;
+  return mean_over(face1.breaks(overlap), [&](double moment) {
+    return TorquesBothWays{face1.over(moment, overlap), face2.over(moment, overlap)};
+  });
 }
 
 }  // namespace
@@ -215,8 +247,7 @@ SlidingEfficiency sliding_efficiency(const ContactPath& path, double friction,
   const double ideal = path.base_radius1_mm / path.base_radius2_mm;  // torque 1 / torque 2
   // the transverse part of an inclined normal force is smaller than the force friction follows
   const double transverse = friction / std::cos(path.base_helix_angle_rad);
-  const TorqueRatio ratio1 = mean_torque_ratio(path, transverse, sharing);
-  const TorqueRatio ratio2 = mean_torque_ratio(path, -transverse, sharing);
+  const auto [ratio1, ratio2] = mean_torque_ratios(path, transverse, sharing);
   if (ratio1.interrupted || ratio2.interrupted) return result;
   result.gear1_driving = ratio1.blocked ? 0.0 : ideal / ratio1.mean;
   // -0.0 is no driving side: without friction both directions lose nothing

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "tests/search/one_set.h"
 #include "trueflank/search/search_bound.h"
+#include "trueflank/search/search_parts.h"
 
 namespace trueflank {
 namespace {
@@ -237,6 +239,82 @@ TEST(SearchSweep, WithoutAFeasiblePointTheNearestIsTold) {
   EXPECT_TRUE(result.peaks.empty());
   EXPECT_LT(result.nearest.margin, 0.0);
   EXPECT_GT(result.nearest.margin, -2.0);
+}
+
+/// What a place of a layer computed whole says of its limits.
+struct Whole {
+  std::vector<double> kept;
+  std::vector<bool> broken, computed;  ///< not where a gear has no tooth
+};
+
+TEST(SearchSweep, PlacesInPartsSayWhatWholeOnesSay) {
+  SearchRequirements r;
+  r.ratio_min = 20;
+  r.ratio_max = 400;
+  const ToothSet set = set_of(r, 12, 39, 90, 32, 81);
+  SetValues values(r, set, {});
+  constexpr double kStop = -0.5, kClose = -0.01;
+  std::mt19937 random(20261126);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  CornerPlaces corners{};
+  const auto part = [&](int layer, double a, double x) {
+    return PlaceInParts(values, layer, a, x, kStop, corners);
+  };
+  int with_broken_corner = 0, close = 0, feasible = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int layer = trial % 2;
+    const double a = between(set.centre_distance_min, set.centre_distance_max);
+    const auto range = values.model().shift_range(layer, a);
+    if (!(range[0] < range[1])) continue;
+    const std::array<double, 2> shifts{between(range[0], range[1]), between(range[0], range[1])};
+    std::array<Whole, 2> whole;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const LayerEvaluation e = layer == 0 ? values.layer1(a, shifts[k], kStop) : values.layer2(a, shifts[k], kStop);
+      for (std::size_t i = 0; i < values.limits_of(layer); ++i) {
+        const double kept = values.kept(layer, i, e.margins[i]);
+        whole[k].kept.push_back(kept);
+        whole[k].computed.push_back(e.margins[i] > PlaceInParts::kNotComputed);
+        whole[k].broken.push_back(whole[k].computed.back() && kept < 0.0);
+      }
+    }
+    const double least = *std::min_element(whole[0].kept.begin(), whole[0].kept.end());
+    // what is known by a bound only must not spoil what is asked next
+    PlaceInParts p = part(layer, a, shifts[0]), q = part(layer, a, shifts[1]);
+    EXPECT_EQ(p.is_feasible(q, std::min(0.0, between(-0.5, 0.0))), least >= 0.0);
+    const double asked = between(-0.5, 0.1);
+    const auto above = p.margin_above(asked);
+    EXPECT_EQ(above.has_value(), least > asked);
+    EXPECT_EQ(above.value_or(least), least);
+    bool same = false, far0 = false, far1 = false, toothless = false;
+    for (std::size_t i = 0; i < whole[0].kept.size(); ++i) {
+      toothless = toothless || !whole[0].computed[i] || !whole[1].computed[i];
+      if (!whole[0].broken[i] || !whole[1].broken[i]) continue;
+      same = true;
+      far0 = far0 || !(whole[0].kept[i] > kClose);
+      far1 = far1 || !(whole[1].kept[i] > kClose);
+    }
+    const bool said = break_the_same(p, q);
+    EXPECT_TRUE(said == same || (said && toothless));
+    EXPECT_TRUE(may_be_close(p, q, kClose) || (far0 && far1));
+    for (std::size_t i = 0; i < whole[0].kept.size(); ++i) {
+      EXPECT_TRUE(p.breaks(i) == whole[0].broken[i] || !whole[0].computed[i]);
+      EXPECT_EQ(p.kept(i, kLeastOfAll_mm), whole[0].kept[i]);
+      EXPECT_EQ(q.kept(i, kLeastOfAll_mm), whole[1].kept[i]);
+    }
+    EXPECT_EQ(q.margin(), *std::min_element(whole[1].kept.begin(), whole[1].kept.end()));
+    EXPECT_EQ(may_be_close(p, q, kClose), !(far0 && far1)) << "all of both is known";
+    const auto& limits = values.model().train().limits;
+    const std::size_t first = layer == 0 ? 0 : values.model().train().layer1_limits;
+    for (std::size_t i = 0; i < whole[0].kept.size(); ++i)
+      with_broken_corner += limits[first + i].limit == Limit::kFillet && whole[0].broken[i];
+    close += same && !(far0 && far1);
+    feasible += least >= 0.0;
+  }
+  EXPECT_GT(with_broken_corner, 100);
+  EXPECT_GT(close, 20);
+  EXPECT_GT(feasible, 20);
 }
 
 }  // namespace
