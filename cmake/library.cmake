@@ -7,12 +7,13 @@
 #     PACKAGES <packages>...           included in .cpp only
 #     ALONE <package> <file>...        sources with a package whose flags or headers the others are spared
 #     HEADERS <file>...                installed where cmake/public_headers.cmake names them
+#     COMPUTES <file>...               of a GLUE folder, what is not glue: compiled with full optimisation
 #     SOURCES <file>...)
 # Target trueflank_<folder>, alias trueflank::<folder>. A folder without sources is header-only, and
 # its PACKAGES are not looked for. GLUE: it calls what computes and computes little itself; a release compiles it with -O1,
 # in half the time (docs/decisions/0250).
 function(trueflank_library folder)
-  cmake_parse_arguments(arg "GLUE" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;ALONE;HEADERS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "GLUE" "" "DEPENDS;PUBLIC_PACKAGES;PACKAGES;ALONE;COMPUTES;HEADERS;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_library(${folder}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -64,6 +65,17 @@ function(trueflank_library folder)
     trueflank_glue(${target})
   else()
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
+  endif()
+  if(arg_COMPUTES)
+    add_library(${target}_computes OBJECT ${arg_COMPUTES})
+    set_target_properties(${target}_computes PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD_BATCH_SIZE 14)
+    target_include_directories(${target}_computes PRIVATE ${include_root})
+    foreach(dependency IN LISTS arg_DEPENDS)
+      target_link_libraries(${target}_computes PRIVATE trueflank::${dependency})
+    endforeach()
+    target_link_libraries(${target}_computes PRIVATE trueflank_options)
+    target_precompile_headers(${target}_computes REUSE_FROM trueflank_precompiled_library)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_computes>)
   endif()
   foreach(package IN LISTS arg_PACKAGES)
     trueflank_find_package(${package} package_targets call)

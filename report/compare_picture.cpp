@@ -40,7 +40,7 @@ std::string length_text(double length_mm) {
 }
 
 /// A square window of the section on the page.
-struct View {
+struct SectionView {
   double left = 0.0;
   Point2 centre{0.0, 0.0};
   double size_mm = 1.0;
@@ -57,11 +57,11 @@ struct View {
   }
 };
 
-std::string point_text(const Point2& p) { return px(p.x()) + "," + px(p.y()); }
+std::string point_px(const Point2& p) { return px(p.x()) + "," + px(p.y()); }
 
 /// Closed outlines as path data. Far outside of the view corners are thinned out: long edges would lose
 /// nothing but bytes, yet every outline must stay closed to be filled.
-std::string path_of(const MeshSection& section, const View& view) {
+std::string path_of(const MeshSection& section, const SectionView& view) {
   std::string path;
   for (const auto& loop : section.loops) {
     bool near = false;
@@ -75,14 +75,14 @@ std::string path_of(const MeshSection& section, const View& view) {
         continue;
       }
       skipped = 0;
-      text += (text.empty() ? "M" : "L") + point_text(view.at(p));
+      text += (text.empty() ? "M" : "L") + point_px(view.at(p));
     }
     if (!text.empty()) path += text + "Z";
   }
   return path;
 }
 
-std::string frame(const View& view, int index, const std::string& caption) {
+std::string frame(const SectionView& view, int index, const std::string& caption) {
   const std::string box = "x=\"" + px(view.left) + "\" y=\"" + px(kPanelTop) + "\" width=\"" +
                           px(kPanel) + "\" height=\"" + px(kPanel) + "\"";
   return "<clipPath id=\"view" + std::to_string(index) + "\"><rect " + box + " rx=\"6\"/></clipPath>\n<rect " +
@@ -94,7 +94,7 @@ std::string clipped(int index, const std::string& content) {
   return "<g clip-path=\"url(#view" + std::to_string(index) + ")\">\n" + content + "</g>\n";
 }
 
-std::string scale_bar(const View& view) {
+std::string scale_bar(const SectionView& view) {
   const double length = round_down(0.3 * view.size_mm);
   const double x = view.left + 14, y = kPanelTop + kPanel - 14, to = x + length * view.scale();
   const std::string label = length_text(length);
@@ -110,7 +110,7 @@ std::size_t colour_of(double deviation_mm, double full_mm) {
 }
 
 /// The new outline, coloured by deviation.
-std::string coloured_outline(const MeshDifference& d, const View& view, double full_mm, double width) {
+std::string coloured_outline(const MeshDifference& d, const SectionView& view, double full_mm, double width) {
   std::array<std::string, kColours.size()> paths;
   for (const OutlineRun& run : d.outlines) {
     if (run.on_golden) continue;
@@ -124,8 +124,8 @@ std::string coloured_outline(const MeshDifference& d, const View& view, double f
         const double middle = (k + 0.5) / pieces;
         const double deviation = here.deviation_mm + (next.deviation_mm - here.deviation_mm) * middle;
         paths[colour_of(deviation, full_mm)] +=
-            "M" + point_text(view.at(here.point + edge * (static_cast<double>(k) / pieces))) + "L" +
-            point_text(view.at(here.point + edge * ((k + 1.0) / pieces)));
+            "M" + point_px(view.at(here.point + edge * (static_cast<double>(k) / pieces))) + "L" +
+            point_px(view.at(here.point + edge * ((k + 1.0) / pieces)));
       }
     }
   }
@@ -138,7 +138,7 @@ std::string coloured_outline(const MeshDifference& d, const View& view, double f
 }
 
 /// From the golden outline towards the new one, many times as far.
-std::string exaggerated(const MeshDifference& d, const View& view, double full_mm, double factor) {
+std::string exaggerated(const MeshDifference& d, const SectionView& view, double full_mm, double factor) {
   std::array<std::string, kColours.size()> whiskers;
   std::string line;
   for (const OutlineRun& run : d.outlines) {
@@ -150,8 +150,8 @@ std::string exaggerated(const MeshDifference& d, const View& view, double full_m
       if (shown) {
         const Point2 end = here.point + (here.nearest - here.point) * factor;
         whiskers[colour_of(here.deviation_mm, full_mm)] +=
-            "M" + point_text(view.at(here.point)) + "L" + point_text(view.at(end));
-        line += (drawing ? "L" : "M") + point_text(view.at(end));
+            "M" + point_px(view.at(here.point)) + "L" + point_px(view.at(end));
+        line += (drawing ? "L" : "M") + point_px(view.at(end));
       }
       drawing = shown;
     }
@@ -184,21 +184,21 @@ Point2 opposite(const MeshDifference& d) {
   return best;
 }
 
-std::string dimension(const MeshDifference& d, const View& view) {
+std::string dimension(const MeshDifference& d, const SectionView& view) {
   const Point2 a = view.at(d.worst), b = view.at(opposite(d));
   const Point2 middle = 0.5 * (a + b);
   Point2 aside = perpendicular(b - a);
   aside = aside.norm() > 1e-9 ? Point2(aside.normalized()) : Point2(1.0, 0.0);
   if (aside.x() < 0.0) aside = -aside;
   const Point2 label = middle + 16.0 * aside + Point2(0.0, 5.0);
-  return "<path d=\"M" + point_text(a) + "L" + point_text(b) +
+  return "<path d=\"M" + point_px(a) + "L" + point_px(b) +
          "\" stroke=\"#222\" stroke-width=\"1.6\" marker-start=\"url(#a)\" marker-end=\"url(#a)\"/><circle cx=\"" +
          px(a.x()) + "\" cy=\"" + px(a.y()) + "\" r=\"3\" fill=\"#222\"/><text x=\"" + px(label.x()) + "\" y=\"" +
          px(label.y()) + "\" class=\"d\">" + signed_um(d.worst_deviation_mm) +
          " µm</text>\n";
 }
 
-std::string fill(const MeshSection& section, const View& view) {
+std::string fill(const MeshSection& section, const SectionView& view) {
   return "<path d=\"" + path_of(section, view) +
          "\" fill=\"#e4e4e0\" fill-rule=\"evenodd\" stroke=\"#777\" stroke-width=\"0.8\"/>\n";
 }
@@ -229,7 +229,7 @@ std::string legend(const MeshDifference& d, double full_mm, double tolerance_mm)
   return text;
 }
 
-View whole_view(const MeshDifference& d) {
+SectionView whole_view(const MeshDifference& d) {
   Point2 low(1e300, 1e300), high(-1e300, -1e300);
   for (const MeshSection* section : {&d.golden, &d.made})
     for (const auto& loop : section->loops)
@@ -240,8 +240,8 @@ View whole_view(const MeshDifference& d) {
 }
 
 /// The tooth at the worst place, its tip up; without teeth the surroundings of the place.
-View tooth_view(const MeshDifference& d, const View& whole) {
-  View view{.left = 2 * kGap + kPanel, .centre = d.worst,
+SectionView tooth_view(const MeshDifference& d, const SectionView& whole) {
+  SectionView view{.left = 2 * kGap + kPanel, .centre = d.worst,
             .size_mm = std::max(0.15 * whole.size_mm, 4.0 * std::abs(d.worst_deviation_mm))};
   if (!d.on_teeth) return view;
   const SectionTeeth& teeth = *d.teeth;
@@ -259,9 +259,9 @@ View tooth_view(const MeshDifference& d, const View& whole) {
 
 std::string compare_picture_svg(const MeshDifference& d, const ComparePictureOptions& options) {
   const double largest = std::max(std::abs(d.worst_deviation_mm), 1e-6);
-  const View whole = whole_view(d);
-  const View tooth = tooth_view(d, whole);
-  const View close{.left = 3 * kGap + 2 * kPanel, .centre = 0.5 * (d.worst + opposite(d)),
+  const SectionView whole = whole_view(d);
+  const SectionView tooth = tooth_view(d, whole);
+  const SectionView close{.left = 3 * kGap + 2 * kPanel, .centre = 0.5 * (d.worst + opposite(d)),
                    .size_mm = kZoom * largest, .turn_rad = tooth.turn_rad};
   const double factor = std::max(1.0, round_down(kExaggeratedShare * tooth.size_mm / largest));
   const Point2 mark = whole.at(d.worst);

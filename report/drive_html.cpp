@@ -12,7 +12,7 @@
 namespace trueflank::loop {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped_text(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '<') result += "&lt;";
@@ -159,8 +159,8 @@ std::string possible_table(const LoopResult& result) {
   for (const PossibleExplanation& p : result.possible) {
     std::string met;
     for (const std::string& name : p.explains) met += (met.empty() ? "" : ", ") + name;
-    html += "<tr><td>" + escaped(p.id) + "</td><td>" + escaped(p.text) + "</td><td>" +
-            (met.empty() ? "-" : escaped(met)) + "</td><td>" + printed_number(p.left_points) + "</td><td>" +
+    html += "<tr><td>" + escaped_text(p.id) + "</td><td>" + escaped_text(p.text) + "</td><td>" +
+            (met.empty() ? "-" : escaped_text(met)) + "</td><td>" + printed_number(p.left_points) + "</td><td>" +
             printed_number(p.left_nm, "%.4f") + "</td></tr>";
   }
   return html + "</table></div>";

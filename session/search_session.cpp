@@ -2,7 +2,6 @@
 #include "trueflank/session/search_session.h"
 
 #include <algorithm>
-#include <regex>
 
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/tolerance_analysis.h"
@@ -17,13 +16,22 @@
 namespace trueflank {
 namespace {
 
+/// design-001.toml and on, with three digits or more.
+bool is_designs_name(std::string_view name) {
+  constexpr std::string_view kBefore = "design-", kAfter = ".toml";
+  if (!name.starts_with(kBefore) || !name.ends_with(kAfter) || name.size() < kBefore.size() + 3 + kAfter.size())
+    return false;
+  name.remove_prefix(kBefore.size());
+  name.remove_suffix(kAfter.size());
+  return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// Design files of an earlier search in this folder: they would stand beside the new ones.
 void remove_old_designs(const std::filesystem::path& folder) {
-  static const std::regex kOurs("design-[0-9]{3,}\\.toml");
   std::error_code ignored;
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (std::regex_match(entry.path().filename().string(), kOurs)) old.push_back(entry.path());
+    if (is_designs_name(entry.path().filename().string())) old.push_back(entry.path());
   for (const auto& path : old) std::filesystem::remove(path, ignored);
 }
 

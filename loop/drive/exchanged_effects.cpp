@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/drive/exchanged_effects.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/drive/found_drive_effects.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -106,8 +106,7 @@ class Exchange {
       if (c != first) kept.push_back(c);
     const Eigen::MatrixXd others = weights().asDiagonal() * fit.columns()(Eigen::all, kept);
     Beside beside;
-    beside.others = Eigen::HouseholderQR<Eigen::MatrixXd>(others).householderQ() *
-                    Eigen::MatrixXd::Identity(others.rows(), others.cols());
+    beside.others = orthonormal_columns(others);
     const Eigen::VectorXd column = weights().cwiseProduct(fit.columns().col(first));
     beside.own = beside.rest_of(column);
     beside.own_part = beside.own.squaredNorm() / std::max(column.squaredNorm(), 1e-300);

@@ -39,29 +39,7 @@ BENCH = "direction,input_speed_rpm,input_torque_nm,output_torque_nm\n" + "".join
     for k, (d, n, t) in enumerate((d, n, t) for d in ("forward", "backward") for n in (100, 400) for t in (0.5, 1, 2, 4)))
 LOOP = ('{"format": "trueflank-loop", "version": 1, "gear": "gear", "effects": [{"id": "eccentricity", '
         '"parameters": {"amplitude_um": {"value": 30}, "phase_deg": {"value": 0}}}]}')
-NEEDS = """format = 1
-name = "small"
-[gearbox]
-kind = "3k"
-[ratio]
-min = 96.2
-max = 96.3
-[teeth]
-sun_min = 12
-sun_max = 12
-planet1_min = 39
-planet1_max = 39
-ring1_min = 90
-ring1_max = 90
-planet2_min = 32
-planet2_max = 32
-ring2_min = 81
-ring2_max = 81
-[search]
-results = 1
-"""
-# One set, and an objective without a certified bound: a tenth of the time of the 3k set above.
-SHORT_NEEDS = """format = 1
+CERTIFIED_NEEDS = """format = 1
 name = "small"
 [gearbox]
 kind = "pair"
@@ -73,9 +51,10 @@ pinion_min = 18
 pinion_max = 18
 [search]
 results = 1
-objectives = "length"
 """
-CERTIFIED_NEEDS = SHORT_NEEDS.replace('objectives = "length"\n', "")
+# Every call is made in a search of one set too. That it be short, the shifts have room about the best ones alone, and the
+# objective no certified bound.
+SHORT_NEEDS = CERTIFIED_NEEDS.replace("[teeth]", "[shift]\nmin = 0.9\nmax = 1.7\n[teeth]") + 'objectives = "length"\n'
 CENTRES = "".join(f"profile,{t},{f},{10 + 0.1 * k:.1f},1,{0.3 * ((7 * t + 3 * k) % 5)}\n"
                   for t in (1, 4, 8) for f in ("left", "right") for k in range(12))
 
@@ -148,7 +127,7 @@ def try_command(name, arguments, kind):
 def main():
     shutil.rmtree(OUTPUT, ignore_errors=True)
     OUTPUT.mkdir(parents=True)
-    for file, text in (("gear.toml", GEAR), ("pair.toml", PAIR), ("loop.json", LOOP), ("needs.toml", NEEDS),
+    for file, text in (("gear.toml", GEAR), ("pair.toml", PAIR), ("loop.json", LOOP),
                        ("short.toml", SHORT_NEEDS), ("certified.toml", CERTIFIED_NEEDS),
                        ("fails.toml", FAILS), ("bench.csv", BENCH),
                        ("traces.csv", "record,tooth,flank,diameter_mm,z_mm,deviation_um\n" + CENTRES)):
@@ -174,7 +153,7 @@ def main():
         "compare": lambda d: ["compare", golden / "gear.stl", golden / "gear.obj", "--json", d / "c.json"],
         "new": lambda d: ["new", d / "mine"],
         "fix": lambda d: ["fix", OUTPUT / "fails.toml", "-o", d / "mended.toml"],
-        "shifts": lambda d: ["shifts", OUTPUT / "needs.toml", "--teeth", "12/39/90/32/81", "--points", 11, "-o", d],
+        "shifts": lambda d: ["shifts", OUTPUT / "short.toml", "--teeth", "18/43", "--points", 11, "-o", d],
         "bench": lambda d: ["loop", pair, OUTPUT / "bench.csv", "-o", d],
         "resume": interrupted,
         "merge": lambda d: ["search", OUTPUT / "short.toml", "-o", d, "--merge", OUTPUT / "searched"],
@@ -184,7 +163,7 @@ def main():
     kinds = {"certified": ("malloc",), "wished": ("thread", "rename", "open", "close", "write")}
     if BEYOND:  # a second and more each; of a wish, memory is the search's
         commands["certified"] = lambda d: ["search", OUTPUT / "certified.toml", "-o", d, "--threads", 2]
-        commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 6]
+        commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 8]
     for name in COMMANDS or commands:
         arguments = commands[name]
         for kind in kinds.get(name, ("thread", "rename", "open", "close", "write", "malloc")):

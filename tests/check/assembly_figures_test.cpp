@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <random>
-#include <regex>
+#include <string_view>
 
 #include "tests/check/check_designs.h"
 #include "trueflank/check/assembly.h"
@@ -20,15 +21,16 @@ bool says(const Finding& f, const std::string& words) {
 
 /// The numbers of a list such as "0, 119.5 deg" behind some words.
 std::vector<double> degrees_after(const std::string& text, const std::string& words) {
+  const std::size_t found = text.find(words + ' ');
+  if (found == std::string::npos) return {};
   std::vector<double> numbers;
-  std::smatch list;
-  if (!std::regex_search(text, list, std::regex(words + " ([-0-9., ]*) deg"))) return numbers;
-  const std::string digits = list[1];
-  const std::regex number("-?[0-9.]+");
-  for (auto it = std::sregex_iterator(digits.begin(), digits.end(), number);
-       it != std::sregex_iterator(); ++it)
-    numbers.push_back(std::stod(it->str()));
-  return numbers;
+  const char* at = text.c_str() + found + words.size();
+  for (char* end = nullptr;; at = end + (*end == ',' ? 1 : 0)) {
+    const double number = std::strtod(at, &end);
+    if (end == at) break;
+    numbers.push_back(number);
+  }
+  return std::string_view(at).starts_with(" deg") ? numbers : std::vector<double>{};
 }
 
 /// Teeth round one planet; those of the second planet gear and ring are 0 where it has one gear.

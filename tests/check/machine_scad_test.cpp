@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // assembly.scad of a gearbox: what is screwed to a part goes round with it.
 #include <gtest/gtest.h>
+#include <regex.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 
 #include "tests/check/machine_designs.h"
 #include "tests/support/scratch_folder.h"
@@ -25,11 +26,19 @@ Line line_of(const Made& made, const std::string& body) {
   EXPECT_TRUE(io::write_scad_assembly(path, made.train, made.shapes));
   std::ifstream file(path);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  const std::regex pattern("body\\(\"[^\"]*\", ([-0-9.e]+), [^\n]*\\n[^+\n]* \\+ ([-0-9.e]+)\\*angle, "
-                           "[0-9]+(, axis = [^)]*)?\\)[^\n]*// " + body + "\\n");
-  std::smatch match;
-  if (!std::regex_search(text, match, pattern)) throw std::runtime_error("no line of " + body);
-  return {std::stod(match[1]), std::stod(match[2]), match[3]};
+  const std::string pattern = "body\\(\"[^\"]*\", ([-0-9.e]+), [^\n]*\n[^+\n]* [+] ([-0-9.e]+)[*]angle, "
+                              "[0-9]+(, axis = [^)]*)?\\)[^\n]*// " + body + "\n";
+  // of the C library: that of C++ compiles for seconds
+  regex_t compiled;
+  if (regcomp(&compiled, pattern.c_str(), REG_EXTENDED) != 0) throw std::runtime_error("no pattern: " + pattern);
+  std::array<regmatch_t, 4> match{};
+  const int found = regexec(&compiled, text.c_str(), match.size(), match.data(), 0);
+  regfree(&compiled);
+  if (found != 0) throw std::runtime_error("no line of " + body);
+  const auto part = [&](const regmatch_t& m) {
+    return m.rm_so < 0 ? std::string() : text.substr(m.rm_so, m.rm_eo - m.rm_so);
+  };
+  return {std::stod(part(match[1])), std::stod(part(match[2])), part(match[3])};
 }
 
 TEST(ScadAssembly, ScrewsGoRoundWithWhatTheyAreIn) {

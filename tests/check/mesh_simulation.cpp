@@ -2,6 +2,7 @@
 #include "tests/check/mesh_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trueflank::test {
@@ -61,21 +62,34 @@ class ToothPolygon {
   [[nodiscard]] int teeth() const { return teeth_; }
   [[nodiscard]] double tip_reach() const { return external_ ? high_ : low_; }
 
+  /// Whether everything within a radius of a point, `from_axis` from the gear's, lies farther than `least` beside all teeth.
+  [[nodiscard]] bool passes_by(double from_axis, double radius, double least) const {
+    const double beyond = radius + least + slack();
+    return external_ ? from_axis > high_ + beyond : from_axis < low_ - beyond;
+  }
+
   /// Signed distance of a point in the gear's frame, cut off at +- the window. What is farther out
   /// than `least` may be told as anything that is not less.
   [[nodiscard]] double signed_distance(const Point2& p, double least) const {
     const double r = p.norm();
     if (external_ ? r > high_ + least : r < low_ - least) return window();
     if (external_ ? r < low_ - window() : r > high_ + window()) return -window();
-    const auto tooth =
-        static_cast<int>(std::round(std::atan2(p.y(), p.x()) * teeth_ / (2.0 * M_PI)));
-    const Point2& axis = axes_[static_cast<std::size_t>((tooth + teeth_) % teeth_)];
-    const Point2 own(axis.dot(p), axis.x() * p.y() - axis.y() * p.x());
+    Point2 own = in_frame_of(tooth_, p);
+    if (!(own.x() > 0.0 && std::abs(own.y()) < own_slope_ * own.x())) {
+      const auto tooth = static_cast<int>(std::round(std::atan2(p.y(), p.x()) * teeth_ / (2.0 * M_PI)));
+      tooth_ = static_cast<std::size_t>((tooth + teeth_) % teeth_);
+      own = in_frame_of(tooth_, p);
+    }
     if (const double bound = bound_near(own); bound > least) return bound;
     return of_own_tooth(own, r);
   }
 
  private:
+  [[nodiscard]] Point2 in_frame_of(std::size_t tooth, const Point2& p) const {
+    const Point2& axis = axes_[tooth];
+    return {axis.dot(p), axis.x() * p.y() - axis.y() * p.x()};
+  }
+
   /// Signed distance of a point in the frame of this tooth, `r` from the axis, cut off at +- the
   /// window.
   [[nodiscard]] double of_own_tooth(const Point2& own, double r) const {
@@ -84,7 +98,7 @@ class ToothPolygon {
         static_cast<int>(std::floor((r - low_) / cell())), 0, static_cast<int>(cells_.size()) - 1));
     double nearest = window() * window(), reach = square_of(window() + longest_);
     int crossings = 0;
-    for (const Edge& edge : cells_[cell_index]) {
+    for (const Edge& edge : cells_[cell_index][y > 0.0 ? 1 : 0]) {
       const double dx = x - edge.ax, dy = y - edge.ay;
       // edges that the circle of radius r crosses between the tooth's middle and the point
       if ((edge.radius_a > r) != (edge.radius_b > r)) {
@@ -133,6 +147,7 @@ class ToothPolygon {
       : teeth_(gear.teeth),
         external_(gear.kind == GearKind::kExternal),
         module_(gear.normal_module_mm) {
+    if (teeth_ > 2) own_slope_ = (1.0 - 1e-9) * std::tan(M_PI / teeth_);
     for (int k = 0; k < teeth_; ++k)
       axes_.push_back({std::cos(2.0 * M_PI * k / teeth_), std::sin(2.0 * M_PI * k / teeth_)});
   }
@@ -147,7 +162,7 @@ class ToothPolygon {
       points_.push_back({p->x(), -p->y()});
     for (std::size_t i = half.front().y() == 0.0 ? 1 : 0; i < half.size(); ++i)
       points_.push_back(half[i]);
-    constexpr std::size_t kRun = 8;
+    constexpr std::size_t kRun = 4;
     for (std::size_t first = 0; first < points_.size(); first += kRun) {
       Run run{first, 0, std::min(first + kRun, points_.size()), 0.0};
       run.middle = (run.first + run.end) / 2;
@@ -173,7 +188,12 @@ class ToothPolygon {
       const double reach_high = std::max(radii[i], radii[i + 1]) + window() - low_;
       const int from = std::max(0, static_cast<int>(std::floor(reach_low / cell())));
       const int to = std::min(count - 1, static_cast<int>(std::floor(reach_high / cell())));
-      for (int k = from; k <= to; ++k) cells_[static_cast<std::size_t>(k)].push_back(edge);
+      const double y_low = std::min(points_[i].y(), points_[i + 1].y()), y_high = std::max(points_[i].y(), points_[i + 1].y());
+      for (int k = from; k <= to; ++k) {
+        std::array<std::vector<Edge>, 2>& sides = cells_[static_cast<std::size_t>(k)];
+        if (y_low < window() + slack()) sides[0].push_back(edge);
+        if (y_high > -window() - slack()) sides[1].push_back(edge);
+      }
     }
     set_squares();
   }
@@ -196,17 +216,18 @@ class ToothPolygon {
   std::vector<Point2> points_;
   std::vector<Run> runs_;
   std::vector<Point2> axes_;  // directions of the teeth
+  mutable std::size_t tooth_ = 0;  // whose sector held the last point: mostly the next one's too
+  double own_slope_ = 0.0;  // a sector's side to its middle, and a little less
   double low_ = 0.0, high_ = 0.0, longest_ = 0.0;
-  std::vector<std::vector<Edge>> cells_;
+  /// By the radius; the edges that count for points at y <= 0, and for the others.
+  std::vector<std::array<std::vector<Edge>, 2>> cells_;
   Point2 corner_ = Point2::Zero();  // of the squares
   std::size_t columns_ = 0, rows_ = 0;
   mutable std::vector<double> bounds_;
 };
 
-Point2 turned_by(const Point2& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
-}
+Point2 rotated_by(const Point2& p, double c, double s) { return {c * p.x() - s * p.y(), s * p.x() + c * p.y()}; }
+Point2 turned_by(const Point2& p, double angle) { return rotated_by(p, std::cos(angle), std::sin(angle)); }
 
 /// Vertices of `mover`, placed, against `mate`, placed; `best` where none is nearer than that.
 double smallest(const ToothPolygon& mover, double mover_turn, const Point2& mover_axis,
@@ -229,6 +250,8 @@ double smallest(const ToothPolygon& mover, double mover_turn, const Point2& move
       return mate.signed_distance({c2 * x - s2 * y, s2 * x + c2 * y}, least);
     };
     for (const ToothPolygon::Run& run : mover.runs()) {
+      const Point2 middle = mover_axis + rotated_by(mover.points()[run.middle], c, s) - mate_axis;
+      if (mate.passes_by(middle.norm(), run.radius, best)) continue;
       // no distance differs from another by more than its point does
       const double beyond = best + run.radius + mate.slack();
       if (beyond < mate.window() && distance_of(run.middle, beyond) > beyond) continue;

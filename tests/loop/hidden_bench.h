@@ -86,8 +86,13 @@ class PaperTrain {
   struct Mesh {  // in base pitches, places from the pitch point
     double r1, r2, start, end, tangent, sense;
   };
-  /// Driven torque held constant, pairs share the load evenly; 4000 moments of a pitch.
   [[nodiscard]] double efficiency(int m, double mu, bool gear1_drives) const {
+    Known& known = known_[static_cast<std::size_t>(m)][gear1_drives ? 0 : 1];
+    if (!(known.mu == mu)) known = {mu, summed_efficiency(m, mu, gear1_drives)};
+    return known.efficiency;
+  }
+  /// Driven torque held constant, pairs share the load evenly; 4000 moments of a pitch.
+  [[nodiscard]] double summed_efficiency(int m, double mu, bool gear1_drives) const {
     const Mesh& mesh = mesh_[static_cast<std::size_t>(m)];
     constexpr int kMoments = 4000;
     double driving_over_driven = 0.0;
@@ -105,6 +110,11 @@ class PaperTrain {
 
   double k_ = 1.0, i2_ = 0.5;
   std::array<Mesh, 3> mesh_{};
+  /// What was summed last, by mesh and gear that drives: on most benches all rows have one coefficient.
+  struct Known {
+    double mu = NAN, efficiency = NAN;
+  };
+  mutable std::array<std::array<Known, 2>, 3> known_{};
 };
 
 /// A bench file's text.

@@ -10,6 +10,8 @@ import sys
 sys.dont_write_bytecode = True
 from step_samples import write_samples  # noqa: E402
 
+# The parallel Delaunay method, and no better shapes of the tetrahedra afterwards: they fill the same, in half the time.
+QUICK = ["-algo", "hxt", "-setnumber", "Mesh.Optimize", "0"]
 # as fine as the size of the teeth asks for
 FINE = ["-clmax", "0.5", "-clcurv", "12"]
 SAMPLES = {
@@ -51,7 +53,7 @@ def mesh_volume(mesh_file):
 def complaints(path, volume, options):
     mesh_file = path.with_suffix(".msh")
     run = subprocess.run(
-        ["gmsh", "-3", "-format", "msh22", *options, str(path), "-o", str(mesh_file)],
+        ["gmsh", "-3", "-format", "msh22", *QUICK, *options, str(path), "-o", str(mesh_file)],
         capture_output=True, text=True, timeout=300, check=False)
     if run.returncode != 0:
         return ["gmsh: " + run.stdout[-500:] + run.stderr[-500:]]
