@@ -281,6 +281,13 @@ class RemainderSearch {
     found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
   }
 
+  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike 0.
+  static double side_of_kink(const CourseFinding& kink) {
+    const double slopes = std::abs(kink.before) + std::abs(kink.beyond);
+    if (std::abs(kink.before + kink.beyond) < 0.3 * slopes) return 0.0;
+    return std::abs(kink.before) > std::abs(kink.beyond) ? -1.0 : 1.0;
+  }
+
   void add_course(const CourseKey& key, const Courses& courses, int places,
                   const CourseFinding& found, int side) {
     const double face = key.face ? 1.0 : 0.0;
@@ -292,6 +299,10 @@ class RemainderSearch {
     switch (found.kind) {
       case Kind::kStep:
         add_form("unnamed_step", flank, {face, at}, found.p_value, found.amount, false, found.square);
+        break;
+      case Kind::kKink:
+        add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value, found.amount,
+                 false, found.square);
         break;
       case Kind::kBand:
         add_form("unnamed_band", flank, {face, at, width}, found.p_value, found.amount, false,

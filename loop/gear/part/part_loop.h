@@ -111,6 +111,7 @@ class PartLoop {
   void drop_doubtful_names();
   void join_flanks();
   void tell_parts_of_a_form();
+  [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
   void tell_parts_beside_forms();
   void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
