@@ -176,6 +176,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
+  tell_means_of_one_wave();
   tell_imitations();
   tell_waves_of_a_form();
   tell_level_of_forms();
@@ -233,7 +234,7 @@ void PartLoop::tell_parts_of_a_sector() {
   constexpr double kShare = 0.5;
   const auto is_sector = [](const Effect& e) {
     const std::vector<std::string>& names = e.family->shape_names;
-    return e.is_term() && names.size() > 1 && names[0] == "first_tooth" && names[1] == "teeth";
+    return e.is_term() && names.size() > 3 && names[0] == "first_tooth" && names[1] == "teeth";
   };
   if (std::none_of(effects_.begin(), effects_.end(), is_sector)) return;
   const auto fit = fit_of(effects_);
