@@ -64,7 +64,7 @@ void PartLoop::run() {
   unseen_ = banned_;
   ban_given();
   const bool scan_for_more = !options_.joined && !options_.names_only && !is_rounding();
-  if (scan_for_more && !options_.names_first) nominate();
+  if (scan_for_more) nominate();
   explain();
   constexpr int kRounds = 4, kMostBans = 6;
   for (int round = 0; scan_for_more && round < kRounds && take_up_remainder(); ++round) explain();
@@ -83,10 +83,9 @@ void PartLoop::run() {
   if (!is_rounding() && !options_.joined) look_at_neighbours();
   problem_ = {};  // all is chosen: its columns take a fifth of the memory of a large scan
   veto();
-  if (!scan_for_more || options_.names_first) return;
+  if (!scan_for_more) return;
   prefer_names();
   prefer_one_name_to_two();
-  prefer_fewer_forms();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;
   doubt_names_below_what_is_left();

@@ -30,7 +30,6 @@ class PartLoop {
     std::vector<Effect> given = {};
     bool joined = false;  ///< parts in one table: what is one part's own is looked at there
     bool names_only = false;  ///< no forms without a name
-    bool names_first = false;  ///< forms that the data show as they are wait for what names leave
     std::vector<const EffectFamily*> without = {};  ///< families that are not asked about
     int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
   };
@@ -127,7 +126,6 @@ class PartLoop {
   void doubt_names_below_what_is_left();
   void prefer_names();
   void prefer_one_name_to_two();
-  void prefer_fewer_forms();
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);
   [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;

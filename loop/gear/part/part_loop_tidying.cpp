@@ -176,22 +176,29 @@ void PartLoop::prefer_one_name_to_two() {
     }
 }
 
-/// Where a step or a kink stands beside a slope, the larger of the two flanks shows another step than
-/// the other, and what was found first draws more after it: all is chosen once more, names first and
-/// forms in what they leave.
-void PartLoop::prefer_fewer_forms() {
-  constexpr int kMany = 3, kSpared = 2;
-  constexpr std::size_t kMostRows = 100000;  // it takes as long as the first choice
-  const auto forms = std::count_if(effects_.begin(), effects_.end(),
-                                   [](const Effect& e) { return e.is_term(); });
-  if (forms < kMany || table_->rows.size() > kMostRows) return;
-  Options options = options_;
-  options.names_first = true;
-  (void)adopt_if_simpler(std::move(options), kSpared);
+namespace {
+
+/// What effects are told by: their sizes, and with places and widths those that were sought.
+int values_of(const std::vector<Effect>& effects, bool places_too) {
+  int values = 0;
+  for (const Effect& effect : effects) {
+    const EffectFamily& family = *effect.family;
+    values += effect.columns();
+    if (!places_too) continue;
+    if (family.named || !family.form_word.empty())
+      values += family.shape_is_continuous ? static_cast<int>(effect.shape.size()) : 0;
+    else
+      values += static_cast<int>(
+          std::count_if(family.term_keys.begin(), family.term_keys.end(),
+                        [](const TermKey& key) { return key.kind == TermKey::Kind::kNumber; }));
+  }
+  return values;
 }
 
-/// Makes the whole choice again in another way. It is taken over where it has so many columns fewer,
-/// and names alone if that was asked, leaves no more, and nothing is left that a form would say.
+}  // namespace
+
+/// Makes the whole choice again in another way. It is taken over where it has names alone, so many
+/// values fewer, leaves no more, and nothing is left that a form would say.
 bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of
   // the error is no loss.
@@ -203,23 +210,18 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   names.run();
   if (names.effects_.empty()) return false;
   names.tell_parts_of_a_form();
-  if (names.options_.names_only &&
-      std::any_of(names.effects_.begin(), names.effects_.end(),
+  if (std::any_of(names.effects_.begin(), names.effects_.end(),
                   [](const Effect& e) { return e.is_term(); }))
     return false;
-  const auto columns_of = [](const std::vector<Effect>& effects) {
-    int columns = 0;
-    for (const Effect& effect : effects) columns += effect.columns();
-    return columns;
-  };
-  const int spared = columns_of(effects_) - columns_of(names.effects_);
+  // A kink has a place; three names that follow it have one each, and a width.
+  const bool beside_forms = std::any_of(effects_.begin(), effects_.end(),
+                                        [](const Effect& e) { return e.is_term(); });
+  const int spared = values_of(effects_, beside_forms) - values_of(names.effects_, beside_forms);
   if (spared < least_spared) return false;
   const auto own = fit_of(effects_), other = names.fit_of(names.effects_);
   const auto before = own->errors(std::vector<bool>(effects_.size(), true)),
              after = other->errors(std::vector<bool>(names.effects_.size(), true));
   const auto n = static_cast<double>(own->observations());
-  if (!names.options_.names_only && after.held_out_rms_um > (1.0 + kNoLoss) * before.held_out_rms_um)
-    return false;
   const double loss = n * (std::pow(after.rms_um / before.rms_um, 2) - 1.0);
   if (loss > kNothing + kByChance * spared + kNoLoss * n) return false;
   names.remainder_ = names.remainder_of(names.effects_, RemainderOf::kAll);
