@@ -246,7 +246,7 @@ class RemainderSearch {
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
-    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || !(courses.high > courses.low)) return;
+    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || courses.high == courses.low) return;
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
@@ -292,9 +292,10 @@ class RemainderSearch {
                   const CourseFinding& found, int side) {
     const double face = key.face ? 1.0 : 0.0;
     const FlankChoice flank = flank_choice(geometry_, side);
-    const double at =
-        place_mm(key.face, std::clamp(courses.place(found.at, places), courses.low, courses.high));
-    const double width = courses.length(found.width, places);
+    // Of a ring's scan the course runs from root to tip, and its roll falls.
+    const auto [low, high] = std::minmax(courses.low, courses.high);
+    const double at = place_mm(key.face, std::clamp(courses.place(found.at, places), low, high));
+    const double width = std::abs(courses.length(found.width, places));
     using Kind = CourseFinding::Kind;
     switch (found.kind) {
       case Kind::kStep:
