@@ -44,12 +44,13 @@ MatrixXd cosines(Index m) {
   return c;
 }
 
-/// A step or band along a course, about its mean.
+/// A step, band or kink along a course, about its mean; a kink beside the straight line.
 struct CourseForm {
   CourseKind kind = CourseKind::kStep;
   double at = 0.0, width = 0.0;  ///< [rows]
   VectorXd values;
   double square = 0.0;
+  double line_slope = 0.0;  ///< kKink: what was taken off, a course of a slope's bend
   VectorXd powers;  ///< squares of its coefficients on the cosines
 };
 
@@ -60,6 +61,18 @@ struct CourseForms {
       VectorXd step = VectorXd::Zero(m);
       step.tail(m - i).setOnes();
       add(CourseKind::kStep, static_cast<double>(i), 0.0, std::move(step));
+    }
+    const VectorXd line = VectorXd::LinSpaced(m, -1.0, 1.0);
+    for (Index i = std::max<Index>(3, m / 16); i <= m - std::max<Index>(3, m / 16); ++i) {
+      VectorXd kink = VectorXd::Zero(m);
+      for (Index k = i; k < m; ++k)
+        kink[k] = (static_cast<double>(k - i) + 0.5) / static_cast<double>(m - i);
+      kink.array() -= kink.mean();
+      const double slope = kink.dot(line) / line.squaredNorm();
+      kink -= slope * line;
+      add(CourseKind::kKink, static_cast<double>(i), 0.0, std::move(kink));
+      forms.back().line_slope =
+          2.0 * slope * (1.0 - static_cast<double>(i) / static_cast<double>(m));
     }
     for (double width = 1.2; width < 0.25 * static_cast<double>(m); width *= 1.6)
       for (double at = 0.5; at < static_cast<double>(m); at += std::max(0.5, 0.4 * width)) {
@@ -79,7 +92,12 @@ struct CourseForms {
     values.array() -= values.mean();
     const double square = values.squaredNorm();
     VectorXd powers = (basis * values).cwiseAbs2();
-    forms.push_back({kind, at, width, std::move(values), square, std::move(powers)});
+    forms.push_back({.kind = kind,
+                     .at = at,
+                     .width = width,
+                     .values = std::move(values),
+                     .square = square,
+                     .powers = std::move(powers)});
   }
 };
 
@@ -112,7 +130,7 @@ class CourseScan {
       for (const Common& one : commons) look_for_common(one);
       count_ = static_cast<double>(asked.size());
       // Two kinds of question, localised and wavelike, share the level.
-      for (CourseFinding* f : {&step_, &band_}) keep(*f, 2.0 * count_ * forms_);
+      for (CourseFinding* f : {&step_, &kink_, &band_}) keep(*f, 2.0 * count_ * forms_);
       keep(wave_, 2.0 * count_ * frequencies_);
     }
     look_for_own_waves();
@@ -208,23 +226,43 @@ class CourseScan {
     const std::vector<CourseForm>& forms = forms_of_rows(m_).forms;
     forms_ = static_cast<double>(forms.size());
     for (const CourseForm& form : forms)
-      judge(form.kind == CourseKind::kStep ? step_ : band_, form, one.set, 1.0 / one.courses, one.mean, variance);
+      judge(form, one.set, 1.0 / one.courses, one.mean, variance);
     look_for_common_wave(one, variance);
   }
 
   /// `scale`: variance of the mean over that of one course.
-  void judge(CourseFinding& best, const CourseForm& form, int set, double scale,
-             const VectorXd& mean, const VectorXd& variance) {
+  void judge(const CourseForm& form, int set, double scale, const VectorXd& mean,
+             const VectorXd& variance) {
+    CourseFinding& best = form.kind == CourseKind::kStep   ? step_
+                          : form.kind == CourseKind::kKink ? kink_
+                                                           : band_;
     const double score = form.values.dot(mean);
     const double t = std::abs(score / std::sqrt(form.powers.dot(variance)));
     const double square = score * score / form.square / scale;
     // The p-value falls with t: most forms are told from the best one without it.
-    double& best_t = form.kind == CourseKind::kStep ? step_t_ : band_t_;
+    double& best_t = form.kind == CourseKind::kStep   ? step_t_
+                     : form.kind == CourseKind::kKink ? kink_t_
+                                                      : band_t_;
     if (is_beyond_doubt(best.p_value) ? square <= best.square : t < best_t * (1.0 - 1e-9)) return;
     const double p = student_two_sided(t, degrees_);
     if (!is_better(p, square, best.p_value, best.square)) return;
     const double m = static_cast<double>(m_);
-    best = {form.kind, p, set, -1, form.at / m, form.width / m, square, score / form.square};
+    best = {.kind = form.kind,
+            .p_value = p,
+            .set = set,
+            .at = form.at / m,
+            .width = form.width / m,
+            .square = square,
+            .amount = score / form.square};
+    if (form.kind == CourseKind::kKink) {
+      // The form is beside the straight line: of that the mean has a slope of its own.
+      const VectorXd line = VectorXd::LinSpaced(m_, -1.0, 1.0);
+      const double bend = best.amount / (1.0 - best.at);
+      const VectorXd straight = mean - best.amount * form.values;
+      const double common = 2.0 * line.dot(straight) / line.squaredNorm();
+      best.before = common - bend * form.line_slope;
+      best.beyond = best.before + bend;
+    }
     best_t = t;
   }
 
@@ -414,8 +452,8 @@ class CourseScan {
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
-  double step_t_ = 0.0, band_t_ = 0.0;  ///< of the best
-  CourseFinding step_{CourseKind::kStep}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
+  double step_t_ = 0.0, kink_t_ = 0.0, band_t_ = 0.0;  ///< of the best
+  CourseFinding step_{CourseKind::kStep}, kink_{CourseKind::kKink}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;
 };
 

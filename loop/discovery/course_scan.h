@@ -15,7 +15,8 @@ struct CourseFinding {
     kBand,      ///< common to all: exp(-((x - at) / width)^2)
     kWave,      ///< common to all, of wavelength `width`, in phase
     kOwnWaves,  ///< every course has the wave of length `width`, each in a phase of its own
-    kSpot       ///< one course stands out about `at` over `width`
+    kSpot,      ///< one course stands out about `at` over `width`
+    kKink       ///< common to all: straight to `at` and on in another direction
   };
   Kind kind = Kind::kBand;
   double p_value = 1.0;  ///< corrected for all that was looked at in the call
@@ -23,7 +24,8 @@ struct CourseFinding {
   int course = -1;       ///< kSpot: of the set
   double at = 0.0, width = 0.0;
   double square = 0.0;  ///< squares it takes out of all courses; forms in common only
-  double amount = 0.0;  ///< height of the step or band, amplitude of the wave, mean of the spot
+  double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the wave, mean of the spot
+  double before = 0.0, beyond = 0.0;  ///< kKink: slopes to either side
 };
 
 /// Of two findings that are both beyond doubt the one that takes out more is the better

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr int kOrders = 3999, kEnough = 12;
 
-constexpr int kKinds = 4;
+constexpr int kKinds = 5;
 constexpr int kMostEvery = 8;
 
 /// Square that the best form of a kind takes out of a series of unit variance.
@@ -40,6 +40,7 @@ class RingScan {
       : series_(std::move(series)), n_(series_.rows()), orders_(std::min<Index>(ring / 2, n_ / 2)) {
     make_waves(place, ring);
     make_ramps_and_combs(place, ring);
+    make_saws(place, ring);
     for (Index s = 0; s < series_.cols(); ++s) {
       auto column = series_.col(s);
       column.array() -= column.mean();
@@ -129,11 +130,77 @@ class RingScan {
       }
   }
 
+  /// Every place from which saws of every length begin: runs of rows that rise together, so that sums
+  /// of a series tell them all.
+  void make_saws(const std::vector<int>& place, int ring) {
+    constexpr int kFewestPlaces = 4, kValuesEach = 4;
+    place_ = place;
+    ring_ = ring;
+    row_from_.resize(static_cast<std::size_t>(ring) + 1);
+    for (int at = 0; at <= ring; ++at)
+      row_from_[static_cast<std::size_t>(at)] = static_cast<int>(
+          std::lower_bound(place_.begin(), place_.end(), at) - place_.begin());
+    if (!std::is_sorted(place_.begin(), place_.end())) return;
+    for (int every = kFewestPlaces; 2 * every <= ring; ++every) {
+      if (every * n_ < static_cast<Index>(kValuesEach) * ring) continue;
+      // Where the saw closes around the ring a later start says the same.
+      const int starts = ring % every == 0 ? every : ring;
+      for (int first = 0; first < starts; ++first) {
+        const VectorXd form = saw(first, every);
+        const double square = (form.array() - form.mean()).square().sum();
+        if (square > 1e-3 * static_cast<double>(n_)) saws_.push_back({first, every, square});
+      }
+    }
+  }
+
+  /// Runs of places [from, to) of a saw that begins anew at `from`, less `before` places of it that lie
+  /// at the other end of the ring.
+  template <class Work>
+  void for_teeth_of_saw(int first, int every, const Work& work) const {
+    for (int begin = first; begin < first + ring_; begin += every) {
+      const int end = std::min(begin + every, first + ring_);
+      if (begin < ring_) work(begin, std::min(end, ring_), 0);
+      if (end > ring_) work(std::max(begin, ring_) - ring_, end - ring_, std::max(0, ring_ - begin));
+    }
+  }
+  [[nodiscard]] VectorXd saw(int first, int every) const {
+    VectorXd form(n_);
+    for_teeth_of_saw(first, every, [&](int from, int to, int before) {
+      for (int row = row_from_[static_cast<std::size_t>(from)];
+           row < row_from_[static_cast<std::size_t>(to)]; ++row)
+        form[row] = static_cast<double>(before + place_[static_cast<std::size_t>(row)] - from) / every;
+    });
+    return form;
+  }
+
+  void best_saw(const VectorXd& placed, int series, BestOfKind& best) const {
+    std::vector<double> sums(static_cast<std::size_t>(n_) + 1), moments(sums.size());
+    for (Index i = 0; i < n_; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      sums[k + 1] = sums[k] + placed[i];
+      moments[k + 1] = moments[k] + placed[i] * place_[k];
+    }
+    for (const Saw& one : saws_) {
+      double product = 0.0;
+      for_teeth_of_saw(one.first, one.every, [&](int from, int to, int before) {
+        const auto a = static_cast<std::size_t>(row_from_[static_cast<std::size_t>(from)]),
+                   b = static_cast<std::size_t>(row_from_[static_cast<std::size_t>(to)]);
+        product += moments[b] - moments[a] + (before - from) * (sums[b] - sums[a]);
+      });
+      product /= one.every;
+      improve(best, {.square = product * product / one.square,
+                     .series = series,
+                     .first = one.first,
+                     .count = one.every});
+    }
+  }
+
   [[nodiscard]] double looked_at(std::size_t kind) const {
     const auto n = static_cast<double>(n_);
     return kind == at(RingKind::kArc)    ? n * static_cast<double>(n_ / 2 - 1)
            : kind == at(RingKind::kWave) ? static_cast<double>(orders_)
            : kind == at(RingKind::kRamp) ? static_cast<double>(ramps_.rows())
+           : kind == at(RingKind::kSaw)  ? static_cast<double>(saws_.size())
                                          : static_cast<double>(combs_.rows());
   }
   /// F test of what the best of so many takes out of a series, whose squares sum to n.
@@ -152,6 +219,7 @@ class RingScan {
       if (!(scale_[static_cast<std::size_t>(s)] > 0.0)) continue;
       for (Index i = 0; i < n_; ++i) placed[i] = series_(order[static_cast<std::size_t>(i)], s);
       best_arc(placed, static_cast<int>(s), best[at(RingKind::kArc)]);
+      best_saw(placed, static_cast<int>(s), best[at(RingKind::kSaw)]);
       const VectorXd parts = waves_ * placed;
       for (Index k = 0; k < orders_; ++k)
         improve(best[at(RingKind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
@@ -226,6 +294,12 @@ class RingScan {
         result.amount = height(rows_of(combs_, [&](std::size_t i) {
           return comb_at_[i] == std::pair(best.count, best.first);
         }));
+        break;
+      case RingKind::kSaw: {
+        VectorXd form = saw(best.first, best.count);
+        form.array() -= form.mean();
+        result.amount = scale * form.dot(series_.col(best.series)) / form.squaredNorm();
+      }
     }
     return result;
   }
@@ -242,6 +316,13 @@ class RingScan {
   MatrixXd waves_, ramps_, combs_;  ///< of unit norm, a form (of waves two) a row
   std::vector<int> ramp_at_;
   std::vector<std::pair<int, int>> comb_at_;
+  struct Saw {
+    int first = 0, every = 0;
+    double square = 0.0;  ///< of its values about their mean
+  };
+  std::vector<Saw> saws_;
+  std::vector<int> place_, row_from_;  ///< of every row; the first row at or beyond a place
+  int ring_ = 0;
   std::vector<double> scale_;
 };
 

@@ -12,18 +12,19 @@ struct RingFinding {
     kArc,   ///< `count` rows from row `first` on stand out
     kWave,  ///< of `order`
     kRamp,  ///< rises evenly once around, from the place `first` on
-    kComb   ///< every `count`-th place stands out, the first of them `first`
+    kComb,  ///< every `count`-th place stands out, the first of them `first`
+    kSaw    ///< rises evenly and begins anew after every `count` places, first at `first`
   };
   Kind kind = Kind::kWave;
   double p_value = 1.0;  ///< corrected for all series and forms
   int series = -1;
   int first = 0, count = 0, order = 0;
-  double amount = 0.0;  ///< of arc and comb above the rest; amplitude; whole rise
+  double amount = 0.0;  ///< of arc and comb above the rest; amplitude; whole rise, of a saw of each tooth of it
 };
 
 /// Arcs of neighbours that stand out, waves, ramps that begin anew at one place (a tool that wears,
-/// a machine that warms up), and combs (a cutter with few teeth), in any of the series (one a
-/// column). Rows are places of the ring in order, `place` 0 ... ring - 1 of each; of some places
+/// a machine that warms up) or after so many places each time (a wheel that is dressed), and combs (a
+/// cutter with few teeth), in any of the series (one a column). Rows are places of the ring in order, `place` 0 ... ring - 1 of each; of some places
 /// there may be no value. Two tests of one question, each at half the level: against the same
 /// values in shuffled order, whole rows together, so that series that hang together are no finding;
 /// and an F test with Bonferroni's correction, because few values in any order often make an arc.

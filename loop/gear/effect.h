@@ -80,6 +80,7 @@ struct EffectFamily : EffectFacts {
   bool doubted_by_any_order = false;
   /// Begins anew at one tooth: where its zero lies, and slow waves beside it, are parts of one drift.
   bool is_drift = false;
+  bool is_like_many = false;  ///< a form that names with a free shape follow closely
   bool of_traces_only = false;  ///< scans cannot have it
   bool tells_order_along_profile = false;  ///< few teeth tell its orders apart
   bool shows_in_sizes = false;    ///< span, over pins, diameters tell it

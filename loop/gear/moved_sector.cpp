@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "trueflank/base/units.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/ring_scan.h"
@@ -104,7 +106,8 @@ class SectorSearch {
     const double p = asked * f_tail(best.square / kOfSector / (left / degrees),
                                     static_cast<double>(kOfSector), degrees);
     const double noise = left / degrees;
-    if (p > kSure || largest_of_simpler() > best.square - kClearly * noise || is_more_left(best))
+    if (p > kSure || largest_of_simpler() > best.square - kClearly * noise ||
+        (is_more_left(best) && !says_nearly_all(best, left)))
       return {};
     // The rest standing aside is the same but for the whole gear's place: what moves that less is told.
     Vector2 gear_aside = whole_um_.tail(kOfSector);
@@ -146,6 +149,34 @@ class SectorSearch {
         ask(drift);
       }
     return largest;
+  }
+
+  /// True where what the sector leaves is little beside what it says, and waves on each flank, of any
+  /// one order and with twice its columns, say less.
+  [[nodiscard]] bool says_nearly_all(const Best& best, double left_square) const {
+    constexpr double kLittle = 0.35;
+    if (left_square > kLittle * best.square) return false;
+    const SymmetricSolver whole(gear_.transpose() * gear_);
+    const auto beside_gear = [&](Eigen::MatrixXd form) {
+      form -= gear_ * whole.solve_columns(gear_.transpose() * form);
+      return form;
+    };
+    for (Index order = 1; 2 * order <= n_; ++order) {
+      Eigen::MatrixXd waves = Eigen::MatrixXd::Zero(2 * n_, 4);
+      for (Index i = 0; i < 2 * n_; ++i) {
+        const double angle =
+            kTwoPi * static_cast<double>(order * (tooth_of(i / 2) - 1)) / geometry_.teeth();
+        waves(i, 2 * (i % 2)) = std::cos(angle);
+        waves(i, 2 * (i % 2) + 1) = std::sin(angle);
+      }
+      waves = beside_gear(std::move(waves));
+      // Of half the teeth, and of once around, there is little beside the whole gear.
+      Eigen::MatrixXd normal = waves.transpose() * waves;
+      normal.diagonal().array() += 1e-6 * static_cast<double>(n_);
+      const Eigen::VectorXd right = waves.transpose() * height_um_;
+      if (right.dot(symmetric_solution(normal, right)) >= best.square) return false;
+    }
+    return true;
   }
 
   /// True where the ring of teeth has structure beside the sector.

@@ -246,7 +246,7 @@ class RemainderSearch {
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
-    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || !(courses.high > courses.low)) return;
+    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || courses.high == courses.low) return;
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
@@ -281,17 +281,29 @@ class RemainderSearch {
     found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
   }
 
+  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike 0.
+  static double side_of_kink(const CourseFinding& kink) {
+    const double slopes = std::abs(kink.before) + std::abs(kink.beyond);
+    if (std::abs(kink.before + kink.beyond) < 0.3 * slopes) return 0.0;
+    return std::abs(kink.before) > std::abs(kink.beyond) ? -1.0 : 1.0;
+  }
+
   void add_course(const CourseKey& key, const Courses& courses, int places,
                   const CourseFinding& found, int side) {
     const double face = key.face ? 1.0 : 0.0;
     const FlankChoice flank = flank_choice(geometry_, side);
-    const double at =
-        place_mm(key.face, std::clamp(courses.place(found.at, places), courses.low, courses.high));
-    const double width = courses.length(found.width, places);
+    // Of a ring's scan the course runs from root to tip, and its roll falls.
+    const auto [low, high] = std::minmax(courses.low, courses.high);
+    const double at = place_mm(key.face, std::clamp(courses.place(found.at, places), low, high));
+    const double width = std::abs(courses.length(found.width, places));
     using Kind = CourseFinding::Kind;
     switch (found.kind) {
       case Kind::kStep:
         add_form("unnamed_step", flank, {face, at}, found.p_value, found.amount, false, found.square);
+        break;
+      case Kind::kKink:
+        add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value, found.amount,
+                 false, found.square);
         break;
       case Kind::kBand:
         add_form("unnamed_band", flank, {face, at, width}, found.p_value, found.amount, false,

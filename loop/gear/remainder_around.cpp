@@ -183,6 +183,8 @@ class AroundSearch {
     using Kind = RingFinding::Kind;
     if (found.kind == Kind::kRamp) {
       add_here("unnamed_ramp", {found.first + 1.0, u, v, turned});
+    } else if (found.kind == Kind::kSaw) {
+      add_here("unnamed_saw", {double(found.count), found.first + 1.0, u, v, turned});
     } else if (found.kind == Kind::kComb && found.count > 2) {
       add_here("unnamed_comb", {double(found.count), found.first + 1.0, u, v, turned});
     } else if (found.kind == Kind::kArc) {

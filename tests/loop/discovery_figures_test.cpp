@@ -378,8 +378,8 @@ Eigen::MatrixXd ring_of(int n, const Form& form) {
 double p_by_hand(const Eigen::MatrixXd& series, double square, double degrees, double looked_at) {
   const Eigen::VectorXd y = series.col(1).array() - series.col(1).mean();
   const double left = static_cast<double>(y.size()) - 1.0 - degrees;
-  // two tests of four kinds in two series
-  return 8.0 * 2.0 * looked_at *
+  // two tests of five kinds in two series
+  return 10.0 * 2.0 * looked_at *
          f_tail(square / degrees / ((y.squaredNorm() - square) / left), degrees, left);
 }
 
@@ -443,6 +443,25 @@ TEST(RingScanFigures, OfACombAreItsHeightAndItsFTest) {
   EXPECT_NEAR(
       found.p_value / p_by_hand(series, square, 1.0, 1.0 + 3.0 + 4.0 + 5.0 + 6.0 + 7.0 + 8.0), 1.0,
       1e-9);
+}
+
+TEST(RingScanFigures, OfASawAreTheRiseOfItsTeethAndItsFTest) {
+  // Begins at 3 and then every 9 places; the last drift is cut short.
+  const auto form = [](int i) { return 8.0 * (((i + 21) % 24) % 9) / 9.0; };
+  const Eigen::MatrixXd series = ring_of(24, form);
+  const RingFinding found = scan_ring(series, places(24), 24);
+  ASSERT_EQ(found.kind, RingFinding::Kind::kSaw);
+  EXPECT_EQ(found.first, 3);
+  EXPECT_EQ(found.count, 9);
+  Eigen::VectorXd saw(24);
+  for (int i = 0; i < 24; ++i) saw[i] = form(i) / 8.0;
+  saw.array() -= saw.mean();
+  const double rise = saw.dot(series.col(1)) / saw.squaredNorm();
+  EXPECT_NEAR(found.amount, rise, 1e-9);
+  // Of 4, 6, 8 and 12 places, which close around the ring, as many starts; of the others 24.
+  const double looked_at = 4.0 + 6.0 + 8.0 + 12.0 + 24.0 * 5.0;
+  EXPECT_NEAR(found.p_value / p_by_hand(series, rise * rise * saw.squaredNorm(), 1.0, looked_at), 1.0,
+              1e-9);
 }
 
 TEST(RingScanFigures, OfSeriesWithoutSpreadAreNothingAndOfEqualsTheFirstKind) {

@@ -38,6 +38,100 @@ TEST(OddForms, AToolThatWearsFromToothToToothIsADriftWithoutAName) {
   }
 }
 
+TEST(OddForms, AToolThatIsDressedAgainAndAgainIsADriftAndNoPitchWave) {
+  // The last drift is cut short where the gear ends.
+  const MadeGear gear = spur(38);
+  const auto drift = [](auto&, const FlankSpot& s, auto&) {
+    return s.side * 5.0 * ((s.tooth - 1) % 10) / 10.0;
+  };
+  for (unsigned seed = 31; seed <= 33; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(drift)}, sheet_of_all(seed)));
+    EXPECT_EQ(named(result), nullptr) << list(result);
+    EXPECT_NE(list(result).find("begins anew every 10 teeth"), std::string::npos) << list(result);
+  }
+}
+
+TEST(OddForms, HalvesThatStandAsideAreToldFromAnIndexBesideTraces) {
+  // Of one seed in many the rest of the ring looks like more: the sector says nearly all.
+  const MadeGear gear = spur(45);
+  const Process halves{.move_um = [](const MadeGear&, const FlankSpot& s, const Vec3&) -> Vec3 {
+    return s.tooth >= 17 && s.tooth <= 38 ? Vec3{-5.0, 3.0, 0.0} : Vec3{0.0, 0.0, 0.0};
+  }};
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    InspectionOptions options = sheet_of_all(seed);
+    options.teeth = {1, 12, 23, 34};
+    const auto result = close(gear, inspection_of(gear, {halves}, options));
+    EXPECT_EQ(named(result), nullptr) << seed << list(result);
+    EXPECT_NE(list(result).find("stand aside as one body"), std::string::npos) << seed << list(result);
+  }
+}
+
+TEST(OddForms, AProfileOfTwoStraightPiecesIsAKinkAndNoWear) {
+  const MadeGear gear = spur(24);
+  const auto roof = [](auto&, const FlankSpot& s, auto&) { return 14.0 * std::abs(s.u - 0.15); };
+  InspectionOptions options = sheet_of_all(6);
+  options.teeth = {1, 7, 13, 19};
+  const auto result = close(gear, inspection_of(gear, {grown(roof)}, options));
+  EXPECT_EQ(named(result), nullptr) << list(result);
+  EXPECT_NE(list(result).find("a kink over the profile"), std::string::npos) << list(result);
+  // A hollow stays a wear.
+  const auto hollow = [](auto&, const FlankSpot& s, auto&) {
+    return -12.0 * std::exp(-std::pow((s.u - 0.1) / 0.4, 2));
+  };
+  const auto worn = close(gear, inspection_of(gear, {grown(hollow)}, options));
+  EXPECT_NE(find(worn, "flank_wear"), nullptr) << list(worn);
+}
+
+TEST(OddForms, ANameStaysBesideAFormThatLeavesMostOfTheFlankAlone) {
+  const MadeGear gear = spur(24);
+  InspectionOptions options = sheet_of_all(7);
+  options.teeth = {1, 7, 13, 19};
+  const auto relieved = [](auto&, const FlankSpot& s, auto&) {
+    return -7.0 * s.v - 16.0 * std::max(0.0, (s.v - 0.5) / 0.5);
+  };
+  const auto end = close(gear, inspection_of(gear, {grown(relieved)}, options));
+  ASSERT_NE(find(end, "taper"), nullptr) << list(end);
+  EXPECT_NEAR(parameter(*find(end, "taper"), "slope_um").value, -14.0, 0.7);
+  EXPECT_NE(list(end).find("a kink over the face"), std::string::npos) << list(end);
+  const auto ridge = [](auto&, const FlankSpot& s, auto&) {
+    return 7.0 * s.u + 14.0 * std::max(0.0, (s.u - 0.65) / 0.35);
+  };
+  const auto tip = close(gear, inspection_of(gear, {grown(ridge)}, options));
+  EXPECT_NE(find(tip, "pressure_angle_error"), nullptr) << list(tip);
+}
+
+TEST(OddForms, AReliefKeepsItsNameBesideTeethThatStandAside) {
+  const MadeGear gear = spur(30);
+  Process both = grown([](auto&, const FlankSpot& s, auto&) {
+    const double off = std::max(0.0, s.u - 0.1) / 0.9;
+    return -20.0 * off * off;
+  });
+  both.move_um = [](const MadeGear&, const FlankSpot& s, const Vec3&) -> Vec3 {
+    return s.tooth <= 15 ? Vec3{9.0, 12.0, 0.0} : Vec3{0.0, 0.0, 0.0};
+  };
+  ScanOptions options;
+  options.points = 8000;
+  options.noise_um = 2.0;
+  const auto result = close(gear, scan_of(gear, {both}, options), true);
+  EXPECT_NE(find(result, "tip_relief"), nullptr) << list(result);
+  EXPECT_NE(list(result).find("stand aside as one body"), std::string::npos) << list(result);
+}
+
+TEST(OddForms, ASideThatCoolsLaterIsNoTaperWithACrowning) {
+  const MadeGear gear = spur(25);
+  const auto cooled = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double theta = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+    return -10.0 * (1.0 + std::cos(theta - 0.7)) * std::pow(0.5 * (s.v + 1.0), 2);
+  };
+  ScanOptions options;
+  options.points = 6000;
+  options.noise_um = 1.5;
+  const auto scanned = close(gear, scan_of(gear, {grown(cooled)}, options), true);
+  EXPECT_EQ(named(scanned), nullptr) << list(scanned);
+  const auto traced = close(gear, inspection_of(gear, {grown(cooled)}, sheet_of_all(3)));
+  EXPECT_EQ(named(traced), nullptr) << list(traced);
+}
+
 TEST(OddForms, AnIndexOfOneFlankIsEnough) {
   const MadeGear gear = spur(29);
   const auto drift = [](auto&, const FlankSpot& s, auto&) {

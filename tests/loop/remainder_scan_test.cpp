@@ -107,6 +107,17 @@ TEST(CourseScan, FindsAGrooveAStepAndWavesWhereTheyAre) {
   ASSERT_NE(find(step, Kind::kStep), nullptr);
   EXPECT_NEAR(find(step, Kind::kStep)->at, 0.6, 0.02);
 
+  const auto bent = scan_courses(
+      {with(errors(80, 6, 0.5, 1),
+            [](double x, auto) { return 5.0 * x + 12.0 * std::max(0.0, x - 0.7); }),
+       right});
+  const CourseFinding* kink = find(bent, Kind::kKink);
+  ASSERT_NE(kink, nullptr);
+  EXPECT_EQ(kink->set, 0);
+  EXPECT_NEAR(kink->at, 0.7, 0.06);
+  EXPECT_NEAR(kink->before, 5.0, 1.5);
+  EXPECT_NEAR(kink->beyond, 17.0, 4.0);
+
   const auto waves = scan_courses(
       {with(errors(80, 6, 0.5, 1), [](double x, auto) { return 2.0 * std::sin(60.0 * x); }),
        right});

@@ -51,6 +51,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed();
 [[nodiscard]] EffectFamily unnamed_flank();
 [[nodiscard]] EffectFamily unnamed_step();
+[[nodiscard]] EffectFamily unnamed_kink();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_marks();
@@ -58,6 +59,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
+[[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_spot();

@@ -141,6 +141,48 @@ EffectFamily unnamed_step() {
   return f;
 }
 
+/// Straight to its place and straight on in another direction: nothing on the one side, 1 at the end of
+/// the other; or a roof, 1 at the end of the longer side.
+EffectFamily unnamed_kink() {
+  constexpr double kBefore = -1.0, kBoth = 0.0, kBeyond = 1.0;
+  EffectFamily f = along_flank(
+      "unnamed_kink", {"along", "place_mm", "bends"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        const double at = stands_at(g, shape[0], shape[1]), off = along(shape[0], p) - at;
+        const bool face = shape[0] != 0.0;
+        const double low = (face ? 0.0 : g.root_form_roll_mm()) - at,
+                     high = (face ? g.face_width_mm() : g.tip_form_roll_mm()) - at;
+        if (shape[2] == kBoth) return std::abs(off) / std::max(std::abs(low), std::abs(high));
+        const double range = shape[2] == kBeyond ? high : low;
+        return range != 0.0 ? std::max(0.0, off / range) : 0.0;
+      });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = places_beside(g, shape);
+    std::erase_if(shapes, [&](const EffectShape& s) {
+      constexpr double kEnds = 0.03;
+      const double low = s[0] != 0.0 ? 0.0 : g.root_form_roll_mm(),
+                   high = s[0] != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm();
+      const double share = (stands_at(g, s[0], s[1]) - low) / (high - low);
+      return !(share > kEnds && share < 1.0 - kEnds);
+    });
+    for (const double bends : {kBefore, kBeyond, kBoth})
+      if (bends != shape[2]) shapes.push_back({shape[0], shape[1], bends});
+    return shapes;
+  };
+  f.is_like_many = true;
+  f.term_keys = {kAlong, number("place_mm"), {"bends"}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    const bool face = shape[0] != 0.0;
+    const char* where = shape[2] == kBoth     ? " to both sides"
+                        : shape[2] == kBeyond ? (face ? " towards the upper end" : " towards the tip")
+                        : face                ? " towards the lower end"
+                                              : " towards the root";
+    return "the same on every tooth, a kink " + over(shape[0]) + " " + at_place(shape[0], shape[1]) +
+           ", straight on in another direction" + where;
+  };
+  return f;
+}
+
 EffectFamily unnamed_band() {
   EffectFamily f =
       along_flank("unnamed_band", {"along", "place_mm", "width_mm"},
@@ -324,6 +366,39 @@ EffectFamily unnamed_ramp() {
   f.words = [](const EffectShape& shape, FlankChoice) {
     return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
            " drifts evenly and begins anew: a tool that wears, or a machine that warms up";
+  };
+  return f;
+}
+
+EffectFamily unnamed_saw() {
+  EffectFamily f = described(
+      "unnamed_saw", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.is_drift = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const int z = g.teeth(), every = static_cast<int>(shape[0]), from = static_cast<int>(shape[1]);
+    const int since = ((p.tooth - from) % z + z) % z % every;
+    c[0] = (static_cast<double>(since) / every - 0.5) * form_of_tooth(g, p, shape, 2);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double longer : {-1.0, 0.0, 1.0})
+      for (const double off : {-1.0, 0.0, 1.0}) {
+        EffectShape beside = shape;
+        beside[0] += longer;
+        beside[1] = std::fmod(shape[1] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+        if (beside != shape && beside[0] >= 4.0 && 2.0 * beside[0] <= g.teeth())
+          shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on ", shape[1]) + what_of_tooth(shape, 2) +
+           printed(" drifts evenly and begins anew every %.0f teeth: a tool that wears and is dressed "
+                   "or set again",
+                   shape[0]);
   };
   return f;
 }

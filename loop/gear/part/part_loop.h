@@ -111,9 +111,11 @@ class PartLoop {
   void drop_doubtful_names();
   void join_flanks();
   void tell_parts_of_a_form();
+  [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
   void tell_parts_beside_forms();
   void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
+  void tell_means_of_one_wave();
   void tell_imitations();
   void tell_level_of_forms();
   void tell_waves_of_a_form();

@@ -18,7 +18,7 @@ constexpr int kPlaces = 33, kDegrees = 4;
 /// What an effect does along the flanks of one tooth, over the profile or the face: the places of
 /// the left flank, then of the right one.
 Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
-                             bool face) {
+                             bool face, int tooth = 1) {
   const Effect& one = fit.effects()[effect];
   const int first = fit.first_column(static_cast<int>(effect));
   Eigen::VectorXd values = Eigen::VectorXd::Zero(2 * kPlaces);
@@ -28,7 +28,7 @@ Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit,
     const double share = static_cast<double>(i % kPlaces) / (kPlaces - 1);
     const double roll = low + (face ? 0.5 : share) * (high - low);
     one.evaluate(geometry,
-                 geometry.on_flank(1, i < kPlaces ? 1 : -1, roll,
+                 geometry.on_flank(tooth, i < kPlaces ? 1 : -1, roll,
                                    (face ? share : 0.5) * geometry.face_width_mm()),
                  columns);
     for (int k = 0; k < one.columns(); ++k) values[i] += fit.coefficients()[first + k] * columns[k];
@@ -42,6 +42,9 @@ Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, st
   Eigen::VectorXd course = values_along(geometry, fit, effect, face);
   course.head(kPlaces).array() -= course.head(kPlaces).mean();
   course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
+  // What does not run that way leaves the rounding of its mean.
+  constexpr double kNothing_um = 1e-6;
+  if (course.norm() < kNothing_um) course.setZero();
   return course;
 }
 
@@ -75,6 +78,21 @@ bool is_common_form(const Effect& e) {
 
 bool is_wave_around(const Effect& e) {
   return e.order() > 0.0 && !e.family->tells_order_along_profile;
+}
+
+bool is_form_without_name(const Effect& e) { return e.is_term() && e.family->form_word.empty(); }
+
+/// What the forms without a name do in the mean of the teeth.
+Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face) {
+  constexpr int kTeeth = 12;
+  const int teeth = std::min(kTeeth, geometry.teeth());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
+  for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+    if (!is_form_without_name(fit.effects()[e]) || fit.effects()[e].order() > 0.0) continue;
+    for (int i = 0; i < teeth; ++i)
+      mean += values_along(geometry, fit, e, face, 1 + i * geometry.teeth() / teeth) / teeth;
+  }
+  return mean;
 }
 
 /// What the forms without a name do slowly along the flanks, over the profile and over the face.
@@ -130,11 +148,35 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
 
 }  // namespace
 
+/// Along most of every flank that a name runs over, the forms without a name are flat (a step, a kink
+/// or a bulge stands elsewhere): there the name stands by itself.
+bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
+  constexpr double kFlat = 0.1, kMost = 0.5;
+  bool runs = false;
+  for (const bool face : {false, true}) {
+    const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
+    if (!(course.norm() > 0.0)) continue;
+    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face);
+    for (const int flank : {0, 1}) {
+      const auto own = course.segment(flank * kPlaces, kPlaces);
+      if (!(own.norm() > 1e-6 * course.norm())) continue;
+      runs = true;
+      const double step = (own.maxCoeff() - own.minCoeff()) / (kPlaces - 1);
+      int flat = 0;
+      for (int i = flank * kPlaces; i + 1 < (flank + 1) * kPlaces; ++i)
+        flat += std::abs(forms[i + 1] - forms[i]) < kFlat * step ? 1 : 0;
+      if (flat < kMost * (kPlaces - 1)) return false;
+    }
+  }
+  return runs;
+}
+
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
+  tell_means_of_one_wave();
   tell_imitations();
   tell_waves_of_a_form();
   tell_level_of_forms();
@@ -165,7 +207,7 @@ void PartLoop::tell_parts_beside_forms() {
     if (is_form(effects_[e])) continue;
     const int at = own++;
     const EffectFamily* form = form_instead(e);
-    if (form == nullptr || is_wave_around(effects_[e])) continue;
+    if (form == nullptr || is_wave_around(effects_[e]) || stands_beside_forms(fit, e)) continue;
     bool part = false;
     if (effects_[e].family->local) {
       const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
@@ -192,7 +234,7 @@ void PartLoop::tell_parts_of_a_sector() {
   constexpr double kShare = 0.5;
   const auto is_sector = [](const Effect& e) {
     const std::vector<std::string>& names = e.family->shape_names;
-    return e.is_term() && names.size() > 1 && names[0] == "first_tooth" && names[1] == "teeth";
+    return e.is_term() && names.size() > 3 && names[0] == "first_tooth" && names[1] == "teeth";
   };
   if (std::none_of(effects_.begin(), effects_.end(), is_sector)) return;
   const auto fit = fit_of(effects_);
@@ -235,7 +277,9 @@ void PartLoop::tell_imitations() {
       std::vector<NamedPart> parts;
       for (std::size_t e = 0; e < effects_.size(); ++e) {
         const Effect& effect = effects_[e];
-        if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1) continue;
+        if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1 ||
+            stands_beside_forms(*fit, e))
+          continue;
         add_part(parts, e, course_of(geometry_, *fit, e, face).segment(flank * kPlaces, kPlaces));
       }
       told.merge(

@@ -81,7 +81,76 @@ double change_along(const FlankField& forms, const Eigen::VectorXd& name) {
   return std::sqrt((share.array() - share.mean()).square().mean());
 }
 
+/// A field without the height of each flank, which traces with zeros of their own do not show.
+void take_off_heights(Eigen::Ref<FlankField> field) {
+  for (const Eigen::Index flank : {0, 1}) {
+    auto own = field.middleRows(flank * kGridSide * kGridSide, kGridSide * kGridSide);
+    const Eigen::RowVectorXd height = own.colwise().mean();
+    own.rowwise() -= height;
+  }
+}
+
+/// What a field is mostly: a course over the flanks that comes and goes around the gear.
+struct MainCourse {
+  Eigen::VectorXd over_flanks;  ///< of unit norm
+  double amplitude = 0.0, share = 0.0;
+};
+MainCourse main_course(const FlankField& field, const Eigen::VectorXd& start) {
+  constexpr int kSteps = 30;
+  MainCourse main{start.normalized()};
+  for (int i = 0; i < kSteps; ++i) {
+    const Eigen::VectorXd next = field * (field.transpose() * main.over_flanks);
+    if (!(next.norm() > 0.0)) return main;
+    main.over_flanks = next.normalized();
+  }
+  const double square = (field.transpose() * main.over_flanks).squaredNorm();
+  main.amplitude = std::sqrt(2.0 * square / static_cast<double>(field.cols()));
+  main.share = square / field.squaredNorm();
+  return main;
+}
+
 }  // namespace
+
+/// What comes and goes once around and never changes its sign (a side that cools later) has a mean of
+/// the same course. Two names or more that make up the course of a wave without a name, as large as
+/// that, are its mean.
+void PartLoop::tell_means_of_one_wave() {
+  constexpr double kCounts = 0.2, kAlike = 0.95, kMostly = 0.8, kLeast = 0.5, kMost = 2.0;
+  const auto is_form = [](const Effect& e) {
+    return e.is_term() && e.family->form_word.empty() && e.order() > 0.0;
+  };
+  if (std::none_of(effects_.begin(), effects_.end(), is_form)) return;
+  const auto fit = fit_of(effects_);
+  FlankField around = FlankField::Zero(2 * kGridSide * kGridSide, geometry_.teeth());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(2 * kGridSide * kGridSide);
+  std::vector<std::pair<std::size_t, Eigen::VectorXd>> names;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const bool named = effect.family->named && !effect.family->local && effect.columns() == 1 &&
+                       effect.order() == 0.0 && e >= options_.given.size() - given_p_values_.size();
+    if (!named && !is_form(effect)) continue;
+    FlankField field = field_of(geometry_, *fit, e);
+    take_off_heights(field);
+    if (!named) {
+      around += field;
+      continue;
+    }
+    names.emplace_back(e, field.rowwise().mean());
+    sum += names.back().second;
+  }
+  const auto counted = std::count_if(names.begin(), names.end(), [&](const auto& name) {
+    return name.second.norm() > kCounts * sum.norm();
+  });
+  if (counted < 2 || !(around.squaredNorm() > 0.0)) return;
+  const MainCourse main = main_course(around, sum);
+  const double size = sum.norm() / main.amplitude;
+  if (main.share < kMostly || std::abs(main.over_flanks.dot(sum)) < kAlike * sum.norm() ||
+      !(size > kLeast && size < kMost))
+    return;
+  for (const auto& [e, course] : names)
+    if (const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e))
+      effects_[e].family = form;
+}
 
 /// An odd form around the gear has a mean of its own: what leans or bends all flanks by less than
 /// such a form changes it from tooth to tooth is that mean. And what twists the flanks beside forms

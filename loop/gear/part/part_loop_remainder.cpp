@@ -149,7 +149,9 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
 /// much beside the others, with the right sign.
 std::optional<Effect> PartLoop::name_like(const RemainderFinding& finding,
                                           const std::vector<Effect>& beside) const {
-  constexpr double kNothing = 9.0, kNearly = 0.05;  // chi-square; share of what the form takes out
+  // Chi-square; share of what the form takes out. A hollow with a place and a width of its own comes
+  // nearer to any kink than that.
+  const double kNothing = 9.0, kNearly = finding.effect->family->is_like_many ? 0.01 : 0.05;
   constexpr std::size_t kMostTried = 6;
   std::vector<Effect> names = names_alike(*finding.effect);
   if (names.empty()) return {};
@@ -349,7 +351,7 @@ bool PartLoop::ban_what_forms_explain() {
     const Effect& effect = effects_[e];
     if (is_form(effect)) continue;
     const int own = at++;
-    if (!effect.family->named || effect.family->local) continue;
+    if (!effect.family->named || effect.family->local || stands_beside_forms(full, e)) continue;
     const auto b =
         full.coefficients().segment(full.first_column(static_cast<int>(e)), effect.columns());
     const auto b0 = bare.coefficients().segment(bare.first_column(own), effect.columns());

@@ -176,8 +176,29 @@ void PartLoop::prefer_one_name_to_two() {
     }
 }
 
+namespace {
+
+/// What effects are told by: their sizes, and with places and widths those that were sought.
+int values_of(const std::vector<Effect>& effects, bool places_too) {
+  int values = 0;
+  for (const Effect& effect : effects) {
+    const EffectFamily& family = *effect.family;
+    values += effect.columns();
+    if (!places_too) continue;
+    if (family.named || !family.form_word.empty())
+      values += family.shape_is_continuous ? static_cast<int>(effect.shape.size()) : 0;
+    else
+      values += static_cast<int>(
+          std::count_if(family.term_keys.begin(), family.term_keys.end(),
+                        [](const TermKey& key) { return key.kind == TermKey::Kind::kNumber; }));
+  }
+  return values;
+}
+
+}  // namespace
+
 /// Makes the whole choice again in another way. It is taken over where it has names alone, so many
-/// columns fewer, leaves no more, and nothing is left that a form would say.
+/// values fewer, leaves no more, and nothing is left that a form would say.
 bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of
   // the error is no loss.
@@ -192,12 +213,10 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   if (std::any_of(names.effects_.begin(), names.effects_.end(),
                   [](const Effect& e) { return e.is_term(); }))
     return false;
-  const auto columns_of = [](const std::vector<Effect>& effects) {
-    int columns = 0;
-    for (const Effect& effect : effects) columns += effect.columns();
-    return columns;
-  };
-  const int spared = columns_of(effects_) - columns_of(names.effects_);
+  // A kink has a place; three names that follow it have one each, and a width.
+  const bool beside_forms = std::any_of(effects_.begin(), effects_.end(),
+                                        [](const Effect& e) { return e.is_term(); });
+  const int spared = values_of(effects_, beside_forms) - values_of(names.effects_, beside_forms);
   if (spared < least_spared) return false;
   const auto own = fit_of(effects_), other = names.fit_of(names.effects_);
   const auto before = own->errors(std::vector<bool>(effects_.size(), true)),
