@@ -124,8 +124,8 @@ MeshView view_of(const Gear& gear1, const Gear& gear2, double a, double face_wid
                    .base_helix_angle_rad = base_helix}};
 }
 
-/// The loss is that of the contact ratios' formula, e1^2 + e2^2 - e1 - e2 + 1, least where both are as
-/// close to a half as a whole base pitch allows.
+/// The loss is that of the contact ratios' formula, e1^2 + e2^2 - e1 - e2 + 1, least where both are
+/// as close to a half as a whole base pitch allows.
 ContactPath best_part(const MeshView& view) {
   ContactPath path = view.path;
   const double approach = std::min(view.approach, std::max(0.5, 1.0 - view.recess)),
@@ -242,9 +242,12 @@ const LineOfAction& ProfileJudge::line_of(bool outer) {
 CornerLook ProfileJudge::look(std::size_t margin, double enough, int& first) {
   const bool outer = is_outer(margin);
   switch (margin % 3) {
-    case 0: return look_for_corner_in_gear1(pair_of(outer), enough, first);
-    case 1: return look_for_corner_in_gear2(pair_of(outer), enough, first);
-    default: break;
+    case 0:
+      return look_for_corner_in_gear1(pair_of(outer), enough, first);
+    case 1:
+      return look_for_corner_in_gear2(pair_of(outer), enough, first);
+    default:
+      break;
   }
   // the contact that undercut and root form leave
   const LineOfAction& line = line_of(outer);

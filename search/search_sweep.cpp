@@ -97,7 +97,7 @@ class LayerProblem {
   /// Without profiles an undercut's losses are taken as the least they can be.
   Place look(double shift, bool whole) {
     Place place{.shift = shift, .whole = whole};
-    place.evaluation = !whole       ? values_.outline(layer_, distance_, shift, -kFarBreach)
+    place.evaluation = !whole        ? values_.outline(layer_, distance_, shift, -kFarBreach)
                        : layer_ == 0 ? values_.layer1(distance_, shift, -kFarBreach)
                                      : values_.layer2(distance_, shift, -kFarBreach);
     place.margin = values_.layer_margin(layer_, place.evaluation, !whole);
@@ -199,8 +199,9 @@ class LayerProblem {
                .evaluation = place.evaluation()};
   }
 
-  /// The best inside of an interval, where it is better than its ends. Looks without profiles first:
-  /// mostly the merit is best at an end, and what a layer is worth without them is no less than with.
+  /// The best inside of an interval, where it is better than its ends. Looks without profiles
+  /// first: mostly the merit is best at an end, and what a layer is worth without them is no less
+  /// than with.
   void inner_peak(double low, double high) {
     if (is_feasible() && !(most_between(low, high) > best_->merit)) return;
     golden(
@@ -328,8 +329,8 @@ class Sweep {
   }
 
  private:
-  /// Best shifts at a centre distance. Where one layer has none, no more of the other is computed than
-  /// that it lacks less.
+  /// Best shifts at a centre distance. Where one layer has none, no more of the other is computed
+  /// than that it lacks less.
   SweepPoint at(double distance, int count) {
     SweepPoint point{.free = {distance, 0.0, 0.0}};
     const SearchModel& model = values_.model();

@@ -24,7 +24,8 @@ struct CourseFinding {
   int course = -1;       ///< kSpot: of the set
   double at = 0.0, width = 0.0;
   double square = 0.0;  ///< squares it takes out of all courses; forms in common only
-  double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the wave, mean of the spot
+  double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the
+                        ///< wave, mean of the spot
   double before = 0.0, beyond = 0.0;  ///< kKink: slopes to either side
 };
 

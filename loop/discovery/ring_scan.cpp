@@ -96,7 +96,8 @@ class RingScan {
       make_form(sine);
     }
   }
-  /// Without a mean and of unit norm. Of half the ring there is a cosine only: the rest is rounding.
+  /// Without a mean and of unit norm. Of half the ring there is a cosine only: the rest is
+  /// rounding.
   void make_form(MatrixXd::RowXpr form) const {
     form.array() -= form.mean();
     const double square = form.squaredNorm();
@@ -130,16 +131,16 @@ class RingScan {
       }
   }
 
-  /// Every place from which saws of every length begin: runs of rows that rise together, so that sums
-  /// of a series tell them all.
+  /// Every place from which saws of every length begin: runs of rows that rise together, so that
+  /// sums of a series tell them all.
   void make_saws(const std::vector<int>& place, int ring) {
     constexpr int kFewestPlaces = 4, kValuesEach = 4;
     place_ = place;
     ring_ = ring;
     row_from_.resize(static_cast<std::size_t>(ring) + 1);
     for (int at = 0; at <= ring; ++at)
-      row_from_[static_cast<std::size_t>(at)] = static_cast<int>(
-          std::lower_bound(place_.begin(), place_.end(), at) - place_.begin());
+      row_from_[static_cast<std::size_t>(at)] =
+          static_cast<int>(std::lower_bound(place_.begin(), place_.end(), at) - place_.begin());
     if (!std::is_sorted(place_.begin(), place_.end())) return;
     for (int every = kFewestPlaces; 2 * every <= ring; ++every) {
       if (every * n_ < static_cast<Index>(kValuesEach) * ring) continue;
@@ -153,14 +154,15 @@ class RingScan {
     }
   }
 
-  /// Runs of places [from, to) of a saw that begins anew at `from`, less `before` places of it that lie
-  /// at the other end of the ring.
+  /// Runs of places [from, to) of a saw that begins anew at `from`, less `before` places of it that
+  /// lie at the other end of the ring.
   template <class Work>
   void for_teeth_of_saw(int first, int every, const Work& work) const {
     for (int begin = first; begin < first + ring_; begin += every) {
       const int end = std::min(begin + every, first + ring_);
       if (begin < ring_) work(begin, std::min(end, ring_), 0);
-      if (end > ring_) work(std::max(begin, ring_) - ring_, end - ring_, std::max(0, ring_ - begin));
+      if (end > ring_)
+        work(std::max(begin, ring_) - ring_, end - ring_, std::max(0, ring_ - begin));
     }
   }
   [[nodiscard]] VectorXd saw(int first, int every) const {
@@ -168,7 +170,8 @@ class RingScan {
     for_teeth_of_saw(first, every, [&](int from, int to, int before) {
       for (int row = row_from_[static_cast<std::size_t>(from)];
            row < row_from_[static_cast<std::size_t>(to)]; ++row)
-        form[row] = static_cast<double>(before + place_[static_cast<std::size_t>(row)] - from) / every;
+        form[row] =
+            static_cast<double>(before + place_[static_cast<std::size_t>(row)] - from) / every;
     });
     return form;
   }
@@ -205,6 +208,7 @@ class RingScan {
   }
   /// F test of what the best of so many takes out of a series, whose squares sum to n.
   [[nodiscard]] double p_by_size(double square, std::size_t kind) const {
+    if (!(looked_at(kind) > 0.0)) return 1.0;  // too few places for any form of the kind
     const double degrees = kind == at(RingKind::kWave) ? 2.0 : 1.0;
     const double left = static_cast<double>(n_) - 1.0 - degrees;
     const double f = square / degrees / (std::max(static_cast<double>(n_) - square, 1e-12) / left);

@@ -19,23 +19,25 @@ struct RingFinding {
   double p_value = 1.0;  ///< corrected for all series and forms
   int series = -1;
   int first = 0, count = 0, order = 0;
-  double amount = 0.0;  ///< of arc and comb above the rest; amplitude; whole rise, of a saw of each tooth of it
+  double amount =
+      0.0;  ///< of arc and comb above the rest; amplitude; whole rise, of a saw of each tooth of it
 };
 
 /// Arcs of neighbours that stand out, waves, ramps that begin anew at one place (a tool that wears,
-/// a machine that warms up) or after so many places each time (a wheel that is dressed), and combs (a
-/// cutter with few teeth), in any of the series (one a column). Rows are places of the ring in order, `place` 0 ... ring - 1 of each; of some places
-/// there may be no value. Two tests of one question, each at half the level: against the same
-/// values in shuffled order, whole rows together, so that series that hang together are no finding;
-/// and an F test with Bonferroni's correction, because few values in any order often make an arc.
-/// Sequential: shuffles end once the answer is no. Waves up to half the values. Source of the
-/// stopping rule: Besag, Clifford 1991, doi 10.1093/biomet/78.2.301.
+/// a machine that warms up) or after so many places each time (a wheel that is dressed), and combs
+/// (a cutter with few teeth), in any of the series (one a column). Rows are places of the ring in
+/// order, `place` 0 ... ring - 1 of each; of some places there may be no value. Two tests of one
+/// question, each at half the level: against the same values in shuffled order, whole rows
+/// together, so that series that hang together are no finding; and an F test with Bonferroni's
+/// correction, because few values in any order often make an arc. Sequential: shuffles end once the
+/// answer is no. Waves up to half the values. Source of the stopping rule: Besag, Clifford 1991,
+/// doi 10.1093/biomet/78.2.301.
 [[nodiscard]] RingFinding scan_ring(const Eigen::MatrixXd& series, const std::vector<int>& place,
                                     int ring);
 
 /// How likely two series of as many values each agree as they do, or are opposite, by chance: a
-/// t test of their correlation about their means. 1 of fewer than five values: four agree too often.
-/// Values of one series may be as noisy as they like if none knows of the other's.
+/// t test of their correlation about their means. 1 of fewer than five values: four agree too
+/// often. Values of one series may be as noisy as they like if none knows of the other's.
 [[nodiscard]] double chance_of_agreement(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 }  // namespace trueflank::loop

