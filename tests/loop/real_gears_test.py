@@ -165,13 +165,19 @@ def legendre(degree, x):
     return numpy.polynomial.legendre.Legendre.basis(degree)(x)
 
 
-def form_over_the_face(term, z):
-    """A step, a groove or ridge, or waves over the face [um] at the heights z [mm]."""
+def form_over_the_face(term, z, face_mm):
+    """A step, a kink, a groove or ridge, or waves over the face [um] at the heights z [mm]."""
     if "wavelength_mm" in term:
         angle = 2 * math.pi * z / term["wavelength_mm"]
         return term["cos_um"] * numpy.cos(angle) + term["sin_um"] * numpy.sin(angle)
     if "width_mm" in term:
         return term["cos_um"] * numpy.exp(-((z - term["place_mm"]) / term["width_mm"]) ** 2)
+    if "bends" in term:  # away from a straight line by so much at the end that it runs to
+        low, high = -term["place_mm"], face_mm - term["place_mm"]
+        off = z - term["place_mm"]
+        if term["bends"] == 0:
+            return term["cos_um"] * abs(off) / max(abs(low), abs(high))
+        return term["cos_um"] * numpy.maximum(0.0, off / (high if term["bends"] > 0 else low))
     return term["cos_um"] * (z > term["place_mm"])
 
 
@@ -220,13 +226,18 @@ def predicted_helix(gear, result, tooth, side, z):
             for term in effect["terms"]:
                 if "along" in term:  # a form along the flank, the same on every tooth
                     if term["along"] == "face":
-                        total += form_over_the_face(term, z)
+                        total += form_over_the_face(term, z, gear.nominal["face_width_mm"])
                     continue
                 if "form" in term:
                     total += named_form(gear, term, tooth, side, roll, z, v)
                     continue
                 if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so
+                if "every" in term and "first_tooth" in term:  # rises evenly, and anew after so many teeth
+                    since = (tooth - term["first_tooth"]) % gear.teeth % term["every"]
+                    total += (since / term["every"] - 0.5) * term["cos_um"] * v ** term["face_degree"] * (
+                        side if term["flanks"] == "opposite" else 1)
+                    continue
                 if "first_tooth" in term:
                     if (tooth - term["first_tooth"]) % gear.teeth < term["teeth"]:
                         total += term["cos_um"] * v ** term["face_degree"] * (
