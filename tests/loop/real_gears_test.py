@@ -233,9 +233,9 @@ def predicted_helix(gear, result, tooth, side, z):
                     continue
                 if "tooth" in term or term["profile_degree"] > 0:
                     continue  # constant over a helix trace, or nearly so
-                if "every" in term and "first_tooth" in term:  # rises evenly, and anew after so many teeth
-                    since = (tooth - term["first_tooth"]) % gear.teeth % term["every"]
-                    total += (since / term["every"] - 0.5) * term["cos_um"] * v ** term["face_degree"] * (
+                if "restarts_every" in term:  # rises evenly, and anew after so many teeth
+                    since = (tooth - term["first_tooth"]) % gear.teeth % term["restarts_every"]
+                    total += (since / term["restarts_every"] - 0.5) * term["cos_um"] * v ** term["face_degree"] * (
                         side if term["flanks"] == "opposite" else 1)
                     continue
                 if "first_tooth" in term:

@@ -372,8 +372,8 @@ EffectFamily unnamed_ramp() {
 }
 
 EffectFamily unnamed_saw() {
-  EffectFamily f = described(
-      "unnamed_saw", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  EffectFamily f = described("unnamed_saw", {"restarts_every", "first_tooth", "profile_degree",
+                                             "face_degree", "opposite_flanks"});
   f.is_drift = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
@@ -394,7 +394,7 @@ EffectFamily unnamed_saw() {
       }
     return shapes;
   };
-  f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.term_keys = {{"restarts_every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return printed("from tooth %.0f on ", shape[1]) + what_of_tooth(shape, 2) +
            printed(
