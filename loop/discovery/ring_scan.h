@@ -19,8 +19,9 @@ struct RingFinding {
   double p_value = 1.0;  ///< corrected for all series and forms
   int series = -1;
   int first = 0, count = 0, order = 0;
-  double amount =
-      0.0;  ///< of arc and comb above the rest; amplitude; whole rise, of a saw of each tooth of it
+  /// Of arc and comb above the rest; amplitude of a wave; whole rise of a ramp, of a saw of each
+  /// tooth.
+  double amount = 0.0;
 };
 
 /// Arcs of neighbours that stand out, waves, ramps that begin anew at one place (a tool that wears,
@@ -29,8 +30,9 @@ struct RingFinding {
 /// order, `place` 0 ... ring - 1 of each; of some places there may be no value. Two tests of one
 /// question, each at half the level: against the same values in shuffled order, whole rows
 /// together, so that series that hang together are no finding; and an F test with Bonferroni's
-/// correction, because few values in any order often make an arc. Sequential: shuffles end once the
-/// answer is no. Waves up to half the values. Source of the stopping rule: Besag, Clifford 1991,
+/// correction, because few values in any order often make an arc. Saws are shuffled only where the
+/// F test has them first and likely: they are many. Sequential: shuffles end once the answer is no.
+/// Waves up to half the values. Source of the stopping rule: Besag, Clifford 1991,
 /// doi 10.1093/biomet/78.2.301.
 [[nodiscard]] RingFinding scan_ring(const Eigen::MatrixXd& series, const std::vector<int>& place,
                                     int ring);

@@ -45,7 +45,6 @@ def same(one, other, names):
         assert (one / name).read_bytes() == (other / name).read_bytes(), name
 
 
-# by an objective without a certified bound, which the searches of one kind have: half of the time
 KINDS = """format = 1
 name = "kinds"
 [gearbox]
@@ -73,7 +72,6 @@ ring_max = 60
 wheel_max = 75
 [search]
 results = 30
-objectives = "length"
 """
 
 

@@ -651,16 +651,11 @@ class Case:
                 f"held {held[0]:.2f} -> {held[1]:.2f} | {told} | {a['structure_left']['description'][:180]} p {a['structure_left']['p_value']:.2g} | {self.done.place} {self.held()[2] or ''} {self.seconds:.1f}s")
 
 
-def told_last(cases):
-    held, asked = numpy.sum([c.held()[:2] for c in cases], axis=0)
-    print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-
-
 def main():
     o = trial.words(each=1, every=(1, "only every n-th kind"))
     cases = [Case(at, i, o.seed) for at in range(0, len(KINDS), o.every) for i in range(o.each)]
     trial.campaign([c for c in cases if o.only in c.name], o, keys=lambda c: (c.name.split("-")[0], "all " + c.done.how), worth_a_line=lambda c: c.placed() is False or bool(c.held()[2]),
-                   counts=lambda c: (int(c.placed() is True), int(c.placed() is not None)), columns="| done | right | of | place told | of |", after=told_last)
+                   counts=lambda c: (int(c.placed() is True), int(c.placed() is not None)), columns="| done | right | of | place told | of |", after=trial.tell_intervals)
 
 
 if __name__ == "__main__":

@@ -416,17 +416,12 @@ class Case:
                 f"{a['structure_left']['description'][:160]} p {a['structure_left']['p_value']:.3g} | place {self.hidden.place} {self.seconds:.1f}s")
 
 
-def told_last(cases):
-    held, asked = numpy.sum([case.intervals() for case in cases], axis=0)
-    print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-
-
 def main():
     o = trial.words()
     cases = [Case(i, o.seed, kind, ways) for kind, ways in KINDS if o.only in kind.__name__ for i in range(o.each)]
     trial.campaign(cases, o, keys=lambda c: (c.kind.__name__, "all " + c.hidden.how), worth_a_line=lambda c: c.placed() is False,
                    counts=lambda c: (int(c.placed() is True), int(c.placed() is not None)),
-                   columns="| hidden | right | of | place told | of |", after=told_last)
+                   columns="| hidden | right | of | place told | of |", after=lambda done: trial.tell_intervals(done, lambda case: case.intervals()))
 
 
 if __name__ == "__main__":

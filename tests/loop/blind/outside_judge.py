@@ -628,16 +628,11 @@ class Case:
                 f"{' internal' if g.internal else ''} noise {self.noise:.2f} rho {self.rho}: {self.why} | {told} | {self.seconds:.1f}s")
 
 
-def told_last(cases):
-    held, asked = np.sum([c.held() for c in cases], axis=0)
-    print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-
-
 def main():
     o = trial.words(each=1, every=(1, "only every n-th kind"))
     cases = [Case(at, i, o.seed) for at in range(0, len(KINDS), o.every) for i in range(o.each)]
-    trial.campaign([c for c in cases if o.only in c.name], o, keys=lambda c: (c.kind if c.what == "form" else "", "all " + c.what)[c.what != "form":],
-                   columns="| hidden | right | of |", after=told_last)
+    trial.campaign([c for c in cases if o.only in c.name], o, keys=lambda c: (c.kind, "all form") if c.what == "form" else ("all " + c.what,),
+                   columns="| hidden | right | of |", after=trial.tell_intervals)
 
 
 if __name__ == "__main__":

@@ -457,16 +457,11 @@ class Case:
                 f"{told} | {a['structure_left']['description'][:140]} p {a['structure_left']['p_value']:.2g} | {self.seconds:.1f}s")
 
 
-def told_last(cases):
-    held, asked = numpy.sum([c.held() for c in cases], axis=0)
-    print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
-
-
 def main():
     o = trial.words(each=1)
     cases = [Case(at, i, o.seed) for at in range(len(KINDS)) for i in range(o.each)]
     trial.campaign([c for c in cases if o.only in c.name], o, keys=lambda c: (c.name.split("-")[0], "all " + c.made.how),
-                   columns="| made | right | of |", after=told_last)
+                   columns="| made | right | of |", after=trial.tell_intervals)
 
 
 if __name__ == "__main__":

@@ -47,6 +47,12 @@ def run_all(cases, program, folder, tell=lambda case: None):
             tell(case)
 
 
+def tell_intervals(cases, held_of=lambda case: case.held()):
+    """What a trial says last: how many intervals hold, of `held_of(case)`: how many hold, and of how many."""
+    held, asked = (sum(figures) for figures in zip(*(held_of(case)[:2] for case in cases)))
+    print(f"intervals that hold: {held} of {asked}; {sum(c.seconds for c in cases):.0f} s in the program")
+
+
 def campaign(cases, o, *, keys, counts=lambda case: (), worth_a_line=lambda case: False, columns="| hidden | right | of |", after=lambda cases: None):
     """All cases with what was wrong, a table of how many are right, and the exit code. `keys`: the rows in which a
     case counts beside "all"; `counts`: figures added to those of its rows, under the further `columns`. `worth_a_line`: right, and yet told."""
