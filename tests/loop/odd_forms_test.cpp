@@ -140,6 +140,17 @@ TEST(OddForms, ASideThatCoolsLaterIsNoTaperWithACrowning) {
   EXPECT_EQ(named(traced), nullptr) << list(traced);
 }
 
+TEST(OddForms, AStepOverTheProfileOfAScannedRingIsNoNoise) {
+  const MadeGear gear = ring(48);
+  const auto step = [](auto&, const FlankSpot& s, auto&) { return s.u > 0.2 ? 8.0 : 0.0; };
+  ScanOptions options;
+  options.points = 12000;
+  options.noise_um = 1.5;
+  const auto result = close(gear, scan_of(gear, {grown(step)}, options), true);
+  EXPECT_NE(list(result).find("a step over the profile"), std::string::npos) << list(result);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+}
+
 TEST(OddForms, AnIndexOfOneFlankIsEnough) {
   const MadeGear gear = spur(29);
   const auto drift = [](auto&, const FlankSpot& s, auto&) {
