@@ -56,7 +56,7 @@ TEST(OddForms, HalvesThatStandAsideAreToldFromAnIndexBesideTraces) {
   const Process halves{.move_um = [](const MadeGear&, const FlankSpot& s, const Vec3&) -> Vec3 {
     return s.tooth >= 17 && s.tooth <= 38 ? Vec3{-5.0, 3.0, 0.0} : Vec3{0.0, 0.0, 0.0};
   }};
-  for (unsigned seed = 1; seed <= 150; ++seed) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
     InspectionOptions options = sheet_of_all(seed);
     options.teeth = {1, 12, 23, 34};
     const auto result = close(gear, inspection_of(gear, {halves}, options));
