@@ -110,7 +110,11 @@ ResultAll<CorrectedParts> corrected_parts(const GearTrain& train, const PartShap
                                           const CompensatedShapes* compensated,
                                           const std::string& loop_json_file) {
   const auto text = loop::read_whole_file(loop_json_file, loop::kMostBytesOfText);
-  if (!text) return fail_all({text.error()});
+  if (!text) {
+    Error error = text.error();
+    if (error.code == ErrorCode::kUsage) error.remedy = "name the loop.json that `loop -o` wrote";
+    return fail_all({error});
+  }
   const auto name = loop::Correction::gear_of(*text);
   if (!name) return fail_all(located(name.error(), loop_json_file));
   const TrainGear* gear = train.find(*name);

@@ -31,7 +31,7 @@ Result<std::string> read_whole_file(const std::string& path, std::size_t most_by
     return fail({.code = ErrorCode::kFileNotFound, .message = "there is no such file", .file = path});
   if (std::filesystem::is_directory(status))
     return fail({.code = ErrorCode::kUsage,
-                 .message = "this is a folder, not a file of measured data",
+                 .message = "this is a folder, a file is needed",
                  .file = path});
   auto read = io::read_file(path, most_bytes);
   if (!read) return read;

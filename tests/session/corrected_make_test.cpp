@@ -267,6 +267,21 @@ TEST_F(CorrectedMake, ALoopFileOfAnotherVersionIsRefused) {
   }
 }
 
+TEST_F(CorrectedMake, AFolderIsRefusedAndTheFileThatIsMeantNamed) {
+  const auto made =
+      make_parts(gearbox_, {.folder = folder_ / "out",
+                            .formats = {"stl"},
+                            .tolerance_um = 20.0,
+                            .part = "pinion",
+                            .correct = folder_.string()});
+  ASSERT_FALSE(made);
+  const Error& error = made.error().front();
+  EXPECT_EQ(exit_code(error.code), 2);
+  EXPECT_EQ(error.file, folder_.string());
+  EXPECT_NE(error.message.find("folder"), std::string::npos) << error.message;
+  EXPECT_NE(error.remedy.find("loop.json"), std::string::npos) << error.remedy;
+}
+
 TEST_F(CorrectedMake, ALoopFileOfWrongTypesIsAnErrorOfItsData) {
   for (const char* effects :
        {R"({"id": 3})", R"({"id": "scale", "parameters": 4})",
