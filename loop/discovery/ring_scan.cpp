@@ -253,7 +253,7 @@ class RingScan {
   [[nodiscard]] std::array<bool, kKinds> kinds_as_large(const std::vector<Index>& order,
                                                         const Best& seen,
                                                         std::array<bool, kKinds> asked) const {
-    std::array<bool, kKinds> as_large{};
+    std::array<bool, kKinds> as_large = asked;
     Best best;
     VectorXd placed(n_);
     for (Index s = 0; s < series_.cols(); ++s) {
@@ -262,10 +262,11 @@ class RingScan {
       for (std::size_t k = 0; k < kKinds; ++k) {
         if (!asked[k]) continue;
         best_of_kind(k, placed, static_cast<int>(s), best[k]);
-        as_large[k] = best[k].square >= seen[k].square;
-        asked[k] = !as_large[k];
+        asked[k] = best[k].square < seen[k].square;
       }
     }
+    for (std::size_t k = 0; k < kKinds; ++k)
+      as_large[k] = as_large[k] && best[k].square >= seen[k].square;
     return as_large;
   }
 
