@@ -2,9 +2,12 @@
 #include "trueflank/loop/discovery/quick_errors.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cstring>
 
 #include "trueflank/base/contract.h"
 #include "trueflank/base/threads.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
@@ -17,6 +20,43 @@ constexpr int kMostOfGroup = 8;
 constexpr double kToldApart = 1e-7;
 /// Of the sum of squares: some hundred times what was seen.
 constexpr double kRoundingOfErrors = 1e-9;
+
+/// Product with many columns: eight rows and four columns of the result at a time, in the widest registers.
+Eigen::MatrixXd wide_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+  constexpr Eigen::Index kRows = 8, kColumns = 4;
+  const Eigen::Index m = a.rows(), rows = (m + kRows - 1) / kRows * kRows;
+  // Rows beyond the last are 0.
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(rows, m);
+  left.topRows(m) = a;
+  Eigen::MatrixXd result(m, b.cols());
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (Eigen::Index column = 0; column < b.cols(); column += kColumns) {
+      const double* from[kColumns];
+      for (Eigen::Index c = 0; c < kColumns; ++c)
+        from[c] = b.data() + std::min(column + c, b.cols() - 1) * m;
+      for (Eigen::Index row = 0; row < rows; row += kRows) {
+        Four sums[2 * kColumns] = {};
+        for (Eigen::Index k = 0; k < m; ++k) {
+          Four low, high;
+          std::memcpy(&low, left.data() + k * rows + row, sizeof low);
+          std::memcpy(&high, left.data() + k * rows + row + 4, sizeof high);
+          for (Eigen::Index c = 0; c < kColumns; ++c) {
+            const double f = from[c][k];
+            const Four factor{f, f, f, f};
+            sums[2 * c] += factor * low;
+            sums[2 * c + 1] += factor * high;
+          }
+        }
+        const Eigen::Index used = std::min(kRows, m - row);
+        for (Eigen::Index c = 0; c < kColumns && column + c < b.cols(); ++c)
+          std::memcpy(result.data() + (column + c) * m + row, &sums[2 * c],
+                      static_cast<std::size_t>(used) * sizeof(double));
+      }
+    }
+  });
+  return result;
+}
 
 }  // namespace
 
@@ -78,9 +118,9 @@ void QuickErrors::add_fold(int fold, const std::vector<int>& columns,
       }
     }
   }
-  f.on_model = f.inverse * trained;
-  const Eigen::MatrixXd tested = f.test_gram * f.on_model;
-  f.left = f.inverse * (crossed_test - tested);
+  f.on_model = wide_product(f.inverse, trained);
+  const Eigen::MatrixXd tested = wide_product(f.test_gram, f.on_model);
+  f.left = wide_product(f.inverse, crossed_test - tested);
   const Eigen::VectorXd base_left = f.test_gram * f.base - f.test_value;
   const Eigen::VectorXd linear = crossed_test.transpose() * f.base - f.on_model.transpose() * base_left;
   for (const int group : groups) {

@@ -23,18 +23,32 @@ constexpr double kAbsorbed = 2e-3;
 constexpr double kRounding = 1e-6;
 
 /// s' inverse s of every column s; written out for one and two rows, which nearly all groups have.
-Eigen::VectorXd quadratic_forms(const Eigen::MatrixXd& s, const Eigen::MatrixXd& inverse) {
-  if (s.rows() > 2) return s.cwiseProduct(inverse * s).colwise().sum().transpose();
-  Eigen::VectorXd forms(s.cols());
-  if (s.rows() == 1) {
-    for (Eigen::Index k = 0; k < s.cols(); ++k) forms[k] = s(0, k) * (inverse(0, 0) * s(0, k));
-    return forms;
+Eigen::VectorXd quadratic_forms(const Eigen::Ref<const FlipScores>& scores,
+                                const Eigen::MatrixXd& inverse) {
+  if (scores.rows() > 2) {
+    const Eigen::MatrixXd s = scores.cast<double>();
+    return s.cwiseProduct(inverse * s).colwise().sum().transpose();
   }
-  const double a = inverse(0, 0), b = inverse(0, 1), c = inverse(1, 0), d = inverse(1, 1);
-  for (Eigen::Index k = 0; k < s.cols(); ++k) {
-    const double x = s(0, k), y = s(1, k);
-    forms[k] = x * (a * x + b * y) + y * (c * x + d * y);
-  }
+  Eigen::VectorXd forms(scores.cols());
+  double* const form = forms.data();
+  const auto count = static_cast<std::size_t>(scores.cols());
+  const float* const first = scores.data();
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    if (scores.rows() == 1) {
+      const double a = inverse(0, 0);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto x = static_cast<double>(first[k]);
+        form[k] = x * (a * x);
+      }
+      return;
+    }
+    const float* const second = first + scores.outerStride();
+    const double a = inverse(0, 0), b = inverse(0, 1), c = inverse(1, 0), d = inverse(1, 1);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double x = first[k], y = second[k];
+      form[k] = x * (a * x + b * y) + y * (c * x + d * y);
+    }
+  });
   return forms;
 }
 
@@ -130,18 +144,17 @@ double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const Fl
   const CandidateGroup& group = problem_.groups[g];
   const SymmetricSolver under_flips(flipped_[g]);
   if (!under_flips.is_positive()) return kCannotBeJudged;
-  const Eigen::MatrixXd s = scores.cast<double>();
   const Eigen::MatrixXd inverse =
       under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
-  const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
+  const Eigen::VectorXd statistic = quadratic_forms(scores, inverse);
   const Eigen::VectorXd o = beside_.scores().segment(group.first_column, group.columns);
   const double t = o.dot(symmetric_solution(projected_[g], o));
   // The group's own scale: correlation within units widens low modes more than high ones.
-  const double flips = static_cast<double>(s.cols());
+  const double flips = static_cast<double>(scores.cols());
   const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
   if (!(scale > 0.0)) return kCannotBeJudged;
   Eigen::VectorXd& of_size = largest[group.columns];
-  if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(s.cols());
+  if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(scores.cols());
   of_size = of_size.cwiseMax(statistic / scale);
   return minus_log_chi_square_tail(t / scale, group.columns);
 }

@@ -100,6 +100,22 @@ void TrialFit::find_alike() {
   for (std::size_t i = 0; i < rows_.size(); ++i)
     kind_weight_[static_cast<Eigen::Index>(alike.kind[i])] += rows_[i].root * rows_[i].root;
   alike_ = std::move(alike);
+  // Where kinds are few, their products less zeros are one matrix.
+  constexpr std::size_t kWorthIt = 8;
+  const std::size_t kinds = alike_->first.size();
+  if (kinds * kinds > kWorthIt * rows_.size()) return;
+  const Eigen::Index n = kind_weight_.size();
+  Eigen::MatrixXd of_traces = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(trace_weight_.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].trace >= 0)
+      of_traces(static_cast<Eigen::Index>(alike_->kind[i]), rows_[i].trace) +=
+          rows_[i].root * rows_[i].root;
+  Eigen::MatrixXd share = of_traces;
+  for (Eigen::Index t = 0; t < share.cols(); ++t)
+    if (const double weight = trace_weight_[static_cast<std::size_t>(t)]; weight > 0.0)
+      share.col(t) /= weight;
+  kind_products_ = -(of_traces * share.transpose());
+  kind_products_.diagonal() += kind_weight_;
 }
 
 /// Takes the weighted mean of every trace out and puts the roots of the weights on.
@@ -198,6 +214,7 @@ Eigen::MatrixXd TrialFit::products_with_all(const Columns& columns) const {
 Eigen::MatrixXd TrialFit::own_products(const Columns& columns) const {
   const Eigen::MatrixXd& values = columns.values;
   if (!columns.of_kinds) return values.transpose() * values;
+  if (kind_products_.size() > 0) return values.transpose() * (kind_products_ * values);
   const Eigen::MatrixXd zeros = zeros_of_kinds(values);
   const Eigen::Map<const Eigen::VectorXd> weight(trace_weight_.data(), zeros.rows());
   return values.transpose() * kind_weight_.asDiagonal() * values -

@@ -106,6 +106,7 @@ class TrialFit {
   std::optional<AlikeRows> alike_;          ///< where rows are alike
   std::vector<double> trace_weight_;
   Eigen::VectorXd kind_weight_;
+  Eigen::MatrixXd kind_products_;  ///< weights less what zeros take; empty: not worth it
   Eigen::MatrixXd columns_;  ///< nuisance, effects, the value last
   Eigen::MatrixXd of_kinds_;  ///< sums of these over rows of a kind, each times the root of its weight
   Eigen::MatrixXd gram_;
