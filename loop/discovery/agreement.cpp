@@ -130,7 +130,7 @@ void add_direction(Agreement& sum, double value, double cosine, double sine, con
 }
 
 /// The part of a group's Gram matrix in a whole that stands in a panel's products.
-GroupMatrix gram_of(const std::vector<PanelRow>& products, int at, int columns) {
+GroupMatrix gram_of(const PanelRow* products, int at, int columns) {
   GroupMatrix gram(columns, columns);
   for (int k = 0; k < columns; ++k)
     for (int l = 0; l <= k; ++l) gram(k, l) = gram(l, k) = products[k - l][at + l];
@@ -139,7 +139,7 @@ GroupMatrix gram_of(const std::vector<PanelRow>& products, int at, int columns) 
 
 /// Takes in what a whole says of a group whose columns stand in a panel from `at` on: directions with
 /// more than `least`. Nearly all groups have one column or two, for which it is written out.
-void add_whole(Agreement& sum, const std::vector<PanelRow>& products, const double* score, int at,
+void add_whole(Agreement& sum, const PanelRow* products, const double* score, int at,
                double least) {
   const auto columns = static_cast<int>(sum.score.size());
   if (columns == 1) {
@@ -185,169 +185,51 @@ double p_of(const Agreement& sum, int fitted, double within) {
   return f_tail(explained / columns / variance, columns, below + own);
 }
 
-/// A whole, and the Gram matrix of what is fitted over it.
-struct FittedWhole {
-  const BlockStatistics::Whole& sums;
-  Eigen::MatrixXd fitted;  ///< M x M
-};
-
-struct Asked {
-  const DiscoveryProblem& problem;
-  const BlockStatistics& statistics;
-  const FittedModel& model;
-  const std::vector<Eigen::MatrixXd>& projected;
-  const std::vector<bool>& observable;
-};
-
 /// True for a group of so many columns that lives in more wholes than are asked: flips judge it.
 bool lives_in_too_many(const Agreement& sum, int columns) {
   return sum.degrees > static_cast<int>(kMostTried) * columns;
 }
 
-/// What one whole says of the columns of a panel, less what of them is absorbed.
-class PanelOfWhole {
- public:
-  PanelOfWhole(const Asked& asked, std::size_t panel)
-      : asked_(asked),
-        number_(panel),
-        panel_(asked.statistics.panels()[panel]),
-        absorbed_(static_cast<std::size_t>(asked.model.absorbed.rows()), PanelRow{}) {
-    for (std::size_t k = 0; k < absorbed_.size(); ++k)
-      for (int c = 0; c < panel_.columns; ++c)
-        absorbed_[k][c] =
-            asked.model.absorbed(static_cast<Eigen::Index>(k), panel_.first_column + c);
-    int widest = 1;
-    for (int g = panel_.first_group; g < panel_.first_group + panel_.groups; ++g)
-      widest = std::max(widest, asked.problem.groups[g].columns);
-    products.resize(static_cast<std::size_t>(widest));
-  }
-
-  /// (c - A'f)(c - A'f)' = cc' - (cf')A - A'(fc' - ff'A), summed over the whole.
-  void look_at(const FittedWhole& whole) {
-    const auto columns = static_cast<std::size_t>(panel_.columns);
-    const auto all = static_cast<std::size_t>(asked_.statistics.candidates().cols());
-    for (std::size_t d = 0; d < products.size(); ++d) {
-      products[d] = {};
-      std::copy_n(whole.sums.products.data() + d * all + panel_.first_column, columns,
-                  products[d].begin());
-    }
-    scores = {};
-    for (const int unit : whole.sums.units) {
-      const double* const of_unit = asked_.model.unit_scores.col(unit).data() + panel_.first_column;
-      for (std::size_t c = 0; c < columns; ++c) scores[c] += of_unit[c];
-    }
-    for (std::size_t k = 0; k < absorbed_.size(); ++k) {
-      PanelRow cross = asked_.statistics.unit_candidates(asked_.model.columns[k], number_,
-                                                         whole.sums.units.front());
-      for (std::size_t i = 1; i < whole.sums.units.size(); ++i) {
-        const PanelRow& of_unit =
-            asked_.statistics.unit_candidates(asked_.model.columns[k], number_, whole.sums.units[i]);
-        for (std::size_t j = 0; j < kPanelColumns; ++j) cross[j] += of_unit[j];
-      }
-      subtract_products(products, cross, absorbed_[k]);
-      subtract_rows(cross, whole.fitted.col(static_cast<Eigen::Index>(k)).data(), absorbed_.data(),
-                    absorbed_.size());
-      subtract_products(products, absorbed_[k], cross);
-    }
-  }
-
-  [[nodiscard]] const Panel& absorbed() const { return absorbed_; }
-
-  std::vector<PanelRow> products;  ///< of columns that stand 0, 1, ... apart
-  PanelRow scores{};
-
- private:
-  const Asked& asked_;
-  std::size_t number_;
-  const PanelColumns& panel_;
-  Panel absorbed_;
+struct Asked {
+  const DiscoveryProblem& problem;
+  const BlockStatistics& statistics;
+  const ProjectedCandidates& beside;
+  const std::vector<Eigen::MatrixXd>& projected;
+  const std::vector<bool>& observable;
 };
 
-/// Numbers that a whole says of a group at least.
-int degrees_of(const std::vector<PanelRow>& products, int at, int columns, double least) {
-  if (columns == 1) return products[0][at] > least ? 1 : 0;
-  if (columns == 2) {
-    const TwoDirections own = two_directions(products[0][at], products[1][at], products[0][at + 1]);
-    return (own.first > least ? 1 : 0) + (own.second > least ? 1 : 0);
-  }
-  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram_of(products, at, columns), Eigen::EigenvaluesOnly};
-  return static_cast<int>((own.eigenvalues().array() > least).count());
-}
-
-/// Marks the groups of a panel that surely live in too many wholes. Some values of a whole bound from below
-/// what it holds of a group, at less cost than its sums where many columns are fitted.
-void mark_too_many(const std::vector<FittedWhole>& wholes, const Asked& asked, std::size_t number,
-                   const Panel& absorbed, std::vector<Agreement>& sums) {
-  constexpr double kSurely = 1.001;
-  const std::vector<CandidateGroup>& groups = asked.problem.groups;
-  const PanelColumns& panel = asked.statistics.panels()[number];
-  std::vector<int> open, degrees;
-  int widest = 1;
-  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
-    widest = std::max(widest, groups[g].columns);
-    if (asked.observable[g]) open.push_back(g);
-  }
-  degrees.assign(static_cast<std::size_t>(panel.groups), 0);
-  std::vector<PanelRow> products(static_cast<std::size_t>(widest));
-  std::vector<double> fitted(absorbed.size());
-  for (const FittedWhole& whole : wholes) {
-    if (open.empty()) return;
-    std::fill(products.begin(), products.end(), PanelRow{});
-    for (const int i : whole.sums.some) {
-      PanelRow row{};
-      std::copy_n(asked.statistics.candidates().row(i).data() + panel.first_column, panel.columns, row.begin());
-      for (std::size_t k = 0; k < fitted.size(); ++k)
-        fitted[k] = asked.statistics.model()(i, asked.model.columns[k]);
-      subtract_rows(row, fitted.data(), absorbed.data(), absorbed.size());
-      add_products(products, asked.problem.weight[i], row);
-    }
-    std::erase_if(open, [&](int g) {
-      const int own = groups[g].columns;
-      int& sure = degrees[static_cast<std::size_t>(g - panel.first_group)];
-      sure += degrees_of(products, groups[g].first_column - panel.first_column, own,
-                         kSurely * kNone * asked.projected[g].trace() / static_cast<double>(wholes.size()));
-      if (sure <= static_cast<int>(kMostTried) * own) return false;
-      sums[g].degrees = sure;
-      return true;
-    });
-  }
-}
-
 /// What every whole says of the groups of a panel, until all of them live in too many.
-void add_wholes(const std::vector<FittedWhole>& wholes, const Asked& asked, std::size_t number,
-                std::vector<Agreement>& sums) {
-  constexpr std::size_t kMany = 10;  // columns
+void add_wholes(const Asked& asked, std::size_t number, std::vector<Agreement>& sums) {
   const std::vector<CandidateGroup>& groups = asked.problem.groups;
   const PanelColumns& panel = asked.statistics.panels()[number];
-  if (groups[panel.first_group].local_family >= 0) return;
-  PanelOfWhole beside(asked, number);
-  if (asked.model.columns.size() > kMany && wholes.size() > kMostTried)
-    mark_too_many(wholes, asked, number, beside.absorbed(), sums);
-  const auto is_open = [&](int g) {
-    return asked.observable[g] && !lives_in_too_many(sums[g], groups[g].columns);
-  };
-  bool any_open = false;
+  if (!asked.beside.is_asked(number)) return;
+  const auto wholes = static_cast<double>(asked.statistics.wholes().size());
+  std::vector<int> open;
   for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
-    any_open = any_open || is_open(g);
-  if (!any_open) return;
-  for (const FittedWhole& whole : wholes) {
-    beside.look_at(whole);
-    bool any = false;
-    for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g) {
-      if (!is_open(g)) continue;
-      any = true;
-      const int at = groups[g].first_column - panel.first_column;
-      add_whole(sums[g], beside.products, beside.scores.data() + at, at,
-                kNone * asked.projected[g].trace() / static_cast<double>(wholes.size()));
+    if (asked.observable[g]) open.push_back(g);
+  std::size_t at_whole = 0;
+  for (const auto& [key, whole] : asked.statistics.wholes()) {
+    if (open.empty()) return;
+    PanelRow scores{};
+    for (const int unit : whole.units) {
+      const double* const of_unit =
+          asked.beside.unit_scores().col(unit).data() + panel.first_column;
+      for (int c = 0; c < panel.columns; ++c) scores[static_cast<std::size_t>(c)] += of_unit[c];
     }
-    if (!any) return;
+    const PanelRow* const products = asked.beside.products_of_whole(number, at_whole++);
+    std::erase_if(open, [&](int g) {
+      const int at = groups[g].first_column - panel.first_column;
+      add_whole(sums[g], products, scores.data() + at, at, kNone * asked.projected[g].trace() / wholes);
+      return lives_in_too_many(sums[g], groups[g].columns);
+    });
   }
 }
 
 }  // namespace
 
 std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
-                                        const BlockStatistics& statistics, const FittedModel& model,
+                                        const BlockStatistics& statistics,
+                                        const ProjectedCandidates& beside,
                                         const std::vector<Eigen::MatrixXd>& projected,
                                         const std::vector<bool>& observable) {
   const auto& wholes = statistics.wholes();
@@ -359,18 +241,10 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
     sums[g].gram = GroupMatrix::Zero(columns, columns);
     sums[g].score = GroupVector::Zero(columns);
   }
-  std::vector<FittedWhole> fitted;
-  for (const auto& [number, whole] : wholes) {
-    const auto m = static_cast<Eigen::Index>(model.columns.size());
-    FittedWhole one{whole, Eigen::MatrixXd::Zero(m, m)};
-    for (const int unit : whole.units)
-      one.fitted += statistics.unit(unit).model_model(model.columns, model.columns);
-    fitted.push_back(std::move(one));
-  }
   constexpr std::size_t kAtOnce = 4;
   for_each_run(statistics.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p)
-      add_wholes(fitted, {problem, statistics, model, projected, observable}, p, sums);
+      add_wholes({problem, statistics, beside, projected, observable}, p, sums);
   });
   const double within = statistics.scatter_within();
   std::vector<double> single(groups, 1.0);
@@ -380,7 +254,7 @@ std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
         sums[g].gram.trace() < kInWholes * projected[g].trace() ||
         lives_in_too_many(sums[g], columns))
       continue;
-    single[g] = p_of(sums[g], static_cast<int>(model.columns.size()), within);
+    single[g] = p_of(sums[g], static_cast<int>(beside.fitted()), within);
   }
   return single;
 }

@@ -3,17 +3,9 @@
 
 #include <vector>
 
-#include "trueflank/loop/discovery/block_statistics.h"
+#include "trueflank/loop/discovery/projected_candidates.h"
 
 namespace trueflank::loop {
-
-/// What is fitted already, seen from the candidates.
-struct FittedModel {
-  const std::vector<int>& columns;   ///< of the model, M of them
-  const Eigen::MatrixXd& absorbed;   ///< M x P: each candidate's coefficients on them
-  const Eigen::VectorXd& fitted;     ///< M: the value's
-  const Eigen::MatrixXd& unit_scores;  ///< P x units: of candidates less what is absorbed, in each unit
-};
 
 /// Whether few traces or flanks agree on a group: p of an F test, uncorrected, for each group; 1 where
 /// it does not live in 4 ... 24 whole traces; empty where there are no so few. Every trace says by itself
@@ -22,11 +14,12 @@ struct FittedModel {
 /// slope of three traces alone has two degrees of freedom.
 /// What a trace says of a group is taken to be normal; errors within it may hang together.
 /// Asks the sums over units and wholes alone, no value again.
-/// Requires: `projected`, the groups' Gram matrices beside what is fitted.
+/// Requires: `projected`, the groups' Gram matrices beside what is fitted. Panels that `beside` was not asked
+/// about have 1.
 /// Accuracy: false alarms in tests/loop/few_traces_test.cpp; docs/decisions/0134-few-traces.md.
 [[nodiscard]] std::vector<double> agreement_of_wholes(const DiscoveryProblem& problem,
                                                       const BlockStatistics& statistics,
-                                                      const FittedModel& model,
+                                                      const ProjectedCandidates& beside,
                                                       const std::vector<Eigen::MatrixXd>& projected,
                                                       const std::vector<bool>& observable);
 

@@ -103,9 +103,7 @@ void BlockStatistics::centre_on_zeros() {
 void BlockStatistics::find_wholes() {
   if (problem_.whole.empty()) return;
   int before = -1;
-  std::map<int, std::vector<int>> values;
   for (const int i : order_) {  // unit after unit
-    if (problem_.whole[i] >= 0) values[problem_.whole[i]].push_back(i);
     if (problem_.unit[i] == before) continue;
     before = problem_.unit[i];
     if (problem_.whole[i] >= 0) wholes_[problem_.whole[i]].units.push_back(before);
@@ -113,14 +111,9 @@ void BlockStatistics::find_wholes() {
   int widest = 1;
   for (const CandidateGroup& group : problem_.groups) widest = std::max(widest, group.columns);
   if (wholes_.size() > kMostWholesAsked) return;
-  constexpr std::size_t kSome = 5;
-  for (auto& [number, whole] : wholes_) {
+  for (auto& [number, whole] : wholes_)
     whole.products.assign(
         static_cast<std::size_t>(widest) * static_cast<std::size_t>(candidates().cols()), 0.0);
-    const std::vector<int>& all = values[number];
-    for (std::size_t k = 0; k < std::min(kSome, all.size()); ++k)
-      whole.some.push_back(all[(2 * k + 1) * all.size() / (2 * std::min(kSome, all.size()))]);
-  }
 }
 
 void BlockStatistics::sum_candidates() {

@@ -63,7 +63,6 @@ class BlockStatistics {
   /// wholes as agreement.h asks of.
   struct Whole {
     std::vector<int> units;
-    std::vector<int> some;  ///< a few of its values, spread over it
     std::vector<double> products;
   };
   /// By their numbers, where values of one unit are of one whole.

@@ -27,23 +27,28 @@ void sum_up(PanelRow& row, std::size_t count, const Add& add) {
 
 }  // namespace
 
-void add_rows(PanelRow& row, const double* factors, const PanelRow* const* others, std::size_t count) {
-  sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
-    for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] += factors[k] * (*others[k])[from + j];
-  });
-}
-
 void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count) {
   sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
     for (std::size_t j = 0; j < kPanelStep; ++j) sum[j] -= factors[k] * others[k][from + j];
   });
 }
 
-void subtract_rows(PanelRow& row, const double* factors, const PanelRow* const* others, const double* more,
-                   const PanelRow* beside, std::size_t count) {
-  sum_up(row, count, [&](double* sum, std::size_t k, std::size_t from) TRUEFLANK_ALWAYS_INLINE {
-    for (std::size_t j = 0; j < kPanelStep; ++j)
-      sum[j] -= factors[k] * (*others[k])[from + j] + more[k] * beside[k][from + j];
+void add_rows(PanelRow& row, const double* factors, PanelRow& other_row, const double* other_factors,
+              const PanelRow* const* others, std::size_t count) {
+  constexpr std::size_t kHalf = kPanelColumns / 2;  // of two rows in registers
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t from = 0; from < kPanelColumns; from += kHalf) {
+      double sum[kHalf], other_sum[kHalf];
+      for (std::size_t j = 0; j < kHalf; ++j) sum[j] = row[from + j];
+      for (std::size_t j = 0; j < kHalf; ++j) other_sum[j] = other_row[from + j];
+      for (std::size_t k = 0; k < count; ++k) {
+        const double* const x = others[k]->data() + from;
+        for (std::size_t j = 0; j < kHalf; ++j) sum[j] += factors[k] * x[j];
+        for (std::size_t j = 0; j < kHalf; ++j) other_sum[j] += other_factors[k] * x[j];
+      }
+      for (std::size_t j = 0; j < kHalf; ++j) row[from + j] = sum[j];
+      for (std::size_t j = 0; j < kHalf; ++j) other_row[from + j] = other_sum[j];
+    }
   });
 }
 
@@ -65,6 +70,19 @@ void subtract_products(std::vector<PanelRow>& sums, const PanelRow& row, const P
       double* const sum = sums[apart].data();
       const double* const beside = other.data() + apart;
       for (std::size_t j = 0; j < kPanelColumns - apart; ++j) sum[j] -= row[j] * beside[j];
+    }
+  });
+}
+
+void add_mixed_products(PanelRow* sums, std::size_t count, const PanelRow& row, const PanelRow& other,
+                        double square) {
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t apart = 0; apart < count; ++apart) {
+      double* const sum = sums[apart].data();
+      const double* const row_beside = row.data() + apart;
+      const double* const other_beside = other.data() + apart;
+      for (std::size_t j = 0; j < kPanelColumns - apart; ++j)
+        sum[j] += row[j] * (other_beside[j] + square * row_beside[j]) + other[j] * row_beside[j];
     }
   });
 }

@@ -31,17 +31,19 @@ struct PanelColumns {
 /// @name Sums, eight columns at a time
 /// The same digits on every processor: wider registers add the same numbers in the same order.
 /// @{
-/// row += sum of factors[k] * others[k], in the order of k; the others stand wherever they do.
-void add_rows(PanelRow& row, const double* factors, const PanelRow* const* others, std::size_t count);
+/// row += sum of factors[k] * others[k], in the order of k, and another row with factors of its own; the others
+/// stand wherever they do.
+void add_rows(PanelRow& row, const double* factors, PanelRow& other_row, const double* other_factors,
+              const PanelRow* const* others, std::size_t count);
 /// row -= sum of factors[k] * others[k], in the order of k.
 void subtract_rows(PanelRow& row, const double* factors, const PanelRow* others, std::size_t count);
-/// row -= sum of factors[k] * others[k] + more[k] * beside[k], in the order of k.
-void subtract_rows(PanelRow& row, const double* factors, const PanelRow* const* others, const double* more,
-                   const PanelRow* beside, std::size_t count);
 /// sums[d][j] += factor * row[j] * row[j + d]: products of columns that stand d apart.
 void add_products(std::vector<PanelRow>& sums, double factor, const PanelRow& row);
 /// sums[d][j] -= row[j] * other[j + d].
 void subtract_products(std::vector<PanelRow>& sums, const PanelRow& row, const PanelRow& other);
+/// sums[d][j] += row[j] * other[j + d] + other[j] * row[j + d] + square * row[j] * row[j + d], of so many sums.
+void add_mixed_products(PanelRow* sums, std::size_t count, const PanelRow& row, const PanelRow& other,
+                        double square);
 /// @}
 
 /// The inverse of a positive semidefinite matrix P^T L D L^T P, for panels.

@@ -29,7 +29,10 @@ constexpr double kNothing = 0.5;
 class Discovery::Selection {
  public:
   Selection(const DiscoveryProblem& problem, const DiscoveryOptions& options)
-      : problem_(problem), options_(options), statistics_(problem) {
+      : problem_(problem),
+        options_(options),
+        statistics_(problem),
+        beside_(problem_, statistics_, options_.banned) {
     for (int i = 0; i < statistics_.model_columns(); ++i) nuisance_.push_back(i);
   }
 
@@ -58,7 +61,8 @@ class Discovery::Selection {
       find_confounded(i, full);
     }
     if (active() == tested_) return result_;
-    const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
+    beside_.put_beside(active());
+    const StructureTest test(problem_, statistics_, beside_, options_.flips, options_.banned);
     result_.p_left = test.p_value();
     result_.most_likely_left = test.most_likely();
     return result_;
@@ -127,8 +131,9 @@ class Discovery::Selection {
       // What a full model leaves is asked once it is simplified.
       const int most = options_.most_effects;
       if (!chosen_.empty() && static_cast<int>(chosen_.size()) >= most) return;
-      const StructureTest test(problem_, statistics_, active(), options_.flips, options_.banned);
       tested_ = active();
+      beside_.put_beside(tested_);
+      const StructureTest test(problem_, statistics_, beside_, options_.flips, options_.banned);
       if (result_.observable.empty()) result_.observable = test.observable();
       const bool first = chosen_.empty();
       if (first) {
@@ -393,6 +398,7 @@ class Discovery::Selection {
   const DiscoveryProblem& problem_;
   DiscoveryOptions options_;
   BlockStatistics statistics_;
+  ProjectedCandidates beside_;
   std::optional<QuickErrors> quick_;
   std::vector<int> quick_of_;  ///< the model whose they are
   std::vector<int> nuisance_;

@@ -14,7 +14,8 @@ namespace trueflank::loop {
 /// exchanges are worth an exact answer.
 ///
 /// With the inverse V of the model's Gram matrix, columns S left out, D = V_S (V_SS)^-1: coefficients
-/// b become b - D b_S, and so do those of a candidate on the model.
+/// b become b - D b_S, and so do those of a candidate on the model. What that changes of an error follows from
+/// the rows S of two matrices of the candidates: no sum over the model for each exchange.
 class QuickErrors {
  public:
   /// Of groups that may be asked for; others are not.
@@ -40,12 +41,13 @@ class QuickErrors {
     Eigen::MatrixXd inverse;  ///< V
     Eigen::VectorXd base, test_value;
     Eigen::MatrixXd test_gram;
-    /// A column for each of the groups': coefficients on the model, test products with the model, and
-    /// these less test_gram times the first.
-    Eigen::MatrixXd on_model, crossed, left;
+    /// A column for each of the groups': coefficients on the model; and V times its test products with the
+    /// model less test_gram times the first.
+    Eigen::MatrixXd on_model, left;
     std::vector<Eigen::MatrixXd> schur;    ///< per group asked: what is left of it in training
     std::vector<Eigen::VectorXd> right;    ///< the value's products with that
     std::vector<Eigen::MatrixXd> squares;  ///< what a coefficient of the group adds to the error, squared
+    std::vector<Eigen::VectorXd> linear;   ///< half of what it adds, not squared
   };
   struct Without;
   void add_fold(int fold, const std::vector<int>& columns, const std::vector<int>& groups);

@@ -22,6 +22,9 @@ using Eigen::VectorXd;
 constexpr int kOrders = 3999, kEnough = 12;
 
 constexpr int kKinds = 5;
+constexpr double kTests = 2.0 * kKinds;  // two of every kind
+/// What is told is compared with the level once more, after it was multiplied.
+constexpr double kSlack = 1.0 + 1e-9;
 constexpr int kMostEvery = 8;
 
 /// Square that the best form of a kind takes out of a series of unit variance.
@@ -49,10 +52,10 @@ class RingScan {
     }
   }
 
-  RingFinding run() {
+  RingFinding run(double level) {
     std::vector<Index> order(static_cast<std::size_t>(n_));
     std::iota(order.begin(), order.end(), 0);
-    const Best seen = best_of(order, true);
+    const Best seen = best_of(order);
     std::mt19937_64 random(20260122);
     std::array<int, kKinds> larger{};
     std::array<double, kKinds> by_size{};
@@ -65,12 +68,26 @@ class RingScan {
     const double saw = by_size[at(RingKind::kSaw)];
     const bool saws_too =
         saw < kWorthAsking && saw == *std::min_element(by_size.begin(), by_size.end());
-    int tried = 0;
-    while (ask && tried < kOrders && *std::min_element(larger.begin(), larger.end()) < kEnough) {
-      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-      const Best shuffled = best_of(order, saws_too);
+    if (ask && !saws_too) larger[at(RingKind::kSaw)] = kOrders;
+    // Of a kind nothing more is asked once it cannot be what is told: another will be less likely,
+    // or its F test says less already, or it is above the level.
+    const double open_below = kSlack * level / kTests;
+    const auto is_open = [&](std::size_t k) {
+      return larger[k] <= kEnough &&
+             (1.0 + larger[k]) / (1.0 + kOrders) <= std::min(by_size[k], open_below);
+    };
+    const auto is_asked_further = [&] {
       for (std::size_t k = 0; k < kKinds; ++k)
-        larger[k] += shuffled[k].square >= seen[k].square || (k == at(RingKind::kSaw) && !saws_too);
+        if (larger[k] < kEnough && is_open(k)) return true;
+      return false;
+    };
+    int tried = 0;
+    while (ask && tried < kOrders && is_asked_further()) {
+      for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+      std::array<bool, kKinds> asked{};
+      for (std::size_t k = 0; k < kKinds; ++k) asked[k] = is_open(k);
+      const std::array<bool, kKinds> as_large = kinds_as_large(order, seen, asked);
+      for (std::size_t k = 0; k < kKinds; ++k) larger[k] += as_large[k] ? 1 : 0;
       ++tried;
     }
     std::size_t best = 0;
@@ -81,8 +98,7 @@ class RingScan {
       least = p;
       best = k;
     }
-    // Two tests of every kind.
-    return finding(seen[best], best, std::min(1.0, 2.0 * kKinds * least));
+    return finding(seen[best], best, std::min(1.0, kTests * least));
   }
 
  private:
@@ -222,33 +238,75 @@ class RingScan {
         1.0, f_tail(f, degrees, left) * looked_at(kind) * static_cast<double>(series_.cols()));
   }
 
-  [[nodiscard]] Best best_of(const std::vector<Index>& order, bool saws_too) const {
+  [[nodiscard]] Best best_of(const std::vector<Index>& order) const {
     Best best;
     VectorXd placed(n_);
     for (Index s = 0; s < series_.cols(); ++s) {
       if (!(scale_[static_cast<std::size_t>(s)] > 0.0)) continue;
-      for (Index i = 0; i < n_; ++i) placed[i] = series_(order[static_cast<std::size_t>(i)], s);
-      best_arc(placed, static_cast<int>(s), best[at(RingKind::kArc)]);
-      if (saws_too) best_saw(placed, static_cast<int>(s), best[at(RingKind::kSaw)]);
-      const VectorXd parts = waves_ * placed;
-      for (Index k = 0; k < orders_; ++k)
-        improve(best[at(RingKind::kWave)], {.square = parts.segment(2 * k, 2).squaredNorm(),
-                                            .series = static_cast<int>(s),
-                                            .order = static_cast<int>(k + 1)});
-      const VectorXd ramps = ramps_ * placed, combs = combs_ * placed;
-      for (Index k = 0; k < ramps.size(); ++k)
-        improve(best[at(RingKind::kRamp)], {.square = ramps[k] * ramps[k],
-                                            .series = static_cast<int>(s),
-                                            .first = ramp_at_[static_cast<std::size_t>(k)]});
-      for (Index k = 0; k < combs.size(); ++k) {
-        const auto [every, first] = comb_at_[static_cast<std::size_t>(k)];
-        improve(best[at(RingKind::kComb)], {.square = combs[k] * combs[k],
-                                            .series = static_cast<int>(s),
-                                            .first = first,
-                                            .count = every});
-      }
+      place_series(order, s, placed);
+      for (std::size_t k = 0; k < kKinds; ++k) best_of_kind(k, placed, static_cast<int>(s), best[k]);
     }
     return best;
+  }
+
+  /// Of the kinds asked for those that in this order of the rows take out as much as was seen.
+  [[nodiscard]] std::array<bool, kKinds> kinds_as_large(const std::vector<Index>& order,
+                                                        const Best& seen,
+                                                        std::array<bool, kKinds> asked) const {
+    std::array<bool, kKinds> as_large = asked;
+    Best best;
+    VectorXd placed(n_);
+    for (Index s = 0; s < series_.cols(); ++s) {
+      if (!(scale_[static_cast<std::size_t>(s)] > 0.0)) continue;
+      place_series(order, s, placed);
+      for (std::size_t k = 0; k < kKinds; ++k) {
+        if (!asked[k]) continue;
+        best_of_kind(k, placed, static_cast<int>(s), best[k]);
+        asked[k] = best[k].square < seen[k].square;
+      }
+    }
+    for (std::size_t k = 0; k < kKinds; ++k)
+      as_large[k] = as_large[k] && best[k].square >= seen[k].square;
+    return as_large;
+  }
+
+  void place_series(const std::vector<Index>& order, Index s, VectorXd& placed) const {
+    for (Index i = 0; i < n_; ++i) placed[i] = series_(order[static_cast<std::size_t>(i)], s);
+  }
+
+  void best_of_kind(std::size_t kind, const VectorXd& placed, int series, BestOfKind& best) const {
+    switch (static_cast<RingKind>(kind)) {
+      case RingKind::kArc:
+        best_arc(placed, series, best);
+        break;
+      case RingKind::kWave: {
+        const VectorXd parts = waves_ * placed;
+        for (Index k = 0; k < orders_; ++k)
+          improve(best, {.square = parts.segment(2 * k, 2).squaredNorm(),
+                         .series = series,
+                         .order = static_cast<int>(k + 1)});
+        break;
+      }
+      case RingKind::kRamp: {
+        const VectorXd ramps = ramps_ * placed;
+        for (Index k = 0; k < ramps.size(); ++k)
+          improve(best, {.square = ramps[k] * ramps[k],
+                         .series = series,
+                         .first = ramp_at_[static_cast<std::size_t>(k)]});
+        break;
+      }
+      case RingKind::kComb: {
+        const VectorXd combs = combs_ * placed;
+        for (Index k = 0; k < combs.size(); ++k) {
+          const auto [every, first] = comb_at_[static_cast<std::size_t>(k)];
+          improve(best,
+                  {.square = combs[k] * combs[k], .series = series, .first = first, .count = every});
+        }
+        break;
+      }
+      case RingKind::kSaw:
+        best_saw(placed, series, best);
+    }
   }
 
   static void improve(BestOfKind& best, const BestOfKind& other) {
@@ -338,10 +396,11 @@ class RingScan {
 
 }  // namespace
 
-RingFinding scan_ring(const MatrixXd& series, const std::vector<int>& place, int ring) {
+RingFinding scan_ring(const MatrixXd& series, const std::vector<int>& place, int ring,
+                      double level) {
   constexpr Index kFewest = 8;
   if (series.rows() < kFewest || series.cols() < 1) return {};
-  return RingScan(series, place, ring).run();
+  return RingScan(series, place, ring).run(level);
 }
 
 double chance_of_agreement(const VectorXd& a, const VectorXd& b) {

@@ -31,11 +31,12 @@ struct RingFinding {
 /// question, each at half the level: against the same values in shuffled order, whole rows
 /// together, so that series that hang together are no finding; and an F test with Bonferroni's
 /// correction, because few values in any order often make an arc. Saws are shuffled only where the
-/// F test has them first and likely: they are many. Sequential: shuffles end once the answer is no.
-/// Waves up to half the values. Source of the stopping rule: Besag, Clifford 1991,
+/// F test has them first and likely: they are many. Sequential: shuffles end once the answer is no;
+/// the answer is no where the p-value is above `level`, and then it may be any above that. Waves up
+/// to half the values. Source of the stopping rule: Besag, Clifford 1991,
 /// doi 10.1093/biomet/78.2.301.
 [[nodiscard]] RingFinding scan_ring(const Eigen::MatrixXd& series, const std::vector<int>& place,
-                                    int ring);
+                                    int ring, double level = 1.0);
 
 /// How likely two series of as many values each agree as they do, or are opposite, by chance: a
 /// t test of their correlation about their means. 1 of fewer than five values: four agree too

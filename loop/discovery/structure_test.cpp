@@ -13,7 +13,6 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
-#include "trueflank/loop/discovery/unit_spread.h"
 
 namespace trueflank::loop {
 namespace {
@@ -24,18 +23,32 @@ constexpr double kAbsorbed = 2e-3;
 constexpr double kRounding = 1e-6;
 
 /// s' inverse s of every column s; written out for one and two rows, which nearly all groups have.
-Eigen::VectorXd quadratic_forms(const Eigen::MatrixXd& s, const Eigen::MatrixXd& inverse) {
-  if (s.rows() > 2) return s.cwiseProduct(inverse * s).colwise().sum().transpose();
-  Eigen::VectorXd forms(s.cols());
-  if (s.rows() == 1) {
-    for (Eigen::Index k = 0; k < s.cols(); ++k) forms[k] = s(0, k) * (inverse(0, 0) * s(0, k));
-    return forms;
+Eigen::VectorXd quadratic_forms(const Eigen::Ref<const FlipScores>& scores,
+                                const Eigen::MatrixXd& inverse) {
+  if (scores.rows() > 2) {
+    const Eigen::MatrixXd s = scores.cast<double>();
+    return s.cwiseProduct(inverse * s).colwise().sum().transpose();
   }
-  const double a = inverse(0, 0), b = inverse(0, 1), c = inverse(1, 0), d = inverse(1, 1);
-  for (Eigen::Index k = 0; k < s.cols(); ++k) {
-    const double x = s(0, k), y = s(1, k);
-    forms[k] = x * (a * x + b * y) + y * (c * x + d * y);
-  }
+  Eigen::VectorXd forms(scores.cols());
+  double* const form = forms.data();
+  const auto count = static_cast<std::size_t>(scores.cols());
+  const float* const first = scores.data();
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    if (scores.rows() == 1) {
+      const double a = inverse(0, 0);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto x = static_cast<double>(first[k]);
+        form[k] = x * (a * x);
+      }
+      return;
+    }
+    const float* const second = first + scores.outerStride();
+    const double a = inverse(0, 0), b = inverse(0, 1), c = inverse(1, 0), d = inverse(1, 1);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double x = first[k], y = second[k];
+      form[k] = x * (a * x + b * y) + y * (c * x + d * y);
+    }
+  });
   return forms;
 }
 
@@ -85,125 +98,21 @@ FlipScores flipped(const FlipScores& scores, const std::vector<FlipSigns>& signs
 }  // namespace
 
 StructureTest::StructureTest(const DiscoveryProblem& problem, const BlockStatistics& statistics,
-                             const std::vector<int>& columns, int flips,
+                             const ProjectedCandidates& beside, int flips,
                              const std::vector<bool>& banned)
-    : problem_(problem), statistics_(statistics) {
+    : problem_(problem), statistics_(statistics), beside_(beside) {
   for (std::size_t g = 0; g < problem.groups.size(); ++g) {
     const CandidateGroup& group = problem.groups[g];
     const bool is_asked = group.local_family < 0 && (banned.empty() || !banned[g]);
     asked_.push_back(is_asked);
+    projected_.push_back(beside.gram(static_cast<int>(g)));
+    flipped_.push_back(projected_.back() - statistics.zero_loss(static_cast<int>(g)));
+    if (is_asked) flipped_.back() -= beside.lost_by_flips(static_cast<int>(g));
   }
-  project(columns);
-  test_by_flips(flips);
-  test_wholes(columns, banned);
-  test_local(banned);
-}
-
-/// What is asked of every unit: what the fit leaves of it, and what it takes from candidates.
-struct StructureTest::UnitSums {
-  Eigen::VectorXd left;  ///< products of the fitted columns with what the fit leaves
-  UnitSpread spread;
-};
-struct StructureTest::FittedToUnits {
-  const std::vector<int>& columns;
-  const std::vector<UnitSums>& units;
-};
-
-/// Scores of every unit and Gram matrices of every group, beside the fitted columns.
-void StructureTest::project(const std::vector<int>& columns) {
-  const auto& all = statistics_.all();
-  const auto p = all.candidate_value.size();
-  const auto m = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd gram = all.model_model(columns, columns);
-  gram.diagonal() *= 1.0 + 1e-12;
-  gram.diagonal().array() += 1e-30;
-  const SymmetricSolver solver(gram);
-  Eigen::MatrixXd cross(m, p);
-  for (Eigen::Index k = 0; k < m; ++k)
-    cross.row(k) =
-        all.model_candidate[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])]
-            .transpose();
-  absorbed_ = Eigen::MatrixXd::Zero(m, p);
-  fitted_ = Eigen::VectorXd::Zero(m);
-  Eigen::MatrixXd inverse(m, m);
-  if (m > 0) {
-    inverse = solver.solve_columns(Eigen::MatrixXd::Identity(m, m));
-    absorbed_ = inverse * cross;
-    fitted_ = inverse * all.model_value(columns);
-  }
-  const std::size_t groups = problem_.groups.size();
-  projected_.resize(groups);
-  flipped_.resize(groups);
-  for (std::size_t g = 0; g < groups; ++g) {
-    const CandidateGroup& group = problem_.groups[g];
-    const auto seq = Eigen::seqN(group.first_column, group.columns);
-    projected_[g] = statistics_.group_gram(static_cast<int>(g), 0) -
-                    cross(Eigen::all, seq).transpose() * absorbed_(Eigen::all, seq);
-    flipped_[g] = projected_[g] - statistics_.zero_loss(static_cast<int>(g));
-  }
-  std::vector<UnitSums> units;
-  for (int unit = 0; unit < statistics_.units(); ++unit) {
-    const auto& sums = statistics_.unit(unit);
-    const Eigen::MatrixXd own = sums.model_model(columns, columns);
-    units.push_back({sums.model_value(columns) - own * fitted_, UnitSpread(own, inverse)});
-  }
-  unit_scores_.resize(p, statistics_.units());
-  single_scores_.resize(p, statistics_.units());
-  const FittedToUnits fitted{columns, units};
-  constexpr std::size_t kAtOnce = 4;
-  for_each_run(statistics_.panels().size(), kAtOnce, [&](std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k) project_panel(k, fitted);
-  });
-  observed_ = Eigen::VectorXd::Zero(p);
-  for (Eigen::Index unit = 0; unit < unit_scores_.cols(); ++unit) observed_ += unit_scores_.col(unit);
   judge_what_can_be_seen();
-}
-
-/// Scores of the candidates of a panel in every unit, and what the fitted columns of every unit
-/// take from their groups' spread under flips.
-void StructureTest::project_panel(std::size_t p, const FittedToUnits& fitted) {
-  const std::size_t m = fitted.columns.size();
-  const PanelColumns& panel = statistics_.panels()[p];
-  const auto columns = static_cast<std::size_t>(panel.columns);
-  // Needed of the groups that flips judge, which of a gear of many teeth are the smaller part.
-  int most = 0;
-  for (int g = panel.first_group; g < panel.first_group + panel.groups; ++g)
-    if (asked_[static_cast<std::size_t>(g)])
-      most = std::max(most, problem_.groups[static_cast<std::size_t>(g)].columns);
-  Panel absorbed(m, PanelRow{}), spread(m);
-  std::vector<const PanelRow*> cross(m), own_rows(m);
-  for (std::size_t k = 0; k < m; ++k)
-    for (std::size_t c = 0; c < columns; ++c)
-      absorbed[k][c] = absorbed_(static_cast<Eigen::Index>(k),
-                                 panel.first_column + static_cast<Eigen::Index>(c));
-  // Of products of columns that stand 0, 1, ... apart.
-  std::vector<PanelRow> lost(static_cast<std::size_t>(most), PanelRow{});
-  for (int unit = 0; unit < statistics_.units(); ++unit) {
-    const UnitSums& sums = fitted.units[static_cast<std::size_t>(unit)];
-    PanelRow score{};
-    std::copy_n(statistics_.unit(unit).candidate_value.data() + panel.first_column, columns,
-                score.begin());
-    for (std::size_t k = 0; k < m; ++k)
-      cross[k] = &statistics_.unit_candidates(fitted.columns[k], p, unit);
-    subtract_rows(score, fitted_.data(), cross.data(), sums.left.data(), absorbed.data(), m);
-    std::copy_n(score.begin(), columns, unit_scores_.col(unit).data() + panel.first_column);
-    for (std::size_t c = 0; c < columns; ++c)
-      single_scores_(panel.first_column + static_cast<Eigen::Index>(c), unit) = static_cast<float>(score[c]);
-    if (most == 0 || m == 0) continue;
-    const UnitSpread& taken = sums.spread;
-    for (std::size_t k = 0; k < taken.rank(); ++k) own_rows[k] = cross[taken.rows()[k]];
-    taken.spread_of(own_rows.data(), absorbed, spread);
-    for (std::size_t k = 0; k < taken.rank(); ++k) add_products(lost, 1.0, spread[k]);
-  }
-  for (int g = panel.first_group; g < panel.first_group + panel.groups && m > 0; ++g) {
-    if (!asked_[static_cast<std::size_t>(g)]) continue;
-    Eigen::MatrixXd& flipped = flipped_[static_cast<std::size_t>(g)];
-    const int at = problem_.groups[static_cast<std::size_t>(g)].first_column - panel.first_column;
-    for (int a = 0; a < flipped.rows(); ++a)
-      for (int b = 0; b < flipped.cols(); ++b)
-        flipped(a, b) -= lost[static_cast<std::size_t>(std::abs(a - b))]
-                             [static_cast<std::size_t>(at + std::min(a, b))];
-  }
+  test_by_flips(flips);
+  test_wholes(banned);
+  test_local(banned);
 }
 
 /// Groups that the data show beside the fitted columns, and those of them that flips can judge.
@@ -235,18 +144,17 @@ double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const Fl
   const CandidateGroup& group = problem_.groups[g];
   const SymmetricSolver under_flips(flipped_[g]);
   if (!under_flips.is_positive()) return kCannotBeJudged;
-  const Eigen::MatrixXd s = scores.cast<double>();
   const Eigen::MatrixXd inverse =
       under_flips.solve_columns(Eigen::MatrixXd::Identity(group.columns, group.columns));
-  const Eigen::VectorXd statistic = quadratic_forms(s, inverse);
-  const Eigen::VectorXd o = observed_(Eigen::seqN(group.first_column, group.columns));
+  const Eigen::VectorXd statistic = quadratic_forms(scores, inverse);
+  const Eigen::VectorXd o = beside_.scores().segment(group.first_column, group.columns);
   const double t = o.dot(symmetric_solution(projected_[g], o));
   // The group's own scale: correlation within units widens low modes more than high ones.
-  const double flips = static_cast<double>(s.cols());
+  const double flips = static_cast<double>(scores.cols());
   const double scale = (statistic.sum() + t) / ((flips + 1.0) * group.columns);
   if (!(scale > 0.0)) return kCannotBeJudged;
   Eigen::VectorXd& of_size = largest[group.columns];
-  if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(s.cols());
+  if (of_size.size() == 0) of_size = Eigen::VectorXd::Zero(scores.cols());
   of_size = of_size.cwiseMax(statistic / scale);
   return minus_log_chi_square_tail(t / scale, group.columns);
 }
@@ -272,7 +180,11 @@ void StructureTest::test_by_flips(int flips) {
     for (std::size_t i = first; i < end; ++i)
       for (int k = 0; k < problem_.groups[asked[i]].columns; ++k)
         columns.push_back(problem_.groups[asked[i]].first_column + k);
-    const FlipScores own_scores = single_scores_(columns, Eigen::all);
+    FlipScores own_scores(static_cast<Eigen::Index>(columns.size()), beside_.unit_scores().cols());
+    for (Eigen::Index unit = 0; unit < own_scores.cols(); ++unit)
+      for (Eigen::Index k = 0; k < own_scores.rows(); ++k)
+        own_scores(k, unit) = static_cast<float>(
+            beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
     const FlipScores scores = flipped(own_scores, signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
@@ -315,9 +227,9 @@ void StructureTest::compare_with_flips(const std::vector<double>& own,
 }
 
 /// The groups that live in few whole traces or flanks, by how much these agree.
-void StructureTest::test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned) {
-  const std::vector<double> single = agreement_of_wholes(
-      problem_, statistics_, {columns, absorbed_, fitted_, unit_scores_}, projected_, observable_);
+void StructureTest::test_wholes(const std::vector<bool>& banned) {
+  const std::vector<double> single =
+      agreement_of_wholes(problem_, statistics_, beside_, projected_, observable_);
   double tested = 0.0;
   for (std::size_t g = 0; g < single.size(); ++g)
     if (single[g] < 1.0 && (banned.empty() || !banned[g])) tested += 1.0;
@@ -356,7 +268,7 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     double sum = 0.0, squares = 0.0;
     for (const int g : members) {
       const double value =
-          observed_[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
+          beside_.scores()[problem_.groups[g].first_column] / std::sqrt(projected_[g](0, 0));
       score.push_back(value);
       sum += value;
       squares += value * value;

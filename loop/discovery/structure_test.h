@@ -5,8 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "trueflank/loop/discovery/block_statistics.h"
-#include "trueflank/loop/discovery/column_panels.h"
+#include "trueflank/loop/discovery/projected_candidates.h"
 
 namespace trueflank::loop {
 
@@ -21,8 +20,9 @@ using FlipScores = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// whether they agree is asked, too: an F test (agreement.h) with Bonferroni's correction.
 class StructureTest {
  public:
+  /// Candidates beside the model's columns.
   StructureTest(const DiscoveryProblem& problem, const BlockStatistics& statistics,
-                const std::vector<int>& columns, int flips, const std::vector<bool>& banned);
+                const ProjectedCandidates& beside, int flips, const std::vector<bool>& banned);
 
   /// Of any structure, corrected for all candidates.
   [[nodiscard]] double p_value() const { return p_value_; }
@@ -37,10 +37,6 @@ class StructureTest {
   [[nodiscard]] const std::vector<bool>& observable() const { return observable_; }
 
  private:
-  struct UnitSums;
-  struct FittedToUnits;
-  void project(const std::vector<int>& columns);
-  void project_panel(std::size_t panel, const FittedToUnits& fitted);
   void judge_what_can_be_seen();
   void test_by_flips(int flips);
   /// Of all groups with so many columns, the largest statistic of each flip: the tail falls with
@@ -50,17 +46,13 @@ class StructureTest {
                                          LargestOfSize& largest) const;
   void compare_with_flips(const std::vector<double>& own, const LargestOfSize& largest_of_size,
                           int flips);
-  void test_wholes(const std::vector<int>& columns, const std::vector<bool>& banned);
+  void test_wholes(const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
-  std::vector<bool> asked_;      ///< per group: flips judge it, as neither local nor banned
-  Eigen::MatrixXd unit_scores_;  ///< P x units
-  FlipScores single_scores_;     ///< the same in single precision, a candidate's beside each other
-  Eigen::VectorXd observed_;     ///< P: sums over all units
-  Eigen::MatrixXd absorbed_;     ///< M x P: coefficients of the candidates on the model
-  Eigen::VectorXd fitted_;       ///< M: of the value
+  const ProjectedCandidates& beside_;
+  std::vector<bool> asked_;  ///< per group: flips judge it, as neither local nor banned
   std::vector<Eigen::MatrixXd> projected_;  ///< per group: Gram matrix after projection
   std::vector<Eigen::MatrixXd> flipped_;    ///< per group asked: mean Gram matrix under flips
   std::vector<bool> observable_, testable_;

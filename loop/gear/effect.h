@@ -58,6 +58,8 @@ struct EffectFamily : EffectFacts {
   std::function<void(const FlankGeometry&, const Place&, std::span<const Effect>, double* columns)>
       evaluate_together = {};
   double operations = 40.0;  ///< of an evaluation, about: what it costs
+  /// Depends on nothing but the flank, its roll length and the height: the same on every tooth. Empty: it is not.
+  std::function<bool(const EffectShape&)> same_on_every_tooth = {};
   bool shape_is_continuous = false;  ///< refined after the choice
   bool shape_is_step = false;        ///< the first value is a height at which the deviation jumps
   bool is_one_of_its_shapes = false; ///< once in a model, as when its shape is continuous

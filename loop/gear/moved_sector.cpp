@@ -191,7 +191,7 @@ class SectorSearch {
       series.row(i) << rest[2 * i + 1] + rest[2 * i], rest[2 * i + 1] - rest[2 * i];
       place.push_back(tooth_of(i) - 1);
     }
-    return scan_ring(series, place, geometry_.teeth()).p_value <= kNone;
+    return scan_ring(series, place, geometry_.teeth(), kNone).p_value <= kNone;
   }
 
   /// So sure that the other tests' levels need not be shared with it.

@@ -69,6 +69,7 @@ class PointFit {
   [[nodiscard]] int held_out() const { return held_out_; }
 
  private:
+  void keep_features();
   void features(std::size_t row, double* values) const;
   void features_at(const Place& place, const Observation& row, double* values) const;
   [[nodiscard]] std::vector<float> residuals_with(const Eigen::VectorXd& coefficients) const;
@@ -97,6 +98,7 @@ class PointFit {
   std::vector<Effect> effects_;
   std::vector<int> first_column_;
   int columns_ = 0;
+  std::vector<double> kept_;  ///< features of all rows, one after the other; empty: they are computed anew
   std::vector<Eigen::VectorXd> zero_means_;  ///< per trace, training and held-out apart
   std::vector<Eigen::VectorXd> whole_zero_means_;
   std::vector<Eigen::MatrixXd> unit_grams_;  ///< last row and column: the values

@@ -163,9 +163,10 @@ class AroundSearch {
     }
     std::vector<int> place = teeth;
     for (int& at : place) --at;
-    RingFinding found = scan_ring(series, place, geometry_.teeth());
+    const auto records = static_cast<double>(moments_.size());
+    RingFinding found = scan_ring(series, place, geometry_.teeth(), kRemainderLevel / records);
     if (found.series < 0) return;
-    found.p_value = std::min(1.0, found.p_value * static_cast<double>(moments_.size()));
+    found.p_value = std::min(1.0, found.p_value * records);
     if (found.p_value > kRemainderLevel) return;
     add_ring(found, teeth, what[static_cast<std::size_t>(found.series)], key.first == MomentsOf::kScan);
   }

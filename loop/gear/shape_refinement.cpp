@@ -5,7 +5,6 @@
 #include <cmath>
 #include <deque>
 
-#include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
@@ -108,22 +107,16 @@ std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, 
     if (!effect.family->shape_is_continuous || is_step(effect)) continue;
     for (std::size_t k = 0; k < effect.shape.size(); ++k) slots.push_back({e, k});
   }
-  std::vector<Eigen::VectorXd> derivatives(slots.size());
-  for_each_piece(slots.size(), [&](std::size_t i) {
-    const auto& [e, k] = slots[i];
+  std::vector<TrialFit::Change> derivatives;
+  for (const auto& [e, k] : slots) {
     const Effect& effect = fit.effects()[e];
-    const Eigen::VectorXd b = fit.coefficients(e);
-    Effect up = effect, down = effect;
     const double h = kStep * effect.shape[k];
-    up.shape[k] += h;
-    down.shape[k] -= h;
-    derivatives[i] = (fit.columns_of(up) * b - fit.columns_of(down) * b) / (2.0 * h);
-  });
-  Eigen::MatrixXd more(derivatives.empty() ? 0 : derivatives.front().size(),
-                       static_cast<Eigen::Index>(derivatives.size()));
-  for (std::size_t i = 0; i < derivatives.size(); ++i)
-    more.col(static_cast<Eigen::Index>(i)) = derivatives[i];
-  const Eigen::VectorXd change = fit.joint_coefficients(more);
+    TrialFit::Change change{effect, effect, fit.coefficients(e) / (2.0 * h)};
+    change.from.shape[k] -= h;
+    change.to.shape[k] += h;
+    derivatives.push_back(std::move(change));
+  }
+  const Eigen::VectorXd change = fit.joint_coefficients(derivatives);
   std::vector<Effect> effects = fit.effects();
   for (std::size_t i = 0; i < slots.size(); ++i) {
     Effect& effect = effects[slots[i].effect];
@@ -136,16 +129,27 @@ std::vector<Effect> stepped(const FlankGeometry& geometry, const TrialFit& fit, 
 
 }  // namespace
 
-bool refine_nearby(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect>& effects, TriedColumns* tried_before) {
+TrialFit fit_to_refine(const FlankGeometry& geometry, const Observations& table,
+                       const Patches& patches, const std::vector<Effect>& effects,
+                       TriedColumns* tried) {
+  return {geometry, table, patches, effects, stride_for(table), tried};
+}
+
+bool can_be_refined(const std::vector<Effect>& effects, std::size_t first) {
+  bool any = false;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const EffectFamily& family = *effects[e].family;
+    any = any || static_cast<bool>(family.nearby) ||
+          (e >= first && (family.shape_is_step || family.shape_is_continuous));
+  }
+  return any;
+}
+
+bool refine_nearby(const FlankGeometry& geometry, TrialFit& fit) {
   constexpr double kWorthIt = 4.0;  // chi-square
   constexpr int kMostSteps = 8;
-  const bool any = std::any_of(effects.begin(), effects.end(), [](const Effect& effect) {
-    return static_cast<bool>(effect.family->nearby);
-  });
-  if (!any) return false;
   bool moved = false;
-  TrialFit fit(geometry, table, patches, effects, stride_for(table), tried_before);
+  std::vector<Effect> effects = fit.effects();
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!effects[e].family->nearby) continue;
     TrialFit::Trial now = fit.as_is(e);
@@ -171,17 +175,16 @@ bool refine_nearby(const FlankGeometry& geometry, const Observations& table, con
   return moved;
 }
 
-void refine_shapes(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect>& effects, std::size_t first, TriedColumns* tried) {
+void refine_shapes(const FlankGeometry& geometry, std::size_t first, TrialFit& fit) {
   bool smooth = false, steps = false;
-  for (std::size_t e = first; e < effects.size(); ++e) {
-    steps = steps || is_step(effects[e]);
-    smooth = smooth || (effects[e].family->shape_is_continuous && !is_step(effects[e]));
+  for (std::size_t e = first; e < fit.effects().size(); ++e) {
+    const Effect& effect = fit.effects()[e];
+    steps = steps || is_step(effect);
+    smooth = smooth || (effect.family->shape_is_continuous && !is_step(effect));
   }
   if (!smooth && !steps) return;
-  TrialFit fit(geometry, table, patches, effects, stride_for(table), tried);
   refine_steps(geometry, first, fit);
-  effects = fit.effects();
+  std::vector<Effect> effects = fit.effects();
   double least = fit.residual_square(), damping = 1.0;
   for (int round = 0; smooth && round < 12; ++round) {
     fit.set_shapes(stepped(geometry, fit, first, damping));
@@ -194,9 +197,32 @@ void refine_shapes(const FlankGeometry& geometry, const Observations& table, con
       continue;
     }
     damping *= 0.4;
-    if (damping < 0.05) return;
     fit.set_shapes(effects);
+    if (damping < 0.05) return;
   }
+}
+
+bool refine_nearby(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect>& effects) {
+  if (std::none_of(effects.begin(), effects.end(),
+                   [](const Effect& effect) { return static_cast<bool>(effect.family->nearby); }))
+    return false;
+  TrialFit fit = fit_to_refine(geometry, table, patches, effects);
+  const bool moved = refine_nearby(geometry, fit);
+  effects = fit.effects();
+  return moved;
+}
+
+void refine_shapes(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
+                   std::vector<Effect>& effects, std::size_t first) {
+  if (std::none_of(effects.begin() + static_cast<std::ptrdiff_t>(first), effects.end(),
+                   [](const Effect& effect) {
+                     return effect.family->shape_is_step || effect.family->shape_is_continuous;
+                   }))
+    return;
+  TrialFit fit = fit_to_refine(geometry, table, patches, effects);
+  refine_shapes(geometry, first, fit);
+  effects = fit.effects();
 }
 
 ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry, const Observations& table,

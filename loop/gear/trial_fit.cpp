@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "trueflank/base/threads.h"
-#include "trueflank/geometry/linear_equations.h"
 
 namespace trueflank::loop {
 namespace {
@@ -22,23 +21,6 @@ SymmetricSolver decomposed(Eigen::MatrixXd normal) {
 double square_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
   const auto n = b.size();
   return gram(n, n) - 2.0 * b.dot(gram.col(n).head(n)) + b.dot(gram.topLeftCorner(n, n) * b);
-}
-
-TrialFit::Trial judged(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::Index columns,
-                       double below) {
-  const Eigen::Index n = gram.rows() - 1;
-  const auto solver = decomposed(gram.topLeftCorner(n, n));
-  TrialFit::Trial result{square_of(gram, solver.solve(gram.col(n).head(n))), 0.0};
-  if (!(result.square < below)) return result;
-  result.retained = 1.0;
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n).middleCols(first, columns);
-  const Eigen::MatrixXd inverse = solver.solve_columns(unit);
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const double own = gram(first + k, first + k);
-    result.retained =
-        own > 0.0 ? std::min(result.retained, 1.0 / (inverse(first + k, k) * own)) : 0.0;
-  }
-  return result;
 }
 
 }  // namespace
@@ -65,9 +47,11 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
     const auto& patch = patches.patches[static_cast<std::size_t>(patches.patch_of_row[i])];
     const double weight = patch.weight / patch.count;
     const int trace = table.rows[i].trace;
+    row_numbers_.push_back(static_cast<std::uint32_t>(i));
     rows_.push_back({static_cast<std::uint32_t>(i), trace, std::sqrt(weight)});
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
+  find_alike();
   const NuisanceColumns nuisance(geometry, table);
   Eigen::Index columns = nuisance.count();
   for (const Effect& effect : effects_) {
@@ -95,8 +79,43 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   std::vector<std::size_t> all(effects_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   put_columns(all);
-  gram_ = columns_.transpose() * columns_;
+  if (alike_) {
+    gram_ = Eigen::MatrixXd::Zero(columns + 1, columns + 1);
+    gram_(columns, columns) = columns_.col(columns).squaredNorm();
+    // (nuisance columns are of scans, whose rows are not alike)
+    put_products(all);
+  } else {
+    gram_ = columns_.transpose() * columns_;
+  }
   solve();
+}
+
+/// Of tables without scans, where it is worth it.
+void TrialFit::find_alike() {
+  constexpr std::size_t kFewestOfAKind = 4;
+  if (!table_.points_mm.empty()) return;
+  AlikeRows alike = alike_rows(table_, row_numbers_);
+  if (alike.first.size() * kFewestOfAKind > rows_.size()) return;
+  kind_weight_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(alike.first.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    kind_weight_[static_cast<Eigen::Index>(alike.kind[i])] += rows_[i].root * rows_[i].root;
+  alike_ = std::move(alike);
+  // Where kinds are few, their products less zeros are one matrix.
+  constexpr std::size_t kWorthIt = 8;
+  const std::size_t kinds = alike_->first.size();
+  if (kinds * kinds > kWorthIt * rows_.size()) return;
+  const Eigen::Index n = kind_weight_.size();
+  Eigen::MatrixXd of_traces = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(trace_weight_.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].trace >= 0)
+      of_traces(static_cast<Eigen::Index>(alike_->kind[i]), rows_[i].trace) +=
+          rows_[i].root * rows_[i].root;
+  Eigen::MatrixXd share = of_traces;
+  for (Eigen::Index t = 0; t < share.cols(); ++t)
+    if (const double weight = trace_weight_[static_cast<std::size_t>(t)]; weight > 0.0)
+      share.col(t) /= weight;
+  kind_products_ = -(of_traces * share.transpose());
+  kind_products_.diagonal() += kind_weight_;
 }
 
 /// Takes the weighted mean of every trace out and puts the roots of the weights on.
@@ -118,20 +137,88 @@ void TrialFit::centre(Eigen::MatrixXd& columns) const {
   }
 }
 
-Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
+/// As they are, at some rows of the table.
+Eigen::MatrixXd TrialFit::values_at(const Effect& effect,
+                                    const std::vector<std::uint32_t>& rows) const {
   const int count = effect.columns();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), count);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), count);
   double one[8];
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Observation& row = table_.rows[rows_[i].row];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Observation& row = table_.rows[rows[i]];
     for (std::uint32_t p = 0; p < row.places; ++p) {
       effect.evaluate(geometry_, table_.places[row.first_place + p], one);
       for (int k = 0; k < count; ++k)
         columns(static_cast<Eigen::Index>(i), k) += row.weight * one[k];
     }
   }
-  centre(columns);
   return columns;
+}
+
+bool TrialFit::is_of_kinds(const Effect& effect) const {
+  return alike_ && effect.family->same_on_every_tooth &&
+         effect.family->same_on_every_tooth(effect.shape);
+}
+
+TrialFit::Columns TrialFit::short_columns_of(const Effect& effect) const {
+  if (is_of_kinds(effect)) return {values_at(effect, alike_->first), true};
+  Eigen::MatrixXd columns = values_at(effect, row_numbers_);
+  centre(columns);
+  return {std::move(columns), false};
+}
+
+Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
+  return full(short_columns_of(effect));
+}
+
+/// Means over every trace of columns of kinds of rows: a row a trace.
+Eigen::MatrixXd TrialFit::zeros_of_kinds(const Eigen::MatrixXd& values) const {
+  Eigen::MatrixXd zeros =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(trace_weight_.size()), values.cols());
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    double* const zero = zeros.col(k).data();
+    const double* const value = values.col(k).data();
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].trace >= 0)
+        zero[rows_[i].trace] += rows_[i].root * rows_[i].root * value[alike_->kind[i]];
+    for (std::size_t t = 0; t < trace_weight_.size(); ++t)
+      if (trace_weight_[t] > 0.0) zero[t] /= trace_weight_[t];
+  }
+  return zeros;
+}
+
+/// A row for each value.
+Eigen::MatrixXd TrialFit::full(const Columns& columns) const {
+  if (!columns.of_kinds) return columns.values;
+  const Eigen::MatrixXd zeros = zeros_of_kinds(columns.values);
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(rows_.size()), columns.values.cols());
+  for (Eigen::Index k = 0; k < all.cols(); ++k)
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double value = columns.values(static_cast<Eigen::Index>(alike_->kind[i]), k);
+      if (rows_[i].trace >= 0) value -= zeros(rows_[i].trace, k);
+      all(static_cast<Eigen::Index>(i), k) = rows_[i].root * value;
+    }
+  return all;
+}
+
+/// With all columns that stand, whose zeros are taken out already.
+Eigen::MatrixXd TrialFit::products_with_all(const Columns& columns) const {
+  if (columns.of_kinds) return of_kinds_.transpose() * columns.values;
+  Eigen::MatrixXd products(columns_.cols(), columns.values.cols());
+  // (of few columns: a product of matrices would copy all the others first)
+  for (Eigen::Index k = 0; k < products.cols(); ++k)
+    products.col(k).noalias() = columns_.transpose() * columns.values.col(k);
+  return products;
+}
+
+/// With each other.
+Eigen::MatrixXd TrialFit::own_products(const Columns& columns) const {
+  const Eigen::MatrixXd& values = columns.values;
+  if (!columns.of_kinds) return values.transpose() * values;
+  if (kind_products_.size() > 0) return values.transpose() * (kind_products_ * values);
+  const Eigen::MatrixXd zeros = zeros_of_kinds(values);
+  const Eigen::Map<const Eigen::VectorXd> weight(trace_weight_.data(), zeros.rows());
+  return values.transpose() * kind_weight_.asDiagonal() * values -
+         zeros.transpose() * weight.asDiagonal() * zeros;
 }
 
 void TrialFit::solve() {
@@ -144,9 +231,51 @@ Eigen::VectorXd TrialFit::coefficients(std::size_t effect) const {
   return coefficients_.segment(first_column_[effect], effects_[effect].columns());
 }
 
+/// Normal equations of all columns but an effect's. What its own columns add follows from their products with
+/// these alone.
+struct TrialFit::Others {
+  Others(const Eigen::MatrixXd& gram, Eigen::Index first, Eigen::Index columns) {
+    const Eigen::Index n = gram.rows() - 1;
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (k < first || k >= first + columns) places.push_back(k);
+    const Eigen::VectorXd right = gram(places, n);
+    solver.emplace(decomposed(gram(places, places)));
+    coefficients = solver->solve(right);
+    square = gram(n, n) - right.dot(coefficients);
+  }
+  /// With columns of these products with all, and with each other.
+  [[nodiscard]] Trial with(const Eigen::MatrixXd& products, Eigen::MatrixXd own, double below) const {
+    const Eigen::MatrixXd crossed = products(places, Eigen::all);
+    const Eigen::MatrixXd absorbed = solver->solve_columns(crossed);
+    const Eigen::VectorXd right =
+        products.bottomRows(1).transpose() - crossed.transpose() * coefficients;
+    const Eigen::VectorXd whole = own.diagonal();
+    own.diagonal() *= 1.0 + 1e-12;
+    own.diagonal().array() += 1e-30;
+    own -= crossed.transpose() * absorbed;
+    const SymmetricSolver left(own);
+    Trial result{square - right.dot(left.solve(right)), 0.0};
+    if (!(result.square < below)) return result;
+    result.retained = 1.0;
+    const Eigen::MatrixXd inverse =
+        left.solve_columns(Eigen::MatrixXd::Identity(own.rows(), own.rows()));
+    for (Eigen::Index k = 0; k < own.rows(); ++k)
+      result.retained =
+          whole[k] > 0.0 ? std::min(result.retained, 1.0 / (inverse(k, k) * whole[k])) : 0.0;
+    return result;
+  }
+
+  std::vector<Eigen::Index> places;
+  std::optional<SymmetricSolver> solver;
+  Eigen::VectorXd coefficients;
+  double square = 0.0;
+};
+
 TrialFit::Trial TrialFit::as_is(std::size_t effect) const {
-  return judged(gram_, first_column_[effect], effects_[effect].columns(),
-                std::numeric_limits<double>::infinity());
+  const Eigen::Index first = first_column_[effect], count = effects_[effect].columns();
+  return Others(gram_, first, count)
+      .with(gram_.middleCols(first, count), gram_.block(first, first, count, count),
+            std::numeric_limits<double>::infinity());
 }
 
 /// Puts the columns of effects where they belong.
@@ -158,6 +287,37 @@ void TrialFit::put_columns(const std::vector<std::size_t>& effects) {
     if (known != nullptr) place = *known;
     else place = columns_of(effects_[e]);
   });
+  if (!alike_) return;
+  if (of_kinds_.size() == 0) {
+    of_kinds_.resize(kind_weight_.size(), columns_.cols());
+    sum_over_kinds(0, columns_.cols());
+    return;
+  }
+  for (const std::size_t e : effects) sum_over_kinds(first_column_[e], effects_[e].columns());
+}
+
+void TrialFit::sum_over_kinds(Eigen::Index first, Eigen::Index count) {
+  for (Eigen::Index k = first; k < first + count; ++k) {
+    auto sums = of_kinds_.col(k);
+    sums.setZero();
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      sums[static_cast<Eigen::Index>(alike_->kind[i])] +=
+          rows_[i].root * columns_(static_cast<Eigen::Index>(i), k);
+  }
+}
+
+/// Products of effects' columns as they stand.
+void TrialFit::put_products(const std::vector<std::size_t>& effects) {
+  for (const std::size_t e : effects) {
+    const Eigen::Index first = first_column_[e], count = effects_[e].columns();
+    if (is_of_kinds(effects_[e]))
+      gram_.middleCols(first, count) =
+          products_with_all({values_at(effects_[e], alike_->first), true});
+    else
+      gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
+    // (a copy: a first effect's rows and columns begin at the same place)
+    gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose().eval();
+  }
 }
 
 std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
@@ -166,28 +326,26 @@ std::vector<TrialFit::Trial> TrialFit::with_shapes(std::size_t effect,
   std::vector<Trial> trials(shapes.size());
   std::vector<Effect> moved(shapes.size(), effects_[effect]);
   std::vector<Eigen::MatrixXd> own(shapes.size());
-  for_each_piece(shapes.size(), [&](std::size_t i) {
+  const Others others(gram_, first_column_[effect], effects_[effect].columns());
+  const auto try_one = [&](std::size_t i) {
     moved[i].shape = shapes[i];
-    const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(moved[i]) : nullptr;
-    if (known == nullptr) own[i] = columns_of(moved[i]);
-    trials[i] = with_columns(effect, known != nullptr ? *known : own[i], below);
-  });
+    if (const Eigen::MatrixXd* known = tried_ != nullptr ? tried_->find(moved[i]) : nullptr) {
+      const Columns columns{*known, false};
+      trials[i] = others.with(products_with_all(columns), own_products(columns), below);
+      return;
+    }
+    Columns columns = short_columns_of(moved[i]);
+    trials[i] = others.with(products_with_all(columns), own_products(columns), below);
+    if (!columns.of_kinds) own[i] = std::move(columns.values);
+  };
+  // Of kinds of rows they take less than a thread does to begin.
+  if (is_of_kinds(effects_[effect]))
+    for (std::size_t i = 0; i < shapes.size(); ++i) try_one(i);
+  else
+    for_each_piece(shapes.size(), try_one);
   for (std::size_t i = 0; tried_ != nullptr && i < shapes.size(); ++i)
     if (own[i].size() > 0) tried_->keep(moved[i], own[i]);
   return trials;
-}
-
-TrialFit::Trial TrialFit::with_columns(std::size_t effect, const Eigen::MatrixXd& columns,
-                                       double below) const {
-  const Eigen::Index first = first_column_[effect], count = columns.cols();
-  Eigen::MatrixXd gram = gram_;
-  // (of few columns: a product of matrices would copy all the others first)
-  for (Eigen::Index k = 0; k < count; ++k)
-    gram.col(first + k).noalias() = columns_.transpose() * columns.col(k);
-  // (a copy: a first effect's rows and columns begin at the same place)
-  gram.middleRows(first, count) = gram.middleCols(first, count).transpose().eval();
-  gram.block(first, first, count, count) = columns.transpose() * columns;
-  return judged(gram, first, count, below);
 }
 
 void TrialFit::set_shapes(const std::vector<Effect>& effects) {
@@ -197,23 +355,32 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
     effects_[e].shape = effects[e].shape;
     moved.push_back(e);
   }
+  if (moved.empty()) return;
   put_columns(moved);
-  for (const std::size_t e : moved) {
-    const Eigen::Index first = first_column_[e], count = effects_[e].columns();
-    gram_.middleCols(first, count) = columns_.transpose() * columns_.middleCols(first, count);
-    gram_.middleRows(first, count) = gram_.middleCols(first, count).transpose().eval();
-  }
+  put_products(moved);
   solve();
 }
 
-Eigen::VectorXd TrialFit::joint_coefficients(const Eigen::MatrixXd& more) const {
-  const Eigen::Index n = gram_.rows() - 1, m = more.cols();
-  const Eigen::MatrixXd cross = columns_.transpose() * more;  // the value's row last
+Eigen::VectorXd TrialFit::joint_coefficients(const std::vector<Change>& more) const {
+  const Eigen::Index n = gram_.rows() - 1, m = static_cast<Eigen::Index>(more.size());
+  Columns columns{{}, std::all_of(more.begin(), more.end(), [&](const Change& change) {
+                    return is_of_kinds(change.from) && is_of_kinds(change.to);
+                  })};
+  columns.values.resize(columns.of_kinds ? kind_weight_.size() : columns_.rows(), m);
+  for_each_piece(more.size(), [&](std::size_t i) {
+    const Change& change = more[i];
+    const auto of = [&](const Effect& effect) {
+      return columns.of_kinds ? values_at(effect, alike_->first) : columns_of(effect);
+    };
+    columns.values.col(static_cast<Eigen::Index>(i)) =
+        of(change.to) * change.coefficients - of(change.from) * change.coefficients;
+  });
+  const Eigen::MatrixXd cross = products_with_all(columns);  // the value's row last
   Eigen::MatrixXd normal(n + m, n + m);
   normal.topLeftCorner(n, n) = gram_.topLeftCorner(n, n);
   normal.topRightCorner(n, m) = cross.topRows(n);
   normal.bottomLeftCorner(m, n) = cross.topRows(n).transpose();
-  normal.bottomRightCorner(m, m) = more.transpose() * more;
+  normal.bottomRightCorner(m, m) = own_products(columns);
   Eigen::VectorXd right(n + m);
   right << gram_.col(n).head(n), cross.row(n).transpose();
   return decomposed(std::move(normal)).solve(right).tail(m);

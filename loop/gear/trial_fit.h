@@ -3,9 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/local/patches.h"
+#include "trueflank/loop/gear/table/alike_rows.h"
 
 namespace trueflank::loop {
 
@@ -29,6 +32,10 @@ class TriedColumns {
 /// The least squares of PointFit where shapes are tried one after another: columns of effects that
 /// stay as they are, and their products, are kept. Of a fit only the residual square and the
 /// coefficients are known; no errors. With a stride only every n-th value is used.
+///
+/// On traces most shapes that are tried are the same on every tooth. Their columns are one value for each kind
+/// of rows that differ by the tooth alone, and their products with what stands follow from sums of that over
+/// these rows.
 class TrialFit {
  public:
   TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
@@ -53,8 +60,13 @@ class TrialFit {
   void set_shapes(const std::vector<Effect>& effects);
   /// The columns of an effect, weighted, zeros of traces taken out: one row a value that counts.
   [[nodiscard]] Eigen::MatrixXd columns_of(const Effect& effect) const;
-  /// Coefficients of more columns, fitted jointly with all that is there.
-  [[nodiscard]] Eigen::VectorXd joint_coefficients(const Eigen::MatrixXd& more) const;
+  /// What effects' columns change by from one shape to another, times coefficients: a column each.
+  struct Change {
+    Effect from, to;
+    Eigen::VectorXd coefficients;
+  };
+  /// Coefficients of such columns, fitted jointly with all that is there.
+  [[nodiscard]] Eigen::VectorXd joint_coefficients(const std::vector<Change>& more) const;
 
  private:
   struct Row {
@@ -62,9 +74,26 @@ class TrialFit {
     int trace = -1;
     double root = 0.0;  ///< of its weight
   };
+  /// Columns with a row for each value (weighted, zeros taken out) or for each kind of rows (neither).
+  struct Columns {
+    Eigen::MatrixXd values;
+    bool of_kinds = false;
+  };
+  /// Normal equations of all but one effect.
+  struct Others;
+  void find_alike();
+  [[nodiscard]] bool is_of_kinds(const Effect& effect) const;
+  [[nodiscard]] Eigen::MatrixXd values_at(const Effect& effect,
+                                          const std::vector<std::uint32_t>& rows) const;
+  [[nodiscard]] Columns short_columns_of(const Effect& effect) const;
+  [[nodiscard]] Eigen::MatrixXd zeros_of_kinds(const Eigen::MatrixXd& values) const;
+  [[nodiscard]] Eigen::MatrixXd full(const Columns& columns) const;
+  [[nodiscard]] Eigen::MatrixXd products_with_all(const Columns& columns) const;
+  [[nodiscard]] Eigen::MatrixXd own_products(const Columns& columns) const;
   void centre(Eigen::MatrixXd& columns) const;
-  [[nodiscard]] Trial with_columns(std::size_t effect, const Eigen::MatrixXd& columns, double below) const;
   void put_columns(const std::vector<std::size_t>& effects);
+  void sum_over_kinds(Eigen::Index first, Eigen::Index count);
+  void put_products(const std::vector<std::size_t>& effects);
   void solve();
 
   const FlankGeometry& geometry_;
@@ -73,8 +102,13 @@ class TrialFit {
   TriedColumns* tried_ = nullptr;
   std::vector<Eigen::Index> first_column_;
   std::vector<Row> rows_;
+  std::vector<std::uint32_t> row_numbers_;  ///< of the table
+  std::optional<AlikeRows> alike_;          ///< where rows are alike
   std::vector<double> trace_weight_;
+  Eigen::VectorXd kind_weight_;
+  Eigen::MatrixXd kind_products_;  ///< weights less what zeros take; empty: not worth it
   Eigen::MatrixXd columns_;  ///< nuisance, effects, the value last
+  Eigen::MatrixXd of_kinds_;  ///< sums of these over rows of a kind, each times the root of its weight
   Eigen::MatrixXd gram_;
   Eigen::VectorXd coefficients_;
   double square_ = 0.0;

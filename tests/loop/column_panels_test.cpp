@@ -185,17 +185,11 @@ struct SeenByHand {
     const Eigen::VectorXd w = problem.weight(used), y = problem.value(used);
     const Eigen::MatrixXd weighted = w.asDiagonal() * f;
     const SquareSolver normal(f.transpose() * weighted);
-    absorbed = normal.solve_columns(weighted.transpose() * c);
-    fitted = normal.solve_columns(weighted.transpose() * y);
+    const Eigen::MatrixXd absorbed = normal.solve_columns(weighted.transpose() * c);
+    const Eigen::VectorXd fitted = normal.solve_columns(weighted.transpose() * y);
     beside = c - f * absorbed;
     left = y - f * fitted;
     weight = w;
-    unit_scores = Eigen::MatrixXd::Zero(c.cols(), statistics.units());
-    for (std::size_t r = 0; r < used.size(); ++r) {
-      const auto row = static_cast<Eigen::Index>(r);
-      unit_scores.col(problem.unit[static_cast<std::size_t>(used[r])]) +=
-          w[row] * left[row] * beside.row(row).transpose();
-    }
     for (const CandidateGroup& group : problem.groups) {
       const auto own = beside.middleCols(group.first_column, group.columns);
       projected.emplace_back(own.transpose() * w.asDiagonal() * own);
@@ -204,14 +198,16 @@ struct SeenByHand {
   [[nodiscard]] std::vector<double> agreement() const {
     std::vector<int> columns(static_cast<std::size_t>(problem.nuisance.cols()));
     std::iota(columns.begin(), columns.end(), 0);
-    return agreement_of_wholes(problem, statistics, {columns, absorbed, fitted, unit_scores},
-                               projected, std::vector<bool>(problem.groups.size(), true));
+    ProjectedCandidates candidates(problem, statistics, {});
+    candidates.put_beside(columns);
+    return agreement_of_wholes(problem, statistics, candidates, projected,
+                               std::vector<bool>(problem.groups.size(), true));
   }
 
   const DiscoveryProblem& problem;
   BlockStatistics statistics;
-  Eigen::MatrixXd absorbed, beside, unit_scores;
-  Eigen::VectorXd fitted, left, weight;
+  Eigen::MatrixXd beside;
+  Eigen::VectorXd left, weight;
   std::vector<Eigen::MatrixXd> projected;
 };
 

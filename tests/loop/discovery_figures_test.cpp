@@ -165,7 +165,7 @@ TEST(StructureTest, OfALocalGroupIsStudentsTestAgainstTheOthersOfItsFamily) {
     const BlockStatistics statistics(problem);
     std::vector<int> columns(static_cast<std::size_t>(nuisance));
     std::iota(columns.begin(), columns.end(), 0);
-    const StructureTest test(problem, statistics, columns, 99, {});
+    const StructureTest test = test::structure_beside(problem, statistics, columns, 99);
     const LeftByHand hand(problem);
     std::vector<double> scores;
     const auto all = [](std::size_t) { return true; };
@@ -192,7 +192,7 @@ TEST(StructureTest, OfALocalGroupIsStudentsTestAgainstTheOthersOfItsFamily) {
     // a banned one is not asked, and counts for nothing
     std::vector<bool> banned(problem.groups.size(), false);
     banned[17] = true;
-    const StructureTest without(problem, statistics, columns, 99, banned);
+    const StructureTest without = test::structure_beside(problem, statistics, columns, 99, banned);
     EXPECT_NE(without.most_likely_local(), 17);
     EXPECT_GT(without.local_p_value(), 10.0 * least);
   }
@@ -204,13 +204,13 @@ TEST(StructureTest, ByFlipsFindsWhatIsThereAndSeldomWhatIsNot) {
     DiscoveryProblem problem = made_problem(seed, seed % 2 == 0);
     for (int i = 0; i < 120; ++i) problem.unit[static_cast<std::size_t>(i)] = i / 3;
     const BlockStatistics nothing(problem);
-    alarms += StructureTest(problem, nothing, {0, 1}, 99, {}).p_value() < 0.055;
+    alarms += test::structure_beside(problem, nothing, {0, 1}, 99).p_value() < 0.055;
     const int hidden = static_cast<int>(seed % 12);
     const CandidateGroup& group = problem.groups[hidden];
     for (int k = 0; k < group.columns; ++k)
       problem.value += 1.5 * problem.candidates.col(group.first_column + k).cast<double>();
     const BlockStatistics statistics(problem);
-    const StructureTest test(problem, statistics, {0, 1}, 99, {});
+    const StructureTest test = test::structure_beside(problem, statistics, {0, 1}, 99);
     EXPECT_EQ(test.most_likely(), hidden) << seed;
     EXPECT_DOUBLE_EQ(test.p_value(), 0.01) << seed;  // none of 99 flips has as much
     EXPECT_EQ(test.p_value(), test.p_value_of(hidden));
@@ -227,7 +227,7 @@ TEST(StructureTest, WhatTheModelHoldsCannotBeSeen) {
       problem.candidates.col(problem.groups[5].first_column);
   problem.candidates.col(problem.groups[9].first_column).setZero();
   const BlockStatistics statistics(problem);
-  const StructureTest test(problem, statistics, {0, 1}, 19, {});
+  const StructureTest test = test::structure_beside(problem, statistics, {0, 1}, 19);
   for (int g = 0; g < 24; ++g) {
     const bool hidden = g == 0 || g == 1 || g == 5 || g == 9;
     EXPECT_EQ(test.observable()[static_cast<std::size_t>(g)], !hidden) << g;
@@ -336,24 +336,28 @@ TEST(PanelRows, AreAddedAndSubtractedColumnByColumn) {
   }
   const Panel both{row, other};
   const double factors[] = {2.0, -3.0};
-  PanelRow added = row, subtracted = row, both_subtracted = row;
+  PanelRow added = row, added_too = other, subtracted = row;
   const PanelRow* const where[] = {&both[0], &both[1]};
-  add_rows(added, factors, where, 2);
-  subtract_rows(subtracted, factors, both.data(), 2);
   const double more[] = {0.5, 4.0};
-  subtract_rows(both_subtracted, factors, where, more, both.data(), 2);
-  std::vector<PanelRow> products(3, row), less(3, row);
+  add_rows(added, factors, added_too, more, where, 2);
+  subtract_rows(subtracted, factors, both.data(), 2);
+  std::vector<PanelRow> products(3, row), less(3, row), mixed(3, row);
   add_products(products, 2.0, other);
   subtract_products(less, row, other);
+  add_mixed_products(mixed.data(), mixed.size(), row, other, 0.5);
   for (std::size_t j = 0; j < kPanelColumns; ++j) {
     EXPECT_DOUBLE_EQ(added[j], row[j] + 2.0 * row[j] - 3.0 * other[j]);
     EXPECT_DOUBLE_EQ(subtracted[j], row[j] - 2.0 * row[j] + 3.0 * other[j]);
-    EXPECT_DOUBLE_EQ(both_subtracted[j], row[j] - 2.5 * row[j] - 1.0 * other[j]);
+    EXPECT_DOUBLE_EQ(added_too[j], other[j] + 0.5 * row[j] + 4.0 * other[j]);
     for (std::size_t apart = 0; apart < 3; ++apart) {
       const bool inside = j + apart < kPanelColumns;
       EXPECT_DOUBLE_EQ(products[apart][j],
                        row[j] + (inside ? 2.0 * other[j] * other[j + apart] : 0.0));
       EXPECT_DOUBLE_EQ(less[apart][j], row[j] - (inside ? row[j] * other[j + apart] : 0.0));
+      EXPECT_DOUBLE_EQ(mixed[apart][j],
+                       row[j] + (inside ? row[j] * other[j + apart] + other[j] * row[j + apart] +
+                                              0.5 * row[j] * row[j + apart]
+                                        : 0.0));
     }
   }
 }

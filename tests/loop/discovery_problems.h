@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trueflank/loop/discovery/discovery.h"
+#include "trueflank/loop/discovery/structure_test.h"
 
 // Small made problems for the engine.
 namespace trueflank::loop::test {
@@ -50,6 +51,16 @@ inline DiscoveryProblem holding(const std::vector<std::pair<int, double>>& group
       problem.value +=
           factor * problem.candidates.col(problem.groups[g].first_column + k).cast<double>();
   return problem;
+}
+
+/// What is told beside some columns of a model, all at once.
+inline StructureTest structure_beside(const DiscoveryProblem& problem,
+                                      const BlockStatistics& statistics,
+                                      const std::vector<int>& columns, int flips,
+                                      const std::vector<bool>& banned = {}) {
+  ProjectedCandidates beside(problem, statistics, banned);
+  beside.put_beside(columns);
+  return {problem, statistics, beside, flips, banned};
 }
 
 }  // namespace trueflank::loop::test

@@ -78,7 +78,7 @@ std::string of_problem(int seed) {
     for (int g = 0; g < 6; ++g) problem.groups[static_cast<std::size_t>(g)].kin = g / 2;
   const BlockStatistics statistics(problem);
   return told(discover(problem, {.flips = 99})) + " |" +
-         told(StructureTest(problem, statistics, {0, 1}, 49, {}), 24);
+         told(test::structure_beside(problem, statistics, {0, 1}, 49), 24);
 }
 
 /// Many groups that hang together, some the sum of two others, with preferences, kin and bans.
@@ -133,7 +133,7 @@ std::string of_hard_problem(int seed) {
     for (int g = 0; g < groups; ++g) options.banned.push_back(pick(4) == 0);
   const BlockStatistics statistics(problem);
   return told(discover(problem, options)) + " |" +
-         told(StructureTest(problem, statistics, {0}, 49, options.banned), groups);
+         told(test::structure_beside(problem, statistics, {0}, 49, options.banned), groups);
 }
 
 std::string of_ring(int seed) {

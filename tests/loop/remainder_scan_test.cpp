@@ -195,6 +195,26 @@ TEST(RingScan, SeldomAlarms) {
   EXPECT_LE(alarms, 6);
 }
 
+TEST(RingScan, SaysTheSameOfALevelWhereverItsAnswerIsYes) {
+  int yes = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const double size = 0.25 * static_cast<double>(seed % 8);
+    const auto series = with(errors(24, 3, 0.0, seed), [&](double x, auto) { return x < 0.3 ? size : 0.0; });
+    const RingFinding whole = scan_ring(series, all_places(24), 24);
+    for (const double level : {0.2, 0.02, 0.004}) {
+      const RingFinding asked = scan_ring(series, all_places(24), 24, level);
+      ASSERT_EQ(asked.p_value <= level, whole.p_value <= level) << seed;
+      if (asked.p_value > level) continue;
+      ++yes;
+      EXPECT_EQ(asked.p_value, whole.p_value);
+      EXPECT_EQ(asked.kind, whole.kind);
+      EXPECT_EQ(asked.first, whole.first);
+      EXPECT_EQ(asked.count, whole.count);
+    }
+  }
+  EXPECT_GT(yes, 20);
+}
+
 TEST(RingScan, SeldomAlarmsWhereEightTeethOfManyWereTraced) {
   int alarms = 0;
   for (const int ring : {33, 47, 62}) {

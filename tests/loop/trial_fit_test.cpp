@@ -6,6 +6,7 @@
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/gear/table/alike_rows.h"
 
 // Trial fits against the fit that sums everything anew.
 namespace trueflank::test {
@@ -112,6 +113,121 @@ TEST_F(TrialFits, WhatStandsBeforeTheFirstStaysAsItIs) {
   loop::refine_shapes(geometry_, table_, patches_, effects, 1);
   EXPECT_EQ(effects[0].shape[0], 0.6);
   EXPECT_NE(effects[1].shape[0], 1.5);
+}
+
+/// Shapes of families that have none to choose from, over profile and face of a gear.
+std::vector<loop::EffectShape> shapes_of(const loop::EffectFamily& family, const MadeGear& gear) {
+  const double diameter = 2.0 * gear.reference(), height = 0.4 * gear.face_mm;
+  if (family.id == "unnamed_step") return {{0.0, diameter}, {1.0, height}};
+  if (family.id == "unnamed_kink") return {{0.0, diameter, 1.0}, {1.0, height, -1.0}, {1.0, height, 0.0}};
+  if (family.id == "unnamed_band") return {{0.0, diameter, 0.5}, {1.0, height, 1.0}};
+  if (family.id == "unnamed_waviness") return {{0.0, 0.8}, {1.0, 2.3}};
+  return family.shapes ? family.shapes(geometry_of(gear)) : std::vector<loop::EffectShape>{{}};
+}
+
+TEST(Effects, ThatAreSaidToBeTheSameOnEveryToothAre) {
+  const MadeGear gear = helical(23, 12.0);
+  const loop::FlankGeometry geometry = geometry_of(gear);
+  int asked = 0;
+  for (const loop::EffectFamily& family : loop::effect_library())
+    for (const loop::EffectShape& shape : shapes_of(family, gear)) {
+      if (!family.same_on_every_tooth || !family.same_on_every_tooth(shape)) continue;
+      ++asked;
+      for (const int side : {1, -1})
+        for (const double share : {0.1, 0.45, 0.9}) {
+          const double roll = geometry.root_form_roll_mm() +
+                              share * (geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+          const double z = (1.0 - 0.7 * share) * gear.face_mm;
+          double first[8], other[8];
+          family.evaluate(geometry, geometry.on_flank(1, side, roll, z), shape, first);
+          for (const int tooth : {2, 9, 23}) {
+            family.evaluate(geometry, geometry.on_flank(tooth, side, roll, z), shape, other);
+            for (int k = 0; k < family.columns(shape); ++k) EXPECT_EQ(other[k], first[k]) << family.id;
+          }
+        }
+    }
+  EXPECT_GT(asked, 60);
+}
+
+/// Helix traces of all teeth, an index beside them.
+class TrialFitsOfTraces : public ::testing::Test {
+ protected:
+  TrialFitsOfTraces() {
+    const auto wavy = grown([](const MadeGear& gear, const FlankSpot& s, const Vec3&) {
+      return 3.0 * std::cos(2.0 * M_PI * s.v * 0.5 * gear.face_mm / 3.1);
+    });
+    InspectionOptions options;
+    for (int tooth = 1; tooth <= gear_.teeth; ++tooth) options.teeth.push_back(tooth);
+    options.points = 40;
+    options.noise_um = 0.5;
+    loop::MeasuredData data;
+    data.inspections.push_back(inspection_of(gear_, {wavy}, options));
+    table_ = *make_observations(geometry_, data, {});
+    patches_ = make_patches(geometry_, table_);
+  }
+  double square(const std::vector<Effect>& effects) const {
+    return loop::PointFit(geometry_, table_, patches_, effects).residual_square();
+  }
+  static Effect of(const std::string& id, loop::EffectShape shape) {
+    return {family(id), loop::FlankChoice::kBoth, std::move(shape)};
+  }
+
+  MadeGear gear_ = spur(24);
+  loop::FlankGeometry geometry_ = geometry_of(gear_);
+  loop::Observations table_;
+  loop::Patches patches_;
+};
+
+TEST_F(TrialFitsOfTraces, RowsAreAlikeThatDifferByTheToothAlone) {
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t i = 0; i < table_.rows.size(); ++i) rows.push_back(i);
+  const loop::AlikeRows alike = loop::alike_rows(table_, rows);
+  EXPECT_LT(alike.first.size(), rows.size() / 10);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const loop::Observation &own = table_.rows[rows[i]], &first = table_.rows[alike.first[alike.kind[i]]];
+    EXPECT_EQ(table_.place(own).z_mm, table_.place(first).z_mm);
+    EXPECT_EQ(table_.place(own).roll_mm, table_.place(first).roll_mm);
+    EXPECT_EQ(table_.place(own).side, table_.place(first).side);
+    EXPECT_EQ(own.weight, first.weight);
+  }
+}
+
+TEST_F(TrialFitsOfTraces, ShapesThatAreAlikeOnAllTeethAreTriedAsTheWholeFitDoes) {
+  const double height = 0.4 * gear_.face_mm;
+  const std::vector<Effect> effects{of("unnamed", {0.0, 1.0, 1.0, 0.0}), of("unnamed_waviness", {1.0, 3.3}),
+                                    of("unnamed_kink", {1.0, height, 1.0})};
+  loop::TrialFit trial(geometry_, table_, patches_, effects);
+  EXPECT_NEAR(trial.residual_square() / square(effects), 1.0, 1e-9);
+  const loop::PointFit whole(geometry_, table_, patches_, effects);
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    double least = 1.0;
+    for (int k = 0; k < effects[e].columns(); ++k) {
+      const int column = whole.first_column(static_cast<int>(e)) + k;
+      EXPECT_NEAR(trial.coefficients(e)[k], whole.coefficients()[column], 1e-8);
+      least = std::min(least, whole.retained(column));
+    }
+    EXPECT_NEAR(trial.as_is(e).retained, least, 1e-7);
+  }
+  const std::vector<std::vector<loop::EffectShape>> shapes{
+      {}, {{1.0, 3.1}, {1.0, 2.9}}, {{1.0, 0.8 * height, 1.0}, {1.0, height, -1.0}, {1.0, height, 0.0}}};
+  for (std::size_t e = 1; e < effects.size(); ++e) {
+    const auto trials = trial.with_shapes(e, shapes[e], 1e300);
+    for (std::size_t i = 0; i < shapes[e].size(); ++i) {
+      std::vector<Effect> other = effects;
+      other[e].shape = shapes[e][i];
+      EXPECT_NEAR(trials[i].square / square(other), 1.0, 1e-9);
+      loop::TrialFit moved(geometry_, table_, patches_, effects);
+      moved.set_shapes(other);
+      EXPECT_NEAR(moved.residual_square() / square(other), 1.0, 1e-9);
+      EXPECT_NEAR(moved.as_is(e).retained, trials[i].retained, 1e-9);
+    }
+  }
+}
+
+TEST_F(TrialFitsOfTraces, FindTheLengthOfTheirWaves) {
+  std::vector<Effect> effects{of("unnamed_waviness", {1.0, 3.4})};
+  EXPECT_TRUE(loop::refine_nearby(geometry_, table_, patches_, effects));
+  EXPECT_NEAR(effects[0].shape[1], 3.1, 0.05);
 }
 
 TEST(Patches, LeftOutForOneStepGetTheirWeightBackForAnother) {

@@ -61,6 +61,7 @@ template <class Function>
                ? function(g, g.profile_coordinate(p.roll_mm), g.face_coordinate(p.z_mm), p.side)
                : 0.0;
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   return f;
 }
 

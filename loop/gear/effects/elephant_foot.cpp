@@ -30,6 +30,7 @@ EffectFamily elephant_foot() {
   f.shape_limits = [](const FlankGeometry& g, std::size_t) {
     return std::pair(0.02, std::max(0.3, kMostOfFace * g.face_width_mm()));
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.told_from = {{"crowning", "sections at several heights near the lower face"}};

@@ -33,6 +33,7 @@ EffectFamily flank_wear() {
     const double t = (p.roll_mm - g.roll_at_radius_mm(0.5 * shape[0])) / shape[1];
     c[0] = -std::exp(-t * t);
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
   f.shape_limits = [](const FlankGeometry& g, std::size_t k) {
     if (k == 0) return diameter_limits(g);

@@ -33,6 +33,7 @@ EffectFamily tip_relief() {
     const double past = (p.roll_mm - start) / (g.tip_form_roll_mm() - start);
     if (past > 0.0) c[0] = -past * past;
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.along_profile = true}; };
   f.shape_limits = [](const FlankGeometry& g, std::size_t) { return diameter_limits(g); };
   f.told_from = {{"flank_wear", "the unworn (coast) flank"},

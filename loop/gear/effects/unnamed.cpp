@@ -117,6 +117,7 @@ EffectFamily unnamed() {
     if (wave) c[1] = value * std::sin(angle);
   };
   f.evaluate_together = evaluate_terms;
+  f.same_on_every_tooth = [](const EffectShape& shape) { return shape[2] == 0.0; };
   f.order = [](const EffectShape& shape) { return shape[2]; };
   f.needs = [](const EffectShape& shape) {
     return NeedsToBeSeen{.along_profile = shape[0] > 0.0,

@@ -100,6 +100,7 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
                           double* c) {
     c[0] = p.surface == Surface::kFlank ? function(g, p, shape) : 0.0;
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = needs_of_direction;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   return f;
@@ -213,6 +214,7 @@ EffectFamily unnamed_waviness() {
     c[0] = flank ? std::cos(angle) : 0.0;
     c[1] = flank ? std::sin(angle) : 0.0;
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = needs_of_direction;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry&, const EffectShape& shape) {

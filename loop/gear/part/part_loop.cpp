@@ -196,10 +196,14 @@ bool PartLoop::put_refined_shapes_on_the_grid() {
   const std::vector<Effect> chosen = effects_;
   // What one moves to another makes room for: both in turn until neither moves.
   constexpr int kMostTurns = 8;
-  TriedColumns tried;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    refine_shapes(geometry_, table_, patches_, effects_, options_.given.size(), &tried);
-    if (!refine_nearby(geometry_, table_, patches_, effects_, &tried)) break;
+  if (can_be_refined(effects_, options_.given.size())) {
+    TriedColumns tried;
+    TrialFit fit = fit_to_refine(geometry_, table_, patches_, effects_, &tried);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      refine_shapes(geometry_, options_.given.size(), fit);
+      if (!refine_nearby(geometry_, fit)) break;
+    }
+    effects_ = fit.effects();
   }
   std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
   leave_out_across_steps();
