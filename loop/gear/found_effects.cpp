@@ -169,7 +169,10 @@ class Describer {
       return family.sentence(sources_.geometry, found) + first_action(family.correction);
     if (found.named) return found.description + first_action(found.correction);
     const double size = found.terms.front().amplitude();
+    const FlankChoice flank = sources_.fit.effects()[effect].flank;
+    const bool says_flank = family.flank_only || flank == FlankChoice::kBoth;
     return printed("A deviation of %.3g um without a known cause: ", size) + found.terms.front().text +
+           (says_flank ? "" : ", " + flank_text(flank) + " flanks alone") +
            (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1) : "") +
            (family.local ? "; inspect that tooth" : "; find its source before anything is corrected");
   }

@@ -173,6 +173,7 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
 
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
+  tell_as_one_form();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
@@ -181,6 +182,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_waves_of_a_form();
   tell_level_of_forms();
   tell_teeth_side_by_side();
+  tell_what_teeth_do_not_share();
 }
 
 /// What was told before (of other data) stays as it is.
