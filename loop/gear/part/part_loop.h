@@ -117,6 +117,8 @@ class PartLoop {
   void tell_means_of_odd_forms();
   void tell_means_of_one_wave();
   void tell_imitations();
+  void tell_means_across_flanks();
+  void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these, const std::vector<Effect>& forms);

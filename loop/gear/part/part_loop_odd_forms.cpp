@@ -215,6 +215,79 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
 
 }  // namespace
 
+namespace {
+
+/// Effects in the mean of the teeth, on the grid of one flank: heights down, rolls across.
+using MeanOfFlank = Eigen::Matrix<double, kGridSide, kGridSide>;
+std::array<MeanOfFlank, 2> mean_of_flanks(const FlankField& field) {
+  const Eigen::VectorXd mean = field.rowwise().mean();
+  std::array<MeanOfFlank, 2> flanks;
+  for (const std::size_t flank : {0, 1})
+    for (int v = 0; v < kGridSide; ++v)
+      for (int u = 0; u < kGridSide; ++u)
+        flanks[flank](v, u) = mean[static_cast<Eigen::Index>(flank) * kGridSide * kGridSide +
+                                   v * kGridSide + u];
+  return flanks;
+}
+
+/// True where a name is the same all along one direction of the flanks, the forms change it there by
+/// more than half of itself, and it stands as it is on less than half of the way.
+bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
+                    const std::array<MeanOfFlank, 2>& forms) {
+  constexpr double kAlike = 1e-6, kLevel = 0.5, kChanges = 0.5, kStands = 0.25;
+  double square = 0.0, level = 0.0;
+  for (const MeanOfFlank& flank : name) {
+    square += flank.squaredNorm();
+    level += flank.mean() * flank.mean() * kGridSide * kGridSide;
+  }
+  if (!(square > 0.0)) return false;
+  for (const bool face : {true, false}) {
+    Eigen::Matrix<double, 2 * kGridSide, 1> course;
+    Eigen::Matrix<double, 2 * kGridSide, kGridSide> changed;
+    double off = 0.0;
+    for (const int flank : {0, 1}) {
+      const auto at = static_cast<std::size_t>(flank);
+      const MeanOfFlank own = face ? MeanOfFlank(name[at].transpose()) : name[at],
+                        others = face ? MeanOfFlank(forms[at].transpose()) : forms[at];
+      const Eigen::Matrix<double, kGridSide, 1> mean = own.rowwise().mean();
+      off += (own.colwise() - mean).squaredNorm();
+      course.segment<kGridSide>(flank * kGridSide) = mean;
+      if (level < kLevel * square)  // of what leans or bends its height says nothing
+        course.segment<kGridSide>(flank * kGridSide).array() -= mean.mean();
+      changed.middleRows<kGridSide>(flank * kGridSide) = others;
+    }
+    if (off > kAlike * square || !(course.squaredNorm() > kAlike * square)) continue;
+    const Eigen::Matrix<double, kGridSide, 1> share =
+        changed.transpose() * course / course.squaredNorm();
+    if (share.maxCoeff() - share.minCoeff() < kChanges) continue;
+    if (2 * (share.array().abs() < kStands).count() < kGridSide) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// A slope, a bow or a height that forms without a name change from one end of the flanks to the
+/// other is the mean of these: growth above a height was a scale.
+void PartLoop::tell_means_across_flanks() {
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
+    return;
+  const auto fit = fit_of(effects_);
+  FlankField forms = FlankField::Zero(2 * kGridSide * kGridSide, geometry_.teeth());
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].is_term() && effects_[e].order() == 0.0)
+      forms += field_of(geometry_, *fit, e);
+  const std::array<MeanOfFlank, 2> mean = mean_of_flanks(forms);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1 ||
+        effects_[e].order() != 0.0 || e < options_.given.size() - given_p_values_.size())
+      continue;
+    const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e);
+    if (form != nullptr && is_mean_across(mean_of_flanks(field_of(geometry_, *fit, e)), mean))
+      effects_[e].family = form;
+  }
+}
+
 /// A name says that all teeth have a form alike. Where these differ in it by more than that itself,
 /// it is the mean of something else (a dent of every fourth tooth): a form.
 void PartLoop::tell_what_teeth_do_not_share() {

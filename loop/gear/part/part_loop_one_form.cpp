@@ -14,7 +14,7 @@ namespace trueflank::loop {
 namespace {
 
 /// How an effect that is the same on every tooth, and on the flanks it acts on, runs along them.
-enum class Runs { kNowhere, kOverProfile, kOverFace, kOtherwise };
+enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
 
 Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
   constexpr int kOfGrid = 9;
@@ -45,8 +45,42 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
     for (const int side : {1, -1})
       apart = std::max(apart, std::abs(at(tooth, side, 0.7, 0.3) - at(1, side, 0.7, 0.3)));
   const double nothing = kAlike * size;
-  if (apart > nothing || (profile > nothing && face > nothing)) return Runs::kOtherwise;
+  if (apart > nothing) return Runs::kOtherwise;
+  if (profile > nothing && face > nothing) return Runs::kOverBoth;
   return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
+}
+
+/// True where effects are larger, each by itself, than they are together.
+bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
+                     const std::vector<std::size_t>& these) {
+  constexpr int kOfGrid = 9;
+  constexpr double kUndo = 1.5;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto size = static_cast<Eigen::Index>(2 * kOfGrid * kOfGrid);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+  double squares = 0.0;
+  for (const std::size_t e : these) {
+    const Effect& effect = fit.effects()[e];
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    Eigen::VectorXd own(size);
+    Eigen::Index at = 0;
+    for (const int side : {1, -1})
+      for (int i = 0; i < kOfGrid; ++i)
+        for (int k = 0; k < kOfGrid; ++k, ++at) {
+          double value = 0.0;
+          effect.evaluate(geometry,
+                          geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
+                                            (k + 0.5) / kOfGrid * geometry.face_width_mm()),
+                          &value);
+          own[at] = b * value;
+        }
+    for (const Eigen::Index flank : {0, 1})
+      own.segment(flank * size / 2, size / 2).array() -=
+          own.segment(flank * size / 2, size / 2).mean();
+    squares += own.squaredNorm();
+    sum += own;
+  }
+  return squares > kUndo * sum.squaredNorm();
 }
 
 /// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
@@ -129,6 +163,7 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 const std::vector<Effect>& forms) {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
+  constexpr double kNearly = 0.003;  // of what they take out
   std::vector<Effect> rest, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
     (std::find(these.begin(), these.end(), e) == these.end() ? rest : own).push_back(effects_[e]);
@@ -140,7 +175,10 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   const int spared = values_of(own, true) - values_of({with.back()}, true);
   if (spared < 0) return false;
   const double gain = fit_of(effects_)->residual_square() - fit_of(with)->residual_square();
-  if (gain < kClearly - kValue * spared) return false;
+  // Names that undo each other most of the way are no two causes.
+  const double none = fit_of(rest)->residual_square() - fit_of(effects_)->residual_square();
+  const double doubt = undo_each_other(geometry_, *fit_of(effects_), these) ? std::max(kClearly, kNearly * none) : 0.0;
+  if (gain < kClearly - kValue * spared - doubt) return false;
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)
@@ -163,11 +201,13 @@ void PartLoop::tell_as_one_form() {
   const auto once = [&] {
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
+      std::vector<std::size_t> all_over;
       for (std::size_t e = told; e < effects_.size(); ++e) {
         if (effects_[e].flank != flank) continue;
         const Runs runs = runs_of(geometry_, effects_[e]);
         if (runs == Runs::kOverProfile) along[0].push_back(e);
         if (runs == Runs::kOverFace) along[1].push_back(e);
+        if (runs != Runs::kOtherwise && runs != Runs::kNowhere) all_over.push_back(e);
       }
       const auto has_name = [&](const std::vector<std::size_t>& set) {
         return std::any_of(set.begin(), set.end(),
@@ -178,15 +218,12 @@ void PartLoop::tell_as_one_form() {
         for (const std::size_t e : set) effects.push_back(effects_[e]);
         return values_of(effects, true);
       };
-      if (!along[0].empty() && !along[1].empty()) {
-        std::vector<std::size_t> all = along[0];
-        all.insert(all.end(), along[1].begin(), along[1].end());
-        std::sort(all.begin(), all.end());
-        constexpr int kValuesOfDish = 5;
-        if (has_name(all) && values(all) >= kValuesOfDish &&
-            put_one_form_for(all, dishes(geometry_, flank)))
-          return true;
-      }
+      const bool crossed = all_over.size() > along[0].size() + along[1].size() ||
+                           (!along[0].empty() && !along[1].empty());
+      constexpr int kValuesOfDish = 5;
+      if (crossed && values(all_over) >= kValuesOfDish &&
+          put_one_form_for(all_over, dishes(geometry_, flank)))
+        return true;
       for (const int face : {0, 1}) {
         const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];
         std::vector<std::vector<std::size_t>> sets;
