@@ -234,7 +234,7 @@ std::array<MeanOfFlank, 2> mean_of_flanks(const FlankField& field) {
 /// more than half of itself, and it stands as it is on less than half of the way.
 bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
                     const std::array<MeanOfFlank, 2>& forms) {
-  constexpr double kAlike = 1e-6, kLevel = 0.5, kChanges = 0.5, kStands = 0.25;
+  constexpr double kAlike = 1e-6, kLevel = 0.75, kChanges = 0.5, kStands = 0.25;
   double square = 0.0, level = 0.0;
   for (const MeanOfFlank& flank : name) {
     square += flank.squaredNorm();
@@ -273,9 +273,10 @@ void PartLoop::tell_means_across_flanks() {
   if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
     return;
   const auto fit = fit_of(effects_);
+  // Short waves change nothing from one end to the other.
   FlankField forms = FlankField::Zero(2 * kGridSide * kGridSide, geometry_.teeth());
   for (std::size_t e = 0; e < effects_.size(); ++e)
-    if (effects_[e].is_term() && effects_[e].order() == 0.0)
+    if (effects_[e].is_term() && effects_[e].order() == 0.0 && effects_[e].columns() == 1)
       forms += field_of(geometry_, *fit, e);
   const std::array<MeanOfFlank, 2> mean = mean_of_flanks(forms);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
