@@ -63,7 +63,8 @@ TEST(OneForm, AHollowInTheMiddleOfEveryFlankIsNoWear) {
     EXPECT_FALSE(has_name(result)) << list(result);
     told += list(result) + "\n";
   }
-  EXPECT_NE(told.find("a hollow or swelling of the flank at a diameter of"), std::string::npos) << told;
+  EXPECT_NE(told.find("a hollow or swelling of the flank at a diameter of"), std::string::npos)
+      << told;
 }
 
 TEST(OneForm, ARootReliefOnThreeTeethIsNoWear) {

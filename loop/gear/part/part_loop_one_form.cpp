@@ -24,10 +24,10 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const auto at = [&](int tooth, int side, double u, double v) {
     double value = 0.0;
-    effect.evaluate(geometry,
-                    geometry.on_flank(tooth, side, low + u * (high - low),
-                                      v * geometry.face_width_mm()),
-                    &value);
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()),
+        &value);
     return value;
   };
   double size = 0.0, profile = 0.0, face = 0.0, apart = 0.0;
@@ -117,16 +117,15 @@ std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank) {
     for (const double v : {0.25, 0.5, 0.75})
       for (const double wide : {0.2, 0.4})
         for (const double long_ : {0.2, 0.4})
-          forms.push_back(
-              {find_family("unnamed_dish"),
-               flank,
-               {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm, v * face_mm,
-                wide * std::abs(high - low), long_ * face_mm}});
+          forms.push_back({find_family("unnamed_dish"),
+                           flank,
+                           {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
+                            v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
   return forms;
 }
 
-/// The form that leaves least in place of the last effect, first among those of its family by trial,
-/// then beside the others.
+/// The form that leaves least in place of the last effect, first among those of its family by
+/// trial, then beside the others.
 std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observations& table,
                                    const Patches& patches, std::vector<Effect> rest,
                                    const std::vector<Effect>& forms) {
@@ -163,7 +162,7 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 const std::vector<Effect>& forms) {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
-  constexpr double kNearly = 0.003;  // of what they take out
+  constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> rest, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
     (std::find(these.begin(), these.end(), e) == these.end() ? rest : own).push_back(effects_[e]);
@@ -177,7 +176,9 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   const double gain = fit_of(effects_)->residual_square() - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes.
   const double none = fit_of(rest)->residual_square() - fit_of(effects_)->residual_square();
-  const double doubt = undo_each_other(geometry_, *fit_of(effects_), these) ? std::max(kClearly, kNearly * none) : 0.0;
+  const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
+                           ? std::max(kClearly, kNearly * none)
+                           : 0.0;
   if (gain < kClearly - kValue * spared - doubt) return false;
   ChosenGroup record;
   record.group = -1;
@@ -193,8 +194,8 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
 }
 
 /// Two slopes and bows, or one name with a place and a width, follow many forms: a profile that is
-/// thicker at its root alone was a pressure angle and a hollow. A sum in which a name stands is told
-/// as one form where that says as much with no more values.
+/// thicker at its root alone was a pressure angle and a hollow. A sum in which a name stands is
+/// told as one form where that says as much with no more values.
 void PartLoop::tell_as_one_form() {
   if (options_.joined || table_->rows.empty()) return;
   const std::size_t told = options_.given.size() - given_p_values_.size();
