@@ -178,10 +178,13 @@ class Describer {
         in_um ? found.terms.front().amplitude() : sources_.fit.effect_size_um(effect);
     const FlankChoice flank = sources_.fit.effects()[effect].flank;
     const bool says_flank = family.flank_only || flank == FlankChoice::kBoth;
-    return printed("A deviation of %.3g um without a known cause: ", size) + found.terms.front().text +
+    return printed("A deviation of %.3g um without a known cause: ", size) +
+           found.terms.front().text +
            (says_flank ? "" : ", " + flank_text(flank) + " flanks alone") +
-           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1) : "") +
-           (family.local ? "; inspect that tooth" : "; find its source before anything is corrected");
+           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1)
+                                   : "") +
+           (family.local ? "; inspect that tooth"
+                         : "; find its source before anything is corrected");
   }
 
   /// Every effect's share of what all explain together.

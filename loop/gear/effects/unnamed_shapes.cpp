@@ -70,7 +70,8 @@ std::vector<EffectShape> spots_beside(const FlankGeometry& g, const EffectShape&
   return shapes;
 }
 
-/// The end [mm] of roll or height: the lower one or the root's (-1), the upper one or the tip's (1).
+/// The end [mm] of roll or height: the lower one or the root's (-1), the upper one or the tip's
+/// (1).
 double end_mm(const FlankGeometry& g, double face, double end) {
   if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
   return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
@@ -172,7 +173,8 @@ EffectFamily unnamed_kink() {
       "unnamed_kink", {"along", "place_mm", "bends"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
         const double at = stands_at(g, shape[0], shape[1]), off = along(shape[0], p) - at;
-        const double low = end_mm(g, shape[0], kBefore) - at, high = end_mm(g, shape[0], kBeyond) - at;
+        const double low = end_mm(g, shape[0], kBefore) - at,
+                     high = end_mm(g, shape[0], kBeyond) - at;
         if (shape[2] == kBoth) return std::abs(off) / std::max(std::abs(low), std::abs(high));
         const double range = shape[2] == kBeyond ? high : low;
         return range != 0.0 ? std::max(0.0, off / range) : 0.0;
@@ -196,14 +198,14 @@ EffectFamily unnamed_kink() {
 /// Flat to its place, and from there on a parabola: 1 at the end it bends towards.
 EffectFamily unnamed_bend() {
   constexpr double kTowardsLow = -1.0, kTowardsHigh = 1.0;
-  EffectFamily f = along_flank(
-      "unnamed_bend", {"along", "place_mm", "curves"},
-      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-        const double at = stands_at(g, shape[0], shape[1]);
-        const double range = end_mm(g, shape[0], shape[2]) - at;
-        const double share = range != 0.0 ? (along(shape[0], p) - at) / range : 0.0;
-        return share > 0.0 ? share * share : 0.0;
-      });
+  EffectFamily f =
+      along_flank("unnamed_bend", {"along", "place_mm", "curves"},
+                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                    const double at = stands_at(g, shape[0], shape[1]);
+                    const double range = end_mm(g, shape[0], shape[2]) - at;
+                    const double share = range != 0.0 ? (along(shape[0], p) - at) / range : 0.0;
+                    return share > 0.0 ? share * share : 0.0;
+                  });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = places_inside(g, shape);
     shapes.push_back({shape[0], shape[1], shape[2] == kTowardsLow ? kTowardsHigh : kTowardsLow});
@@ -235,21 +237,22 @@ EffectFamily unnamed_rise() {
   f.is_like_many = true;
   f.term_keys = {kAlong, number("dies_within_mm"), {"towards"}};
   f.words = [](const EffectShape& shape, FlankChoice) {
-    return "the same on every tooth, more and more " + over(shape[0]) + towards(shape[0], shape[2]) +
-           printed(", within %.2g mm", shape[1]) + (shape[0] != 0.0 ? "" : " of roll length");
+    return "the same on every tooth, more and more " + over(shape[0]) +
+           towards(shape[0], shape[2]) + printed(", within %.2g mm", shape[1]) +
+           (shape[0] != 0.0 ? "" : " of roll length");
   };
   return f;
 }
 
 /// A hollow or swelling that ends over the profile and over the face.
 EffectFamily unnamed_dish() {
-  EffectFamily f = described("unnamed_dish", {"diameter_mm", "height_mm", "half_profile_mm", "half_mm"});
+  EffectFamily f =
+      described("unnamed_dish", {"diameter_mm", "height_mm", "half_profile_mm", "half_mm"});
   f.one_flank_too = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = p.surface == Surface::kFlank
-               ? bell(p.roll_mm - stands_at(g, 0.0, shape[0]), shape[2]) *
-                     bell(p.z_mm - shape[1], shape[3])
-               : 0.0;
+    c[0] = p.surface == Surface::kFlank ? bell(p.roll_mm - stands_at(g, 0.0, shape[0]), shape[2]) *
+                                              bell(p.z_mm - shape[1], shape[3])
+                                        : 0.0;
   };
   f.needs = [](const EffectShape&) {
     return NeedsToBeSeen{.along_profile = true, .along_face = true};

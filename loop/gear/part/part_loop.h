@@ -121,7 +121,8 @@ class PartLoop {
   void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
-  [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these, const std::vector<Effect>& forms);
+  [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
+                                      const std::vector<Effect>& forms);
   void tell_level_of_forms();
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();

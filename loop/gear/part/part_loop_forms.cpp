@@ -146,8 +146,8 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
   return beside || undo ? effects : std::set<std::size_t>();
 }
 
-/// Height of lobes that are sharper than a sine, told as one wave beside its multiples (ribs, jaws):
-/// these have a mean; 0: there are none.
+/// Height of lobes that are sharper than a sine, told as one wave beside its multiples (ribs,
+/// jaws): these have a mean; 0: there are none.
 double sharp_lobes_um(const PointFit& fit) {
   double most_um = 0.0;
   for (std::size_t one = 0; one < fit.effects().size(); ++one) {

@@ -225,13 +225,13 @@ std::array<MeanOfFlank, 2> mean_of_flanks(const FlankField& field) {
   for (const std::size_t flank : {0, 1})
     for (int v = 0; v < kGridSide; ++v)
       for (int u = 0; u < kGridSide; ++u)
-        flanks[flank](v, u) = mean[static_cast<Eigen::Index>(flank) * kGridSide * kGridSide +
-                                   v * kGridSide + u];
+        flanks[flank](v, u) =
+            mean[static_cast<Eigen::Index>(flank) * kGridSide * kGridSide + v * kGridSide + u];
   return flanks;
 }
 
-/// True where a name is the same all along one direction of the flanks, the forms change it there by
-/// more than half of itself, and it stands as it is on less than half of the way.
+/// True where a name is the same all along one direction of the flanks, the forms change it there
+/// by more than half of itself, and it stands as it is on less than half of the way.
 bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
                     const std::array<MeanOfFlank, 2>& forms) {
   constexpr double kAlike = 1e-6, kLevel = 0.75, kChanges = 0.5, kStands = 0.25;
