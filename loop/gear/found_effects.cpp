@@ -168,10 +168,23 @@ class Describer {
     if (found.named && family.sentence)
       return family.sentence(sources_.geometry, found) + first_action(family.correction);
     if (found.named) return found.description + first_action(found.correction);
-    const double size = found.terms.front().amplitude();
-    return printed("A deviation of %.3g um without a known cause: ", size) + found.terms.front().text +
-           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1) : "") +
-           (family.local ? "; inspect that tooth" : "; find its source before anything is corrected");
+    // A form of a size or an axis has its amount in percent.
+    const bool in_um = std::none_of(
+        effect_library().begin(), effect_library().end(), [&](const EffectFamily& named) {
+          return !family.form_word.empty() && named.form_word == family.form_word &&
+                 named.parameters.front() == "percent";
+        });
+    const double size =
+        in_um ? found.terms.front().amplitude() : sources_.fit.effect_size_um(effect);
+    const FlankChoice flank = sources_.fit.effects()[effect].flank;
+    const bool says_flank = family.flank_only || flank == FlankChoice::kBoth;
+    return printed("A deviation of %.3g um without a known cause: ", size) +
+           found.terms.front().text +
+           (says_flank ? "" : ", " + flank_text(flank) + " flanks alone") +
+           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1)
+                                   : "") +
+           (family.local ? "; inspect that tooth"
+                         : "; find its source before anything is corrected");
   }
 
   /// Every effect's share of what all explain together.

@@ -52,6 +52,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_flank();
 [[nodiscard]] EffectFamily unnamed_step();
 [[nodiscard]] EffectFamily unnamed_kink();
+[[nodiscard]] EffectFamily unnamed_bend();
+[[nodiscard]] EffectFamily unnamed_rise();
+[[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_marks();

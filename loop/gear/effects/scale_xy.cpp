@@ -9,6 +9,7 @@ EffectFamily scale_xy() {
   EffectFamily f;
   f.id = "scale_xy";
   f.description = "one axis in the plane is longer than the other";
+  f.form_word = "unequal_axes";
   f.causes = {{kPrinting | kContourCutting, "steps per millimetre of x and y differ"},
               {kPrinting | kInMould,
                "the part was cooled or squeezed one-sidedly, or shrinks along its flow"}};

@@ -70,6 +70,30 @@ std::vector<EffectShape> spots_beside(const FlankGeometry& g, const EffectShape&
   return shapes;
 }
 
+/// The end [mm] of roll or height: the lower one or the root's (-1), the upper one or the tip's
+/// (1).
+double end_mm(const FlankGeometry& g, double face, double end) {
+  if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
+  return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
+}
+std::string towards(double face, double end) {
+  if (end == 0.0) return " to both sides";
+  if (face != 0.0) return end > 0.0 ? " towards the upper end" : " towards the lower end";
+  return end > 0.0 ? " towards the tip" : " towards the root";
+}
+
+/// The same, off both ends.
+std::vector<EffectShape> places_inside(const FlankGeometry& g, const EffectShape& shape) {
+  constexpr double kEnds = 0.03;
+  std::vector<EffectShape> shapes = places_beside(g, shape);
+  std::erase_if(shapes, [&](const EffectShape& s) {
+    const double low = end_mm(g, s[0], -1.0), high = end_mm(g, s[0], 1.0);
+    const double share = (stands_at(g, s[0], s[1]) - low) / (high - low);
+    return !(share > kEnds && share < 1.0 - kEnds);
+  });
+  return shapes;
+}
+
 const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 TermKey number(const std::string& name) { return {name, TermKey::Kind::kNumber}; }
 
@@ -150,22 +174,14 @@ EffectFamily unnamed_kink() {
       "unnamed_kink", {"along", "place_mm", "bends"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
         const double at = stands_at(g, shape[0], shape[1]), off = along(shape[0], p) - at;
-        const bool face = shape[0] != 0.0;
-        const double low = (face ? 0.0 : g.root_form_roll_mm()) - at,
-                     high = (face ? g.face_width_mm() : g.tip_form_roll_mm()) - at;
+        const double low = end_mm(g, shape[0], kBefore) - at,
+                     high = end_mm(g, shape[0], kBeyond) - at;
         if (shape[2] == kBoth) return std::abs(off) / std::max(std::abs(low), std::abs(high));
         const double range = shape[2] == kBeyond ? high : low;
         return range != 0.0 ? std::max(0.0, off / range) : 0.0;
       });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    std::vector<EffectShape> shapes = places_beside(g, shape);
-    std::erase_if(shapes, [&](const EffectShape& s) {
-      constexpr double kEnds = 0.03;
-      const double low = s[0] != 0.0 ? 0.0 : g.root_form_roll_mm(),
-                   high = s[0] != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm();
-      const double share = (stands_at(g, s[0], s[1]) - low) / (high - low);
-      return !(share > kEnds && share < 1.0 - kEnds);
-    });
+    std::vector<EffectShape> shapes = places_inside(g, shape);
     for (const double bends : {kBefore, kBeyond, kBoth})
       if (bends != shape[2]) shapes.push_back({shape[0], shape[1], bends});
     return shapes;
@@ -173,14 +189,99 @@ EffectFamily unnamed_kink() {
   f.is_like_many = true;
   f.term_keys = {kAlong, number("place_mm"), {"bends"}};
   f.words = [](const EffectShape& shape, FlankChoice) {
-    const bool face = shape[0] != 0.0;
-    const char* where = shape[2] == kBoth ? " to both sides"
-                        : shape[2] == kBeyond
-                            ? (face ? " towards the upper end" : " towards the tip")
-                        : face ? " towards the lower end"
-                               : " towards the root";
     return "the same on every tooth, a kink " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", straight on in another direction" + where;
+           at_place(shape[0], shape[1]) + ", straight on in another direction" +
+           towards(shape[0], shape[2]);
+  };
+  return f;
+}
+
+/// Flat to its place, and from there on a parabola: 1 at the end it bends towards.
+EffectFamily unnamed_bend() {
+  constexpr double kTowardsLow = -1.0, kTowardsHigh = 1.0;
+  EffectFamily f =
+      along_flank("unnamed_bend", {"along", "place_mm", "curves"},
+                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                    const double at = stands_at(g, shape[0], shape[1]);
+                    const double range = end_mm(g, shape[0], shape[2]) - at;
+                    const double share = range != 0.0 ? (along(shape[0], p) - at) / range : 0.0;
+                    return share > 0.0 ? share * share : 0.0;
+                  });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = places_inside(g, shape);
+    shapes.push_back({shape[0], shape[1], shape[2] == kTowardsLow ? kTowardsHigh : kTowardsLow});
+    return shapes;
+  };
+  f.is_like_many = true;
+  f.term_keys = {kAlong, number("place_mm"), {"curves"}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, flat to a place " + over(shape[0]) + " " +
+           at_place(shape[0], shape[1]) + ", and curved from there on" +
+           towards(shape[0], shape[2]);
+  };
+  return f;
+}
+
+/// 1 at an end, and dying away from it.
+EffectFamily unnamed_rise() {
+  EffectFamily f = along_flank(
+      "unnamed_rise", {"along", "dies_within_mm", "towards"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        return std::exp(-std::abs(along(shape[0], p) - end_mm(g, shape[0], shape[2])) / shape[1]);
+      });
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
+      shapes.push_back({shape[0], times * shape[1], shape[2]});
+    return shapes;
+  };
+  f.is_like_many = true;
+  f.term_keys = {kAlong, number("dies_within_mm"), {"towards"}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, more and more " + over(shape[0]) +
+           towards(shape[0], shape[2]) + printed(", within %.2g mm", shape[1]) +
+           (shape[0] != 0.0 ? "" : " of roll length");
+  };
+  return f;
+}
+
+/// A hollow or swelling that ends over the profile and over the face.
+EffectFamily unnamed_dish() {
+  EffectFamily f =
+      described("unnamed_dish", {"diameter_mm", "height_mm", "half_profile_mm", "half_mm"});
+  f.one_flank_too = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank ? bell(p.roll_mm - stands_at(g, 0.0, shape[0]), shape[2]) *
+                                              bell(p.z_mm - shape[1], shape[3])
+                                        : 0.0;
+  };
+  f.needs = [](const EffectShape&) {
+    return NeedsToBeSeen{.along_profile = true, .along_face = true};
+  };
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const auto add = [&](std::size_t k, double value) {
+      shapes.push_back(shape);
+      shapes.back()[k] = value;
+    };
+    const auto [low, high] = std::minmax({g.root_form_roll_mm(), g.tip_form_roll_mm()});
+    for (const double share : {-0.3, -0.1, -0.03, 0.03, 0.1, 0.3}) {
+      const double roll = stands_at(g, 0.0, shape[0]) + share * shape[2];
+      add(0, 2.0 * g.on_flank(1, 1, std::clamp(roll, low, high), 0.0).radius_mm);
+      add(1, std::clamp(shape[1] + share * shape[3], 0.0, g.face_width_mm()));
+    }
+    for (const std::size_t k : {2U, 3U})
+      for (const double times : {0.7, 0.88, 0.96, 1.04, 1.14, 1.43}) add(k, times * shape[k]);
+    return shapes;
+  };
+  f.term_keys = {number("diameter_mm"), number("height_mm"), number("half_profile_mm"),
+                 number("half_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed(
+        "the same on every tooth, a hollow or swelling of the flank at a diameter of %.5g mm and "
+        "a height of %.3g mm, %.2g mm of roll length and %.2g mm of the face to either side",
+        shape[0], shape[1], shape[2], shape[3]);
   };
   return f;
 }

@@ -117,6 +117,12 @@ class PartLoop {
   void tell_means_of_odd_forms();
   void tell_means_of_one_wave();
   void tell_imitations();
+  void tell_means_across_flanks();
+  void tell_what_waves_leave();
+  void tell_what_teeth_do_not_share();
+  void tell_as_one_form();
+  [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
+                                      const std::vector<Effect>& forms);
   void tell_level_of_forms();
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();
@@ -171,6 +177,9 @@ class PartLoop {
 
 /// Columns of effects that are fitted whatever is selected.
 void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted);
+
+/// What effects are told by: their sizes, and with places and widths those that were sought.
+[[nodiscard]] int values_of(const std::vector<Effect>& effects, bool places_too);
 
 /// Where an effect's interval and that of values one a tooth alone have nothing in common: says so
 /// in the notes, and the interval holds both.

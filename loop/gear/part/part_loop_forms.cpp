@@ -48,9 +48,9 @@ Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, st
   return course;
 }
 
-/// True where an effect lifts all flanks by nearly one amount (a scale, too).
+/// True where an effect lifts all flanks by nearly one amount (a scale, too, on few teeth).
 bool is_level(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect) {
-  constexpr double kFlat = 0.35;
+  constexpr double kFlat = 0.5;
   const Effect& one = fit.effects()[effect];
   if (one.columns() != 1 || one.order() != 0.0 || one.family->local) return false;
   for (const bool face : {false, true})
@@ -146,6 +146,27 @@ std::set<std::size_t> imitations(std::vector<NamedPart> parts, const Eigen::Vect
   return beside || undo ? effects : std::set<std::size_t>();
 }
 
+/// Height of lobes that are sharper than a sine, told as one wave beside its multiples (ribs,
+/// jaws): these have a mean; 0: there are none.
+double sharp_lobes_um(const PointFit& fit) {
+  double most_um = 0.0;
+  for (std::size_t one = 0; one < fit.effects().size(); ++one) {
+    const Effect& lowest = fit.effects()[one];
+    if (!lowest.family->named || !is_wave_around(lowest)) continue;
+    double sum_um = 0.0;
+    int count = 0;
+    for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+      const Effect& wave = fit.effects()[e];
+      if (wave.family != lowest.family || std::remainder(wave.order(), lowest.order()) != 0.0)
+        continue;
+      sum_um += std::sqrt(2.0) * fit.effect_size_um(static_cast<int>(e));
+      ++count;
+    }
+    if (count > 1) most_um = std::max(most_um, sum_um);
+  }
+  return most_um;
+}
+
 }  // namespace
 
 /// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
@@ -173,14 +194,18 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
 
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
+  tell_as_one_form();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
   tell_means_of_one_wave();
   tell_imitations();
   tell_waves_of_a_form();
+  tell_what_waves_leave();
   tell_level_of_forms();
+  tell_means_across_flanks();
   tell_teeth_side_by_side();
+  tell_what_teeth_do_not_share();
 }
 
 /// What was told before (of other data) stays as it is.
@@ -259,6 +284,27 @@ void PartLoop::tell_parts_of_a_sector() {
         effects_[e].family = form;
         break;
       }
+  }
+}
+
+/// Beside waves without a name that are ten times as large, a wave or a move of their order is what
+/// these leave.
+void PartLoop::tell_what_waves_leave() {
+  constexpr double kSmall = 0.1, kHighest = 2.0;
+  if (effects_.empty()) return;
+  const auto fit = fit_of(effects_);
+  const auto order_of = [](const Effect& e) {
+    return e.family->displacement_mm && e.columns() == 2 ? std::max(1.0, e.order()) : e.order();
+  };
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    const double order = order_of(effects_[e]);
+    if (form == nullptr || !(order > 0.0) || order > kHighest) continue;
+    double beside_um = 0.0;
+    for (std::size_t other = 0; other < effects_.size(); ++other)
+      if (is_form_without_name(effects_[other]) && effects_[other].order() == order)
+        beside_um = std::hypot(beside_um, fit->effect_size_um(static_cast<int>(other)));
+    if (fit->effect_size_um(static_cast<int>(e)) < kSmall * beside_um) effects_[e].family = form;
   }
 }
 
@@ -438,7 +484,7 @@ const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
 /// So is what all flanks stand out by where its size hangs on forms along them: an odd form has a
 /// mean of its own.
 void PartLoop::tell_level_of_forms() {
-  constexpr double kHangs = 0.25;
+  constexpr double kHangs = 0.25, kOfLobes = 0.5;
   if (effects_.empty()) return;
   const auto kept = fit_of(effects_);
   const PointFit& fit = *kept;
@@ -454,7 +500,8 @@ void PartLoop::tell_level_of_forms() {
              (is_wave_around(effect) && !effect.family->form_word.empty());
     drift_um = std::hypot(drift_um, 2.0 * std::sqrt(3.0) * fit.effect_size_um(static_cast<int>(e)));
   }
-  if (named.empty() || (!drifts && named.size() == effects_.size())) return;
+  const double sharp_um = sharp_lobes_um(fit);
+  if (named.empty() || (!drifts && !(sharp_um > 0.0) && named.size() == effects_.size())) return;
   const auto kept_without = fit_of(named);
   const PointFit& without = *kept_without;
   int own = 0;
@@ -469,7 +516,8 @@ void PartLoop::tell_level_of_forms() {
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     const double b0 = without.coefficients()[without.first_column(at)];
     if (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
-        (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um))
+        (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
+        fit.effect_size_um(static_cast<int>(e)) < kOfLobes * sharp_um)
       effect.family = form;
   }
 }

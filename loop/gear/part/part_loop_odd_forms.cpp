@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names that are the mean of an odd form around the gear, or its twist: they are told as forms.
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "trueflank/loop/gear/part/part_loop.h"
@@ -150,6 +153,154 @@ void PartLoop::tell_means_of_one_wave() {
   for (const auto& [e, course] : names)
     if (const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e))
       effects_[e].family = form;
+}
+
+namespace {
+
+/// One flank of a tooth, or one trace: the sums that tell how much of an effect it shows by itself.
+struct UnitSums {
+  double n = 0.0, c = 0.0, r = 0.0, cc = 0.0, cr = 0.0, rr = 0.0;
+};
+
+/// How an effect's size differs from flank to flank, beside what errors do to each, over its size.
+double spread_over_flanks(const FlankGeometry& geometry, const Observations& table,
+                          const Patches& patches, const PointFit& fit, std::size_t e) {
+  constexpr double kFewest = 6.0, kBeyondErrors = 9.0, kShows = 0.1;
+  const Effect& effect = fit.effects()[e];
+  const auto row_um = fit.residuals_um();
+  std::map<std::array<int, 4>, UnitSums> units;  // source, trace, tooth, side
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    const bool traced =
+        row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
+    if ((!traced && row.kind != ObservationKind::kScanFlank) || row.places != 1 ||
+        patches.patch_of_row[i] < 0)
+      continue;
+    const Place& place = table.place(row);
+    if (place.surface != Surface::kFlank) continue;
+    double c = 0.0;
+    effect.evaluate(geometry, place, &c);
+    const double r = (*row_um)[i];
+    UnitSums& unit = units[{row.source, traced ? row.trace : -1, place.tooth, place.side}];
+    unit.n += 1.0;
+    unit.c += c;
+    unit.r += r;
+    unit.cc += c * c;
+    unit.cr += c * r;
+    unit.rr += r * r;
+  }
+  // About its mean: levels differ for reasons of their own.
+  double most = 0.0;
+  for (auto& [key, unit] : units) {
+    unit.cc -= unit.c * unit.c / unit.n;
+    unit.cr -= unit.c * unit.r / unit.n;
+    unit.rr -= unit.r * unit.r / unit.n;
+    most = std::max(most, unit.cc);
+  }
+  double n = 0.0, sum = 0.0, squares = 0.0, errors = 0.0;
+  for (const auto& [key, unit] : units) {
+    if (!(unit.cc > kShows * most)) continue;
+    const double off = unit.cr / unit.cc;
+    n += 1.0;
+    sum += off;
+    squares += off * off;
+    errors += std::max(0.0, unit.rr - off * unit.cr) / std::max(1.0, unit.n - 2.0) / unit.cc;
+  }
+  if (n < kFewest) return 0.0;
+  const double variance = (squares - sum * sum / n) / (n - 1.0), error = errors / n;
+  if (variance < kBeyondErrors * error) return 0.0;
+  const double size = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+  return std::sqrt(variance - error) / std::abs(size);
+}
+
+}  // namespace
+
+namespace {
+
+/// Effects in the mean of the teeth, on the grid of one flank: heights down, rolls across.
+using MeanOfFlank = Eigen::Matrix<double, kGridSide, kGridSide>;
+std::array<MeanOfFlank, 2> mean_of_flanks(const FlankField& field) {
+  const Eigen::VectorXd mean = field.rowwise().mean();
+  std::array<MeanOfFlank, 2> flanks;
+  for (const std::size_t flank : {0, 1})
+    for (int v = 0; v < kGridSide; ++v)
+      for (int u = 0; u < kGridSide; ++u)
+        flanks[flank](v, u) =
+            mean[static_cast<Eigen::Index>(flank) * kGridSide * kGridSide + v * kGridSide + u];
+  return flanks;
+}
+
+/// True where a name is the same all along one direction of the flanks, the forms change it there
+/// by more than half of itself, and it stands as it is on less than half of the way.
+bool is_mean_across(const std::array<MeanOfFlank, 2>& name,
+                    const std::array<MeanOfFlank, 2>& forms) {
+  constexpr double kAlike = 1e-6, kLevel = 0.75, kChanges = 0.5, kStands = 0.25;
+  double square = 0.0, level = 0.0;
+  for (const MeanOfFlank& flank : name) {
+    square += flank.squaredNorm();
+    level += flank.mean() * flank.mean() * kGridSide * kGridSide;
+  }
+  if (!(square > 0.0)) return false;
+  for (const bool face : {true, false}) {
+    Eigen::Matrix<double, 2 * kGridSide, 1> course;
+    Eigen::Matrix<double, 2 * kGridSide, kGridSide> changed;
+    double off = 0.0;
+    for (const int flank : {0, 1}) {
+      const auto at = static_cast<std::size_t>(flank);
+      const MeanOfFlank own = face ? MeanOfFlank(name[at].transpose()) : name[at],
+                        others = face ? MeanOfFlank(forms[at].transpose()) : forms[at];
+      const Eigen::Matrix<double, kGridSide, 1> mean = own.rowwise().mean();
+      off += (own.colwise() - mean).squaredNorm();
+      course.segment<kGridSide>(flank * kGridSide) = mean;
+      if (level < kLevel * square)  // of what leans or bends its height says nothing
+        course.segment<kGridSide>(flank * kGridSide).array() -= mean.mean();
+      changed.middleRows<kGridSide>(flank * kGridSide) = others;
+    }
+    if (off > kAlike * square || !(course.squaredNorm() > kAlike * square)) continue;
+    const Eigen::Matrix<double, kGridSide, 1> share =
+        changed.transpose() * course / course.squaredNorm();
+    if (share.maxCoeff() - share.minCoeff() < kChanges) continue;
+    if (2 * (share.array().abs() < kStands).count() < kGridSide) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// A slope, a bow or a height that forms without a name change from one end of the flanks to the
+/// other is the mean of these: growth above a height was a scale.
+void PartLoop::tell_means_across_flanks() {
+  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
+    return;
+  const auto fit = fit_of(effects_);
+  // Short waves change nothing from one end to the other.
+  FlankField forms = FlankField::Zero(2 * kGridSide * kGridSide, geometry_.teeth());
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (effects_[e].is_term() && effects_[e].order() == 0.0 && effects_[e].columns() == 1)
+      forms += field_of(geometry_, *fit, e);
+  const std::array<MeanOfFlank, 2> mean = mean_of_flanks(forms);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1 ||
+        effects_[e].order() != 0.0 || e < options_.given.size() - given_p_values_.size())
+      continue;
+    const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e);
+    if (form != nullptr && is_mean_across(mean_of_flanks(field_of(geometry_, *fit, e)), mean))
+      effects_[e].family = form;
+  }
+}
+
+/// A name says that all teeth have a form alike. Where these differ in it by more than that itself,
+/// it is the mean of something else (a dent of every fourth tooth): a form.
+void PartLoop::tell_what_teeth_do_not_share() {
+  constexpr double kAsMuch = 1.0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr || effects_[e].family->local || effects_[e].columns() != 1 ||
+        effects_[e].order() != 0.0)
+      continue;
+    if (spread_over_flanks(geometry_, table_, patches_, *fit_of(effects_), e) > kAsMuch)
+      effects_[e].family = form;
+  }
 }
 
 /// An odd form around the gear has a mean of its own: what leans or bends all flanks by less than

@@ -176,9 +176,6 @@ void PartLoop::prefer_one_name_to_two() {
     }
 }
 
-namespace {
-
-/// What effects are told by: their sizes, and with places and widths those that were sought.
 int values_of(const std::vector<Effect>& effects, bool places_too) {
   int values = 0;
   for (const Effect& effect : effects) {
@@ -194,8 +191,6 @@ int values_of(const std::vector<Effect>& effects, bool places_too) {
   }
   return values;
 }
-
-}  // namespace
 
 /// Makes the whole choice again in another way. It is taken over where it has names alone, so many
 /// values fewer, leaves no more, and nothing is left that a form would say.

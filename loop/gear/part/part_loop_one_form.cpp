@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names along the flanks that one form without a name says as well: they are told as that form.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/gear/trial_fit.h"
+
+namespace trueflank::loop {
+
+namespace {
+
+/// How an effect that is the same on every tooth, and on the flanks it acts on, runs along them.
+enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
+
+Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr int kOfGrid = 9;
+  constexpr double kAlike = 1e-6;
+  if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local)
+    return Runs::kOtherwise;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto at = [&](int tooth, int side, double u, double v) {
+    double value = 0.0;
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()),
+        &value);
+    return value;
+  };
+  double size = 0.0, profile = 0.0, face = 0.0, apart = 0.0;
+  for (const int side : {1, -1})
+    for (int i = 0; i < kOfGrid; ++i)
+      for (int k = 0; k < kOfGrid; ++k) {
+        const double u = (i + 0.5) / kOfGrid, v = (k + 0.5) / kOfGrid, here = at(1, side, u, v);
+        size = std::max(size, std::abs(here));
+        profile = std::max(profile, std::abs(here - at(1, side, 0.5 / kOfGrid, v)));
+        face = std::max(face, std::abs(here - at(1, side, u, 0.5 / kOfGrid)));
+        if (effect.flank == FlankChoice::kBoth)
+          apart = std::max(apart, std::abs(here - at(1, -side, u, v)));
+      }
+  for (int tooth = 2; tooth <= geometry.teeth(); ++tooth)
+    for (const int side : {1, -1})
+      apart = std::max(apart, std::abs(at(tooth, side, 0.7, 0.3) - at(1, side, 0.7, 0.3)));
+  const double nothing = kAlike * size;
+  if (apart > nothing) return Runs::kOtherwise;
+  if (profile > nothing && face > nothing) return Runs::kOverBoth;
+  return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
+}
+
+/// True where effects are larger, each by itself, than they are together.
+bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
+                     const std::vector<std::size_t>& these) {
+  constexpr int kOfGrid = 9;
+  constexpr double kUndo = 1.5;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto size = static_cast<Eigen::Index>(2 * kOfGrid * kOfGrid);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+  double squares = 0.0;
+  for (const std::size_t e : these) {
+    const Effect& effect = fit.effects()[e];
+    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    Eigen::VectorXd own(size);
+    Eigen::Index at = 0;
+    for (const int side : {1, -1})
+      for (int i = 0; i < kOfGrid; ++i)
+        for (int k = 0; k < kOfGrid; ++k, ++at) {
+          double value = 0.0;
+          effect.evaluate(geometry,
+                          geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
+                                            (k + 0.5) / kOfGrid * geometry.face_width_mm()),
+                          &value);
+          own[at] = b * value;
+        }
+    for (const Eigen::Index flank : {0, 1})
+      own.segment(flank * size / 2, size / 2).array() -=
+          own.segment(flank * size / 2, size / 2).mean();
+    squares += own.squaredNorm();
+    sum += own;
+  }
+  return squares > kUndo * sum.squaredNorm();
+}
+
+/// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
+/// an end, and bands where several effects may be one.
+std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
+                                bool bands) {
+  constexpr double kFirst = 0.1, kStep = 0.1;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
+  std::vector<Effect> forms;
+  for (const double within : {0.05, 0.1, 0.2, 0.4})
+    for (const double end : {-1.0, 1.0})
+      forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, end}});
+  for (double share = kFirst; share < 1.0 - 0.5 * kStep; share += kStep) {
+    const double at =
+        face != 0.0 ? share * geometry.face_width_mm()
+                    : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+    for (const double end : {-1.0, 1.0})
+      for (const char* family : {"unnamed_kink", "unnamed_bend"})
+        forms.push_back({find_family(family), flank, {face, at, end}});
+    if (bands)
+      for (const double width : {0.1, 0.2, 0.35})
+        forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
+  }
+  return forms;
+}
+
+/// Hollows that end over the profile and over the face, to start from.
+std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank) {
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const double face_mm = geometry.face_width_mm();
+  std::vector<Effect> forms;
+  for (const double u : {0.25, 0.5, 0.75})
+    for (const double v : {0.25, 0.5, 0.75})
+      for (const double wide : {0.2, 0.4})
+        for (const double long_ : {0.2, 0.4})
+          forms.push_back({find_family("unnamed_dish"),
+                           flank,
+                           {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
+                            v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
+  return forms;
+}
+
+/// The form that leaves least in place of the last effect, first among those of its family by
+/// trial, then beside the others.
+std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observations& table,
+                                   const Patches& patches, std::vector<Effect> rest,
+                                   const std::vector<Effect>& forms) {
+  const std::size_t at = rest.size();
+  std::vector<Effect> best;
+  double least = 1e300;
+  rest.emplace_back();
+  for (std::size_t first = 0; first < forms.size();) {
+    const EffectFamily* family = forms[first].family;
+    std::vector<EffectShape> shapes;
+    std::size_t next = first;
+    for (; next < forms.size() && forms[next].family == family; ++next)
+      shapes.push_back(forms[next].shape);
+    rest.back() = forms[first];
+    const TrialFit fit(geometry, table, patches, rest);
+    const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      if (trials[i].retained < kToldApart || !(trials[i].square < least)) continue;
+      least = trials[i].square;
+      best = rest;
+      best.back().shape = shapes[i];
+    }
+    first = next;
+  }
+  if (best.empty()) return best;
+  refine_nearby(geometry, table, patches, best);
+  return best;
+}
+
+}  // namespace
+
+/// True where one of the forms stands for these effects: it needs no more values than they do, and
+/// leaves clearly less; for every value that it spares it may leave a little more.
+bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
+                                const std::vector<Effect>& forms) {
+  constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
+  constexpr double kNearly = 0.003;               // of what they take out
+  std::vector<Effect> rest, own;
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    (std::find(these.begin(), these.end(), e) == these.end() ? rest : own).push_back(effects_[e]);
+  std::vector<Effect> tried = forms;
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
+  const std::vector<Effect> with = with_best_form(geometry_, table_, patches_, rest, tried);
+  if (with.empty()) return false;
+  const int spared = values_of(own, true) - values_of({with.back()}, true);
+  if (spared < 0) return false;
+  const double gain = fit_of(effects_)->residual_square() - fit_of(with)->residual_square();
+  // Names that undo each other most of the way are no two causes.
+  const double none = fit_of(rest)->residual_square() - fit_of(effects_)->residual_square();
+  const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
+                           ? std::max(kClearly, kNearly * none)
+                           : 0.0;
+  if (gain < kClearly - kValue * spared - doubt) return false;
+  ChosenGroup record;
+  record.group = -1;
+  for (const std::size_t e : these)
+    record.p_value = std::min(record.p_value, discovery_.chosen[e].p_value);
+  for (std::size_t i = these.size(); i-- > 0;) remove_effect(these[i]);
+  // What else has a place beside its own moved with it.
+  std::copy_n(with.begin(), effects_.size(), effects_.begin());
+  std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
+  effects_.push_back(with.back());
+  discovery_.chosen.push_back(record);
+  return true;
+}
+
+/// Two slopes and bows, or one name with a place and a width, follow many forms: a profile that is
+/// thicker at its root alone was a pressure angle and a hollow. A sum in which a name stands is
+/// told as one form where that says as much with no more values.
+void PartLoop::tell_as_one_form() {
+  if (options_.joined || table_->rows.empty()) return;
+  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const auto once = [&] {
+    for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+      std::array<std::vector<std::size_t>, 2> along;  // profile, face
+      std::vector<std::size_t> all_over;
+      for (std::size_t e = told; e < effects_.size(); ++e) {
+        if (effects_[e].flank != flank) continue;
+        const Runs runs = runs_of(geometry_, effects_[e]);
+        if (runs == Runs::kOverProfile) along[0].push_back(e);
+        if (runs == Runs::kOverFace) along[1].push_back(e);
+        if (runs != Runs::kOtherwise && runs != Runs::kNowhere) all_over.push_back(e);
+      }
+      const auto has_name = [&](const std::vector<std::size_t>& set) {
+        return std::any_of(set.begin(), set.end(),
+                           [&](std::size_t e) { return effects_[e].family->named; });
+      };
+      const auto values = [&](const std::vector<std::size_t>& set) {
+        std::vector<Effect> effects;
+        for (const std::size_t e : set) effects.push_back(effects_[e]);
+        return values_of(effects, true);
+      };
+      const bool crossed = all_over.size() > along[0].size() + along[1].size() ||
+                           (!along[0].empty() && !along[1].empty());
+      constexpr int kValuesOfDish = 5;
+      if (crossed && values(all_over) >= kValuesOfDish &&
+          put_one_form_for(all_over, dishes(geometry_, flank)))
+        return true;
+      for (const int face : {0, 1}) {
+        const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];
+        std::vector<std::vector<std::size_t>> sets;
+        if (all.size() > 2) sets.push_back(all);
+        for (std::size_t a = 0; a < all.size(); ++a)
+          for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
+        for (const std::size_t e : all) sets.push_back({e});
+        for (const std::vector<std::size_t>& set : sets)
+          if (has_name(set) && values(set) >= 2 &&
+              put_one_form_for(set, forms_along(geometry_, face, flank, set.size() > 1)))
+            return true;
+      }
+    }
+    return false;
+  };
+  constexpr int kMost = 6;
+  for (int i = 0; i < kMost && once();) ++i;
+}
+
+}  // namespace trueflank::loop
