@@ -53,7 +53,7 @@ STAGES = {
                r"trueflank::loop::(RowsByClass::RowsByClass<trueflank::loop::)?\(anonymous namespace\)::PatchMaker",
     "columns of candidates": r"trueflank::loop::set_candidates\(|" + BESIDE + r"trueflank::loop::set_candidates",
     "discovery": r"trueflank::loop::Discovery::Discovery\(|trueflank::loop::Discovery::finished\(|" + BESIDE +
-                 r"trueflank::loop::(BlockStatistics|StructureTest|CrossValidation|QuickErrors|agreement_of_wholes)",
+                 r"trueflank::loop::(BlockStatistics|ProjectedCandidates|StructureTest|CrossValidation|QuickErrors|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run|" +
                     BESIDE + r"trueflank::loop::\(anonymous namespace\)::CourseScan",
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +

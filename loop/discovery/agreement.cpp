@@ -137,10 +137,26 @@ GroupMatrix gram_of(const PanelRow* products, int at, int columns) {
   return gram;
 }
 
+/// The same of a group of more columns.
+[[gnu::noinline]] void add_directions(Agreement& sum, const GroupMatrix& gram, const double* score,
+                                      double least) {
+  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram};
+  const Eigen::Map<const Eigen::VectorXd> scores(score, gram.cols());
+  for (Eigen::Index k = 0; k < gram.cols(); ++k) {
+    const double value = own.eigenvalues()[k];
+    if (!(value > least)) continue;
+    const GroupVector direction = own.eigenvectors().col(k);
+    const double along = direction.dot(scores);
+    sum.gram += value * direction * direction.transpose();
+    sum.score += along * direction;
+    sum.total += along * along / value;
+    ++sum.degrees;
+  }
+}
+
 /// Takes in what a whole says of a group whose columns stand in a panel from `at` on: directions with
 /// more than `least`. Nearly all groups have one column or two, for which it is written out.
-void add_whole(Agreement& sum, const PanelRow* products, const double* score, int at,
-               double least) {
+void add_whole(Agreement& sum, const PanelRow* products, const double* score, int at, double least) {
   const auto columns = static_cast<int>(sum.score.size());
   if (columns == 1) {
     const double gram = products[0][at];
@@ -157,18 +173,7 @@ void add_whole(Agreement& sum, const PanelRow* products, const double* score, in
     if (own.second > least) add_direction(sum, own.second, -own.sine, own.cosine, score);
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<GroupMatrix> own{gram_of(products, at, columns)};
-  const Eigen::Map<const Eigen::VectorXd> scores(score, columns);
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const double value = own.eigenvalues()[k];
-    if (!(value > least)) continue;
-    const GroupVector direction = own.eigenvectors().col(k);
-    const double along = direction.dot(scores);
-    sum.gram += value * direction * direction.transpose();
-    sum.score += along * direction;
-    sum.total += along * along / value;
-    ++sum.degrees;
-  }
+  add_directions(sum, gram_of(products, at, columns), score, least);
 }
 
 double p_of(const Agreement& sum, int fitted, double within) {

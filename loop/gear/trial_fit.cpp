@@ -202,11 +202,11 @@ Eigen::MatrixXd TrialFit::full(const Columns& columns) const {
 
 /// With all columns that stand, whose zeros are taken out already.
 Eigen::MatrixXd TrialFit::products_with_all(const Columns& columns) const {
-  if (columns.of_kinds) return of_kinds_.transpose() * columns.values;
   Eigen::MatrixXd products(columns_.cols(), columns.values.cols());
   // (of few columns: a product of matrices would copy all the others first)
   for (Eigen::Index k = 0; k < products.cols(); ++k)
-    products.col(k).noalias() = columns_.transpose() * columns.values.col(k);
+    products.col(k).noalias() =
+        (columns.of_kinds ? of_kinds_ : columns_).transpose() * columns.values.col(k);
   return products;
 }
 
@@ -214,7 +214,12 @@ Eigen::MatrixXd TrialFit::products_with_all(const Columns& columns) const {
 Eigen::MatrixXd TrialFit::own_products(const Columns& columns) const {
   const Eigen::MatrixXd& values = columns.values;
   if (!columns.of_kinds) return values.transpose() * values;
-  if (kind_products_.size() > 0) return values.transpose() * (kind_products_ * values);
+  if (kind_products_.size() > 0) {
+    Eigen::MatrixXd crossed(values.rows(), values.cols());
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+      crossed.col(k).noalias() = kind_products_ * values.col(k);
+    return values.transpose() * crossed;
+  }
   const Eigen::MatrixXd zeros = zeros_of_kinds(values);
   const Eigen::Map<const Eigen::VectorXd> weight(trace_weight_.data(), zeros.rows());
   return values.transpose() * kind_weight_.asDiagonal() * values -
