@@ -13,7 +13,7 @@ namespace {
 /// Of a column's own square: with less left beside the earlier ones it is rounding.
 constexpr double kNothingLeft = 1e-11;
 /// Panels that a thread takes at a time.
-constexpr std::size_t kAtOnce = 4;
+constexpr std::size_t kPanelsAtOnce = 4;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void ProjectedCandidates::begin() {
   for (int u = 0; u < statistics_.units(); ++u)
     unit_scores_.col(u) = statistics_.unit(u).candidate_value;
   panels_.assign(statistics_.panels().size(), {});
-  for_each_run(panels_.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+  for_each_run(panels_.size(), kPanelsAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p) begin_panel(p);
   });
 }
@@ -97,7 +97,7 @@ void ProjectedCandidates::put_beside(const std::vector<int>& columns) {
   while (columns_.size() < columns.size())
     if (auto added = add_column(columns[columns_.size()])) all.push_back(std::move(*added));
   if (all.empty()) return;
-  for_each_run(panels_.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
+  for_each_run(panels_.size(), kPanelsAtOnce, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p)
       for (const Added& added : all) add_to_panel(p, added);
   });

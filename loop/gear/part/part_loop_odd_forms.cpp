@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 
 namespace trueflank::loop {
@@ -157,54 +158,39 @@ void PartLoop::tell_means_of_one_wave() {
 
 namespace {
 
-/// One flank of a tooth, or one trace: the sums that tell how much of an effect it shows by itself.
-struct UnitSums {
-  double n = 0.0, c = 0.0, r = 0.0, cc = 0.0, cr = 0.0, rr = 0.0;
-};
-
 /// How an effect's size differs from flank to flank, beside what errors do to each, over its size.
 double spread_over_flanks(const FlankGeometry& geometry, const Observations& table,
                           const Patches& patches, const PointFit& fit, std::size_t e) {
   constexpr double kFewest = 6.0, kBeyondErrors = 9.0, kShows = 0.1;
   const Effect& effect = fit.effects()[e];
   const auto row_um = fit.residuals_um();
-  std::map<std::array<int, 4>, UnitSums> units;  // source, trace, tooth, side
+  // The effect and what is there, of one flank of a tooth or one trace: source, trace, tooth, side.
+  std::map<std::array<int, 4>, PairedSums> units;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool traced =
         row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
     if ((!traced && row.kind != ObservationKind::kScanFlank) || row.places != 1 ||
-        patches.patch_of_row[i] < 0)
+        patches.patch_of_row[i] < 0 || !std::isfinite((*row_um)[i]))
       continue;
     const Place& place = table.place(row);
     if (place.surface != Surface::kFlank) continue;
     double c = 0.0;
     effect.evaluate(geometry, place, &c);
-    const double r = (*row_um)[i];
-    UnitSums& unit = units[{row.source, traced ? row.trace : -1, place.tooth, place.side}];
-    unit.n += 1.0;
-    unit.c += c;
-    unit.r += r;
-    unit.cc += c * c;
-    unit.cr += c * r;
-    unit.rr += r * r;
+    units[{row.source, traced ? row.trace : -1, place.tooth, place.side}].add(c, (*row_um)[i]);
   }
   // About its mean: levels differ for reasons of their own.
   double most = 0.0;
-  for (auto& [key, unit] : units) {
-    unit.cc -= unit.c * unit.c / unit.n;
-    unit.cr -= unit.c * unit.r / unit.n;
-    unit.rr -= unit.r * unit.r / unit.n;
-    most = std::max(most, unit.cc);
-  }
+  for (const auto& [key, unit] : units) most = std::max(most, unit.square_of_x());
   double n = 0.0, sum = 0.0, squares = 0.0, errors = 0.0;
   for (const auto& [key, unit] : units) {
-    if (!(unit.cc > kShows * most)) continue;
-    const double off = unit.cr / unit.cc;
+    const double square = unit.square_of_x(), product = unit.product();
+    if (!(square > kShows * most)) continue;
+    const double off = product / square;
     n += 1.0;
     sum += off;
     squares += off * off;
-    errors += std::max(0.0, unit.rr - off * unit.cr) / std::max(1.0, unit.n - 2.0) / unit.cc;
+    errors += std::max(0.0, unit.square_of_y() - off * product) / std::max(1.0, unit.n - 2.0) / square;
   }
   if (n < kFewest) return 0.0;
   const double variance = (squares - sum * sum / n) / (n - 1.0), error = errors / n;
@@ -212,10 +198,6 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
   const double size = fit.coefficients()[fit.first_column(static_cast<int>(e))];
   return std::sqrt(variance - error) / std::abs(size);
 }
-
-}  // namespace
-
-namespace {
 
 /// Effects in the mean of the teeth, on the grid of one flank: heights down, rolls across.
 using MeanOfFlank = Eigen::Matrix<double, kGridSide, kGridSide>;

@@ -7,6 +7,7 @@
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/random_error.h"
@@ -252,27 +253,16 @@ struct TraceSquares {
 
 TraceSquares squares_of_profiles(const FlankGeometry& geometry, const Observations& table,
                                  const std::vector<float>& row_um) {
-  struct Sums {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  };
-  std::map<int, Sums> of_trace;
+  std::map<int, PairedSums> of_trace;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     if (row.kind != ObservationKind::kProfile || row.trace < 0 || !std::isfinite(row_um[i]))
       continue;
-    const double x = geometry.profile_coordinate(table.place(row).roll_mm), y = row_um[i];
-    Sums& sums = of_trace[row.trace];
-    sums.n += 1.0;
-    sums.x += x;
-    sums.y += y;
-    sums.xx += x * x;
-    sums.xy += x * y;
-    sums.yy += y * y;
+    of_trace[row.trace].add(geometry.profile_coordinate(table.place(row).roll_mm), row_um[i]);
   }
   TraceSquares squares;
   for (const auto& [trace, sums] : of_trace) {
-    const double xx = sums.xx - sums.x * sums.x / sums.n, xy = sums.xy - sums.x * sums.y / sums.n,
-                 yy = sums.yy - sums.y * sums.y / sums.n;
+    const double xx = sums.square_of_x(), xy = sums.product(), yy = sums.square_of_y();
     squares.whole += yy;
     squares.bent += xx > 0.0 ? yy - xy * xy / xx : yy;
   }
