@@ -19,9 +19,6 @@ namespace {
 
 constexpr double kFace_mm = 8.0;
 constexpr int kTeeth = 21;
-/// What is measured is right within 2 % (mesh_accuracy.h).
-constexpr double kMeasured = 1.02;
-
 struct Wave {
   double amplitude_mm, over_face, along_roll, phase;  ///< rad over the face, rad a mm of roll length
   [[nodiscard]] double at(double roll_mm, double z_mm) const {
@@ -106,7 +103,7 @@ TEST(ShortWaves, ThatAreWholeOverEveryRowAreSeen) {
     const Waved gear({.amplitude_mm = 3e-3, .over_face = kTwoPi * waves, .along_roll = 0.0, .phase = 0.0});
     const MeasuredMesh made = measured_part_mesh(gear.part(), {.tolerance_mm = kTolerance_mm});
     EXPECT_LE(made.accuracy_mm, kTolerance_mm) << waves;
-    EXPECT_LE(gear.worst_of_flanks_mm(made.part.mesh), kMeasured * kTolerance_mm) << waves;
+    EXPECT_LE(gear.worst_of_flanks_mm(made.part.mesh), kTolerance_mm) << waves;
   }
 }
 
@@ -132,8 +129,9 @@ TEST(ShortWaves, AreFollowedWithinTheToleranceAndEstimatedWithinAFactorOfThree) 
                               std::to_string(1e3 * tolerance_mm) + " um, " + std::to_string(wave.over_face) +
                               " rad over the face, " + std::to_string(wave.along_roll) +
                               " rad a mm of roll, facets " + std::to_string(facets);
-    EXPECT_LE(made.accuracy_mm, tolerance_mm) << which;
-    EXPECT_LE(gear.worst_of_flanks_mm(made.part.mesh), kMeasured * tolerance_mm) << which;
+    // The measure is right within 2 % on displaced teeth (mesh_accuracy.h).
+    EXPECT_LE(made.accuracy_mm, 0.98 * tolerance_mm) << which;
+    EXPECT_LE(gear.worst_of_flanks_mm(made.part.mesh), tolerance_mm) << which;
     EXPECT_TRUE(mesh_validity(made.part.mesh).valid()) << which;
     const double ratio = estimated_facets(gear.part(), tolerance_mm) / facets;
     EXPECT_GT(ratio, 1.0 / 3.0) << which;
