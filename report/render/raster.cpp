@@ -36,11 +36,78 @@ struct Edge {
     c = -(a * from.x + b * from.y);
     if (!(a > 0 || (a == 0 && b > 0))) c -= 1;
   }
+  [[nodiscard]] std::int64_t at(std::int64_t x, std::int64_t y) const { return a * x + b * y + c; }
 };
 
 int clamped(double value, int low, int high) {
   return value <= low ? low : value >= high ? high : static_cast<int>(value);
 }
+
+/// An edge along the samples of a row.
+struct RowEdge {
+  Edge edge;
+  std::int64_t value = 0,
+               step;  ///< without what the sample's column shifts it; from a column to the next
+  double inverse;
+  std::array<std::int64_t, 4> shift{};
+
+  RowEdge(const Edge& of, SampleGrid grid)
+      : edge(of),
+        step(of.a * kUnit),
+        inverse(of.a != 0 ? 1.0 / static_cast<double>(of.a * kUnit) : 0.0) {
+    for (int column = 0; column < 4; ++column)
+      shift[static_cast<std::size_t>(column)] = edge.b * row_shift(grid, column);
+  }
+  [[nodiscard]] std::int64_t in(std::size_t phase) const { return value + shift[phase]; }
+
+  /// At the first column of a row; `from` and `to` leave out columns that lie outside for certain.
+  void begin(std::int64_t x0, std::int64_t y0, int first_column, int last_column, int& from,
+             int& to) {
+    value = edge.at(x0, y0);
+    // wherever in the row the sample may be
+    const std::int64_t highest = value + std::max<std::int64_t>(0, edge.b * kUnit);
+    if (edge.a == 0) {
+      if (highest < 0) to = from - 1;
+    } else if (const double zero = -static_cast<double>(highest) * inverse; edge.a > 0) {
+      from = std::max(from, clamped(std::floor(zero) - 1.0, first_column, last_column + 1));
+    } else {
+      to = std::min(to, clamped(std::ceil(zero) + 1.0, first_column - 1, last_column));
+    }
+  }
+};
+
+/// Nearness over a triangle, computed where a sample asks for it: most small triangles meet none.
+template <class Corner>
+class NearnessPlane {
+ public:
+  NearnessPlane(const std::array<Corner, 3>& corners, const std::array<Edge, 3>& edges)
+      : t_(corners), edges_(edges) {}
+
+  [[nodiscard]] double at(std::int64_t x, std::int64_t y) const {
+    if (!known_) find();
+    const double nearness = t_[0].nearness + kx_ * static_cast<double>(x - t_[0].x) +
+                            ky_ * static_cast<double>(y - t_[0].y);
+    return std::clamp(nearness, least_, most_);
+  }
+
+ private:
+  void find() const {
+    const double area = static_cast<double>(edges_[0].a) * (t_[2].x - t_[0].x) +
+                        static_cast<double>(edges_[0].b) * (t_[2].y - t_[0].y);
+    const double k1 = t_[1].nearness - t_[0].nearness, k2 = t_[2].nearness - t_[0].nearness;
+    kx_ = (static_cast<double>(edges_[2].a) * k1 + static_cast<double>(edges_[0].a) * k2) / area;
+    ky_ = (static_cast<double>(edges_[2].b) * k1 + static_cast<double>(edges_[0].b) * k2) / area;
+    const auto [least, most] = std::minmax({t_[0].nearness, t_[1].nearness, t_[2].nearness});
+    least_ = least;
+    most_ = most;
+    known_ = true;
+  }
+
+  const std::array<Corner, 3>& t_;
+  const std::array<Edge, 3>& edges_;
+  mutable bool known_ = false;
+  mutable double kx_ = 0.0, ky_ = 0.0, least_ = 0.0, most_ = 0.0;
+};
 
 }  // namespace
 
@@ -147,54 +214,33 @@ void Raster::scan(const std::array<Corner, 3>& t, const SightWindow& window, con
             last_column = std::min(window.x + window.width - 1, cell(right - low));
   if (first_row > last_row || first_column > last_column) return;
   const std::array<Edge, 3> edges{Edge(t[0], t[1]), Edge(t[1], t[2]), Edge(t[2], t[0])};
-  const double area = static_cast<double>(edges[0].a) * (t[2].x - t[0].x) +
-                      static_cast<double>(edges[0].b) * (t[2].y - t[0].y);
-  const double k1 = t[1].nearness - t[0].nearness, k2 = t[2].nearness - t[0].nearness;
-  const double kx =
-      (static_cast<double>(edges[2].a) * k1 + static_cast<double>(edges[0].a) * k2) / area;
-  const double ky =
-      (static_cast<double>(edges[2].b) * k1 + static_cast<double>(edges[0].b) * k2) / area;
-  const auto [least, most] = std::minmax({t[0].nearness, t[1].nearness, t[2].nearness});
-  std::array<double, 3> inverse{};
-  const bool narrow = last_column - first_column < kNarrow;
-  for (std::size_t e = 0; e < 3; ++e)
-    if (!narrow && edges[e].a != 0) inverse[e] = 1.0 / static_cast<double>(edges[e].a * kUnit);
-  std::array<std::int64_t, 3> step{};  // of an edge's value, from a column to the next
-  std::array<std::array<std::int64_t, 4>, 3> shift{};
-  for (std::size_t e = 0; e < 3; ++e) {
-    step[e] = edges[e].a * kUnit;
-    for (int column = 0; column < 4; ++column)
-      shift[e][static_cast<std::size_t>(column)] = edges[e].b * row_shift(grid_, column);
+  const NearnessPlane plane(t, edges);
+  const auto take = [&](int column, int row, std::int64_t x, std::int64_t y) {
+    put(column, row, plane.at(x, y));
+  };
+  const auto x_of = [&](int column, int row) { return column * kUnit + column_shift(grid_, row); };
+  const auto y_of = [&](int column, int row) { return row * kUnit + row_shift(grid_, column); };
+  if (last_column - first_column < kNarrow) {
+    for (int row = first_row; row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column)
+        if (const std::int64_t x = x_of(column, row), y = y_of(column, row);
+            (edges[0].at(x, y) | edges[1].at(x, y) | edges[2].at(x, y)) >= 0)  // none has a sign
+          take(column, row, x, y);
+    return;
   }
+  std::array<RowEdge, 3> in_row{RowEdge(edges[0], grid_), RowEdge(edges[1], grid_),
+                                RowEdge(edges[2], grid_)};
   for (int row = first_row; row <= last_row; ++row) {
     const std::int64_t x0 = column_shift(grid_, row), y0 = row * kUnit;
     int from = first_column, to = last_column;
-    std::array<std::int64_t, 3> value{};
-    for (std::size_t e = 0; e < 3; ++e) {
-      const Edge& edge = edges[e];
-      value[e] = edge.a * x0 + edge.b * y0 + edge.c;
-      if (narrow) continue;
-      // wherever in the row the sample may be
-      const std::int64_t highest = value[e] + std::max<std::int64_t>(0, edge.b * kUnit);
-      if (edge.a == 0) {
-        if (highest < 0) to = from - 1;
-      } else if (const double zero = -static_cast<double>(highest) * inverse[e]; edge.a > 0) {
-        from = std::max(from, clamped(std::floor(zero) - 1.0, first_column, last_column + 1));
-      } else {
-        to = std::min(to, clamped(std::ceil(zero) + 1.0, first_column - 1, last_column));
-      }
-    }
-    for (std::size_t e = 0; e < 3; ++e) value[e] += step[e] * from;
+    for (RowEdge& edge : in_row) edge.begin(x0, y0, first_column, last_column, from, to);
+    for (RowEdge& edge : in_row) edge.value += edge.step * from;
     for (int column = from; column <= to; ++column) {
       const auto phase = static_cast<std::size_t>(column & 3);
-      const bool inside = ((value[0] + shift[0][phase]) | (value[1] + shift[1][phase]) |
-                           (value[2] + shift[2][phase])) >= 0;  // none has a sign
-      for (std::size_t e = 0; e < 3; ++e) value[e] += step[e];
-      if (!inside) continue;
-      const std::int64_t x = column * kUnit, y = row_shift(grid_, column);
-      const double nearness = t[0].nearness + kx * static_cast<double>(x + x0 - t[0].x) +
-                              ky * static_cast<double>(y + y0 - t[0].y);
-      put(column, row, std::clamp(nearness, least, most));
+      const bool inside = (in_row[0].in(phase) | in_row[1].in(phase) | in_row[2].in(phase)) >=
+                          0;  // none has a sign
+      for (RowEdge& edge : in_row) edge.value += edge.step;
+      if (inside) take(column, row, x_of(column, row), y_of(column, row));
     }
   }
 }

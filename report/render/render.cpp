@@ -67,7 +67,8 @@ struct Patch {
   std::size_t body = 0;
   int cut_plane = -1;  ///< of a cut face
   int count = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+  Eigen::Vector3d seen = Eigen::Vector3d::Zero();  ///< sum of the samples: x, y, nearness
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double lines = 0.0;  ///< how dark the lines on a cut face are
 };
 
@@ -111,6 +112,9 @@ class Painter {
                       kSamples * options.width_px, kSamples * options.height_px) {
     raster_.sort_into_tiles(kTilePixels * kSamples, kLineSamples, kSamples * options.width_px,
                             kSamples * options.height_px);
+    for (int j = 0; j < kSamples; ++j)
+      for (int i = 0; i < kSamples; ++i)
+        places_.push_back(sample_place(SampleGrid::kShifted, i, j));
     ground_ = linear(kGround);
     for (const RenderedBody& body : bodies) colours_.push_back(linear(body.finish.colour));
     const Eigen::Vector3d middle = view_.project(bounds_.ball.centre);
@@ -198,16 +202,17 @@ class Painter {
 
   void add_to(std::vector<Patch>& patches, const SightWindow& window, int i, int j) const {
     const Sight& sight = window.at(i, j);
-    const Eigen::Vector2d place = sample_place(SampleGrid::kShifted, i, j);
-    const Eigen::Vector3d point = view_.unproject(i + place.x(), j + place.y(), sight.nearness);
+    const Eigen::Vector2d& place =
+        places_[static_cast<std::size_t>(kSamples * (j & (kSamples - 1)) + (i & (kSamples - 1)))];
+    const Eigen::Vector3d sample(i + place.x(), j + place.y(), sight.nearness);
     const bool cut = SurfaceName::is_cut_face(sight.surface);
-    const double line = !cut                               ? 0.0
-                        : is_at_edge(window, i, j)         ? kEdgeLine
-                        : is_hatched(sight.surface, point) ? kHatchLine
-                                                           : 0.0;
+    const double line = !cut                                          ? 0.0
+                        : is_at_edge(window, i, j)                    ? kEdgeLine
+                        : is_hatched(sight.surface, point_at(sample)) ? kHatchLine
+                                                                      : 0.0;
     const auto join = [&](Patch& patch) {
       ++patch.count;
-      patch.point += point;
+      patch.seen += sample;
       patch.lines += line;
     };
     for (Patch& patch : patches)
@@ -219,7 +224,7 @@ class Painter {
       seen.normal = options_.cutaway->normal[static_cast<std::size_t>(seen.cut_plane)];
     } else {
       seen.body = raster_.body_of(sight.surface);
-      seen.normal = normal_at(seen.body, sight.surface, point);
+      seen.normal = normal_at(seen.body, sight.surface, point_at(sample));
     }
     for (Patch& patch : patches) {
       if (patch.body != seen.body || patch.cut_plane != seen.cut_plane ||
@@ -231,6 +236,10 @@ class Painter {
     }
     join(seen);
     patches.push_back(seen);
+  }
+
+  [[nodiscard]] Eigen::Vector3d point_at(const Eigen::Vector3d& sample) const {
+    return view_.unproject(sample.x(), sample.y(), sample.z());
   }
 
   /// The corners' normals, by the point's place in the triangle.
@@ -265,7 +274,8 @@ class Painter {
 
   [[nodiscard]] Rgb colour_of(const Patch& patch) const {
     const Finish& finish = bodies_[patch.body].finish;
-    const Eigen::Vector3d point = patch.point / patch.count, normal = patch.normal.normalized();
+    const Eigen::Vector3d point = point_at(patch.seen / patch.count),
+                          normal = patch.normal.normalized();
     const Light light = sky_.at(point, normal);
     const Rgb base = colours_[patch.body];
     if (patch.cut_plane >= 0) {
@@ -296,6 +306,7 @@ class Painter {
   Raster raster_;
   const SkyLight sky_;
   const GroundShade ground_shade_;
+  std::vector<Eigen::Vector2d> places_;  ///< of a pixel's samples in their cells, by rows
   Rgb ground_;
   std::vector<Rgb> colours_;
   double hatch_mm_ = 1.0;

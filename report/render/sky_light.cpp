@@ -77,6 +77,7 @@ void SkyLight::add(Maps& maps, const std::vector<Eigen::Vector3d>& directions,
       if (k < 3) maps.towards[k].push_back(static_cast<float>(directions[m][static_cast<int>(k)]));
     }
     maps.brightness.push_back(static_cast<float>(brightness(directions[m])));
+    maps.of_level += maps.brightness.back() * maps.towards[2].back();
     jobs.push_back(
         {[&bodies, &cutaway, &maps, view, m, n] {
            const int width = static_cast<int>(n);
@@ -118,11 +119,10 @@ void SkyLight::for_each_seen(const Maps& maps, const Eigen::Vector3d& point,
 }
 
 Light SkyLight::at(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
-  float most = 0.0F, every = 0.0F, sky = 0.0F, open = 0.0F, lamp = 0.0F;
+  float every = 0.0F, sky = 0.0F, open = 0.0F, lamp = 0.0F;
   const Eigen::Vector3f n = normal.cast<float>();
   for (std::size_t m = 0; m < sky_.count; ++m) {
     const Eigen::Vector3f t(sky_.towards[0][m], sky_.towards[1][m], sky_.towards[2][m]);
-    most += sky_.brightness[m] * t.z();  // what a level surface gets
     every += sky_.brightness[m] * std::max(0.0F, n.dot(t) - kGrazing);
   }
   for_each_seen(sky_, point, normal, [&](std::size_t m, float cosine) {
@@ -131,7 +131,7 @@ Light SkyLight::at(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) 
   });
   for_each_seen(lamp_maps_, point, normal,
                 [&](std::size_t, float cosine) { lamp += std::max(0.0F, cosine); });
-  return {.sky = sky / most,
+  return {.sky = sky / sky_.of_level,
           .lamp = lamp / static_cast<float>(lamp_maps_.count),
           .open = every > 0.0F ? open / every : 0.0F};
 }

@@ -45,6 +45,7 @@ class SkyLight {
     std::array<std::vector<float>, 4> x, y, nearness;  ///< of a point: its shares, and a constant
     std::array<std::vector<float>, 3> towards;
     std::vector<float> brightness;
+    float of_level = 0.0F;      ///< the light that a level surface gets
     std::vector<float> depths;  ///< map by map
   };
   void add(Maps& maps, const std::vector<Eigen::Vector3d>& directions,
