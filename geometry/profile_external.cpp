@@ -9,6 +9,12 @@
 #include "trueflank/geometry/scalar_root.h"
 
 namespace trueflank {
+namespace {
+
+/// Sine of an angle whose sign rounding cannot change.
+constexpr double kSureShare = 1e-9;
+
+}  // namespace
 
 Status ProfileBuilder::find_pointed_tip() {
   const double r_b = base_radius_mm_;
@@ -36,6 +42,15 @@ Status ProfileBuilder::find_undercut(const Curve& fillet, double& fillet_end) {
     const double inv = involute_function(pressure_angle_at_radius_rad(r, r_b));
     return polar_angle_rad(q) - (psi - inv);
   };
+  // Its sign, by the direction that q has from the involute's: far from it no arc functions are needed.
+  const auto is_in_the_tooth = [&](double t) {
+    const Point2 q = point_at(fillet, t);
+    const double tangent = std::sqrt(std::max(0.0, q.squaredNorm() / (r_b * r_b) - 1.0));
+    const double x = q.x() + tangent * q.y(), y = q.y() - tangent * q.x();  // q, turned by -atan(tangent)
+    const double c = std::cos(psi - tangent), s = std::sin(psi - tangent);
+    const double across = y * c - x * s, along = x * c + y * s;
+    return along > 0.0 && std::abs(across) > kSureShare * along ? across < 0.0 : outside(t) < 0.0;
+  };
   // Dense near the joint, where a slight undercut crosses; in finer steps where coarse ones find none.
   const double span = fillet.begin - fillet.end;
   for (const int steps : {50, 400}) {
@@ -43,7 +58,7 @@ Status ProfileBuilder::find_undercut(const Curve& fillet, double& fillet_end) {
     for (int i = 1; i <= steps; ++i) {
       const double u = static_cast<double>(i) / steps;
       const double t = fillet.end + span * u * u;
-      if (outside(t) < 0.0) {
+      if (is_in_the_tooth(t)) {
         const double cross_t = find_root(outside, last, t);
         const double r = point_at(fillet, cross_t).norm();
         if (r < r_b * (1.0 - 1e-12)) break;
