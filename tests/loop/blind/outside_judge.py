@@ -482,7 +482,9 @@ def inspection(rng, g, f, noise, rho, kind, d):
             for _ in range(3):
                 k0 = int(rng.integers(1, g.z + 1))
                 k1 = (k0 - 1 + g.span_k - 1) % g.z + 1
-                w = (f(place(g, np.array([k1]), 1, Lm, g.b / 2)) + f(place(g, np.array([k0]), -1, Lm, g.b / 2)))[0]
+                # The line between both contacts touches the base cylinder: their rolls add up to the span's transverse part.
+                Lspan = 0.5 * g.span * math.cos(g.bb)
+                w = (f(place(g, np.array([k1]), 1, Lspan, g.b / 2)) + f(place(g, np.array([k0]), -1, Lspan, g.b / 2)))[0]
                 sz.append(f'span,{g.span + (w + noise * rng.standard_normal()) / 1000:.5f},{g.span_k},{max(noise, 0.3):.2f}')
             open(f'{d}/sizes.csv', 'w').write('\n'.join(sz) + '\n')
             files.append(f'{d}/sizes.csv')
