@@ -81,6 +81,44 @@ TEST(OneForm, ARootReliefOnThreeTeethIsNoWear) {
   }
 }
 
+TEST(OneForm, AKinkOfFourTeethIsNoWearThatAWaveMends) {
+  // Straight to a place and falling from there to the tip: a kink, or a relief, and no hollow.
+  const MadeGear gear = spur(18);
+  int wrong = 0;
+  std::string told;
+  for (const double at : {-0.3, -0.2, -0.1, 0.1}) {
+    const auto bent = [at](auto&, const FlankSpot& s, auto&) {
+      return -14.0 * std::max(0.0, s.u - at) / (1.0 - at);
+    };
+    InspectionOptions options = four_teeth(1);
+    options.teeth = {1, 5, 10, 14};
+    options.points = 120;
+    options.noise_um = 1.4;
+    for (; options.seed <= 6; ++options.seed) {
+      const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
+      wrong += find(result, "flank_wear") != nullptr ? 1 : 0;
+      told += list(result) + "\n";
+    }
+  }
+  EXPECT_LE(wrong, 1) << told;
+}
+
+TEST(OneForm, AnSOverTheProfileIsNoWearBesideARelief) {
+  const MadeGear gear = spur(36);
+  const auto bent = [](auto&, const FlankSpot& s, auto&) {
+    return 3.2 * std::sin(M_PI * s.u) + 2.3 * s.u;
+  };
+  InspectionOptions options;
+  options.teeth = {1, 5, 10, 14, 19, 23, 28, 32};
+  options.points = 120;
+  options.noise_um = 0.5;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
+    EXPECT_EQ(find(result, "flank_wear"), nullptr) << list(result);
+    EXPECT_EQ(find(result, "tip_relief"), nullptr) << list(result);
+  }
+}
+
 TEST(OneForm, ADentOfEveryFourthToothIsNoWearOfAll) {
   const MadeGear gear = spur(26);
   const auto dented = [](auto&, const FlankSpot& s, auto&) {
