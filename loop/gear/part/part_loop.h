@@ -125,6 +125,7 @@ class PartLoop {
   void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
+  void drop_idle_beside_one_form();
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
                                       const std::vector<Effect>& forms,
                                       const std::vector<Effect>& beside = {});

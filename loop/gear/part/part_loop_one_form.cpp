@@ -205,6 +205,10 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
     (std::find(these.begin(), these.end(), e) == these.end() ? others : own).push_back(effects_[e]);
+  const bool too_many = std::none_of(forms.begin(), forms.end(), [&](const Effect& form) {
+    return values_of({form}, true) + values_of(beside, true) <= values_of(own, true);
+  });
+  if (too_many) return false;
   std::vector<Effect> rest = others;
   rest.insert(rest.end(), beside.begin(), beside.end());
   std::vector<Effect> tried = forms;
@@ -261,7 +265,7 @@ void PartLoop::tell_as_one_form() {
   };
   // One form for a set along the profile (0) or the face (1).
   const auto along_one = [&](const std::vector<std::size_t>& set, int face, FlankChoice flank) {
-    if (!has_name(set) || values(set) < 2) return false;
+    if (values(set) < 2) return false;
     if (set.size() > 1) {
       // What all flanks stand out by may hang on these: it is free.
       const std::vector<Effect> names = names_with_shapes(geometry_, of_set(set));
@@ -305,14 +309,40 @@ void PartLoop::tell_as_one_form() {
         for (std::size_t a = 0; a < all.size(); ++a)
           for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
         for (const std::size_t e : all) sets.push_back({e});
+        // Forms alone are asked all at once: a rise towards an end was a kink beside a groove.
         for (const std::vector<std::size_t>& set : sets)
-          if (along_one(set, face, flank)) return true;
+          if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
+              along_one(set, face, flank))
+            return true;
       }
     }
     return false;
   };
   constexpr int kMost = 6;
-  for (int i = 0; i < kMost && once();) ++i;
+  int taken = 0;
+  while (taken < kMost && once()) ++taken;
+  if (taken > 0) drop_idle_beside_one_form();
+}
+
+/// What stood beside several effects and is nothing beside the one form.
+void PartLoop::drop_idle_beside_one_form() {
+  constexpr double kNothing = 9.0;  // chi-square
+  while (effects_.size() > 1) {
+    const auto fit = fit_of(effects_);
+    std::size_t idle = effects_.size();
+    double least = kNothing;
+    for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e) {
+      if (effects_[e].family->local) continue;
+      std::vector<bool> with(effects_.size(), true);
+      with[e] = false;
+      const double loss = fit->residual_square(with) - fit->residual_square();
+      if (loss >= least) continue;
+      least = loss;
+      idle = e;
+    }
+    if (idle == effects_.size()) return;
+    remove_effect(idle);
+  }
 }
 
 }  // namespace trueflank::loop
