@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -308,6 +309,7 @@ void PointFit::accumulate() {
   const int n = columns_ + 1;
   unit_grams_.assign(patches_.units, Eigen::MatrixXd());
   unit_kind_.assign(patches_.units, -1);
+  unit_zero_.assign(patches_.units, -1);
   unit_sums_.assign(patches_.units, Eigen::VectorXd::Zero(n + 1));
   train_ = all_ = plain_held_ = plain_all_ = Eigen::MatrixXd::Zero(n, n);
   std::vector<PatchOfRow> patches;
@@ -315,6 +317,7 @@ void PointFit::accumulate() {
     const double weight = patch.weight / patch.count;
     patches.push_back({weight, std::sqrt(weight), patch.unit, patch.fold == 0});
     unit_kind_[patch.unit] = static_cast<int>(patch.kind);
+    unit_zero_[patch.unit] = patch.zero;
   }
   const std::vector<std::size_t> starts = pieces_of((table_.rows.size() + stride_ - 1) / stride_);
   std::vector<Sums> sums(starts.size() - 1);
@@ -476,25 +479,63 @@ bool PointFit::few_units_bear(int k) {
   return bearing < 2.6 || sizes_only;
 }
 
+/// The weight of each trace's zero, and the variance of a value of weight 1 as the pieces' means
+/// show it, by the kind of record: what the pieces' share in their zero took out of their sums.
+struct PointFit::ZerosOfPieces {
+  std::map<int, double> weight, pieces;
+  std::map<int, double> variance;
+
+  explicit ZerosOfPieces(const PointFit& fit) {
+    const int p = fit.columns_;
+    for (std::size_t u = 0; u < fit.unit_grams_.size(); ++u) {
+      if (fit.unit_grams_[u].size() == 0 || fit.unit_zero_[u] < 0) continue;
+      weight[fit.unit_zero_[u]] += fit.unit_sums_[u][p + 1];
+      pieces[fit.unit_zero_[u]] += 1.0;
+    }
+    std::map<int, double> squares, degrees;
+    for (std::size_t u = 0; u < fit.unit_grams_.size(); ++u) {
+      if (fit.unit_grams_[u].size() == 0 || fit.unit_zero_[u] < 0) continue;
+      const double left = fit.unit_sums_[u][p] - fit.coefficients_.dot(fit.unit_sums_[u].head(p));
+      const double count = pieces[fit.unit_zero_[u]];
+      squares[fit.unit_kind_[u]] += left * left / fit.unit_sums_[u][p + 1];
+      degrees[fit.unit_kind_[u]] += 1.0 - 1.0 / count;
+    }
+    for (const auto& [kind, square] : squares)
+      variance[kind] = degrees[kind] > 0.5 ? square / degrees[kind] : 0.0;
+  }
+};
+
 /// Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
+/// Pieces of one trace share its zero: their residuals are smaller than their errors by that, and
+/// what it takes out of a slope along the trace is put back.
 void PointFit::spread_between_units(const Eigen::MatrixXd& normal) {
   const int p = columns_;
   double used = 0.0;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
-  for (const Eigen::MatrixXd& unit : unit_grams_) {
+  ZerosOfPieces zeros(*this);
+  for (std::size_t u = 0; u < unit_grams_.size(); ++u) {
+    const Eigen::MatrixXd& unit = unit_grams_[u];
     if (unit.size() == 0) continue;
     const Eigen::MatrixXd rest = normal - unit.topLeftCorner(p, p);
-    Eigen::VectorXd score = unit.col(p).head(p) - unit.topLeftCorner(p, p) * coefficients_;
+    const bool is_piece = unit_zero_[u] >= 0 && zeros.pieces[unit_zero_[u]] > 1.5;
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(p, is_piece ? 2 : 1);
+    scores.col(0) = unit.col(p).head(p) - unit.topLeftCorner(p, p) * coefficients_;
+    if (is_piece)
+      scores.col(1) = unit_sums_[u].head(p) *
+                      std::sqrt(zeros.variance[unit_kind_[u]] / zeros.weight[unit_zero_[u]]);
     Eigen::MatrixXd safe = rest;
     for (int k = 0; k < p; ++k)
       if (!(rest(k, k) > 1e-6 * normal(k, k))) {
         safe.row(k).setZero();
         safe.col(k).setZero();
         safe(k, k) = 1.0;
-        score[k] = 0.0;
+        scores.row(k).setZero();
       }
-    const Eigen::VectorXd change = symmetric_solution(safe, score);
-    sum += change * change.transpose();
+    for (Eigen::Index k = 0; k < scores.cols(); ++k) {
+      const Eigen::VectorXd score = scores.col(k);
+      const Eigen::VectorXd change = symmetric_solution(safe, score);
+      sum += change * change.transpose();
+    }
     used += 1.0;
   }
   covariance_ = sum * ((used - 1.0) / std::max(1.0, used));
