@@ -54,16 +54,12 @@ void PointFit::features(std::size_t i, double* values) const {
   }
   const Observation& row = table_.rows[i];
   if (i < table_.points_mm.size()) {  // of a scan: one place, with a weight of 1
-    const bool as_it_was =
-        what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank;
-    if (!as_it_was) {
+    if (!as_it_was(i)) {
       features_at(table_.place(row), row, values);
       values[columns_] = row.deviation_um;
       return;
     }
-    const PlacedPoint placed = as_designed(geometry_, table_, i);
-    features_at(placed.place, row, values);
-    values[columns_] = um_from_mm(placed.distance_mm);
+    features_of(as_designed(geometry_, table_, i), row, values);
     return;
   }
   std::fill_n(values, columns_ + 1, 0.0);
@@ -78,6 +74,17 @@ void PointFit::features(std::size_t i, double* values) const {
     }
   }
   values[columns_] = row.deviation_um;
+}
+
+/// True for rows whose deviations as designed are asked for.
+bool PointFit::as_it_was(std::size_t i) const {
+  return what_ == DeviationsOf::kDesign && kept_.empty() && i < table_.points_mm.size() &&
+         table_.rows[i].kind == ObservationKind::kScanFlank;
+}
+
+void PointFit::features_of(const PlacedPoint& placed, const Observation& row, double* values) const {
+  features_at(placed.place, row, values);
+  values[columns_] = um_from_mm(placed.distance_mm);
 }
 
 void PointFit::features_at(const Place& place, const Observation& row, double* values) const {
@@ -227,10 +234,20 @@ struct PointFit::RowPanel {
 
   std::vector<ColumnOfPanel> columns;
   std::vector<double> one;
+  std::vector<std::size_t> anew;  ///< rows whose places as designed are found together
+  std::array<PlacedPoint, kPanel> placed;
 
   void fill(const PointFit& fit, const std::vector<std::size_t>& rows) {
+    anew.clear();
+    for (const std::size_t row : rows)
+      if (fit.as_it_was(row)) anew.push_back(row);
+    as_designed(fit.geometry_, fit.table_, anew, placed.data());
+    std::size_t next = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      fit.features(rows[r], one.data());
+      if (next < anew.size() && anew[next] == rows[r])
+        fit.features_of(placed[next++], fit.table_.rows[rows[r]], one.data());
+      else
+        fit.features(rows[r], one.data());
       for (std::size_t k = 0; k < one.size(); ++k) columns[k][r] = one[k];
     }
   }
