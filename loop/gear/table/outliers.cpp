@@ -50,7 +50,7 @@ std::vector<std::pair<PatchKey, RowNumbers>> patches_of_rows(const FlankGeometry
     const std::uint64_t packed =
         (static_cast<std::uint64_t>(key[0]) << 32U) + static_cast<std::uint64_t>(key[1]) * 512U +
         static_cast<std::uint64_t>((key[2] + 1) * 64 + key[3] * 8 + key[4]);
-    const auto [number, is_new] = numbers.emplace(packed, gathered.size());
+    const auto [number, is_new] = numbers.try_emplace(packed, gathered.size());  // (makes no node of a known one)
     if (is_new) gathered.push_back({key, {}});
     gathered[number->second].second.push_back(static_cast<std::uint32_t>(i));
   }
