@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory_resource>
 #include <optional>
 #include <set>
 #include <utility>
@@ -138,9 +139,13 @@ using PanelOfColumns = std::vector<ColumnOfPanel>;
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  /// `turned`, which others may use too, is where the rows of a panel are turned into columns.
-  Gram(std::size_t columns, PanelOfColumns& turned)
-      : width_(columns + 1), sum_(width_ * (width_ + 1) / 2), rows_(kPanel * width_), turned_(turned) {
+  /// `turned`, which others may use too, is where the rows of a panel are turned into columns; `room`
+  /// gives the memory.
+  Gram(std::size_t columns, PanelOfColumns& turned, std::pmr::memory_resource& room)
+      : width_(columns + 1),
+        sum_(width_ * (width_ + 1) / 2, &room),
+        rows_(kPanel * width_, &room),
+        turned_(turned) {
     turned_.resize(width_);
   }
   /// Adds the columns of a row times a factor.
@@ -191,8 +196,7 @@ class Gram {
   /// Four parts of a sum (left to itself, the compiler divides the sums otherwise and shuffles).
   using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
   std::size_t width_;
-  std::vector<double> sum_;
-  std::vector<double> rows_;
+  std::pmr::vector<double> sum_, rows_;
   PanelOfColumns& turned_;
   std::size_t filled_ = 0;
 };
@@ -277,9 +281,11 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   sums.unit_sums.resize(patches_.units);
   // Rows of scans are the same for all sums. Those of traces, few, have the hold-out's own zeros in
   // what is learnt and what is held out.
+  // (few large pieces of memory: threads that ask for many wait for each other)
+  std::pmr::monotonic_buffer_resource room;
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
   PanelOfColumns turned;
-  Gram plain_held(columns, turned), plain_other(columns, turned);
+  Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
   RowPanel panel(*this);
   std::vector<std::size_t> rows;
   const auto add_row = [&](std::size_t r, const double* values) {
@@ -295,7 +301,7 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
       panel.subtract(whole_zero_means_[observation.trace]);
     }
     auto& unit = (held || in_trace ? other : learnt)[patch.unit];
-    if (!unit) unit.emplace(columns, turned);
+    if (!unit) unit.emplace(columns, turned, room);
     unit->add(values, patch.root);
     if (!counts) return;
     (held && !in_trace ? plain_held : plain_other).add(values, 1.0);

@@ -160,6 +160,7 @@ class PoseSearch {
   [[nodiscard]] Eigen::Vector2d tip_circle_step(const Pose& pose, const Eigen::Vector2d& centre) const {
     const int bins = std::clamp(geometry_.teeth(), 8, 48);
     std::vector<std::vector<double>> radii(bins);
+    for (std::vector<double>& of_bin : radii) of_bin.reserve(2 * fine_.size() / radii.size());
     for (const auto& p : fine_) {
       const auto q = pose(p);
       const double x = q[0] - centre.x(), y = q[1] - centre.y();

@@ -227,17 +227,20 @@ class PatchMaker {
       const int patch = result_.patch_of_row[i];
       return patch < 0 ? -1 : patch / static_cast<int>(kPatchesOfWork);
     });
+    std::vector<Sum> sums(patches);
     for_each_piece(pieces, [&](std::size_t piece) {
-      const std::size_t first = piece * kPatchesOfWork,
-                        end = std::min(patches, first + kPatchesOfWork);
-      std::vector<Sum> sums(end - first);
       rows.for_each(piece, table_, [&](std::size_t i) {
         const Observation& row = table_.rows[i];
         const auto patch = static_cast<std::size_t>(result_.patch_of_row[i]);
-        sums[patch - first].add(row, table_.place(row), table_.sigma_um(row));
+        sums[patch].add(row, table_.place(row), table_.sigma_um(row));
         keep_sample(patch, i);
       });
-      for (std::size_t k = first; k < end; ++k) finish_patch(k, sums[k - first]);
+    });
+    // (by one thread: threads that ask for memory wait for each other)
+    for (std::size_t k = 0; k < patches; ++k)
+      result_.patches[k].sample.reserve(std::min<std::size_t>(samples_[k].count, kMostSamples));
+    for_each_run(patches, kPatchesOfWork, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) finish_patch(k, sums[k]);
     });
     samples_ = {};
   }
@@ -250,9 +253,7 @@ class PatchMaker {
     patch.z_high_mm = s.z_high_mm;
     if (is_single(patch.kind)) return;
     const Sample& sample = samples_[number];
-    const std::size_t kept = std::min<std::size_t>(sample.count, kMostSamples);
-    patch.sample.reserve(kept);
-    for (std::size_t k = 0; k < kept; ++k)
+    for (std::size_t k = 0; k < std::min<std::size_t>(sample.count, kMostSamples); ++k)
       patch.sample.push_back(table_.place(table_.rows[sample.rows[k]]));
     Place& place = patch.places.front().place;
     if (place.surface == Surface::kFlank)
