@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/report/loop_html.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -120,8 +121,8 @@ std::string iso_table(const LoopResult& r) {
 
 std::string loop_html(const GearLoop& closed) {
   const LoopResult& r = closed.result;
-  auto before_sought = begun_beside([&] { return residual_grid(closed, false); });
-  const ResidualGrid after = residual_grid(closed, true), before = before_sought.get();
+  const std::array<ResidualGrid, 2> grids = residual_grids(closed);
+  const ResidualGrid &before = grids[0], &after = grids[1];
   auto left = begun_beside([&] { return remainder(closed, after); });
   const std::string all = charts(closed, before, after);
   return loop_page_opening(r, "What the measured " + r.gear + " shows") + left.get() + all + iso_table(r) +

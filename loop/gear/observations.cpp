@@ -159,7 +159,7 @@ class TableBuilder {
 
   void put_rows_in_order() {
     const std::vector<std::size_t> new_place = loop::put_rows_in_order(table);
-    for (SizeInTable& size : sizes_) size.row = new_place[size.row];
+    for (SizeInTable& size : sizes_) size.row = new_place[size.row - table.points_mm.size()];
     std::sort(sizes_.begin(), sizes_.end(),
               [](const SizeInTable& a, const SizeInTable& b) { return a.row < b.row; });
   }
