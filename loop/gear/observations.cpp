@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
@@ -216,6 +217,8 @@ class TableBuilder {
     // growing would leave up to as much again unused
     table.rows.reserve(table.rows.size() + points.size());
     table.places.reserve(table.places.size() + points.size());
+    ask_for_large_pages(table.rows.data() + table.rows.size(), points.size() * sizeof(Observation));
+    ask_for_large_pages(table.places.data() + table.places.size(), points.size() * sizeof(Place));
     // Without normals, points at the very ends of the face may lie on the end faces.
     const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
     struct Placed {
