@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory_resource>
 #include <optional>
 #include <set>
 #include <utility>
@@ -55,16 +56,12 @@ void PointFit::features(std::size_t i, double* values) const {
   }
   const Observation& row = table_.rows[i];
   if (i < table_.points_mm.size()) {  // of a scan: one place, with a weight of 1
-    const bool as_it_was =
-        what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank;
-    if (!as_it_was) {
+    if (!as_it_was(i)) {
       features_at(table_.place(row), row, values);
       values[columns_] = row.deviation_um;
       return;
     }
-    const PlacedPoint placed = as_designed(geometry_, table_, i);
-    features_at(placed.place, row, values);
-    values[columns_] = um_from_mm(placed.distance_mm);
+    features_of(as_designed(geometry_, table_, i), row, values);
     return;
   }
   std::fill_n(values, columns_ + 1, 0.0);
@@ -79,6 +76,18 @@ void PointFit::features(std::size_t i, double* values) const {
     }
   }
   values[columns_] = row.deviation_um;
+}
+
+/// True for rows whose deviations as designed are asked for.
+bool PointFit::as_it_was(std::size_t i) const {
+  return what_ == DeviationsOf::kDesign && kept_.empty() && i < table_.points_mm.size() &&
+         table_.rows[i].kind == ObservationKind::kScanFlank;
+}
+
+void PointFit::features_of(const PlacedPoint& placed, const Observation& row,
+                           double* values) const {
+  features_at(placed.place, row, values);
+  values[columns_] = um_from_mm(placed.distance_mm);
 }
 
 void PointFit::features_at(const Place& place, const Observation& row, double* values) const {
@@ -126,22 +135,32 @@ constexpr std::size_t kRowsOfWork = 16384, kMostPieces = 8;
 /// The values of a column in a panel of rows stand beside each other.
 using ColumnOfPanel = std::array<double, kPanel>;
 
+using PanelOfColumns = std::vector<ColumnOfPanel>;
+
 /// Sums of squares and products of rows, gathered in panels; the lower triangle. The columns of a
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  explicit Gram(std::size_t columns)
-      : sum_((columns + 1) * (columns + 2) / 2), panel_(columns + 1) {}
-  /// Adds a row of a panel times a factor.
-  void add(const std::vector<ColumnOfPanel>& rows, std::size_t row, double factor) {
-    for (std::size_t k = 0; k + 1 < panel_.size(); ++k) panel_[k][filled_] = factor * rows[k][row];
-    panel_.back()[filled_] = factor;
+  /// `turned`, which others may use too, is where the rows of a panel are turned into columns;
+  /// `room` gives the memory.
+  Gram(std::size_t columns, PanelOfColumns& turned, std::pmr::memory_resource& room)
+      : width_(columns + 1),
+        sum_(width_ * (width_ + 1) / 2, &room),
+        rows_(kPanel * width_, &room),
+        turned_(turned) {
+    turned_.resize(width_);
+  }
+  /// Adds the columns of a row times a factor.
+  void add(const double* row, double factor) {
+    double* const to = rows_.data() + filled_ * width_;
+    for (std::size_t k = 0; k + 1 < width_; ++k) to[k] = factor * row[k];
+    to[width_ - 1] = factor;
     if (++filled_ == kPanel) flush();
   }
   /// Of the columns and the 1.
   [[nodiscard]] Eigen::MatrixXd sum() {
     flush();
-    const auto n = static_cast<Eigen::Index>(panel_.size());
+    const auto n = static_cast<Eigen::Index>(width_);
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     auto next = sum_.begin();
     for (Eigen::Index i = 0; i < n; ++i)
@@ -152,19 +171,22 @@ class Gram {
  private:
   void flush() {
     if (filled_ == 0) return;
-    for (ColumnOfPanel& column : panel_) std::fill(column.begin() + filled_, column.end(), 0.0);
+    std::fill(rows_.begin() + static_cast<std::ptrdiff_t>(filled_ * width_), rows_.end(), 0.0);
     filled_ = 0;
+    const ColumnOfPanel* const panel = turned_.data();
+    for (std::size_t k = 0; k < width_; ++k)
+      for (std::size_t r = 0; r < kPanel; ++r) turned_[k][r] = rows_[r * width_ + k];
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
       double* sum = sum_.data();
-      for (std::size_t i = 0; i < panel_.size(); ++i)
+      for (std::size_t i = 0; i < width_; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
           Four even{}, odd{};
           for (std::size_t r = 0; r < kPanel; r += 8) {
             Four a, b, c, d;
-            std::memcpy(&a, &panel_[i][r], sizeof a);
-            std::memcpy(&b, &panel_[j][r], sizeof b);
-            std::memcpy(&c, &panel_[i][r + 4], sizeof c);
-            std::memcpy(&d, &panel_[j][r + 4], sizeof d);
+            std::memcpy(&a, &panel[i][r], sizeof a);
+            std::memcpy(&b, &panel[j][r], sizeof b);
+            std::memcpy(&c, &panel[i][r + 4], sizeof c);
+            std::memcpy(&d, &panel[j][r + 4], sizeof d);
             even += a * b;
             odd += c * d;
           }
@@ -175,8 +197,9 @@ class Gram {
   }
   /// Four parts of a sum (left to itself, the compiler divides the sums otherwise and shuffles).
   using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-  std::vector<double> sum_;
-  std::vector<ColumnOfPanel> panel_;
+  std::size_t width_;
+  std::pmr::vector<double> sum_, rows_;
+  PanelOfColumns& turned_;
   std::size_t filled_ = 0;
 };
 
@@ -221,23 +244,32 @@ struct PointFit::Sums {
   int observations = 0, held_out = 0;
 };
 
-/// Nuisance and effect columns, the value last, of rows that stand beside each other.
+/// Nuisance and effect columns, the value last, of some rows at a time.
 struct PointFit::RowPanel {
-  explicit RowPanel(const PointFit& fit)
-      : columns(static_cast<std::size_t>(fit.columns_) + 1), one(columns.size()) {}
+  explicit RowPanel(const PointFit& fit) : one(static_cast<std::size_t>(fit.columns_) + 1) {}
 
-  std::vector<ColumnOfPanel> columns;
   std::vector<double> one;
+  std::vector<std::size_t> anew;  ///< rows whose places as designed are found together
+  std::array<PlacedPoint, kPanel> placed;
 
-  void fill(const PointFit& fit, const std::vector<std::size_t>& rows) {
+  /// `visit(r, columns)` for every one of the rows, kPanel at most; the columns may be written to.
+  template <class Visit>
+  void for_each(const PointFit& fit, const std::vector<std::size_t>& rows, const Visit& visit) {
+    anew.clear();
+    for (const std::size_t row : rows)
+      if (fit.as_it_was(row)) anew.push_back(row);
+    as_designed(fit.geometry_, fit.table_, anew, placed.data());
+    std::size_t next = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      fit.features(rows[r], one.data());
-      for (std::size_t k = 0; k < one.size(); ++k) columns[k][r] = one[k];
+      if (next < anew.size() && anew[next] == rows[r])
+        fit.features_of(placed[next++], fit.table_.rows[rows[r]], one.data());
+      else
+        fit.features(rows[r], one.data());
+      visit(r, one.data());
     }
   }
-  void subtract(std::size_t row, const Eigen::VectorXd& mean) {
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      columns[k][row] -= mean[static_cast<Eigen::Index>(k)];
+  void subtract(const Eigen::VectorXd& mean) {
+    for (std::size_t k = 0; k < one.size(); ++k) one[k] -= mean[static_cast<Eigen::Index>(k)];
   }
 };
 
@@ -251,34 +283,35 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   sums.unit_sums.resize(patches_.units);
   // Rows of scans are the same for all sums. Those of traces, few, have the hold-out's own zeros in
   // what is learnt and what is held out.
+  // (few large pieces of memory: threads that ask for many wait for each other)
+  std::pmr::monotonic_buffer_resource room;
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
-  Gram plain_held(columns), plain_other(columns);
+  PanelOfColumns turned;
+  Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
   RowPanel panel(*this);
   std::vector<std::size_t> rows;
-  const auto add_panel = [&] {
-    panel.fill(*this, rows);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const Observation& observation = table_.rows[rows[r]];
-      const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
-      const bool held = patch.held, in_trace = observation.trace >= 0;
-      const bool counts = counts_as_error(observation.kind);
-      if (in_trace) {
-        Eigen::VectorXd part(n);
-        for (Eigen::Index k = 0; k < n; ++k)
-          part[k] = panel.columns[static_cast<std::size_t>(k)][r];
-        part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
-        if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
-        if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
-        panel.subtract(r, whole_zero_means_[observation.trace]);
-      }
-      auto& unit = (held || in_trace ? other : learnt)[patch.unit];
-      if (!unit) unit.emplace(columns);
-      unit->add(panel.columns, r, patch.root);
-      if (!counts) continue;
-      (held && !in_trace ? plain_held : plain_other).add(panel.columns, r, 1.0);
-      ++sums.observations;
-      sums.held_out += held ? 1 : 0;
+  const auto add_row = [&](std::size_t r, const double* values) {
+    const Observation& observation = table_.rows[rows[r]];
+    const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
+    const bool held = patch.held, in_trace = observation.trace >= 0;
+    const bool counts = counts_as_error(observation.kind);
+    if (in_trace) {
+      Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(values, n);
+      part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
+      if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
+      if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
+      panel.subtract(whole_zero_means_[observation.trace]);
     }
+    auto& unit = (held || in_trace ? other : learnt)[patch.unit];
+    if (!unit) unit.emplace(columns, turned, room);
+    unit->add(values, patch.root);
+    if (!counts) return;
+    (held && !in_trace ? plain_held : plain_other).add(values, 1.0);
+    ++sums.observations;
+    sums.held_out += held ? 1 : 0;
+  };
+  const auto add_panel = [&] {
+    panel.for_each(*this, rows, add_row);
     rows.clear();
   };
   for (std::size_t i = begin; i < end; ++i) {
@@ -379,8 +412,8 @@ double square_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 }
 }  // namespace
 
-/// Of these columns, those that the training data can tell: a tooth that is held out is in them by its share
-/// of a size alone.
+/// Of these columns, those that the training data can tell: a tooth that is held out is in them by
+/// its share of a size alone.
 std::vector<int> PointFit::learnt(std::vector<int> columns) const {
   constexpr double kHardly = 0.1;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
@@ -588,17 +621,15 @@ std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients)
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
     RowPanel panel(*this);
     std::vector<std::size_t> rows;
+    const auto tell_row = [&](std::size_t r, const double* values) {
+      if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
+        panel.subtract(whole_zero_means_[trace]);
+      double left = values[columns_];
+      for (int k = 0; k < columns_; ++k) left -= coefficients[k] * values[k];
+      left_um[rows[r]] = static_cast<float>(left);
+    };
     const auto tell_panel = [&] {
-      panel.fill(*this, rows);
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
-          panel.subtract(r, whole_zero_means_[trace]);
-      ColumnOfPanel left = panel.columns.back();
-      for (int k = 0; k < columns_; ++k) {
-        const ColumnOfPanel& column = panel.columns[static_cast<std::size_t>(k)];
-        for (std::size_t r = 0; r < kPanel; ++r) left[r] -= coefficients[k] * column[r];
-      }
-      for (std::size_t r = 0; r < rows.size(); ++r) left_um[rows[r]] = static_cast<float>(left[r]);
+      panel.for_each(*this, rows, tell_row);
       rows.clear();
     };
     for (std::size_t i = begin; i < end; ++i) {

@@ -72,6 +72,8 @@ class PointFit {
   void keep_features();
   void features(std::size_t row, double* values) const;
   void features_at(const Place& place, const Observation& row, double* values) const;
+  void features_of(const PlacedPoint& placed, const Observation& row, double* values) const;
+  [[nodiscard]] bool as_it_was(std::size_t row) const;
   [[nodiscard]] std::vector<float> residuals_with(const Eigen::VectorXd& coefficients) const;
   void average_zeros();
   struct PatchOfRow;

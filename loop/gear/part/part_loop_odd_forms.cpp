@@ -8,9 +8,11 @@
 #include <optional>
 #include <set>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 
@@ -279,18 +281,41 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
   const auto row_um = fit.residuals_um();
   // The effect and what is there, of one flank of a tooth or one trace: source, trace, tooth, side.
   std::map<std::array<int, 4>, PairedSums> units;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+  const auto add = [&](std::size_t i, const Place& place, PairedSums& unit) {
+    double c = 0.0;
+    effect.evaluate(geometry, place, &c);
+    unit.add(c, (*row_um)[i]);
+  };
+  const auto is_asked = [&](std::size_t i) {
+    const Observation& row = table.rows[i];
+    return row.places == 1 && patches.patch_of_row[i] >= 0 && std::isfinite((*row_um)[i]) &&
+           table.place(row).surface == Surface::kFlank;
+  };
+  // Flanks of scans do not ask each other: the same sums on any number of processors.
+  const std::size_t scanned = table.points_mm.size(),
+                    teeth = static_cast<std::size_t>(geometry.teeth());
+  const RowsByClass flanks(scanned, 2 * teeth * table.poses.size(), [&](std::size_t i) {
+    const Observation& row = table.rows[i];
+    if (row.kind != ObservationKind::kScanFlank || !is_asked(i)) return -1;
+    const Place& place = table.place(row);
+    return 2 * (row.source * geometry.teeth() + place.tooth - 1) + (place.side > 0 ? 1 : 0);
+  });
+  std::vector<PairedSums> of_flank(2 * teeth * table.poses.size());
+  for_each_piece(of_flank.size(), [&](std::size_t k) {
+    flanks.for_each(k, table,
+                    [&](std::size_t i) { add(i, table.place(table.rows[i]), of_flank[k]); });
+  });
+  for (std::size_t k = 0; k < of_flank.size(); ++k)
+    if (of_flank[k].n > 0.0)
+      units[{static_cast<int>(k / 2 / teeth), -1, static_cast<int>(k / 2 % teeth) + 1,
+             k % 2 == 1 ? 1 : -1}] = of_flank[k];
+  for (std::size_t i = scanned; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool traced =
         row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
-    if ((!traced && row.kind != ObservationKind::kScanFlank) || row.places != 1 ||
-        patches.patch_of_row[i] < 0 || !std::isfinite((*row_um)[i]))
-      continue;
+    if (!traced || !is_asked(i)) continue;
     const Place& place = table.place(row);
-    if (place.surface != Surface::kFlank) continue;
-    double c = 0.0;
-    effect.evaluate(geometry, place, &c);
-    units[{row.source, traced ? row.trace : -1, place.tooth, place.side}].add(c, (*row_um)[i]);
+    add(i, place, units[{row.source, row.trace, place.tooth, place.side}]);
   }
   // About its mean: levels differ for reasons of their own.
   double most = 0.0;
@@ -303,7 +328,8 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
     n += 1.0;
     sum += off;
     squares += off * off;
-    errors += std::max(0.0, unit.square_of_y() - off * product) / std::max(1.0, unit.n - 2.0) / square;
+    errors +=
+        std::max(0.0, unit.square_of_y() - off * product) / std::max(1.0, unit.n - 2.0) / square;
   }
   if (n < kFewest) return 0.0;
   const double variance = (squares - sum * sum / n) / (n - 1.0), error = errors / n;
