@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "trueflank/base/arc_tangent.h"
+
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier): the linker's names
 double __real_sin(double x);
@@ -46,20 +48,12 @@ constexpr double kLargestReducedAngle = 1e6;
 // pi/2 in pieces of 33, 33 and 53 bits, pi and pi/2 in two of 53, ln 2 in pieces of 32 and 53 bits
 constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34,
                  kHalfPi3 = 0x1.3198a2e037073p-69;
-constexpr double kPi = 0x1.921fb54442d18p+1, kPiLow = 0x1.1a62633145c07p-53;
+constexpr double kPi = kPiHigh;
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 
 double nearest_integer(double x) { return (x + kRoundsToInteger) - kRoundsToInteger; }
 double absolute(double x) { return x < 0.0 ? -x : x; }
 bool is_negative(double x) { return std::bit_cast<std::int64_t>(x) < 0; }
-
-/// c[0] + x (c[1] + x (...))
-template <typename Real, std::size_t count>
-Real polynomial(Real x, const std::array<Real, count>& c) {
-  Real sum = c[count - 1];
-  for (std::size_t i = count - 1; i-- > 0;) sum = c[i] + x * sum;
-  return sum;
-}
 
 /// 1/first!, 1/(first + step)!, ..., each with the sign of the one before times `sign`.
 template <typename Real, std::size_t count>
@@ -74,16 +68,6 @@ constexpr std::array<Real, count> inverse_factorials(int first, int step, int si
     s *= static_cast<Real>(sign);
     for (int i = 0; i < step; ++i) factorial *= static_cast<Real>(n++);
   }
-  return c;
-}
-
-/// 1/first, sign/(first + 2), 1/(first + 4), ...
-template <typename Real, std::size_t count>
-constexpr std::array<Real, count> inverse_odd_numbers(int first, int sign) {
-  std::array<Real, count> c{};
-  Real s = 1;
-  for (std::size_t i = 0; i < count; ++i, s *= static_cast<Real>(sign))
-    c[i] = s / static_cast<Real>(first + 2 * static_cast<int>(i));
   return c;
 }
 
@@ -135,33 +119,10 @@ double cosine(const ReducedAngle& r) {
   return ((r.quarters + 1U) & 2U) != 0 ? -value : value;
 }
 
-/// atan(i / 16) in two parts.
-constexpr double kAtanTable[17][2] = {{0.0, 0.0},
-                                      {0x1.ff55bb72cfdeap-5, -0x1.c934d86d23f1dp-60},
-                                      {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
-                                      {0x1.7b97b4bce5b02p-3, 0x1.347b0b4f881cap-58},
-                                      {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                      {0x1.362773707ebccp-2, -0x1.963a544b672d8p-57},
-                                      {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
-                                      {0x1.a64eec3cc23fdp-2, -0x1.24dec1b50b7ffp-56},
-                                      {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                      {0x1.0657e94db30d0p-1, -0x1.d5b495f6349e6p-56},
-                                      {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
-                                      {0x1.345f01cce37bbp-1, 0x1.1021137c71102p-55},
-                                      {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                      {0x1.5d58987169b18p-1, 0x1.0028e4bc5e7cap-57},
-                                      {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
-                                      {0x1.819d0b7158a4dp-1, -0x1.bf76229d3b917p-56},
-                                      {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
-
-/// Of 0 <= x <= 1: atan(i/16) + atan((x - i/16) / (1 + x i/16)).
+/// Of 0 <= x <= 1.
 double arctangent_below_one(double x) {
-  static constexpr auto kSeries = inverse_odd_numbers<double, 7>(3, -1);
   const int i = x < 0.0625 ? 0 : static_cast<int>(x * 16.0 + 0.5);
-  const double c = i / 16.0;
-  const double t = (x - c) / (1.0 + x * c);
-  const double z = t * t;
-  return kAtanTable[i][0] + (t - (t * z * polynomial(z, kSeries) - kAtanTable[i][1]));
+  return arc_tangent_beside(x, i / 16.0, kAtanTable[i][0], kAtanTable[i][1]);
 }
 double arctangent(double x) {
   const double size = absolute(x);

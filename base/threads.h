@@ -38,6 +38,12 @@ template <class Work>
   return threads;
 }
 
+/// Asked of the system once: it opens a file for each answer.
+[[nodiscard]] inline std::size_t processors() {
+  static const std::size_t known = std::max(1U, std::thread::hardware_concurrency());
+  return known;
+}
+
 /// Does `work(i)` for every i below `count` on all processors, in any order; returns when all is
 /// done. An exception is thrown on once the others ended.
 template <class Work>
@@ -54,9 +60,8 @@ void for_each_piece(std::size_t count, const Work& work) {
       if (!thrown) thrown = std::current_exception();
     }
   };
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
   if (count > 0) {
-    const auto others = helping_threads(std::min(count, processors) - 1, take_pieces);
+    const auto others = helping_threads(std::min(count, processors()) - 1, take_pieces);
     take_pieces();
   }
   if (thrown) std::rethrow_exception(thrown);

@@ -78,7 +78,7 @@ class Queue {
 
 void run_jobs(const std::vector<QueuedJob>& jobs) {
   Queue queue(jobs);
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t processors = trueflank::processors();
   if (jobs.empty()) return;
   auto others = helping_threads(std::min(jobs.size(), processors) - 1, [&queue] { queue.work(); });
   queue.work();

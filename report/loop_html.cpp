@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/report/loop_html.h"
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
@@ -11,6 +14,23 @@
 
 namespace trueflank::loop {
 namespace {
+
+/// One drawing of many, made on all processors.
+struct Drawing {
+  ChartKind kind;
+  const ResidualGrid* grid;
+  int side;
+  double scale;
+};
+
+std::vector<std::string> drawn(const std::vector<Drawing>& drawings) {
+  std::vector<std::string> all(drawings.size());
+  for_each_piece(all.size(), [&](std::size_t i) {
+    const Drawing& one = drawings[i];
+    all[i] = chart_svg(one.kind, *one.grid, one.side, one.scale);
+  });
+  return all;
+}
 
 std::string charts(const GearLoop& closed, const ResidualGrid& before, const ResidualGrid& after) {
   struct Section {
@@ -24,6 +44,16 @@ std::string charts(const GearLoop& closed, const ResidualGrid& before, const Res
       {ChartKind::kOrders, "Orders around the gear", "Amplitude [µm] of the flanks' places by order"},
       {ChartKind::kTopography, "Topography", "Mean of all teeth [µm]: root to tip over the face"}};
   const GearKind gear = closed.geometry.gear().kind;
+  std::vector<Drawing> drawings;
+  for (const Section& section : kSections) {
+    const double scale = chart_scale_um(section.kind, before);
+    if (std::isnan(scale)) continue;
+    for (const Flank flank : {Flank::kLeft, Flank::kRight})
+      for (const ResidualGrid* grid : {&before, &after})
+        drawings.push_back({section.kind, grid, flank_side(flank, gear) > 0 ? 1 : 0, scale});
+  }
+  const std::vector<std::string> figures = drawn(drawings);
+  auto figure = figures.begin();
   std::string html, missing;
   for (const Section& section : kSections) {
     const double scale = chart_scale_um(section.kind, before);
@@ -39,8 +69,7 @@ std::string charts(const GearLoop& closed, const ResidualGrid& before, const Res
     for (const Flank flank : {Flank::kLeft, Flank::kRight})
       for (const ResidualGrid* grid : {&before, &after})
         html += std::string("<figure><figcaption><b>") + (grid == &before ? "before" : "after") + "</b>, " +
-                (flank == Flank::kLeft ? "left" : "right") + " flanks</figcaption>" +
-                chart_svg(section.kind, *grid, flank_side(flank, gear) > 0 ? 1 : 0, scale) + "</figure>";
+                (flank == Flank::kLeft ? "left" : "right") + " flanks</figcaption>" + *figure++ + "</figure>";
     html += "</div>";
   }
   if (!missing.empty()) html += "<p class='note'>Not in these data: " + missing + ".</p>";
@@ -92,10 +121,11 @@ std::string iso_table(const LoopResult& r) {
 
 std::string loop_html(const GearLoop& closed) {
   const LoopResult& r = closed.result;
-  auto before_sought = begun_beside([&] { return residual_grid(closed, false); });
-  const ResidualGrid after = residual_grid(closed, true), before = before_sought.get();
-  return loop_page_opening(r, "What the measured " + r.gear + " shows") + remainder(closed, after) +
-         charts(closed, before, after) + iso_table(r) +
+  const std::array<ResidualGrid, 2> grids = residual_grids(closed);
+  const ResidualGrid &before = grids[0], &after = grids[1];
+  auto left = begun_beside([&] { return remainder(closed, after); });
+  const std::string all = charts(closed, before, after);
+  return loop_page_opening(r, "What the measured " + r.gear + " shows") + left.get() + all + iso_table(r) +
          loop_page_end(r);
 }
 

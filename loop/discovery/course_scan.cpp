@@ -389,59 +389,113 @@ class CourseScan {
             loud.degrees};
   }
 
-  void look_for_spots() {
-    std::vector<Louder> louds;
-    for (const MatrixXd& set : sets_) louds.push_back(loudness(set));
-    CourseFinding best{CourseKind::kSpot};
-    double tests = 0.0;
-    for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5)) {
-      std::vector<double> all;
-      std::vector<MatrixXd> windows;
-      std::vector<double> spreads;  // of each set: one may be noisier
-      constexpr double kEnough = 40.0;
-      const double apart_each = static_cast<double>(m_) / static_cast<double>(width);
-      for (std::size_t s = 0; s < sets_.size(); ++s) {
-        // A deep spot on one of few courses would stand in the plain mean, and so on all the
-        // others.
-        MatrixXd apart = clipped_[s];
-        if (apart.cols() > 2) {
-          VectorXd common = apart.rowwise().mean();
-          common.array() -= common.mean();
-          apart.colwise() -= common;
-        }
-        MatrixXd sums(m_ - width + 1, apart.cols());
-        for (Index i = 0; i + width <= m_; ++i)
-          sums.row(i) = apart.middleRows(i, width).colwise().mean();
-        sums.array().rowwise() /= louds[s].by.transpose().array();
-        all.insert(all.end(), sums.data(), sums.data() + sums.size());
-        spreads.push_back(static_cast<double>(sums.cols()) * apart_each < kEnough
-                              ? 0.0
-                              : robust_sigma(std::vector(sums.data(), sums.data() + sums.size())));
-        windows.push_back(std::move(sums));
-      }
-      // Too few windows apart from each other tell no spread.
-      if (courses_ * apart_each < kEnough) break;
-      tests += static_cast<double>(all.size());
-      const double of_all = robust_sigma(std::move(all));
-      for (int s = 0; s < static_cast<int>(windows.size()) && of_all > 0.0; ++s) {
-        const double own = spreads[static_cast<std::size_t>(s)], spread = own > 0.0 ? own : of_all;
-        Index row = 0, column = 0;
-        if (windows[s].size() == 0) continue;
-        const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);
-        const double normal = normal_two_sided(most / spread, excess_ / static_cast<double>(width));
-        const double p = std::max(
-            normal,
-            least_chance(most / spread, louds[static_cast<std::size_t>(s)].degrees, normal));
-        if (!(p < best.p_value)) continue;
-        best.p_value = p;
-        best.set = s;
-        best.course = static_cast<int>(column);
-        best.at =
-            (static_cast<double>(row) + 0.5 * static_cast<double>(width)) / static_cast<double>(m_);
-        best.width = static_cast<double>(width) / static_cast<double>(m_);
-        best.amount = sets_[s].col(column).segment(row, width).mean();
+  /// Courses less what is usual in each of them and at each place in all: where every one of few
+  /// has a deep spot, a mean would be moved by these.
+  [[nodiscard]] static MatrixXd apart_from_usual(const MatrixXd& set) {
+    MatrixXd apart = set;
+    const auto middle_of = [](const auto& values) {
+      std::vector<double> sorted(values.begin(), values.end());
+      std::sort(sorted.begin(), sorted.end());
+      return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
+    };
+    if (apart.cols() > 2) {
+      VectorXd usual(apart.rows());
+      for (Index i = 0; i < apart.rows(); ++i) usual[i] = middle_of(apart.row(i));
+      apart.colwise() -= usual;
+    }
+    for (Index c = 0; c < apart.cols(); ++c) apart.col(c).array() -= middle_of(apart.col(c));
+    return apart;
+  }
+
+  /// How much rougher than usual a course is from place to place within each window, where it is:
+  /// wild points and bursts of noise are, what has a form is not. 1 elsewhere.
+  [[nodiscard]] static MatrixXd roughness(const MatrixXd& set, Index width) {
+    const Index m = set.rows();
+    MatrixXd squares = MatrixXd::Zero(m, set.cols());
+    squares.middleRows(1, m - 2) =
+        (set.topRows(m - 2) - 2.0 * set.middleRows(1, m - 2) + set.bottomRows(m - 2)).cwiseAbs2() /
+        6.0;
+    MatrixXd rough = MatrixXd::Ones(m - width + 1, set.cols());
+    for (Index c = 0; c < set.cols(); ++c) {
+      const double usual = short_wave_scatter(set.col(c));
+      if (!(usual > 0.0)) continue;
+      for (Index i = 0; i + width <= m; ++i) {
+        const Index from = std::max<Index>(1, i - 1), to = std::min(m - 1, i + width + 1);
+        rough(i, c) =
+            std::max(1.0, std::sqrt(squares.col(c).segment(from, to - from).mean()) / usual);
       }
     }
+    return rough;
+  }
+
+  /// Windows in which a course stands apart: with wild points clipped; or as it is, where it runs
+  /// there as smoothly as elsewhere.
+  void look_for_spots() {
+    // Slow errors and single teeth far out have longer tails than windows of clipped values.
+    constexpr double kTailOfWhole = 12.0;
+    std::vector<Louder> louds;
+    for (const MatrixXd& set : sets_) louds.push_back(loudness(set));
+    std::vector<MatrixXd> clipped, whole;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      // (a deep spot on one of few courses would stand in the plain mean)
+      MatrixXd apart = clipped_[s];
+      if (apart.cols() > 2) {
+        VectorXd common = apart.rowwise().mean();
+        common.array() -= common.mean();
+        apart.colwise() -= common;
+      }
+      clipped.push_back(std::move(apart));
+      whole.push_back(apart_from_usual(sets_[s]));
+    }
+    CourseFinding best{CourseKind::kSpot};
+    double tests = 0.0;
+    for (Index width = 4; width <= m_ / 3; width = std::max(width + 1, width * 8 / 5))
+      for (const bool clip : {true, false}) {
+        std::vector<double> all;
+        std::vector<MatrixXd> windows;
+        std::vector<double> spreads;  // of each set: one may be noisier
+        constexpr double kEnough = 40.0;
+        const double apart_each = static_cast<double>(m_) / static_cast<double>(width);
+        for (std::size_t s = 0; s < sets_.size(); ++s) {
+          const MatrixXd& apart = clip ? clipped[s] : whole[s];
+          MatrixXd sums(m_ - width + 1, apart.cols());
+          for (Index i = 0; i + width <= m_; ++i)
+            sums.row(i) = apart.middleRows(i, width).colwise().mean();
+          sums.array().rowwise() /= louds[s].by.transpose().array();
+          if (!clip && sums.size() > 0) sums.array() /= roughness(apart, width).array();
+          all.insert(all.end(), sums.data(), sums.data() + sums.size());
+          spreads.push_back(
+              static_cast<double>(sums.cols()) * apart_each < kEnough
+                  ? 0.0
+                  : robust_sigma(std::vector(sums.data(), sums.data() + sums.size())));
+          windows.push_back(std::move(sums));
+        }
+        // Too few windows apart from each other tell no spread.
+        if (courses_ * apart_each < kEnough) break;
+        tests += static_cast<double>(all.size());
+        const double of_all = robust_sigma(std::move(all));
+        for (int s = 0; s < static_cast<int>(windows.size()) && of_all > 0.0; ++s) {
+          const double own = spreads[static_cast<std::size_t>(s)],
+                       spread = own > 0.0 ? own : of_all;
+          Index row = 0, column = 0;
+          if (windows[s].size() == 0) continue;
+          const double most = windows[s].cwiseAbs().maxCoeff(&row, &column);
+          const double normal =
+              normal_two_sided(most / spread, excess_ / static_cast<double>(width));
+          double p = std::max(
+              normal,
+              least_chance(most / spread, louds[static_cast<std::size_t>(s)].degrees, normal));
+          if (!clip) p = std::max(p, student_two_sided(most / spread, kTailOfWhole));
+          if (!(p < best.p_value)) continue;
+          best.p_value = p;
+          best.set = s;
+          best.course = static_cast<int>(column);
+          best.at = (static_cast<double>(row) + 0.5 * static_cast<double>(width)) /
+                    static_cast<double>(m_);
+          best.width = static_cast<double>(width) / static_cast<double>(m_);
+          best.amount = sets_[s].col(column).segment(row, width).mean();
+        }
+      }
     keep(best, tests);
   }
 

@@ -87,8 +87,9 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
   result.structure_p_value = loop.discovery().first_p_value;
   result.structure_left_p_value = loop.structure_left_p_value();
   result.structure_left = loop.structure_left();
-  const ShapeUncertainty uncertainty =
-      shape_uncertainty(geometry, loop.table(), loop.patches(), fit);
+  ShapeUncertainty uncertainty =
+      shape_uncertainty(geometry, loop.table(), loop.patches(), fit, FreeShapes::kAll);
+  uncertainty.otherwise = loop.without_means_of_waves(fit);
   result.effects = describe_effects({geometry, fit, loop.discovery(), loop.candidates(), uncertainty,
                                      result.not_observable, makings, loop.unseen(),
                                      explained_by(result.before, result.after), {}, &loop.table()});

@@ -2,6 +2,7 @@
 #include "trueflank/loop/gear/effect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trueflank::loop {
@@ -24,6 +25,18 @@ void Effect::evaluate(const FlankGeometry& geometry, const Place& place, double*
     std::fill_n(values, columns(), 0.0);
 }
 
+namespace {
+
+/// Effects have one column or two: written out, as calls that fill or copy memory take longer.
+void put(const double* values, int count, double* to) {
+  to[0] = values[0];
+  if (count > 1) to[1] = values[1];
+  for (int k = 2; k < count; ++k) to[k] = values[k];
+}
+constexpr std::array<double, 8> kNothing{};
+
+}  // namespace
+
 EffectsTogether::EffectsTogether(std::span<const Effect> effects) : effects_(effects) {
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Effect& effect = effects[e];
@@ -43,7 +56,7 @@ void EffectsTogether::evaluate(const FlankGeometry& geometry, const Place& place
     if (!any_on_one_flank_) return;
     for (const One& one : ones_)
       if (one.flank != FlankChoice::kBoth && one.flank != here)
-        std::fill_n(columns + one.column, one.columns, 0.0);
+        put(kNothing.data(), one.columns, columns + one.column);
     return;
   }
   double last[8];
@@ -54,7 +67,7 @@ void EffectsTogether::evaluate(const FlankGeometry& geometry, const Place& place
     const bool acts = one.flank == FlankChoice::kBoth || one.flank == here;
     if (acts && !known) family.evaluate(geometry, place, effects_[e].shape, last);
     known = known || acts;
-    for (int k = 0; k < one.columns; ++k) columns[one.column + k] = acts ? last[k] : 0.0;
+    put(acts ? last : kNothing.data(), one.columns, columns + one.column);
   }
 }
 

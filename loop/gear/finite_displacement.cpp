@@ -3,8 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <span>
 
 #include "trueflank/base/threads.h"
 
@@ -14,7 +17,12 @@ namespace {
 
 constexpr std::size_t kRowsOfWork = 16384;
 
-/// Does `work(i)` for every row of a scan, on all processors; returns the largest of its results.
+/// Rows whose places are found together.
+constexpr std::size_t kTogether = 64;
+using FoundTogether = std::array<PlacedPoint, kTogether>;
+
+/// Does `work(from, to)` for runs of neighbours among the rows of scans, on all processors; returns the
+/// largest of its results.
 template <class Work>
 double largest_of_points(const Observations& table, const Work& work) {
   const std::size_t rows = table.points_mm.size();
@@ -22,10 +30,22 @@ double largest_of_points(const Observations& table, const Work& work) {
   for_each_piece(largest.size(), [&](std::size_t piece) {
     const std::size_t end = std::min(rows, (piece + 1) * kRowsOfWork);
     double most = 0.0;
-    for (std::size_t i = piece * kRowsOfWork; i < end; ++i) most = std::max(most, work(i));
+    for (std::size_t i = piece * kRowsOfWork; i < end; i += kTogether)
+      most = std::max(most, work(i, std::min(end, i + kTogether)));
     largest[piece] = most;
   });
   return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
+}
+
+/// Rows of scanned flanks from ... to - 1, and their places as designed.
+std::vector<std::size_t> flanks_as_designed(const FlankGeometry& geometry, const Observations& table,
+                                            std::size_t from, std::size_t to, FoundTogether& placed) {
+  std::vector<std::size_t> rows;
+  rows.reserve(to - from);
+  for (std::size_t i = from; i < to; ++i)
+    if (table.rows[i].kind == ObservationKind::kScanFlank) rows.push_back(i);
+  as_designed(geometry, table, rows, placed.data());
+  return rows;
 }
 
 }  // namespace
@@ -45,13 +65,29 @@ class MoveBack {
     double deviation_um = 0.0;
     double change_um = 0.0;  ///< of what the fit leaves there
   };
-  /// Where a row's point lay, and its deviation there; nothing where it is on no flank, or would
-  /// come onto another one.
-  [[nodiscard]] std::optional<Moved> operator()(const Observations& table, std::size_t i) const {
+  /// `take(i, moved)` for rows from ... to - 1, kTogether at most: where their points lay, and their
+  /// deviations there; not for what is on no flank, or would come onto another one.
+  template <class Take>
+  void for_rows(const Observations& table, std::span<const std::size_t> rows, const Take& take) const {
+    std::array<std::array<double, 3>, kTogether> points;
+    FoundTogether placed;
+    std::array<std::size_t, kTogether> on_flanks;
+    std::size_t count = 0;
+    for (const std::size_t i : rows) {
+      if (table.rows[i].kind != ObservationKind::kScanFlank) continue;
+      on_flanks[count] = i;
+      points[count++] = moved_back(table.points_mm[i]);
+    }
+    geometry_.nearest_flanks({points.data(), count}, 0.0, placed.data());
+    for (std::size_t k = 0; k < count; ++k)
+      if (const auto moved = moved_of(table, on_flanks[k], placed[k])) take(on_flanks[k], *moved);
+  }
+
+ private:
+  [[nodiscard]] std::optional<Moved> moved_of(const Observations& table, std::size_t i,
+                                              const PlacedPoint& placed) const {
     const Observation& row = table.rows[i];
-    if (row.kind != ObservationKind::kScanFlank) return {};
     const Place& place = table.places[row.first_place];
-    const PlacedPoint placed = geometry_.nearest_flank(moved_back(table.points_mm[i]));
     if (placed.place.tooth != place.tooth || placed.place.side != place.side ||
         !(placed.place.roll_mm > 0.0))
       return {};
@@ -62,7 +98,6 @@ class MoveBack {
     return moved;
   }
 
- private:
   /// What the columns say the displacement does at a place.
   [[nodiscard]] double moved_by_um(const Place& place) const {
     double sum = 0.0, values[8];
@@ -103,22 +138,32 @@ double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
   const MoveBack move_back(geometry, fit);
   const std::size_t stride = std::max<std::size_t>(1, table.points_mm.size() / kSample);
   double most = 0.0;
-  for (std::size_t i = 0; i < table.points_mm.size(); i += stride)
-    if (const auto moved = move_back(table, i))
-      most = std::max(most, std::abs(moved->change_um));
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.points_mm.size();) {
+    rows.clear();
+    for (; rows.size() < kTogether && i < table.points_mm.size(); i += stride) rows.push_back(i);
+    move_back.for_rows(table, rows, [&](std::size_t, const MoveBack::Moved& moved) {
+      most = std::max(most, std::abs(moved.change_um));
+    });
+  }
   return most;
 }
 
 double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observations& table) {
   const MoveBack move_back(geometry, fit);
   table.is_displaced = true;
-  return largest_of_points(table, [&](std::size_t i) {
-    const auto moved = move_back(table, i);
-    if (!moved) return 0.0;
-    Observation& row = table.rows[i];
-    row.deviation_um = moved->deviation_um;
-    table.places[row.first_place] = moved->place;
-    return std::abs(moved->change_um);
+  return largest_of_points(table, [&](std::size_t from, std::size_t to) {
+    std::array<std::size_t, kTogether> rows;
+    std::iota(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(to - from), from);
+    double most = 0.0;
+    move_back.for_rows(table, {rows.data(), to - from},
+                       [&](std::size_t i, const MoveBack::Moved& moved) {
+                         Observation& row = table.rows[i];
+                         row.deviation_um = moved.deviation_um;
+                         table.places[row.first_place] = moved.place;
+                         most = std::max(most, std::abs(moved.change_um));
+                       });
+    return most;
   });
 }
 
@@ -152,17 +197,21 @@ void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Obse
     pose.translation_mm = by[s].rotation * pose.translation_mm + by[s].translation_mm;
   }
   const double reach_mm = kReachOfNearest * geometry.gear().normal_module_mm;
-  largest_of_points(table, [&](std::size_t i) {
-    Observation& row = table.rows[i];
-    auto& point = table.points_mm[i];
-    point = by[static_cast<std::size_t>(row.source)](point);
-    Place& place = table.places[row.first_place];
-    const PlacedPoint placed = row.kind == ObservationKind::kScanFlank
-                                   ? as_designed(geometry, table, i)
-                                   : geometry.nearest(point, reach_mm);
-    if (placed.place.surface == place.surface) {
-      row.deviation_um = um_from_mm(placed.distance_mm);
-      place = placed.place;
+  largest_of_points(table, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      table.points_mm[i] = by[static_cast<std::size_t>(table.rows[i].source)](table.points_mm[i]);
+    FoundTogether placed;
+    flanks_as_designed(geometry, table, from, to, placed);
+    std::size_t next = 0;
+    for (std::size_t i = from; i < to; ++i) {
+      Observation& row = table.rows[i];
+      Place& place = table.places[row.first_place];
+      const PlacedPoint own = row.kind == ObservationKind::kScanFlank
+                                  ? placed[next++]
+                                  : geometry.nearest(table.points_mm[i], reach_mm);
+      if (own.place.surface != place.surface) continue;
+      row.deviation_um = um_from_mm(own.distance_mm);
+      place = own.place;
     }
     return 0.0;
   });
@@ -171,12 +220,14 @@ void move_scans(const FlankGeometry& geometry, const std::vector<Pose>& by, Obse
 
 void undo_displacement(const FlankGeometry& geometry, Observations& table) {
   if (!table.is_displaced) return;
-  largest_of_points(table, [&](std::size_t i) {
-    Observation& row = table.rows[i];
-    if (row.kind != ObservationKind::kScanFlank) return 0.0;
-    const PlacedPoint placed = as_designed(geometry, table, i);
-    row.deviation_um = um_from_mm(placed.distance_mm);
-    table.places[row.first_place] = placed.place;
+  largest_of_points(table, [&](std::size_t from, std::size_t to) {
+    FoundTogether placed;
+    const std::vector<std::size_t> rows = flanks_as_designed(geometry, table, from, to, placed);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Observation& row = table.rows[rows[k]];
+      row.deviation_um = um_from_mm(placed[k].distance_mm);
+      table.places[row.first_place] = placed[k].place;
+    }
     return 0.0;
   });
   table.is_displaced = false;

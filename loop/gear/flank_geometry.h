@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "trueflank/base/units.h"
 #include "trueflank/geometry/tooth_profile.h"
+#include "trueflank/loop/gear/flank_foot.h"
 #include "trueflank/train/gear_train.h"
 
 // Where a measured point lies on the gear as designed: tooth, flank, roll length, height, and the
@@ -104,6 +107,14 @@ class FlankGeometry {
   /// Size of the distance that `nearest` tells; NaN where it finds no surface.
   [[nodiscard]] double nearest_distance_mm(const std::array<double, 3>& point_mm,
                                            double reach_mm) const;
+  /// @name Of many points, into as many results: the same digits in less than half the time
+  /// @{
+  void nearest_flanks(std::span<const std::array<double, 3>> points_mm, double margin,
+                      PlacedPoint* found) const;
+  void nearest(std::span<const std::array<double, 3>> points_mm, double reach_mm, PlacedPoint* found) const;
+  void nearest_distances_mm(std::span<const std::array<double, 3>> points_mm, double reach_mm,
+                            double* found) const;
+  /// @}
   /// Roll length at which a ball or pin in a gap touches, and the pressure angle at its centre.
   struct BallContact {
     double roll_mm = 0.0, centre_angle_rad = 0.0;
@@ -116,11 +127,9 @@ class FlankGeometry {
     Place place;
     double normal_rad = 0.0;  ///< direction of the transverse part of the outward normal
     double distance_mm = 0.0;
-    /// Of a flank: the direction of the measured point, and how much further round the place is.
-    std::array<double, 2> from_direction{};
-    double turn_rad = kNaN;
+    /// The place has its directions: it stands near the measured point.
+    bool is_directed = false;
   };
-  [[nodiscard]] Place directed_on_flank(const Undirected& found) const;
   [[nodiscard]] Place directed(const Undirected& found) const;
   [[nodiscard]] Undirected flank_place(int tooth, int side, double roll_mm, double z_mm,
                                        double pressure_rad) const;
@@ -129,6 +138,12 @@ class FlankGeometry {
   [[nodiscard]] Undirected undirected_flank(const std::array<double, 3>& point_mm,
                                             double margin) const;
   [[nodiscard]] Undirected undirected(const std::array<double, 3>& point_mm, double reach_mm) const;
+  [[nodiscard]] Undirected beside_flank(const std::array<double, 3>& point_mm, int tooth,
+                                        double reach_mm) const;
+  [[nodiscard]] ToothedCylinder cylinder() const;
+  [[nodiscard]] Undirected found_at(const Foot<OneAtATime>& foot, double margin) const;
+  template <class Take>
+  void for_feet(std::span<const std::array<double, 3>> points_mm, double margin, const Take& take) const;
   Gear gear_;
   double sense_, base_radius_, reference_radius_, tip_radius_, root_radius_, bore_radius_;
   double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;
@@ -138,5 +153,32 @@ class FlankGeometry {
   FlankDeviation designed_ = {};
   double edge_chamfer_ = 0.0;
 };
+
+inline FlankGeometry::Undirected FlankGeometry::found_at(const Foot<OneAtATime>& foot,
+                                                         double margin) const {
+  Undirected found;
+  Place& place = found.place;
+  place.tooth = static_cast<int>(foot.tooth) + 1;
+  place.surface = Surface::kNone;
+  if (foot.radius <= base_radius_) return found;
+  place.surface = Surface::kFlank;
+  place.side = foot.side > 0.0 ? 1 : -1;
+  place.roll_mm = foot.roll;
+  place.z_mm = foot.z;
+  place.radius_mm = foot.place_radius;
+  place.polar_rad = foot.place_polar;
+  found.normal_rad = foot.normal;
+  found.distance_mm = foot.distance;
+  if (!designed_.empty()) found.distance_mm -= designed_deviation_mm(place);
+  if (!(std::abs(profile_coordinate(place.roll_mm)) <= 1.0 - 2.0 * margin)) {
+    place.surface = Surface::kNone;
+    return found;
+  }
+  if (!(std::abs(foot.turn) < kSmallAngle)) return found;
+  place.polar_direction = foot.to;
+  place.normal_direction = foot.normal_direction;
+  found.is_directed = true;
+  return found;
+}
 
 }  // namespace trueflank::loop

@@ -111,11 +111,15 @@ class Describer {
       found.parameters.push_back(phase);
       return;
     }
-    for (int k = 0; k < effect.columns(); ++k)
-      found.parameters.push_back(
+    for (int k = 0; k < effect.columns(); ++k) {
+      Parameter& told = found.parameters.emplace_back(
           parameter_of(family.parameters[k], b[column + k],
                        t_of(sources_.fit.degrees(column + k)) *
                            std::sqrt(std::max(0.0, covariance(column + k, column + k)))));
+      if (sources_.uncertainty.otherwise.size() == 0) continue;
+      const double change = sources_.uncertainty.otherwise[column + k];
+      (change < 0.0 ? told.low : told.high) += change;
+    }
   }
 
   Term term(int e) const {

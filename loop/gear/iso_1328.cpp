@@ -210,7 +210,7 @@ double iso_1328_tolerance_um(double bracket_um, int accuracy_class) {
 Iso1328 iso_1328(const GearLoop& closed) {
   const FlankGeometry& g = closed.geometry;
   const double d = 2.0 * g.reference_radius_mm(), m = g.gear().normal_module_mm, b = g.face_width_mm();
-  const ResidualGrid grid = residual_grid(closed, false);
+  const ResidualGrid grid = residual_grid_before(closed);
   std::array<OfSide, 2> sides;
   add_traces(closed, grid, true, sides);
   add_traces(closed, grid, false, sides);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
@@ -159,7 +160,7 @@ class TableBuilder {
 
   void put_rows_in_order() {
     const std::vector<std::size_t> new_place = loop::put_rows_in_order(table);
-    for (SizeInTable& size : sizes_) size.row = new_place[size.row];
+    for (SizeInTable& size : sizes_) size.row = new_place[size.row - table.points_mm.size()];
     std::sort(sizes_.begin(), sizes_.end(),
               [](const SizeInTable& a, const SizeInTable& b) { return a.row < b.row; });
   }
@@ -216,21 +217,31 @@ class TableBuilder {
     // growing would leave up to as much again unused
     table.rows.reserve(table.rows.size() + points.size());
     table.places.reserve(table.places.size() + points.size());
+    ask_for_large_pages(table.rows.data() + table.rows.size(), points.size() * sizeof(Observation));
+    ask_for_large_pages(table.places.data() + table.places.size(), points.size() * sizeof(Place));
     // Without normals, points at the very ends of the face may lie on the end faces.
     const double inside = scan.normals.empty() || chamfer > 0.0 ? edge : -edge;
     struct Placed {
       PlacedPoint on;
       bool usable = false;
     };
-    const auto placed = [&](std::size_t i) {
-      Placed one;
-      const auto p = points[i] = pose(points[i]);
-      one.on = geometry_.nearest(p, reach);
-      const Place& place = one.on.place;
-      one.usable = place.surface != Surface::kNone && p[2] > inside && p[2] < b - inside &&
-                   looks_outwards(scan, i, pose, place) &&
-                   !(place.surface == Surface::kFlank && lands.covers(place, p));
-      return one;
+    const auto is_usable = [&](std::size_t i, const Place& place) {
+      const std::array<double, 3>& p = points[i];
+      return place.surface != Surface::kNone && p[2] > inside && p[2] < b - inside &&
+             looks_outwards(scan, i, pose, place) &&
+             !(place.surface == Surface::kFlank && lands.covers(place, p));
+    };
+    const auto put_places = [&](std::size_t from, std::span<Placed> to) {
+      constexpr std::size_t kTogether = 64;
+      std::array<PlacedPoint, kTogether> found;
+      for (std::size_t first = 0; first < to.size(); first += kTogether) {
+        const std::size_t count = std::min(kTogether, to.size() - first);
+        const std::span<std::array<double, 3>> own = std::span(points).subspan(from + first, count);
+        for (std::array<double, 3>& point : own) point = pose(point);
+        geometry_.nearest(own, reach, found.data());
+        for (std::size_t k = 0; k < count; ++k)
+          to[first + k] = {found[k], is_usable(from + first + k, found[k].place)};
+      }
     };
     // Placed on all processors, some at a time; meanwhile those before are taken in their order.
     constexpr std::size_t kOfWork = 2048, kAtOnce = 16 * kOfWork;
@@ -255,8 +266,8 @@ class TableBuilder {
       for_each_piece(taken + (count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
         if (piece < taken) return take(some[(time - 1) % 2], from - kAtOnce);
         const std::size_t first = (piece - taken) * kOfWork;
-        for (std::size_t k = first; k < std::min(count, first + kOfWork); ++k)
-          some[time % 2][k] = placed(from + k);
+        put_places(from + first, std::span(some[time % 2])
+                                     .subspan(first, std::min(count - first, kOfWork)));
       });
     }
     const std::size_t all = points.size(), unused = all - kept;
@@ -457,6 +468,20 @@ class TableBuilder {
 };
 
 }  // namespace
+
+void as_designed(const FlankGeometry& geometry, const Observations& table,
+                 std::span<const std::size_t> rows, PlacedPoint* found) {
+  constexpr std::size_t kAtOnce = 64;
+  std::array<std::array<double, 3>, kAtOnce> points;
+  for (std::size_t first = 0; first < rows.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, rows.size() - first);
+    for (std::size_t k = 0; k < count; ++k) points[k] = table.points_mm[rows[first + k]];
+    PlacedPoint* const placed = found + first;
+    geometry.nearest_flanks({points.data(), count}, kFlankMargin, placed);
+    for (std::size_t k = 0; k < count; ++k)
+      if (placed[k].place.roll_mm > 0.0) placed[k].place.surface = Surface::kFlank;
+  }
+}
 
 ResultAll<Observations> make_observations(const FlankGeometry& geometry, MeasuredData data,
                                           const ObservationOptions& options) {

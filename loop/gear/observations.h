@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "trueflank/loop/gear/flank_geometry.h"
 #include "trueflank/loop/gear/pose.h"
@@ -76,6 +77,10 @@ inline constexpr double kReachOfNearest = 0.35;
   if (placed.place.roll_mm > 0.0) placed.place.surface = Surface::kFlank;
   return placed;
 }
+
+/// The same of many rows, into as many results.
+void as_designed(const FlankGeometry& geometry, const Observations& table,
+                 std::span<const std::size_t> rows, PlacedPoint* found);
 
 struct ObservationOptions {
   bool aligned = false;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
+#include <memory_resource>
 #include <optional>
 #include <set>
 #include <utility>
@@ -54,16 +56,12 @@ void PointFit::features(std::size_t i, double* values) const {
   }
   const Observation& row = table_.rows[i];
   if (i < table_.points_mm.size()) {  // of a scan: one place, with a weight of 1
-    const bool as_it_was =
-        what_ == DeviationsOf::kDesign && row.kind == ObservationKind::kScanFlank;
-    if (!as_it_was) {
+    if (!as_it_was(i)) {
       features_at(table_.place(row), row, values);
       values[columns_] = row.deviation_um;
       return;
     }
-    const PlacedPoint placed = as_designed(geometry_, table_, i);
-    features_at(placed.place, row, values);
-    values[columns_] = um_from_mm(placed.distance_mm);
+    features_of(as_designed(geometry_, table_, i), row, values);
     return;
   }
   std::fill_n(values, columns_ + 1, 0.0);
@@ -78,6 +76,18 @@ void PointFit::features(std::size_t i, double* values) const {
     }
   }
   values[columns_] = row.deviation_um;
+}
+
+/// True for rows whose deviations as designed are asked for.
+bool PointFit::as_it_was(std::size_t i) const {
+  return what_ == DeviationsOf::kDesign && kept_.empty() && i < table_.points_mm.size() &&
+         table_.rows[i].kind == ObservationKind::kScanFlank;
+}
+
+void PointFit::features_of(const PlacedPoint& placed, const Observation& row,
+                           double* values) const {
+  features_at(placed.place, row, values);
+  values[columns_] = um_from_mm(placed.distance_mm);
 }
 
 void PointFit::features_at(const Place& place, const Observation& row, double* values) const {
@@ -125,22 +135,32 @@ constexpr std::size_t kRowsOfWork = 16384, kMostPieces = 8;
 /// The values of a column in a panel of rows stand beside each other.
 using ColumnOfPanel = std::array<double, kPanel>;
 
+using PanelOfColumns = std::vector<ColumnOfPanel>;
+
 /// Sums of squares and products of rows, gathered in panels; the lower triangle. The columns of a
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  explicit Gram(std::size_t columns)
-      : sum_((columns + 1) * (columns + 2) / 2), panel_(columns + 1) {}
-  /// Adds a row of a panel times a factor.
-  void add(const std::vector<ColumnOfPanel>& rows, std::size_t row, double factor) {
-    for (std::size_t k = 0; k + 1 < panel_.size(); ++k) panel_[k][filled_] = factor * rows[k][row];
-    panel_.back()[filled_] = factor;
+  /// `turned`, which others may use too, is where the rows of a panel are turned into columns;
+  /// `room` gives the memory.
+  Gram(std::size_t columns, PanelOfColumns& turned, std::pmr::memory_resource& room)
+      : width_(columns + 1),
+        sum_(width_ * (width_ + 1) / 2, &room),
+        rows_(kPanel * width_, &room),
+        turned_(turned) {
+    turned_.resize(width_);
+  }
+  /// Adds the columns of a row times a factor.
+  void add(const double* row, double factor) {
+    double* const to = rows_.data() + filled_ * width_;
+    for (std::size_t k = 0; k + 1 < width_; ++k) to[k] = factor * row[k];
+    to[width_ - 1] = factor;
     if (++filled_ == kPanel) flush();
   }
   /// Of the columns and the 1.
   [[nodiscard]] Eigen::MatrixXd sum() {
     flush();
-    const auto n = static_cast<Eigen::Index>(panel_.size());
+    const auto n = static_cast<Eigen::Index>(width_);
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     auto next = sum_.begin();
     for (Eigen::Index i = 0; i < n; ++i)
@@ -151,19 +171,22 @@ class Gram {
  private:
   void flush() {
     if (filled_ == 0) return;
-    for (ColumnOfPanel& column : panel_) std::fill(column.begin() + filled_, column.end(), 0.0);
+    std::fill(rows_.begin() + static_cast<std::ptrdiff_t>(filled_ * width_), rows_.end(), 0.0);
     filled_ = 0;
+    const ColumnOfPanel* const panel = turned_.data();
+    for (std::size_t k = 0; k < width_; ++k)
+      for (std::size_t r = 0; r < kPanel; ++r) turned_[k][r] = rows_[r * width_ + k];
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
       double* sum = sum_.data();
-      for (std::size_t i = 0; i < panel_.size(); ++i)
+      for (std::size_t i = 0; i < width_; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
           Four even{}, odd{};
           for (std::size_t r = 0; r < kPanel; r += 8) {
             Four a, b, c, d;
-            std::memcpy(&a, &panel_[i][r], sizeof a);
-            std::memcpy(&b, &panel_[j][r], sizeof b);
-            std::memcpy(&c, &panel_[i][r + 4], sizeof c);
-            std::memcpy(&d, &panel_[j][r + 4], sizeof d);
+            std::memcpy(&a, &panel[i][r], sizeof a);
+            std::memcpy(&b, &panel[j][r], sizeof b);
+            std::memcpy(&c, &panel[i][r + 4], sizeof c);
+            std::memcpy(&d, &panel[j][r + 4], sizeof d);
             even += a * b;
             odd += c * d;
           }
@@ -174,8 +197,9 @@ class Gram {
   }
   /// Four parts of a sum (left to itself, the compiler divides the sums otherwise and shuffles).
   using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-  std::vector<double> sum_;
-  std::vector<ColumnOfPanel> panel_;
+  std::size_t width_;
+  std::pmr::vector<double> sum_, rows_;
+  PanelOfColumns& turned_;
   std::size_t filled_ = 0;
 };
 
@@ -220,23 +244,32 @@ struct PointFit::Sums {
   int observations = 0, held_out = 0;
 };
 
-/// Nuisance and effect columns, the value last, of rows that stand beside each other.
+/// Nuisance and effect columns, the value last, of some rows at a time.
 struct PointFit::RowPanel {
-  explicit RowPanel(const PointFit& fit)
-      : columns(static_cast<std::size_t>(fit.columns_) + 1), one(columns.size()) {}
+  explicit RowPanel(const PointFit& fit) : one(static_cast<std::size_t>(fit.columns_) + 1) {}
 
-  std::vector<ColumnOfPanel> columns;
   std::vector<double> one;
+  std::vector<std::size_t> anew;  ///< rows whose places as designed are found together
+  std::array<PlacedPoint, kPanel> placed;
 
-  void fill(const PointFit& fit, const std::vector<std::size_t>& rows) {
+  /// `visit(r, columns)` for every one of the rows, kPanel at most; the columns may be written to.
+  template <class Visit>
+  void for_each(const PointFit& fit, const std::vector<std::size_t>& rows, const Visit& visit) {
+    anew.clear();
+    for (const std::size_t row : rows)
+      if (fit.as_it_was(row)) anew.push_back(row);
+    as_designed(fit.geometry_, fit.table_, anew, placed.data());
+    std::size_t next = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      fit.features(rows[r], one.data());
-      for (std::size_t k = 0; k < one.size(); ++k) columns[k][r] = one[k];
+      if (next < anew.size() && anew[next] == rows[r])
+        fit.features_of(placed[next++], fit.table_.rows[rows[r]], one.data());
+      else
+        fit.features(rows[r], one.data());
+      visit(r, one.data());
     }
   }
-  void subtract(std::size_t row, const Eigen::VectorXd& mean) {
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      columns[k][row] -= mean[static_cast<Eigen::Index>(k)];
+  void subtract(const Eigen::VectorXd& mean) {
+    for (std::size_t k = 0; k < one.size(); ++k) one[k] -= mean[static_cast<Eigen::Index>(k)];
   }
 };
 
@@ -250,34 +283,35 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   sums.unit_sums.resize(patches_.units);
   // Rows of scans are the same for all sums. Those of traces, few, have the hold-out's own zeros in
   // what is learnt and what is held out.
+  // (few large pieces of memory: threads that ask for many wait for each other)
+  std::pmr::monotonic_buffer_resource room;
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
-  Gram plain_held(columns), plain_other(columns);
+  PanelOfColumns turned;
+  Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
   RowPanel panel(*this);
   std::vector<std::size_t> rows;
-  const auto add_panel = [&] {
-    panel.fill(*this, rows);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const Observation& observation = table_.rows[rows[r]];
-      const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
-      const bool held = patch.held, in_trace = observation.trace >= 0;
-      const bool counts = counts_as_error(observation.kind);
-      if (in_trace) {
-        Eigen::VectorXd part(n);
-        for (Eigen::Index k = 0; k < n; ++k)
-          part[k] = panel.columns[static_cast<std::size_t>(k)][r];
-        part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
-        if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
-        if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
-        panel.subtract(r, whole_zero_means_[observation.trace]);
-      }
-      auto& unit = (held || in_trace ? other : learnt)[patch.unit];
-      if (!unit) unit.emplace(columns);
-      unit->add(panel.columns, r, patch.root);
-      if (!counts) continue;
-      (held && !in_trace ? plain_held : plain_other).add(panel.columns, r, 1.0);
-      ++sums.observations;
-      sums.held_out += held ? 1 : 0;
+  const auto add_row = [&](std::size_t r, const double* values) {
+    const Observation& observation = table_.rows[rows[r]];
+    const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
+    const bool held = patch.held, in_trace = observation.trace >= 0;
+    const bool counts = counts_as_error(observation.kind);
+    if (in_trace) {
+      Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(values, n);
+      part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
+      if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
+      if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
+      panel.subtract(whole_zero_means_[observation.trace]);
     }
+    auto& unit = (held || in_trace ? other : learnt)[patch.unit];
+    if (!unit) unit.emplace(columns, turned, room);
+    unit->add(values, patch.root);
+    if (!counts) return;
+    (held && !in_trace ? plain_held : plain_other).add(values, 1.0);
+    ++sums.observations;
+    sums.held_out += held ? 1 : 0;
+  };
+  const auto add_panel = [&] {
+    panel.for_each(*this, rows, add_row);
     rows.clear();
   };
   for (std::size_t i = begin; i < end; ++i) {
@@ -308,6 +342,7 @@ void PointFit::accumulate() {
   const int n = columns_ + 1;
   unit_grams_.assign(patches_.units, Eigen::MatrixXd());
   unit_kind_.assign(patches_.units, -1);
+  unit_zero_.assign(patches_.units, -1);
   unit_sums_.assign(patches_.units, Eigen::VectorXd::Zero(n + 1));
   train_ = all_ = plain_held_ = plain_all_ = Eigen::MatrixXd::Zero(n, n);
   std::vector<PatchOfRow> patches;
@@ -315,6 +350,7 @@ void PointFit::accumulate() {
     const double weight = patch.weight / patch.count;
     patches.push_back({weight, std::sqrt(weight), patch.unit, patch.fold == 0});
     unit_kind_[patch.unit] = static_cast<int>(patch.kind);
+    unit_zero_[patch.unit] = patch.zero;
   }
   const std::vector<std::size_t> starts = pieces_of((table_.rows.size() + stride_ - 1) / stride_);
   std::vector<Sums> sums(starts.size() - 1);
@@ -376,8 +412,8 @@ double square_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b) {
 }
 }  // namespace
 
-/// Of these columns, those that the training data can tell: a tooth that is held out is in them by its share
-/// of a size alone.
+/// Of these columns, those that the training data can tell: a tooth that is held out is in them by
+/// its share of a size alone.
 std::vector<int> PointFit::learnt(std::vector<int> columns) const {
   constexpr double kHardly = 0.1;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
@@ -476,25 +512,63 @@ bool PointFit::few_units_bear(int k) {
   return bearing < 2.6 || sizes_only;
 }
 
+/// The weight of each trace's zero, and the variance of a value of weight 1 as the pieces' means
+/// show it, by the kind of record: what the pieces' share in their zero took out of their sums.
+struct PointFit::ZerosOfPieces {
+  std::map<int, double> weight, pieces;
+  std::map<int, double> variance;
+
+  explicit ZerosOfPieces(const PointFit& fit) {
+    const int p = fit.columns_;
+    for (std::size_t u = 0; u < fit.unit_grams_.size(); ++u) {
+      if (fit.unit_grams_[u].size() == 0 || fit.unit_zero_[u] < 0) continue;
+      weight[fit.unit_zero_[u]] += fit.unit_sums_[u][p + 1];
+      pieces[fit.unit_zero_[u]] += 1.0;
+    }
+    std::map<int, double> squares, degrees;
+    for (std::size_t u = 0; u < fit.unit_grams_.size(); ++u) {
+      if (fit.unit_grams_[u].size() == 0 || fit.unit_zero_[u] < 0) continue;
+      const double left = fit.unit_sums_[u][p] - fit.coefficients_.dot(fit.unit_sums_[u].head(p));
+      const double count = pieces[fit.unit_zero_[u]];
+      squares[fit.unit_kind_[u]] += left * left / fit.unit_sums_[u][p + 1];
+      degrees[fit.unit_kind_[u]] += 1.0 - 1.0 / count;
+    }
+    for (const auto& [kind, square] : squares)
+      variance[kind] = degrees[kind] > 0.5 ? square / degrees[kind] : 0.0;
+  }
+};
+
 /// Leave-one-unit-out: (I - H_b)^-1 of the classical jackknife in the form of normal equations.
+/// Pieces of one trace share its zero: their residuals are smaller than their errors by that, and
+/// what it takes out of a slope along the trace is put back.
 void PointFit::spread_between_units(const Eigen::MatrixXd& normal) {
   const int p = columns_;
   double used = 0.0;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p, p);
-  for (const Eigen::MatrixXd& unit : unit_grams_) {
+  ZerosOfPieces zeros(*this);
+  for (std::size_t u = 0; u < unit_grams_.size(); ++u) {
+    const Eigen::MatrixXd& unit = unit_grams_[u];
     if (unit.size() == 0) continue;
     const Eigen::MatrixXd rest = normal - unit.topLeftCorner(p, p);
-    Eigen::VectorXd score = unit.col(p).head(p) - unit.topLeftCorner(p, p) * coefficients_;
+    const bool is_piece = unit_zero_[u] >= 0 && zeros.pieces[unit_zero_[u]] > 1.5;
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(p, is_piece ? 2 : 1);
+    scores.col(0) = unit.col(p).head(p) - unit.topLeftCorner(p, p) * coefficients_;
+    if (is_piece)
+      scores.col(1) = unit_sums_[u].head(p) *
+                      std::sqrt(zeros.variance[unit_kind_[u]] / zeros.weight[unit_zero_[u]]);
     Eigen::MatrixXd safe = rest;
     for (int k = 0; k < p; ++k)
       if (!(rest(k, k) > 1e-6 * normal(k, k))) {
         safe.row(k).setZero();
         safe.col(k).setZero();
         safe(k, k) = 1.0;
-        score[k] = 0.0;
+        scores.row(k).setZero();
       }
-    const Eigen::VectorXd change = symmetric_solution(safe, score);
-    sum += change * change.transpose();
+    for (Eigen::Index k = 0; k < scores.cols(); ++k) {
+      const Eigen::VectorXd score = scores.col(k);
+      const Eigen::VectorXd change = symmetric_solution(safe, score);
+      sum += change * change.transpose();
+    }
     used += 1.0;
   }
   covariance_ = sum * ((used - 1.0) / std::max(1.0, used));
@@ -547,17 +621,15 @@ std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients)
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
     RowPanel panel(*this);
     std::vector<std::size_t> rows;
+    const auto tell_row = [&](std::size_t r, const double* values) {
+      if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
+        panel.subtract(whole_zero_means_[trace]);
+      double left = values[columns_];
+      for (int k = 0; k < columns_; ++k) left -= coefficients[k] * values[k];
+      left_um[rows[r]] = static_cast<float>(left);
+    };
     const auto tell_panel = [&] {
-      panel.fill(*this, rows);
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        if (const int trace = table_.rows[rows[r]].trace; trace >= 0)
-          panel.subtract(r, whole_zero_means_[trace]);
-      ColumnOfPanel left = panel.columns.back();
-      for (int k = 0; k < columns_; ++k) {
-        const ColumnOfPanel& column = panel.columns[static_cast<std::size_t>(k)];
-        for (std::size_t r = 0; r < kPanel; ++r) left[r] -= coefficients[k] * column[r];
-      }
-      for (std::size_t r = 0; r < rows.size(); ++r) left_um[rows[r]] = static_cast<float>(left[r]);
+      panel.for_each(*this, rows, tell_row);
       rows.clear();
     };
     for (std::size_t i = begin; i < end; ++i) {

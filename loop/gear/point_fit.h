@@ -72,11 +72,14 @@ class PointFit {
   void keep_features();
   void features(std::size_t row, double* values) const;
   void features_at(const Place& place, const Observation& row, double* values) const;
+  void features_of(const PlacedPoint& placed, const Observation& row, double* values) const;
+  [[nodiscard]] bool as_it_was(std::size_t row) const;
   [[nodiscard]] std::vector<float> residuals_with(const Eigen::VectorXd& coefficients) const;
   void average_zeros();
   struct PatchOfRow;
   struct RowPanel;
   struct Sums;
+  struct ZerosOfPieces;
   [[nodiscard]] Sums sums_of(const std::vector<PatchOfRow>& patches, std::size_t begin,
                              std::size_t end) const;
   void accumulate();
@@ -102,7 +105,8 @@ class PointFit {
   std::vector<Eigen::VectorXd> zero_means_;  ///< per trace, training and held-out apart
   std::vector<Eigen::VectorXd> whole_zero_means_;
   std::vector<Eigen::MatrixXd> unit_grams_;  ///< last row and column: the values
-  std::vector<int> unit_kind_;
+  std::vector<int> unit_kind_,
+      unit_zero_;  ///< kind of record; the trace of whose zero it has a share, or -1
   std::vector<Eigen::VectorXd> unit_sums_;  ///< weighted sums of all columns, the weight last
   Eigen::MatrixXd train_, all_, plain_held_, plain_all_;
   Eigen::VectorXd coefficients_;

@@ -5,7 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
@@ -14,7 +16,8 @@
 namespace trueflank::loop {
 namespace {
 
-using Points = std::vector<std::array<double, 3>>;
+using Point = std::array<double, 3>;
+using Points = std::vector<Point>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
@@ -157,6 +160,7 @@ class PoseSearch {
   [[nodiscard]] Eigen::Vector2d tip_circle_step(const Pose& pose, const Eigen::Vector2d& centre) const {
     const int bins = std::clamp(geometry_.teeth(), 8, 48);
     std::vector<std::vector<double>> radii(bins);
+    for (std::vector<double>& of_bin : radii) of_bin.reserve(2 * fine_.size() / radii.size());
     for (const auto& p : fine_) {
       const auto q = pose(p);
       const double x = q[0] - centre.x(), y = q[1] - centre.y();
@@ -181,11 +185,25 @@ class PoseSearch {
   [[nodiscard]] double cost(const Pose& pose, const Points& points) const {
     const double reach = 0.2 * geometry_.gear().normal_module_mm;
     double sum = 0.0;
-    for (const auto& p : points) {
-      const double distance = geometry_.nearest_distance_mm(pose(p), reach);
-      sum += std::isnan(distance) ? reach : distance;
-    }
+    std::array<double, kPointsAtOnce> distances;
+    for_moved(pose, points, 0, points.size(), [&](std::size_t, std::span<const Point> moved) {
+      geometry_.nearest_distances_mm(moved, reach, distances.data());
+      for (std::size_t k = 0; k < moved.size(); ++k)
+        sum += std::isnan(distances[k]) ? reach : distances[k];
+    });
     return sum;
+  }
+
+  /// `visit(first, moved)` for some points at a time, moved by a pose.
+  template <class Visit>
+  static void for_moved(const Pose& pose, const Points& points, std::size_t from, std::size_t to,
+                        const Visit& visit) {
+    std::array<Point, kPointsAtOnce> moved;
+    for (std::size_t first = from; first < to; first += kPointsAtOnce) {
+      const std::size_t count = std::min(kPointsAtOnce, to - first);
+      for (std::size_t k = 0; k < count; ++k) moved[k] = pose(points[first + k]);
+      visit(first, std::span<const Point>(moved.data(), count));
+    }
   }
 
   /// Best turn about the axis (and small shift), by trial; returns its cost.
@@ -240,8 +258,7 @@ class PoseSearch {
     double distance = kNaN;
     Vector5 gradient = Vector5::Zero();
   };
-  [[nodiscard]] Row row_of(const std::array<double, 3>& q, double width) const {
-    const PlacedPoint placed = geometry_.nearest_flank(q, 0.03);
+  [[nodiscard]] Row row_of(const Point& q, const PlacedPoint& placed, double width) const {
     if (placed.place.surface != Surface::kFlank || std::abs(placed.distance_mm) > width) return {};
     const double cos_helix = geometry_.cos_base_helix();
     const double nx = cos_helix * placed.place.normal_direction[0];
@@ -257,7 +274,12 @@ class PoseSearch {
     std::vector<Row> rows(points.size());
     constexpr std::size_t kAtOnce = 4096;
     for_each_run(points.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) rows[i] = row_of(pose(points[i]), width);
+      std::array<PlacedPoint, kPointsAtOnce> placed;
+      for_moved(pose, points, from, to, [&](std::size_t first, std::span<const Point> moved) {
+        geometry_.nearest_flanks(moved, 0.03, placed.data());
+        for (std::size_t k = 0; k < moved.size(); ++k)
+          rows[first + k] = row_of(moved[k], placed[k], width);
+      });
     });
     std::erase_if(rows, [](const Row& row) { return std::isnan(row.distance); });
     if (rows.size() < 20) return Vector5::Zero();
@@ -278,6 +300,7 @@ class PoseSearch {
     return normal.ldlt().solve(right);
   }
 
+  static constexpr std::size_t kPointsAtOnce = 64;
   const FlankGeometry& geometry_;
   Points few_, coarse_, fine_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 
@@ -36,12 +37,14 @@ class RemainderSearch {
       : geometry_(geometry), table_(table), patches_(patches), row_um_(row_um), which_(which) {}
 
   std::vector<RemainderFinding> run() {
-    // None of the three asks the others.
+    tell_used();
+    // None of the four asks the others.
     auto spots = begun_beside([this] {
       return which_ == RemainderOf::kAll ? spots_of_scans(geometry_, table_, patches_, row_um_)
                                          : std::vector<FlankSpot>();
     });
     auto spectrum = begun_beside([this] { return spectrum_across(); });
+    auto rotation = begun_beside([this] { return wave_over_rotation(); });
     gather();
     for (auto& [key, courses] : courses_) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
@@ -49,7 +52,7 @@ class RemainderSearch {
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
-    look_over_rotation();
+    look_over_rotation(rotation.get());
     for (RemainderFinding& finding :
          look_around_gear(geometry_, moments_, [this](const ToothSector& sector, double p_value) {
            return dent_in_place_of(sector, p_value);
@@ -123,7 +126,7 @@ class RemainderSearch {
       for (Courses* all : {scan.profile, scan.face}) all->count_cells();
     const ReadingSteps steps(table_, row_um_);
     rows.for_each(courses.size(), [&](std::size_t i) {
-      if (!is_used(i)) return;
+      if (!used_[i]) return;
       gather_other(i, row_um_[i] + steps.spread_um(table_, i));
       if (const double wide = steps.wide_spread_um(table_, i); wide != 0.0)
         add_to_courses(i, row_um_[i] + wide, coarse_courses_);
@@ -352,9 +355,7 @@ class RemainderSearch {
 
   [[nodiscard]] FlankSpectrum spectrum_across() const {
     if (table_.points_mm.empty()) return {};
-    std::vector<bool> used(table_.rows.size());
-    for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
-    return flank_spectrum(geometry_, table_, row_um_, used);
+    return flank_spectrum(geometry_, table_, row_um_, used_);
   }
 
   /// Waves across the flanks of scans, and flanks that stand each by itself.
@@ -384,15 +385,16 @@ class RemainderSearch {
     }
   }
 
-  /// Waves over the generating rotation that are no candidates: of one flank, or of higher orders.
-  void look_over_rotation() {
+  [[nodiscard]] RotationWave wave_over_rotation() const {
     if (std::none_of(patches_.patches.begin(), patches_.patches.end(), [](const auto& patch) {
           return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kScanFlank;
         }))
-      return;
-    std::vector<bool> used(table_.rows.size());
-    for (std::size_t i = 0; i < used.size(); ++i) used[i] = is_used(i);
-    const RotationWave wave = likeliest_rotation_wave(geometry_, table_, row_um_, used);
+      return {};
+    return likeliest_rotation_wave(geometry_, table_, row_um_, used_);
+  }
+
+  /// Waves over the generating rotation that are no candidates: of one flank, or of higher orders.
+  void look_over_rotation(const RotationWave& wave) {
     if (wave.order == 0 || wave.p_value > kRemainderLevel ||
         (wave.side == 0 && wave.order <= gear_effects::most_ghost_order(geometry_)))
       return;
@@ -412,18 +414,16 @@ class RemainderSearch {
                                                                  double p_value) const {
     const int z = geometry_.teeth();
     if (3 * sector.count > z) return {};
-    std::vector<bool> used(table_.rows.size());
     double product = 0.0, square = 0.0;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      used[i] = is_used(i);
+    for (std::size_t i = 0; i < used_.size(); ++i) {
       const Place& place = table_.place(table_.rows[i]);
-      if (!used[i] || ((place.tooth - sector.first) % z + z) % z >= sector.count) continue;
+      if (!used_[i] || ((place.tooth - sector.first) % z + z) % z >= sector.count) continue;
       const double form = std::pow(geometry_.face_coordinate(place.z_mm), sector.face_degree) *
                           (sector.opposite ? place.side : 1);
       product += form * row_um_[i];
       square += form * form;
     }
-    const auto dent = largest_dent(geometry_, table_, row_um_, used);
+    const auto dent = largest_dent(geometry_, table_, row_um_, used_);
     if (!dent || !(square > 0.0) || dent->square <= product * product / square) return {};
     return finding_of("unnamed_dent",
                       dent->side == 0 ? FlankChoice::kBoth
@@ -435,13 +435,27 @@ class RemainderSearch {
   [[nodiscard]] bool is_asked(const Patches::Patch& patch) const {
     return which_ != RemainderOf::kTraining || patch.fold != 0;
   }
-  /// True for rows that are looked at.
-  [[nodiscard]] bool is_used(std::size_t i) const {
-    const int patch = patches_.patch_of_row[i];
-    if (patch < 0 || !is_asked(patches_.patches[static_cast<std::size_t>(patch)])) return false;
-    if (patches_.patches[static_cast<std::size_t>(patch)].kind == ObservationKind::kScanFlank)
-      return true;
-    return table_.rows[i].places == 1 && table_.place(table_.rows[i]).surface == Surface::kFlank;
+  /// Which rows are looked at.
+  void tell_used() {
+    enum class Rows : std::uint8_t { kNone, kAll, kOnFlanks };
+    std::vector<Rows> of_patch(patches_.patches.size(), Rows::kNone);
+    for (std::size_t p = 0; p < of_patch.size(); ++p)
+      if (const Patches::Patch& patch = patches_.patches[p]; is_asked(patch))
+        of_patch[p] =
+            patch.kind == ObservationKind::kScanFlank ? Rows::kAll : Rows::kOnFlanks;
+    used_.assign(table_.rows.size(), false);
+    // (whole words: bits of one are not written by two threads)
+    constexpr std::size_t kRowsOfWork = 16384;
+    for_each_run(used_.size(), kRowsOfWork, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        const int patch = patches_.patch_of_row[i];
+        const Rows which = patch < 0 ? Rows::kNone : of_patch[static_cast<std::size_t>(patch)];
+        const Observation& row = table_.rows[i];
+        used_[i] = which == Rows::kAll ||
+                   (which == Rows::kOnFlanks && row.places == 1 &&
+                    table_.place(row).surface == Surface::kFlank);
+      }
+    });
   }
 
   const FlankGeometry& geometry_;
@@ -449,6 +463,7 @@ class RemainderSearch {
   const Patches& patches_;
   const std::vector<float>& row_um_;
   RemainderOf which_;
+  std::vector<bool> used_;
   std::map<CourseKey, Courses> courses_;
   std::map<CourseKey, Courses> coarse_courses_;  ///< of values read coarsely, spread widely
   MomentsOfTeeth moments_;

@@ -179,7 +179,8 @@ class PartsLoop {
       numbers.push_back(m);
     }
     const PointFit fit(geometry_, together_->table(), together_->patches(), repeatable);
-    const auto spread = shape_uncertainty(geometry_, together_->table(), together_->patches(), fit);
+    const auto spread = shape_uncertainty(geometry_, together_->table(), together_->patches(), fit,
+                                          FreeShapes::kAll);
     auto found = describe_effects(
         {geometry_, fit, records, together_->candidates(), spread, result.not_observable,
          options_.makings, together_->unseen()});
@@ -229,7 +230,8 @@ class PartsLoop {
     }
     if (std::none_of(only.begin(), only.end(), [](bool one) { return one; })) return;
     const PointFit fit(geometry_, loop.table(), loop.patches(), effects);
-    const auto spread = shape_uncertainty(geometry_, loop.table(), loop.patches(), fit);
+    const auto spread =
+        shape_uncertainty(geometry_, loop.table(), loop.patches(), fit, FreeShapes::kAll);
     for (FoundEffect& found : describe_effects({geometry_, fit, records, loop.candidates(), spread,
                                                 result.not_observable, options_.makings, loop.unseen(), kNaN, only})) {
       found.repeatable = false;

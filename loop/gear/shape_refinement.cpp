@@ -29,29 +29,78 @@ struct Extended {
   std::vector<Slot> slots;
 };
 
+/// A value of a shape a little lower and higher.
+struct Beside {
+  EffectShape down, up;
+};
+
+/// True for values of a form without a name that are places, lengths or widths.
+bool is_length(const EffectFamily& family, std::size_t k) {
+  return family.term_keys.size() == family.shape_names.size() &&
+         family.term_keys[k].kind == TermKey::Kind::kNumber;
+}
+
+/// The nearest shapes on both sides in which nothing but a length is another; equal: there are
+/// none.
+Beside nearest_beside(const FlankGeometry& geometry, const Effect& effect, std::size_t k) {
+  Beside beside{effect.shape, effect.shape};
+  if (!effect.family->nearby || !is_length(*effect.family, k)) return beside;
+  double down = -1e300, up = 1e300;
+  for (const EffectShape& shape : effect.family->nearby(geometry, effect.shape)) {
+    const double step = shape[k] - effect.shape[k];
+    EffectShape same = shape;
+    same[k] = effect.shape[k];
+    if (same != effect.shape || step == 0.0) continue;
+    if (step < 0.0 && step > down) {
+      down = step;
+      beside.down = shape;
+    } else if (step > 0.0 && step < up) {
+      up = step;
+      beside.up = shape;
+    }
+  }
+  return beside;
+}
+
+/// Between which shapes the derivative of a value is taken; equal: the value is not free.
+Beside moved_a_little(const FlankGeometry& geometry, const Effect& effect, std::size_t k,
+                      FreeShapes free) {
+  Beside beside{effect.shape, effect.shape};
+  if (effect.family->shape_is_continuous) {
+    if (is_step(effect)) return beside;
+    const double h = kStep * effect.shape[k];
+    beside.up[k] = effect.shape[k] + h;
+    beside.down[k] = effect.shape[k] - h;
+    return beside;
+  }
+  return free == FreeShapes::kAll ? nearest_beside(geometry, effect, k) : beside;
+}
+
 Extended with_derivatives(const FlankGeometry& geometry, const std::vector<Effect>& effects,
-                          const Eigen::VectorXd& coefficients, const PointFit& fit) {
+                          const Eigen::VectorXd& coefficients, const PointFit& fit,
+                          FreeShapes free) {
   Extended result;
   result.effects = effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Effect& effect = effects[e];
-    if (!effect.family->shape_is_continuous || is_step(effect)) continue;
     const Eigen::VectorXd b =
         coefficients.segment(fit.first_column(static_cast<int>(e)), effect.columns());
     for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      const Beside beside = moved_a_little(geometry, effect, k, free);
+      const double range = beside.up[k] - beside.down[k];
+      if (range == 0.0) continue;
       EffectFamily family;
       family.columns = [](const std::vector<double>&) { return 1; };
-      family.evaluate = [effect, b, k](const FlankGeometry& g, const Place& p,
-                                       const std::vector<double>&, double* c) {
+      family.evaluate = [effect, b, beside, range](const FlankGeometry& g, const Place& p,
+                                                   const std::vector<double>&, double* c) {
         double up[8], down[8];
         Effect moved = effect;
-        const double h = kStep * effect.shape[k];
-        moved.shape[k] = effect.shape[k] + h;
+        moved.shape = beside.up;
         moved.evaluate(g, p, up);
-        moved.shape[k] = effect.shape[k] - h;
+        moved.shape = beside.down;
         moved.evaluate(g, p, down);
         c[0] = 0.0;
-        for (int i = 0; i < b.size(); ++i) c[0] += b[i] * (up[i] - down[i]) / (2.0 * h);
+        for (int i = 0; i < b.size(); ++i) c[0] += b[i] * (up[i] - down[i]) / range;
       };
       result.families.push_back(std::move(family));
       result.slots.push_back(
@@ -59,7 +108,6 @@ Extended with_derivatives(const FlankGeometry& geometry, const std::vector<Effec
       result.effects.push_back({&result.families.back(), FlankChoice::kBoth, {}});
     }
   }
-  static_cast<void>(geometry);
   return result;
 }
 
@@ -226,19 +274,16 @@ void refine_shapes(const FlankGeometry& geometry, const Observations& table, con
 }
 
 ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry, const Observations& table,
-                                   const Patches& patches, const PointFit& fit) {
+                                   const Patches& patches, const PointFit& fit, FreeShapes free) {
   ShapeUncertainty result;
   result.covariance = fit.covariance();
-  bool smooth = false;
   for (const Effect& effect : fit.effects()) {
     result.errors.emplace_back(effect.shape.size(), kNaN);
-    if (is_step(effect))
-      result.errors.back()[0] = 0.005 * geometry.face_width_mm();
-    else
-      smooth = smooth || effect.family->shape_is_continuous;
+    if (is_step(effect)) result.errors.back()[0] = 0.005 * geometry.face_width_mm();
   }
-  if (!smooth) return result;
-  const Extended extended = with_derivatives(geometry, fit.effects(), fit.coefficients(), fit);
+  const Extended extended =
+      with_derivatives(geometry, fit.effects(), fit.coefficients(), fit, free);
+  if (extended.slots.empty()) return result;
   const PointFit joint(geometry, table, patches, extended.effects);
   const auto p = result.covariance.rows();
   result.covariance = joint.covariance().topLeftCorner(p, p);

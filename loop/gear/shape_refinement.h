@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+
 #include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/trial_fit.h"
 
@@ -38,9 +40,16 @@ struct ShapeUncertainty {
   std::vector<std::vector<double>> errors;
   /// Covariance of the fit's coefficients with the shapes free too, in the fit's order of columns.
   Eigen::MatrixXd covariance;
+  /// By how much coefficients are others where the same is told another way: intervals hold both.
+  /// Empty: there is none.
+  Eigen::VectorXd otherwise;
 };
+/// Which shapes count as free: those that are refined with the coefficients, or the places and
+/// widths of forms without a name too.
+enum class FreeShapes : std::uint8_t { kRefined, kAll };
 [[nodiscard]] ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry,
                                                  const Observations& table, const Patches& patches,
-                                                 const PointFit& fit);
+                                                 const PointFit& fit,
+                                                 FreeShapes free = FreeShapes::kRefined);
 
 }  // namespace trueflank::loop

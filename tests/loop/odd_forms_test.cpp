@@ -156,6 +156,63 @@ TEST(OddForms, ASideThatCoolsLaterIsNoTaperWithACrowning) {
   EXPECT_EQ(named(traced), nullptr) << list(traced);
 }
 
+TEST(OddForms, ASideThatCoolsLaterLeavesTheNameBesideIt) {
+  // A taper beside it: the crowning and the height are the mean of what comes and goes around the
+  // gear.
+  const MadeGear gear = spur(33);
+  const auto cooled = [](const MadeGear& g, const FlankSpot& s) {
+    const double theta = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+    return -14.0 * (1.0 + std::cos(theta - 0.7)) * std::pow(0.5 * (s.v + 1.0), 2);
+  };
+  const auto beside_taper = [&](const MadeGear& g, const FlankSpot& s, auto&) {
+    return cooled(g, s) - 20.0 * s.v;
+  };
+  const auto beside_relief = [&](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double off = std::max(0.0, s.u - 0.1) / 0.9;
+    return cooled(g, s) - 24.0 * off * off;
+  };
+  ScanOptions options;
+  options.points = 10000;
+  options.noise_um = 3.0;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const auto taper = close(gear, scan_of(gear, {grown(beside_taper)}, options), true);
+    ASSERT_NE(find(taper, "taper"), nullptr) << list(taper);
+    EXPECT_EQ(find(taper, "crowning"), nullptr) << list(taper);
+    EXPECT_EQ(find(taper, "contour_offset"), nullptr) << list(taper);
+    EXPECT_EQ(find(taper, "tooth_thickness"), nullptr) << list(taper);
+    const loop::Parameter slope = parameter(*find(taper, "taper"), "slope_um");
+    EXPECT_LE(slope.low, -40.0) << list(taper);
+    EXPECT_GE(slope.high, -40.5) << list(taper);
+    const auto relief = close(gear, scan_of(gear, {grown(beside_relief)}, options), true);
+    ASSERT_NE(find(relief, "tip_relief"), nullptr) << list(relief);
+    EXPECT_NEAR(parameter(*find(relief, "tip_relief"), "amount_um").value, 24.0, 1.5)
+        << list(relief);
+    EXPECT_EQ(find(relief, "taper"), nullptr) << list(relief);
+    EXPECT_EQ(find(relief, "crowning"), nullptr) << list(relief);
+  }
+}
+
+TEST(OddForms, ANickAtAnotherPlaceOfEveryTracedToothIsNoNoise) {
+  const MadeGear gear = spur(24);
+  const auto nicked = [](auto&, const FlankSpot& s, auto&) {
+    const double at = -0.75 + 1.5 * ((s.tooth * 7 + (s.side > 0 ? 3 : 0)) % 11) / 10.0;
+    return -14.0 * std::exp(-std::pow((s.u - at) / 0.08, 2)) * (std::abs(s.v) < 0.05 ? 1.0 : 0.0) -
+           14.0 * std::exp(-std::pow((s.v + at) / 0.08, 2)) * (std::abs(s.v) < 1e-9 ? 0.0 : 1.0);
+  };
+  InspectionOptions options = sheet_of_all(8);
+  options.teeth = {1, 7, 13, 19};
+  options.points = 120;
+  options.index = false;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(nicked)}, options));
+    EXPECT_EQ(named(result), nullptr) << list(result);
+    EXPECT_NE(list(result).find("a spot on the"), std::string::npos) << list(result);
+    EXPECT_TRUE(result.verdict == loop::Verdict::kPartlyExplained ||
+                result.after.held_out_rms < 1.2 * options.noise_um)
+        << list(result);
+  }
+}
+
 TEST(OddForms, AStepOverTheProfileOfAScannedRingIsNoNoise) {
   const MadeGear gear = ring(48);
   const auto step = [](auto&, const FlankSpot& s, auto&) { return s.u > 0.2 ? 8.0 : 0.0; };

@@ -52,6 +52,23 @@ TEST(OneForm, WhatIsThickerTowardsAnEndIsNoSlopeWithABow) {
       << list(scan);
 }
 
+TEST(OneForm, ARiseTowardsTheUpperEndIsNoGrooveBesideAKink) {
+  // A foot of a scan that lies upside down.
+  const MadeGear gear = spur(14);
+  const auto swollen = [](const MadeGear& g, const FlankSpot& s, auto&) {
+    return 40.0 * std::exp(-0.5 * (1.0 - s.v) * g.face_mm / (0.1 * g.face_mm));
+  };
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const auto result =
+        close(gear, scan_of(gear, {grown(swollen)}, scanned(10000, 2.3, seed)), true);
+    EXPECT_FALSE(has_name(result)) << list(result);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NE(list(result).find("more and more over the face towards the upper end"),
+              std::string::npos)
+        << list(result);
+  }
+}
+
 TEST(OneForm, AHollowInTheMiddleOfEveryFlankIsNoWear) {
   const MadeGear gear = spur(40);
   const auto sunk = [](auto&, const FlankSpot& s, auto&) {
@@ -78,6 +95,38 @@ TEST(OneForm, ARootReliefOnThreeTeethIsNoWear) {
   for (options.seed = 1; options.seed <= 4; ++options.seed) {
     const auto result = close(gear, inspection_of(gear, {grown(relieved)}, options));
     EXPECT_FALSE(has_name(result)) << list(result);
+  }
+}
+
+TEST(OneForm, AKinkOfFourTeethIsNoWearThatAWaveMends) {
+  const MadeGear gear = spur(24);
+  const auto bent = [](auto&, const FlankSpot& s, auto&) {
+    return -17.0 * std::max(0.0, s.u + 0.3) / 1.3;
+  };
+  InspectionOptions options;
+  options.teeth = {1, 5, 10, 14};
+  options.points = 120;
+  options.noise_um = 1.4;
+  options.index = false;
+  for (options.seed = 11; options.seed <= 14; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
+    EXPECT_FALSE(has_name(result)) << list(result);
+  }
+}
+
+TEST(OneForm, AnSOverTheProfileIsNoWearBesideARelief) {
+  const MadeGear gear = spur(36);
+  const auto bent = [](auto&, const FlankSpot& s, auto&) {
+    return 3.2 * std::sin(M_PI * s.u) + 2.3 * s.u;
+  };
+  InspectionOptions options;
+  options.teeth = {1, 5, 10, 14, 19, 23, 28, 32};
+  options.points = 120;
+  options.noise_um = 0.5;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(bent)}, options));
+    EXPECT_EQ(find(result, "flank_wear"), nullptr) << list(result);
+    EXPECT_EQ(find(result, "tip_relief"), nullptr) << list(result);
   }
 }
 

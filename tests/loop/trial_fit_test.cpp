@@ -63,6 +63,53 @@ TEST_F(TrialFits, SquaresAndCoefficientsAreThoseOfTheWholeFit) {
   EXPECT_NEAR(trial.residual_square() / square(other), 1.0, 1e-9);
 }
 
+TEST(PointFits, ErrorsAreAsLargeAsTheyAreWhereTracesAreCutIntoPieces) {
+  // The zeros of few traces are known from the same values as slopes along them.
+  const MadeGear gear = spur(24);
+  const loop::FlankGeometry geometry = geometry_of(gear);
+  for (const std::vector<int>& teeth : {std::vector{1, 9, 17}, std::vector{1, 5, 9, 13, 17, 21}}) {
+    InspectionOptions options;
+    options.teeth = teeth;
+    options.points = 60;
+    options.index = false;
+    double square = 0.0, told = 0.0;
+    constexpr int kDraws = 300;
+    for (options.seed = 1; options.seed <= kDraws; ++options.seed) {
+      loop::MeasuredData data;
+      data.inspections.push_back(inspection_of(gear, {}, options));
+      const loop::Observations table = *make_observations(geometry, data, {});
+      const loop::Patches patches = make_patches(geometry, table);
+      const loop::PointFit fit(geometry, table, patches,
+                               {{family("taper"), loop::FlankChoice::kBoth, {}}});
+      const int column = fit.first_column(0);
+      square += fit.coefficients()[column] * fit.coefficients()[column] / kDraws;
+      told += fit.covariance()(column, column) / kDraws;
+    }
+    EXPECT_NEAR(std::sqrt(told / square), 1.0, 0.1) << teeth.size();
+  }
+}
+
+TEST_F(TrialFits, AnIntervalKnowsThatThePlaceOfAFormBesideItIsFound) {
+  // A wide ridge and a crowning: what the ridge's width may still be the crowning may too.
+  const double middle = 0.5 * geometry_.face_width_mm();
+  const std::vector<Effect> effects{
+      {family("crowning"), loop::FlankChoice::kBoth, {}},
+      {family("unnamed_band"), loop::FlankChoice::kBoth, {1.0, middle, 0.6 * middle}}};
+  const auto ridge = grown([](const MadeGear&, const FlankSpot& s, const Vec3&) {
+    return 8.0 * std::exp(-std::pow(s.v / 0.6, 2)) - 4.0 * s.v * s.v;
+  });
+  loop::MeasuredData data;
+  data.scans.push_back(scan_of(gear_, {ridge}, {.points = 6000, .noise_um = 2.0}));
+  const loop::Observations table = *make_observations(geometry_, data, {.aligned = true});
+  const loop::Patches patches = make_patches(geometry_, table);
+  const loop::PointFit fit(geometry_, table, patches, effects);
+  const auto known = shape_uncertainty(geometry_, table, patches, fit),
+             found = shape_uncertainty(geometry_, table, patches, fit, loop::FreeShapes::kAll);
+  const int column = fit.first_column(0);
+  EXPECT_DOUBLE_EQ(known.covariance(column, column), fit.covariance()(column, column));
+  EXPECT_GT(found.covariance(column, column), 2.0 * known.covariance(column, column));
+}
+
 TEST_F(TrialFits, ColumnsThatWereTriedAreThoseOfTheirEffectAndNoOther) {
   loop::TriedColumns tried;
   const std::vector<Effect> effects{wave(3.3), wave(1.7)};

@@ -31,6 +31,17 @@ EffectFamily lobing() {
     c[0] = radial * std::cos(angle);
     c[1] = radial * std::sin(angle);
   };
+  f.evaluate_together = [](const FlankGeometry& g, const Place& p, std::span<const Effect> effects,
+                           double* c) {
+    const bool on_flank = p.surface == Surface::kFlank;
+    const double radial = on_flank ? normal_part(g, p, p.polar_direction[0], p.polar_direction[1]) : 0.0;
+    WavesOf waves(p.polar_rad);
+    for (const Effect& effect : effects) {
+      const auto [cosine, sine] = waves.of(effect.shape[0]);
+      *c++ = radial * cosine;
+      *c++ = radial * sine;
+    }
+  };
   f.displacement_mm = [](const FlankGeometry&, const Point3& p, const EffectShape& shape,
                          const double* b) -> Point3 {
     const double polar = std::atan2(p[1], p[0]);

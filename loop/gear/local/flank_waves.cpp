@@ -103,7 +103,8 @@ class Spectrum {
   struct Flank {
     int count = 0;
     double mean = 0.0;
-    std::vector<Complex> sums;  ///< over kProfile + 1 by kColumns waves
+    std::vector<double> real, imaginary;  ///< sums over kProfile + 1 by kColumns waves
+    [[nodiscard]] Complex sum(int a, int b) const { return {real[at(a, b)], imaginary[at(a, b)]}; }
   };
   static std::size_t at(int a, int b) { return static_cast<std::size_t>(a * kColumns + b + kFace); }
   Flank& flank_of(const Value& value) {
@@ -204,27 +205,38 @@ class Spectrum {
       const std::size_t end = first[f + 1];
       for (std::size_t next = first[f]; next < end; next += kAtOnce)
         products.add({sorted.data() + next, std::min(kAtOnce, end - next)});
-      flank.sums.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
+      flank.real.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
+      flank.imaginary = flank.real;
       for (int a = 0; a <= kProfile; ++a)
-        for (int b = 0; b <= kFace; ++b) {
-          flank.sums[at(a, b)] = products.sum(a, b, 1.0);
-          flank.sums[at(a, -b)] = products.sum(a, b, -1.0);
-        }
+        for (int b = 0; b <= kFace; ++b)
+          for (const int sign : {1, -1}) {
+            const Complex sum = products.sum(a, b, sign);
+            flank.real[at(a, sign * b)] = sum.real();
+            flank.imaginary[at(a, sign * b)] = sum.imag();
+          }
     });
   }
 
-  /// Power of all orders at one pair of wavelengths on one side.
-  void powers(int a, int b, int side, std::vector<double>& power) const {
-    power.assign(static_cast<std::size_t>(teeth_), 0.0);
-    double count = 0.0;
-    for (int k = 0; k < teeth_; ++k) count += flanks_[static_cast<std::size_t>(2 * k + side)].count;
-    for (int n = 0; n < teeth_; ++n) {
-      const Complex step = std::polar(1.0, -kTwoPi * n / teeth_);
-      Complex sum = 0.0, turn = 1.0;
-      for (int k = 0; k < teeth_; ++k, turn = product(turn, step))
-        sum += product(flanks_[static_cast<std::size_t>(2 * k + side)].sums[at(a, b)], turn);
-      power[static_cast<std::size_t>(n)] = std::norm(sum) / std::max(1.0, count);
+  using OfColumns = std::array<double, kColumns>;
+
+  /// Powers of one order at one wavelength over the profile and all over the face, on one side.
+  OfColumns powers(int a, int n, int side, double count) const {
+    OfColumns real{}, imaginary{};
+    const Complex step = std::polar(1.0, -kTwoPi * n / teeth_);
+    Complex turn = 1.0;
+    for (int k = 0; k < teeth_; ++k, turn = product(turn, step)) {
+      const Flank& flank = flanks_[static_cast<std::size_t>(2 * k + side)];
+      const double *const x = &flank.real[at(a, -kFace)], *const y = &flank.imaginary[at(a, -kFace)];
+      in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+        for (std::size_t b = 0; b < kColumns; ++b) {
+          real[b] += x[b] * turn.real() - y[b] * turn.imag();
+          imaginary[b] += x[b] * turn.imag() + y[b] * turn.real();
+        }
+      });
     }
+    for (std::size_t b = 0; b < kColumns; ++b)
+      real[b] = (real[b] * real[b] + imaginary[b] * imaginary[b]) / std::max(1.0, count);
+    return real;
   }
 
   /// The powers of all orders at one pair of wavelengths on one side, in short.
@@ -233,8 +245,24 @@ class Spectrum {
     double median = 0.0, largest = 0.0;
   };
 
-  Orders orders_at(int a, int b, int side, std::vector<double>& power) const {
-    powers(a, b, side, power);
+  /// At one wavelength over the profile and all over the face that are asked about.
+  std::vector<Orders> orders_at(int a, int side) const {
+    double count = 0.0;
+    for (int k = 0; k < teeth_; ++k) count += flanks_[static_cast<std::size_t>(2 * k + side)].count;
+    std::vector<OfColumns> of_order;
+    for (int n = 0; n < teeth_; ++n) of_order.push_back(powers(a, n, side, count));
+    std::vector<Orders> all;
+    std::vector<double> power(of_order.size());
+    for (int b = a == 0 ? 4 : -most_face_; b <= most_face_; ++b) {
+      if (a + std::abs(b) < 4) continue;
+      for (std::size_t n = 0; n < power.size(); ++n)
+        power[n] = of_order[n][static_cast<std::size_t>(b + kFace)];
+      all.push_back(in_short(a, b, power));
+    }
+    return all;
+  }
+
+  Orders in_short(int a, int b, std::vector<double>& power) const {
     Orders found{a, b};
     for (int n = 0; n < teeth_; ++n) {
       // The same on every tooth along one direction is looked for elsewhere.
@@ -248,16 +276,19 @@ class Spectrum {
   }
 
   std::optional<FlankWaves> largest_wave() const {
+    // Wavelengths over the profile do not ask each other: the same powers on any number of processors.
+    const auto asked = static_cast<std::size_t>(most_profile_ + 1);
+    std::vector<std::vector<Orders>> of_profile(2 * asked);
+    for_each_piece(of_profile.size(), [&](std::size_t i) {
+      of_profile[i] = orders_at(static_cast<int>(i % asked), static_cast<int>(i / asked));
+    });
     std::array<std::vector<Orders>, 2> of_side;
     std::array<double, 2> usual{};  // a probe may be noisier on one side
-    std::vector<double> power;
-    for (std::size_t side = 0; side < 2; ++side)
-      for (int a = 0; a <= most_profile_; ++a)
-        for (int b = a == 0 ? 4 : -most_face_; b <= most_face_; ++b) {
-          if (a + std::abs(b) < 4) continue;
-          of_side[side].push_back(orders_at(a, b, static_cast<int>(side), power));
-          usual[side] += of_side[side].back().median;
-        }
+    for (std::size_t i = 0; i < of_profile.size(); ++i)
+      for (const Orders& one : of_profile[i]) {
+        of_side[i / asked].push_back(one);
+        usual[i / asked] += one.median;
+      }
     if (of_side[0].empty() || !(usual[0] > 0.0 && usual[1] > 0.0)) return {};
     double best = 0.0;
     FlankWaves found;
@@ -337,7 +368,7 @@ class Spectrum {
     std::array<Complex, 2> mean{};
     std::array<double, 2> count{};
     const auto sum_of = [&](const Flank& flank) {
-      return a == 0 && b == 0 ? Complex(flank.mean * flank.count) : flank.sums[at(a, b)];
+      return a == 0 && b == 0 ? Complex(flank.mean * flank.count) : flank.sum(a, b);
     };
     for (std::size_t f = 0; f < flanks_.size(); ++f) {
       mean[f % 2] += sum_of(flanks_[f]);
@@ -471,16 +502,18 @@ class Spectrum {
     FormsApart found;
     int looks = 0;
     double squares = 0.0;
-    for (const bool face : {false, true})
+    for (const bool face : {false, true}) {
+      const double in_a_row = values_in_a_row(face ? &Value::u : &Value::v);
       for (int n = kLongest; n <= shortest(face); ++n) {
         ++looks;
         const auto at = [&](int across) { return face ? usual_at(across, n) : usual_at(n, across); };
         const double usual = at(0);
-        const Against errors = against_both(usual, kToldByWaves * known_, at(kLongest), at(kAcross),
-                                            values_in_a_row(face ? &Value::u : &Value::v));
+        const Against errors =
+            against_both(usual, kToldByWaves * known_, at(kLongest), at(kAcross), in_a_row);
         if (errors.p_value < found.p_value)
           found = {.p_value = errors.p_value, .face = face, .waves = 0.5 * n};
       }
+    }
     found.p_value = std::min(1.0, looks * found.p_value);
     if (found.p_value >= 1.0) return {};
     // Whole waves make up the form; the sum of a wave's squares is half of a flank's.

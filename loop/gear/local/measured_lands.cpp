@@ -20,6 +20,7 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
                              double reach_mm)
     : geometry_(geometry),
       normals_(!scan.normals.empty()),
+      root_form_mm_(std::hypot(geometry.base_radius_mm(), geometry.root_form_roll_mm())),
       tip_mm_(static_cast<std::size_t>(geometry.teeth()), geometry.tip_radius_mm()) {
   const double pitch = kTwoPi / geometry.teeth(), tip = geometry.tip_radius_mm();
   const double half =
@@ -72,14 +73,13 @@ MeasuredLands::MeasuredLands(const FlankGeometry& geometry, const ScanData& scan
 }
 
 bool MeasuredLands::covers(const Place& place, const std::array<double, 3>& point) const {
-  const double s = geometry_.sense(), radius = std::hypot(point[0], point[1]);
+  const double s = geometry_.sense(), radius = std::sqrt(point[0] * point[0] + point[1] * point[1]);
   if (!normals_ && guard_mm_ > 0.0) {
     const double tip = tip_mm_[static_cast<std::size_t>(place.tooth - 1)];
     if (s * (radius - tip) > -guard_mm_) return true;
   }
   // Fillets that moved outwards reach into what the design has as flank.
-  const double root_form = std::hypot(geometry_.base_radius_mm(), geometry_.root_form_roll_mm());
-  return root_mm_ > 0.0 && s * (radius - root_form) < root_mm_ + guard_mm_;
+  return root_mm_ > 0.0 && s * (radius - root_form_mm_) < root_mm_ + guard_mm_;
 }
 
 }  // namespace trueflank::loop

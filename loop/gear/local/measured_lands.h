@@ -21,6 +21,7 @@ class MeasuredLands {
  private:
   const FlankGeometry& geometry_;
   bool normals_ = false;               ///< tips are told from flanks by them
+  double root_form_mm_ = 0.0;          ///< radius, as designed
   std::vector<double> tip_mm_;         ///< of each tooth
   double root_mm_ = 0.0;               ///< displacement of the roots, + away from the tips' side
   double guard_mm_ = 0.0;              ///< three times the scatter of the tips

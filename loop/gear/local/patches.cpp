@@ -227,17 +227,20 @@ class PatchMaker {
       const int patch = result_.patch_of_row[i];
       return patch < 0 ? -1 : patch / static_cast<int>(kPatchesOfWork);
     });
+    std::vector<Sum> sums(patches);
     for_each_piece(pieces, [&](std::size_t piece) {
-      const std::size_t first = piece * kPatchesOfWork,
-                        end = std::min(patches, first + kPatchesOfWork);
-      std::vector<Sum> sums(end - first);
       rows.for_each(piece, table_, [&](std::size_t i) {
         const Observation& row = table_.rows[i];
         const auto patch = static_cast<std::size_t>(result_.patch_of_row[i]);
-        sums[patch - first].add(row, table_.place(row), table_.sigma_um(row));
+        sums[patch].add(row, table_.place(row), table_.sigma_um(row));
         keep_sample(patch, i);
       });
-      for (std::size_t k = first; k < end; ++k) finish_patch(k, sums[k - first]);
+    });
+    // (by one thread: threads that ask for memory wait for each other)
+    for (std::size_t k = 0; k < patches; ++k)
+      result_.patches[k].sample.reserve(std::min<std::size_t>(samples_[k].count, kMostSamples));
+    for_each_run(patches, kPatchesOfWork, [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) finish_patch(k, sums[k]);
     });
     samples_ = {};
   }
@@ -285,7 +288,6 @@ class PatchMaker {
   /// What may share its random error: a flank of a scan, a trace, a single value. Where there are
   /// few, they are cut across, far longer than the error hangs together.
   void number_units() {
-    std::map<std::array<int, 3>, std::set<int>> members;  // of kind and source: ids
     const auto id_of = [&](std::size_t i) {
       const Key& k = keys_[i];
       if (is_trace(result_.patches[i].kind))
@@ -293,33 +295,41 @@ class PatchMaker {
       if (is_single(result_.patches[i].kind)) return k[5];
       return k[3] * 2 + (k[4] > 0 ? 1 : 0);
     };
-    for (std::size_t i = 0; i < keys_.size(); ++i)
-      members[{keys_[i][0], keys_[i][1], 0}].insert(id_of(i));
-    std::map<std::array<int, 4>, int> numbers;
-    std::map<std::array<int, 3>, int> wholes;
+    // What has one id of one kind and source is a member of these, numbered as met.
+    std::unordered_map<Key, int, HashOfKey> members;
+    std::map<std::pair<int, int>, int> counts;  // of kind and source
+    std::vector<int> member_of(keys_.size());
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const auto [known, is_new] =
+          members.try_emplace({keys_[i][0], keys_[i][1], id_of(i)}, static_cast<int>(members.size()));
+      member_of[i] = known->second;
+      if (is_new) ++counts[{keys_[i][0], keys_[i][1]}];
+    }
+    constexpr int kMostParts = 6, kNone = -1;
+    std::vector<std::array<int, kMostParts>> units(members.size());
+    for (std::array<int, kMostParts>& parts : units) parts.fill(kNone);
+    std::vector<int> wholes(members.size(), kNone);
+    int whole = 0;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       Patches::Patch& patch = result_.patches[i];
-      const int count = static_cast<int>(members[{keys_[i][0], keys_[i][1], 0}].size());
+      const int count = counts[{keys_[i][0], keys_[i][1]}];
       int part = 0;
       if (!is_single(patch.kind) && count < kFewestUnits) {
         const int parts =
-            std::min((kFewestUnits + count - 1) / count, is_trace(patch.kind) ? 6 : 4);
+            std::min((kFewestUnits + count - 1) / count, is_trace(patch.kind) ? kMostParts : 4);
         const Place& place = patch.places.front().place;
         part = patch.kind == ObservationKind::kProfile
                    ? part_of(geometry_.profile_coordinate(place.roll_mm), parts)
                    : part_of(geometry_.face_coordinate(place.z_mm), parts);
       }
-      const auto [found, is_new] =
-          numbers.try_emplace(std::array<int, 4>{keys_[i][0], keys_[i][1], id_of(i), part},
-                              static_cast<int>(numbers.size()));
-      patch.unit = found->second;
-      if (is_trace(patch.kind) || patch.kind == ObservationKind::kScanFlank)
-        patch.whole = wholes
-                          .try_emplace(std::array<int, 3>{keys_[i][0], keys_[i][1], id_of(i)},
-                                       static_cast<int>(wholes.size()))
-                          .first->second;
+      const auto member = static_cast<std::size_t>(member_of[i]);
+      int& unit = units[member][static_cast<std::size_t>(part)];
+      if (unit == kNone) unit = result_.units++;
+      patch.unit = unit;
+      if (!is_trace(patch.kind) && patch.kind != ObservationKind::kScanFlank) continue;
+      if (wholes[member] == kNone) wholes[member] = whole++;
+      patch.whole = wholes[member];
     }
-    result_.units = static_cast<int>(numbers.size());
   }
 
   void assign_folds() {
@@ -388,8 +398,29 @@ class PatchMaker {
     std::vector<double> squares;
     std::array<std::vector<double>, 2> of_side;
     if (is_single(kind)) return {};
-    std::unordered_map<Key, int, HashOfKey> at(members.size());
-    for (const int i : members) at[keys_[i]] = i;
+    // Patches of scanned flanks by their place in a list, others through a hash.
+    const bool listed = kind == ObservationKind::kScanFlank;
+    constexpr int kNone = -1;
+    std::vector<int> in_list;
+    std::unordered_map<Key, int, HashOfKey> at;
+    for (const int i : members) {
+      if (!listed) {
+        at[keys_[i]] = i;
+        continue;
+      }
+      const std::size_t place = place_in_list(keys_[i]);
+      if (place >= in_list.size()) in_list.resize(place + patches_of_flanks(), kNone);
+      in_list[place] = i;
+    }
+    const auto patch_at = [&](const Key& key) {
+      if (!listed) {
+        const auto found = at.find(key);
+        return found == at.end() ? kNone : found->second;
+      }
+      if (key[5] < 0 || key[5] >= kProfileParts) return kNone;
+      const std::size_t place = place_in_list(key);
+      return place < in_list.size() ? in_list[place] : kNone;
+    };
     const int axis = kind == ObservationKind::kHelix || kind == ObservationKind::kScanBore      ? 6
                      : kind == ObservationKind::kProfile || kind == ObservationKind::kScanFlank ? 5
                                                                                                 : 3;
@@ -397,10 +428,10 @@ class PatchMaker {
       Key right = keys_[i], left = keys_[i];
       ++right[axis];
       --left[axis];
-      const auto r = at.find(right), l = at.find(left);
-      if (r == at.end() || l == at.end()) continue;
-      const double d = result_.patches[l->second].mean_um - 2.0 * result_.patches[i].mean_um +
-                       result_.patches[r->second].mean_um;
+      const int r = patch_at(right), l = patch_at(left);
+      if (r == kNone || l == kNone) continue;
+      const double d = result_.patches[l].mean_um - 2.0 * result_.patches[i].mean_um +
+                       result_.patches[r].mean_um;
       squares.push_back(d * d / 6.0);
       of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / 6.0);
     }

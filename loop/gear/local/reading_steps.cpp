@@ -46,7 +46,7 @@ ReadingSteps::ReadingSteps(const Observations& table, const std::vector<float>& 
     double square = 0.0;
   };
   std::map<std::pair<int, int>, Values> of;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+  for (std::size_t i = table.points_mm.size(); i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     if (!is_in_trace(row)) continue;
     Values& values = of[kind_and_source(row)];

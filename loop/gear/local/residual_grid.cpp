@@ -24,28 +24,20 @@ int part_of(double coordinate) {
   return std::clamp(static_cast<int>(0.5 * (coordinate + 1.0) * kParts), 0, kParts - 1);
 }
 
-}  // namespace
+struct FlankMeans {
+  std::array<Mean, kParts> profile, helix;
+  Mean place, index;
+};
 
-ResidualGrid residual_grid(const GearLoop& closed, bool after) {
-  struct FlankMeans {
-    std::array<Mean, kParts> profile, helix;
-    Mean place, index;
-  };
-  const FlankGeometry& g = closed.geometry;
-  std::vector<std::array<FlankMeans, 2>> means(g.teeth());
+/// Means of one kind of residuals, as they are added.
+struct Means {
+  explicit Means(int teeth) : flanks(static_cast<std::size_t>(teeth)) {}
+  std::vector<std::array<FlankMeans, 2>> flanks;
   std::array<std::array<std::array<Mean, kParts>, kParts>, 2> topography;
-  const RowsByClass of_side(closed.table.rows.size(), 2, [&](std::size_t i) {
-    const Observation& row = closed.table.rows[i];
-    const Place& place = closed.table.place(row);
-    return place.surface != Surface::kFlank || row.places != 1 ? -1 : place.side > 0 ? 1 : 0;
-  });
-  const auto add = [&](std::size_t i, std::size_t side) {
-    const Observation& row = closed.table.rows[i];
-    const Place& place = closed.table.place(row);
-    const double value = after ? closed.after_um[i] : closed.before_um[i];
-    FlankMeans& flank = means[place.tooth - 1][side];
-    const int u = part_of(g.profile_coordinate(place.roll_mm));
-    const int v = part_of(g.face_coordinate(place.z_mm));
+
+  void add(const Observation& row, std::size_t tooth, std::size_t side, std::size_t u, std::size_t v,
+           double value) {
+    FlankMeans& flank = flanks[tooth][side];
     const bool scan = row.kind == ObservationKind::kScanFlank;
     if (scan || row.kind == ObservationKind::kProfile) flank.profile[u].add(value);
     if (scan || row.kind == ObservationKind::kHelix) flank.helix[v].add(value);
@@ -54,26 +46,63 @@ ResidualGrid residual_grid(const GearLoop& closed, bool after) {
       topography[side][u][v].add(value);
     }
     if (row.kind == ObservationKind::kIndex) flank.index.add(value);
-  };
-  for_each_piece(2, [&](std::size_t side) {
-    of_side.for_each(side, closed.table, [&](std::size_t i) { add(i, side); });
-  });
-  ResidualGrid grid;
-  grid.teeth.resize(means.size());
-  for (std::size_t k = 0; k < means.size(); ++k)
-    for (int side = 0; side < 2; ++side) {
-      const FlankMeans& from = means[k][side];
-      FlankResiduals& to = grid.teeth[k][side];
-      for (int i = 0; i < kParts; ++i) {
-        to.profile[i] = from.profile[i].value();
-        to.helix[i] = from.helix[i].value();
+  }
+  [[nodiscard]] ResidualGrid grid() const {
+    ResidualGrid result;
+    result.teeth.resize(flanks.size());
+    for (std::size_t k = 0; k < flanks.size(); ++k)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const FlankMeans& from = flanks[k][side];
+        FlankResiduals& to = result.teeth[k][side];
+        for (std::size_t i = 0; i < kParts; ++i) {
+          to.profile[i] = from.profile[i].value();
+          to.helix[i] = from.helix[i].value();
+        }
+        to.index = from.index.count > 0.0 ? from.index.value() : from.place.value();
       }
-      to.index = from.index.count > 0.0 ? from.index.value() : from.place.value();
-    }
-  for (int side = 0; side < 2; ++side)
-    for (int u = 0; u < kParts; ++u)
-      for (int v = 0; v < kParts; ++v) grid.topography[side][u][v] = topography[side][u][v].value();
-  return grid;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t u = 0; u < kParts; ++u)
+        for (std::size_t v = 0; v < kParts; ++v)
+          result.topography[side][u][v] = topography[side][u][v].value();
+    return result;
+  }
+};
+
+/// Grids of some residuals of the rows, gathered in one go.
+template <std::size_t count>
+std::array<ResidualGrid, count> grids_of(const GearLoop& closed,
+                                         const std::array<const std::vector<float>*, count>& residuals_um) {
+  const FlankGeometry& g = closed.geometry;
+  std::vector<Means> means(count, Means(g.teeth()));
+  const RowsByClass of_side(closed.table.rows.size(), 2, [&](std::size_t i) {
+    const Observation& row = closed.table.rows[i];
+    const Place& place = closed.table.place(row);
+    return place.surface != Surface::kFlank || row.places != 1 ? -1 : place.side > 0 ? 1 : 0;
+  });
+  for_each_piece(2, [&](std::size_t side) {
+    of_side.for_each(side, closed.table, [&](std::size_t i) {
+      const Observation& row = closed.table.rows[i];
+      const Place& place = closed.table.place(row);
+      const auto tooth = static_cast<std::size_t>(place.tooth - 1),
+                 u = static_cast<std::size_t>(part_of(g.profile_coordinate(place.roll_mm))),
+                 v = static_cast<std::size_t>(part_of(g.face_coordinate(place.z_mm)));
+      for (std::size_t k = 0; k < count; ++k)
+        means[k].add(row, tooth, side, u, v, static_cast<double>((*residuals_um[k])[i]));
+    });
+  });
+  std::array<ResidualGrid, count> grids;
+  for (std::size_t k = 0; k < count; ++k) grids[k] = means[k].grid();
+  return grids;
+}
+
+}  // namespace
+
+ResidualGrid residual_grid_before(const GearLoop& closed) {
+  return grids_of<1>(closed, {&closed.before_um})[0];
+}
+
+std::array<ResidualGrid, 2> residual_grids(const GearLoop& closed) {
+  return grids_of<2>(closed, {&closed.before_um, &closed.after_um});
 }
 
 }  // namespace trueflank::loop

@@ -25,7 +25,9 @@ struct ResidualGrid {
       topography{};
 };
 
-/// Gathers the residuals before (false) or after (true) the effects.
-[[nodiscard]] ResidualGrid residual_grid(const GearLoop& closed, bool after);
+/// Gathers the residuals before the effects.
+[[nodiscard]] ResidualGrid residual_grid_before(const GearLoop& closed);
+/// Those before and those after the effects.
+[[nodiscard]] std::array<ResidualGrid, 2> residual_grids(const GearLoop& closed);
 
 }  // namespace trueflank::loop

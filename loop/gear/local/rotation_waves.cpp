@@ -3,13 +3,19 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstring>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
+#include <span>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/table/thinned_rows.h"
@@ -38,21 +44,22 @@ struct ProfileTraces {
 ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
                        const std::vector<float>& row_um, const std::vector<bool>& used) {
   ProfileTraces traces;
-  const auto is_of = [&](std::size_t i, ObservationKind kind) { return used[i] && table.rows[i].kind == kind; };
   std::size_t profiles = 0, scanned = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    profiles += is_of(i, ObservationKind::kProfile) ? 1 : 0;
-    scanned += is_of(i, ObservationKind::kScanFlank) ? 1 : 0;
+    if (!used[i]) continue;
+    profiles += table.rows[i].kind == ObservationKind::kProfile ? 1 : 0;
+    scanned += table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
   }
   traces.scanned = profiles == 0;
   const ObservationKind kind = traces.scanned ? ObservationKind::kScanFlank : ObservationKind::kProfile;
   const ThinnedRows some(scanned, traces.scanned ? kMostScanned : std::max<std::size_t>(1, scanned));
+  std::vector<ProfileTrace> of_flank(2 * static_cast<std::size_t>(geometry.teeth() + 1));
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (!is_of(i, kind) || !some.has(i)) continue;
+    if (!some.has(i) || !used[i] || table.rows[i].kind != kind) continue;
     const Observation& row = table.rows[i];
     const Place& place = table.place(row);
-    const int flank = -2 * place.tooth - (place.side > 0 ? 1 : 0);
-    ProfileTrace& trace = traces.of[row.trace >= 0 ? row.trace : flank];
+    const auto flank = static_cast<std::size_t>(2 * place.tooth + (place.side > 0 ? 1 : 0));
+    ProfileTrace& trace = row.trace >= 0 ? traces.of[row.trace] : of_flank[flank];
     trace.side = place.side;
     trace.middle_rad.push_back(geometry.centre_rad(place.tooth) + geometry.twist_rad(place.z_mm));
     trace.along_rad.push_back(-geometry.sense() * place.side * place.roll_mm /
@@ -60,6 +67,9 @@ ProfileTraces gathered(const FlankGeometry& geometry, const Observations& table,
     trace.um.push_back(row_um[i]);
     traces.teeth.insert(place.tooth);
   }
+  for (std::size_t flank = 0; flank < of_flank.size(); ++flank)
+    if (!of_flank[flank].um.empty())
+      traces.of.emplace(-static_cast<int>(flank), std::move(of_flank[flank]));
   return traces;
 }
 
@@ -95,19 +105,73 @@ std::pair<int, int> orders_of(const ProfileTraces& traces) {
 
 using OrderSums = std::vector<std::complex<double>>;
 
+/// Waves of so many values stand beside each other, each with sums of its own: a wave's next order waits
+/// for the product of the last one.
+constexpr std::size_t kAtOnce = 8;
+struct ManyWaves {
+  std::array<double, kAtOnce> real{}, imaginary{};
+};
+
+/// Adds values at their rotations to the sums of every order from the least on: a value's wave of the
+/// next order is that of the last one, turned by the rotation.
+void add_values(std::span<const double> rotation, std::span<const double> um, int least,
+                std::vector<ManyWaves>& sums) {
+  ManyWaves step, wave;
+  for (std::size_t i = 0; i < um.size(); ++i) {
+    const std::complex<double> turn = std::polar(1.0, rotation[i]),
+                               first = std::polar(1.0, least * rotation[i]) * um[i];
+    step.real[i] = turn.real();
+    step.imaginary[i] = turn.imag();
+    wave.real[i] = first.real();
+    wave.imaginary[i] = first.imag();
+  }
+  // (left to itself, the compiler takes one value at a time)
+  using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+  constexpr std::size_t kFours = kAtOnce / 4;
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    Four turn_real[kFours], turn_imaginary[kFours], real[kFours], imaginary[kFours];
+    std::memcpy(turn_real, step.real.data(), sizeof turn_real);
+    std::memcpy(turn_imaginary, step.imaginary.data(), sizeof turn_imaginary);
+    std::memcpy(real, wave.real.data(), sizeof real);
+    std::memcpy(imaginary, wave.imaginary.data(), sizeof imaginary);
+    for (ManyWaves& sum : sums)
+      for (std::size_t k = 0; k < kFours; ++k) {
+        Four sum_real, sum_imaginary;
+        std::memcpy(&sum_real, &sum.real[4 * k], sizeof sum_real);
+        std::memcpy(&sum_imaginary, &sum.imaginary[4 * k], sizeof sum_imaginary);
+        sum_real += real[k];
+        sum_imaginary += imaginary[k];
+        std::memcpy(&sum.real[4 * k], &sum_real, sizeof sum_real);
+        std::memcpy(&sum.imaginary[4 * k], &sum_imaginary, sizeof sum_imaginary);
+        const Four next = real[k] * turn_real[k] - imaginary[k] * turn_imaginary[k];
+        imaginary[k] = real[k] * turn_imaginary[k] + imaginary[k] * turn_real[k];
+        real[k] = next;
+      }
+  });
+}
+
 /// OrderSums of the values of one side's traces against every order from the least on.
 OrderSums order_sums(const ProfileTraces& traces, int side, int least, int most, bool backwards) {
-  OrderSums sums(static_cast<std::size_t>(most - least + 1));
-  for (const auto& [key, trace] : traces.of)
-    for (std::size_t i = 0; trace.side == side && i < trace.um.size(); ++i) {
-      const double rotation = trace.middle_rad[i] + (backwards ? -1.0 : 1.0) * trace.along_rad[i];
-      const std::complex<double> step = std::polar(1.0, rotation);
-      std::complex<double> wave = std::polar(1.0, least * rotation) * trace.um[i];
-      for (std::complex<double>& sum : sums) {
-        sum += wave;
-        wave *= step;
-      }
+  std::vector<ManyWaves> of_values(static_cast<std::size_t>(most - least + 1));
+  std::vector<double> rotation;
+  for (const auto& [key, trace] : traces.of) {
+    if (trace.side != side) continue;
+    rotation.clear();
+    for (std::size_t i = 0; i < trace.um.size(); ++i)
+      rotation.push_back(trace.middle_rad[i] + (backwards ? -1.0 : 1.0) * trace.along_rad[i]);
+    for (std::size_t i = 0; i < rotation.size(); i += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, rotation.size() - i);
+      add_values({rotation.data() + i, count}, {trace.um.data() + i, count}, least, of_values);
     }
+  }
+  OrderSums sums;
+  sums.reserve(of_values.size());
+  for (const ManyWaves& waves : of_values) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = 0; i < kAtOnce; ++i)
+      sum += std::complex<double>(waves.real[i], waves.imaginary[i]);
+    sums.push_back(sum);
+  }
   return sums;
 }
 
@@ -175,8 +239,11 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
   for (const bool backwards : {false, true}) {
     if (backwards && traces.scanned) break;  // scans have no numbers of teeth
     std::map<int, OrderSums> sums;
-    for (const auto& [side, count] : values)
-      sums[side] = order_sums(traces, side, least, most, backwards);
+    for (const auto& [side, count] : values) sums[side];
+    for_each_piece(sums.size(), [&](std::size_t k) {
+      auto& [side, of_side] = *std::next(sums.begin(), static_cast<std::ptrdiff_t>(k));
+      of_side = order_sums(traces, side, least, most, backwards);
+    });
     for (const auto& [side, of_side] : sums) {
       RotationWave wave = likeliest(of_side, least, geometry.teeth());
       if (!(wave.p_value < best.p_value)) continue;

@@ -54,6 +54,9 @@ class PartLoop {
   /// The fit of nothing but the pose to the deviations of the gear as designed.
   [[nodiscard]] std::shared_ptr<const PointFit> plain_fit() const;
   [[nodiscard]] std::vector<std::string> not_observable() const;
+  /// How other coefficients of the fit would be if waves around the gear that never change their
+  /// sign had a mean that is told as other effects; zero where there is none.
+  [[nodiscard]] Eigen::VectorXd without_means_of_waves(const PointFit& fit) const;
   /// True where the test of structure that is left answers yes, how sure, and what it looks like.
   [[nodiscard]] bool structure_is_left() const;
   [[nodiscard]] WhatIsLeft what_is_left() const;
@@ -116,13 +119,16 @@ class PartLoop {
   void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
   void tell_means_of_one_wave();
+  void tell_parts_in_the_mean_of_waves();
   void tell_imitations();
   void tell_means_across_flanks();
   void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
+  void drop_idle_beside_one_form();
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
-                                      const std::vector<Effect>& forms);
+                                      const std::vector<Effect>& forms,
+                                      const std::vector<Effect>& beside = {});
   void tell_level_of_forms();
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();

@@ -199,6 +199,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_parts_of_a_sector();
   tell_means_of_odd_forms();
   tell_means_of_one_wave();
+  tell_parts_in_the_mean_of_waves();
   tell_imitations();
   tell_waves_of_a_form();
   tell_what_waves_leave();

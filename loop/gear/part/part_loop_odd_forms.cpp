@@ -5,10 +5,14 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "trueflank/base/threads.h"
+#include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
 
@@ -115,6 +119,117 @@ MainCourse main_course(const FlankField& field, const Eigen::VectorXd& start) {
 
 }  // namespace
 
+namespace {
+
+/// What is the same on every tooth beside waves without a name, and how much of each is the mean of
+/// these where they never change their sign.
+struct MeanOfWaves {
+  std::vector<std::size_t> effects;
+  Eigen::VectorXd shares;  ///< of each: 1 where all of it is
+  double level_um = 0.0;   ///< how far they lift the flanks in the mean, at most
+};
+
+bool is_wave_without_name(const Effect& e) {
+  return e.is_term() && e.family->form_word.empty() && e.order() > 0.0;
+}
+
+/// A side that cools later bends the flanks once around by a course that names make up together.
+/// Its mean is as large as its wave: without it one of these at least is nothing.
+std::optional<MeanOfWaves> mean_of_waves(const FlankGeometry& geometry, const PointFit& fit) {
+  constexpr double kCounts = 0.2, kMostly = 0.8, kInTheSpan = 0.25, kGone = 0.25, kAlike = 1e-6;
+  const std::vector<Effect>& effects = fit.effects();
+  if (std::none_of(effects.begin(), effects.end(), is_wave_without_name)) return {};
+  MeanOfWaves mean;
+  FlankField around = FlankField::Zero(2 * kGridSide * kGridSide, geometry.teeth());
+  Eigen::MatrixXd courses(2 * kGridSide * kGridSide, 0);
+  double heights = 0.0;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const bool wave = is_wave_without_name(effects[e]);
+    if (!wave &&
+        (effects[e].family->local || effects[e].columns() != 1 || effects[e].order() != 0.0))
+      continue;
+    FlankField field = field_of(geometry, fit, e);
+    if (wave) around += field;
+    if (wave) continue;
+    take_off_heights(field);
+    const Eigen::VectorXd course = field.rowwise().mean();
+    const double square = field.squaredNorm();
+    if (!(square > 0.0) || (field.colwise() - course).squaredNorm() > kAlike * square) continue;
+    courses.conservativeResize(Eigen::NoChange, courses.cols() + 1);
+    courses.rightCols(1) = course;
+    mean.effects.push_back(e);
+  }
+  for (const Eigen::Index flank : {0, 1})
+    heights =
+        std::max(heights, around.middleRows(flank * kGridSide * kGridSide, kGridSide * kGridSide)
+                              .colwise()
+                              .mean()
+                              .cwiseAbs()
+                              .maxCoeff());
+  mean.level_um = heights;
+  take_off_heights(around);
+  if (courses.cols() < 2 || !(around.squaredNorm() > 0.0)) return {};
+  const Eigen::VectorXd sizes = courses.colwise().norm();
+  const Eigen::MatrixXd unit = courses * sizes.cwiseInverse().asDiagonal();
+  const MainCourse main = main_course(around, around.col(0));
+  if (main.share < kMostly) return {};
+  Eigen::MatrixXd normal = unit.transpose() * unit;
+  normal.diagonal().array() += 1e-9;
+  const Eigen::VectorXd right = unit.transpose() * main.over_flanks;
+  const Eigen::VectorXd parts = symmetric_solution(normal, right);
+  if ((main.over_flanks - unit * parts).norm() > kInTheSpan) return {};
+  if ((parts.cwiseAbs().array() > kCounts).count() < 2) return {};
+  const Eigen::VectorXd shares = main.amplitude * parts.cwiseQuotient(sizes);
+  const auto gone = [&](const Eigen::VectorXd& of) {
+    int count = 0;
+    for (Eigen::Index i = 0; i < of.size(); ++i)
+      count += std::abs(parts[i]) > kCounts && std::abs(1.0 - of[i]) < kGone ? 1 : 0;
+    return count;
+  };
+  const int up = gone(shares), down = gone(-shares);
+  if (up == 0 && down == 0) return {};
+  mean.shares = up >= down ? shares : Eigen::VectorXd(-shares);
+  return mean;
+}
+
+}  // namespace
+
+/// Where one of several names along the flanks is what such waves leave in the mean, it is told as
+/// a form; so is a height that is no more than theirs.
+void PartLoop::tell_parts_in_the_mean_of_waves() {
+  constexpr double kGone = 0.25, kAsHigh = 1.25;
+  const auto mean = mean_of_waves(geometry_, *fit_of(effects_));
+  if (!mean) return;
+  for (std::size_t i = 0; i < mean->effects.size(); ++i) {
+    if (std::abs(1.0 - mean->shares[static_cast<Eigen::Index>(i)]) > kGone) continue;
+    const std::size_t e = mean->effects[i];
+    if (const EffectFamily* form = form_instead(e)) effects_[e].family = form;
+  }
+  const auto fit = fit_of(effects_);
+  for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e) {
+    if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1 ||
+        effects_[e].order() != 0.0 || form_of_level(e) == nullptr)
+      continue;
+    FlankField field = field_of(geometry_, *fit, e);
+    const double all = field.norm();
+    take_off_heights(field);
+    if (field.norm() < 0.5 * all &&
+        all < kAsHigh * mean->level_um * std::sqrt(static_cast<double>(field.size())))
+      effects_[e].family = form_of_level(e);
+  }
+}
+
+/// What coefficients would be without that mean; zero elsewhere.
+Eigen::VectorXd PartLoop::without_means_of_waves(const PointFit& fit) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(fit.coefficients().size());
+  const auto mean = mean_of_waves(geometry_, fit);
+  for (std::size_t i = 0; mean && i < mean->effects.size(); ++i) {
+    const int column = fit.first_column(static_cast<int>(mean->effects[i]));
+    change[column] = -mean->shares[static_cast<Eigen::Index>(i)] * fit.coefficients()[column];
+  }
+  return change;
+}
+
 /// What comes and goes once around and never changes its sign (a side that cools later) has a mean
 /// of the same course. Two names or more that make up the course of a wave without a name, as large
 /// as that, are its mean.
@@ -166,18 +281,41 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
   const auto row_um = fit.residuals_um();
   // The effect and what is there, of one flank of a tooth or one trace: source, trace, tooth, side.
   std::map<std::array<int, 4>, PairedSums> units;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+  const auto add = [&](std::size_t i, const Place& place, PairedSums& unit) {
+    double c = 0.0;
+    effect.evaluate(geometry, place, &c);
+    unit.add(c, (*row_um)[i]);
+  };
+  const auto is_asked = [&](std::size_t i) {
+    const Observation& row = table.rows[i];
+    return row.places == 1 && patches.patch_of_row[i] >= 0 && std::isfinite((*row_um)[i]) &&
+           table.place(row).surface == Surface::kFlank;
+  };
+  // Flanks of scans do not ask each other: the same sums on any number of processors.
+  const std::size_t scanned = table.points_mm.size(),
+                    teeth = static_cast<std::size_t>(geometry.teeth());
+  const RowsByClass flanks(scanned, 2 * teeth * table.poses.size(), [&](std::size_t i) {
+    const Observation& row = table.rows[i];
+    if (row.kind != ObservationKind::kScanFlank || !is_asked(i)) return -1;
+    const Place& place = table.place(row);
+    return 2 * (row.source * geometry.teeth() + place.tooth - 1) + (place.side > 0 ? 1 : 0);
+  });
+  std::vector<PairedSums> of_flank(2 * teeth * table.poses.size());
+  for_each_piece(of_flank.size(), [&](std::size_t k) {
+    flanks.for_each(k, table,
+                    [&](std::size_t i) { add(i, table.place(table.rows[i]), of_flank[k]); });
+  });
+  for (std::size_t k = 0; k < of_flank.size(); ++k)
+    if (of_flank[k].n > 0.0)
+      units[{static_cast<int>(k / 2 / teeth), -1, static_cast<int>(k / 2 % teeth) + 1,
+             k % 2 == 1 ? 1 : -1}] = of_flank[k];
+  for (std::size_t i = scanned; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool traced =
         row.kind == ObservationKind::kProfile || row.kind == ObservationKind::kHelix;
-    if ((!traced && row.kind != ObservationKind::kScanFlank) || row.places != 1 ||
-        patches.patch_of_row[i] < 0 || !std::isfinite((*row_um)[i]))
-      continue;
+    if (!traced || !is_asked(i)) continue;
     const Place& place = table.place(row);
-    if (place.surface != Surface::kFlank) continue;
-    double c = 0.0;
-    effect.evaluate(geometry, place, &c);
-    units[{row.source, traced ? row.trace : -1, place.tooth, place.side}].add(c, (*row_um)[i]);
+    add(i, place, units[{row.source, row.trace, place.tooth, place.side}]);
   }
   // About its mean: levels differ for reasons of their own.
   double most = 0.0;
@@ -190,7 +328,8 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
     n += 1.0;
     sum += off;
     squares += off * off;
-    errors += std::max(0.0, unit.square_of_y() - off * product) / std::max(1.0, unit.n - 2.0) / square;
+    errors +=
+        std::max(0.0, unit.square_of_y() - off * product) / std::max(1.0, unit.n - 2.0) / square;
   }
   if (n < kFewest) return 0.0;
   const double variance = (squares - sum * sum / n) / (n - 1.0), error = errors / n;

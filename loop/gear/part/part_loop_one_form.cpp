@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/trial_fit.h"
 
@@ -13,37 +14,43 @@ namespace trueflank::loop {
 
 namespace {
 
+/// Short waves have a cosine and a sine.
+constexpr int kMostColumns = 2;
+using Columns = Eigen::Matrix<double, kMostColumns, 1>;
+
 /// How an effect that is the same on every tooth, and on the flanks it acts on, runs along them.
 enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
 
 Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
   constexpr int kOfGrid = 9;
   constexpr double kAlike = 1e-6;
-  if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local)
+  if (effect.columns() > kMostColumns || effect.order() != 0.0 || effect.family->local)
     return Runs::kOtherwise;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const auto at = [&](int tooth, int side, double u, double v) {
-    double value = 0.0;
+    Columns values = Columns::Zero();
     effect.evaluate(
         geometry,
         geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()),
-        &value);
-    return value;
+        values.data());
+    return values;
   };
+  const auto off = [](const Columns& a, const Columns& b) { return (a - b).cwiseAbs().maxCoeff(); };
   double size = 0.0, profile = 0.0, face = 0.0, apart = 0.0;
   for (const int side : {1, -1})
     for (int i = 0; i < kOfGrid; ++i)
       for (int k = 0; k < kOfGrid; ++k) {
-        const double u = (i + 0.5) / kOfGrid, v = (k + 0.5) / kOfGrid, here = at(1, side, u, v);
-        size = std::max(size, std::abs(here));
-        profile = std::max(profile, std::abs(here - at(1, side, 0.5 / kOfGrid, v)));
-        face = std::max(face, std::abs(here - at(1, side, u, 0.5 / kOfGrid)));
+        const double u = (i + 0.5) / kOfGrid, v = (k + 0.5) / kOfGrid;
+        const Columns here = at(1, side, u, v);
+        size = std::max(size, here.cwiseAbs().maxCoeff());
+        profile = std::max(profile, off(here, at(1, side, 0.5 / kOfGrid, v)));
+        face = std::max(face, off(here, at(1, side, u, 0.5 / kOfGrid)));
         if (effect.flank == FlankChoice::kBoth)
-          apart = std::max(apart, std::abs(here - at(1, -side, u, v)));
+          apart = std::max(apart, off(here, at(1, -side, u, v)));
       }
   for (int tooth = 2; tooth <= geometry.teeth(); ++tooth)
     for (const int side : {1, -1})
-      apart = std::max(apart, std::abs(at(tooth, side, 0.7, 0.3) - at(1, side, 0.7, 0.3)));
+      apart = std::max(apart, off(at(tooth, side, 0.7, 0.3), at(1, side, 0.7, 0.3)));
   const double nothing = kAlike * size;
   if (apart > nothing) return Runs::kOtherwise;
   if (profile > nothing && face > nothing) return Runs::kOverBoth;
@@ -61,18 +68,20 @@ bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
   double squares = 0.0;
   for (const std::size_t e : these) {
     const Effect& effect = fit.effects()[e];
-    const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
+    Columns b = Columns::Zero();
+    b.head(effect.columns()) =
+        fit.coefficients().segment(fit.first_column(static_cast<int>(e)), effect.columns());
     Eigen::VectorXd own(size);
     Eigen::Index at = 0;
     for (const int side : {1, -1})
       for (int i = 0; i < kOfGrid; ++i)
         for (int k = 0; k < kOfGrid; ++k, ++at) {
-          double value = 0.0;
+          Columns values = Columns::Zero();
           effect.evaluate(geometry,
                           geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
                                             (k + 0.5) / kOfGrid * geometry.face_width_mm()),
-                          &value);
-          own[at] = b * value;
+                          values.data());
+          own[at] = b.dot(values);
         }
     for (const Eigen::Index flank : {0, 1})
       own.segment(flank * size / 2, size / 2).array() -=
@@ -106,6 +115,31 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
   }
   return forms;
+}
+
+/// Names of these effects that have a place or a width: one alone at its best shape may say it all.
+std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
+                                      const std::vector<Effect>& effects) {
+  std::vector<Effect> names;
+  for (const Effect& effect : effects) {
+    const EffectFamily& family = *effect.family;
+    if (!family.named || !family.shape_is_continuous || family.shape_is_step) continue;
+    names.push_back(effect);
+    for (const EffectShape& shape : family.shapes(geometry))
+      names.push_back({&family, effect.flank, shape});
+  }
+  return names;
+}
+
+/// One wave over about the whole length: an S.
+std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  const double range_mm =
+      face != 0.0 ? geometry.face_width_mm()
+                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  std::vector<Effect> waves;
+  for (const double lengths : {0.7, 0.85, 1.0, 1.2, 1.45})
+    waves.push_back({find_family("unnamed_waviness"), flank, {face, lengths * range_mm}});
+  return waves;
 }
 
 /// Hollows that end over the profile and over the face, to start from.
@@ -151,31 +185,46 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
     first = next;
   }
   if (best.empty()) return best;
-  refine_nearby(geometry, table, patches, best);
+  if (best.back().family->shape_is_continuous)
+    refine_shapes(geometry, table, patches, best, at);
+  else
+    refine_nearby(geometry, table, patches, best);
   return best;
 }
 
 }  // namespace
 
-/// True where one of the forms stands for these effects: it needs no more values than they do, and
-/// leaves clearly less; for every value that it spares it may leave a little more.
+/// True where one of the forms, and what is put beside it, stands for these effects: it needs no
+/// more values than they do, and leaves clearly less; for every value that it spares it may leave a
+/// little more.
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
-                                const std::vector<Effect>& forms) {
+                                const std::vector<Effect>& forms,
+                                const std::vector<Effect>& beside) {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
-  std::vector<Effect> rest, own;
+  std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
-    (std::find(these.begin(), these.end(), e) == these.end() ? rest : own).push_back(effects_[e]);
+    (std::find(these.begin(), these.end(), e) == these.end() ? others : own).push_back(effects_[e]);
+  const bool too_many = std::none_of(forms.begin(), forms.end(), [&](const Effect& form) {
+    return values_of({form}, true) + values_of(beside, true) <= values_of(own, true);
+  });
+  if (too_many) return false;
+  std::vector<Effect> rest = others;
+  rest.insert(rest.end(), beside.begin(), beside.end());
   std::vector<Effect> tried = forms;
   std::stable_sort(tried.begin(), tried.end(),
                    [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
   const std::vector<Effect> with = with_best_form(geometry_, table_, patches_, rest, tried);
   if (with.empty()) return false;
-  const int spared = values_of(own, true) - values_of({with.back()}, true);
+  if (with.back().family->named &&
+      !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
+    return false;
+  const int spared =
+      values_of(own, true) - values_of({with.back()}, true) - values_of(beside, true);
   if (spared < 0) return false;
   const double gain = fit_of(effects_)->residual_square() - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes.
-  const double none = fit_of(rest)->residual_square() - fit_of(effects_)->residual_square();
+  const double none = fit_of(others)->residual_square() - fit_of(effects_)->residual_square();
   const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
                            ? std::max(kClearly, kNearly * none)
                            : 0.0;
@@ -188,8 +237,10 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   // What else has a place beside its own moved with it.
   std::copy_n(with.begin(), effects_.size(), effects_.begin());
   std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
-  effects_.push_back(with.back());
-  discovery_.chosen.push_back(record);
+  for (std::size_t e = effects_.size(); e < with.size(); ++e) {
+    effects_.push_back(with[e]);
+    discovery_.chosen.push_back(record);
+  }
   return true;
 }
 
@@ -199,6 +250,36 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
 void PartLoop::tell_as_one_form() {
   if (options_.joined || table_->rows.empty()) return;
   const std::size_t told = options_.given.size() - given_p_values_.size();
+  const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
+  const auto has_name = [&](const std::vector<std::size_t>& set) {
+    return std::any_of(set.begin(), set.end(),
+                       [&](std::size_t e) { return effects_[e].family->named; });
+  };
+  const auto of_set = [&](const std::vector<std::size_t>& set) {
+    std::vector<Effect> effects;
+    for (const std::size_t e : set) effects.push_back(effects_[e]);
+    return effects;
+  };
+  const auto values = [&](const std::vector<std::size_t>& set) {
+    return values_of(of_set(set), true);
+  };
+  // One form for a set along the profile (0) or the face (1).
+  const auto along_one = [&](const std::vector<std::size_t>& set, int face, FlankChoice flank) {
+    if (values(set) < 2) return false;
+    if (set.size() > 1) {
+      // What all flanks stand out by may hang on these: it is free.
+      const std::vector<Effect> names = names_with_shapes(geometry_, of_set(set));
+      if (put_one_form_for(set, names) ||
+          (is_told_apart(level, effects_) && put_one_form_for(set, names, {level})))
+        return true;
+    }
+    if (put_one_form_for(set, forms_along(geometry_, face, flank, set.size() > 1))) return true;
+    if (set.size() < 2) return false;
+    const std::vector<Effect> waves = long_waves(geometry_, face, flank);
+    const Effect slope{
+        level.family, flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
+    return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope});
+  };
   const auto once = [&] {
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
@@ -208,19 +289,15 @@ void PartLoop::tell_as_one_form() {
         const Runs runs = runs_of(geometry_, effects_[e]);
         if (runs == Runs::kOverProfile) along[0].push_back(e);
         if (runs == Runs::kOverFace) along[1].push_back(e);
-        if (runs != Runs::kOtherwise && runs != Runs::kNowhere) all_over.push_back(e);
+        if (runs != Runs::kOtherwise && runs != Runs::kNowhere && effects_[e].columns() == 1)
+          all_over.push_back(e);
       }
-      const auto has_name = [&](const std::vector<std::size_t>& set) {
-        return std::any_of(set.begin(), set.end(),
-                           [&](std::size_t e) { return effects_[e].family->named; });
-      };
-      const auto values = [&](const std::vector<std::size_t>& set) {
-        std::vector<Effect> effects;
-        for (const std::size_t e : set) effects.push_back(effects_[e]);
-        return values_of(effects, true);
-      };
-      const bool crossed = all_over.size() > along[0].size() + along[1].size() ||
-                           (!along[0].empty() && !along[1].empty());
+      const auto whole = [&](std::size_t e) { return effects_[e].columns() == 1; };
+      const std::array<std::ptrdiff_t, 2> straight{
+          std::count_if(along[0].begin(), along[0].end(), whole),
+          std::count_if(along[1].begin(), along[1].end(), whole)};
+      const bool crossed =
+          std::ssize(all_over) > straight[0] + straight[1] || (straight[0] > 0 && straight[1] > 0);
       constexpr int kValuesOfDish = 5;
       if (crossed && values(all_over) >= kValuesOfDish &&
           put_one_form_for(all_over, dishes(geometry_, flank)))
@@ -232,16 +309,40 @@ void PartLoop::tell_as_one_form() {
         for (std::size_t a = 0; a < all.size(); ++a)
           for (std::size_t b = a + 1; b < all.size(); ++b) sets.push_back({all[a], all[b]});
         for (const std::size_t e : all) sets.push_back({e});
+        // Forms alone are asked all at once: a rise towards an end was a kink beside a groove.
         for (const std::vector<std::size_t>& set : sets)
-          if (has_name(set) && values(set) >= 2 &&
-              put_one_form_for(set, forms_along(geometry_, face, flank, set.size() > 1)))
+          if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
+              along_one(set, face, flank))
             return true;
       }
     }
     return false;
   };
   constexpr int kMost = 6;
-  for (int i = 0; i < kMost && once();) ++i;
+  int taken = 0;
+  while (taken < kMost && once()) ++taken;
+  if (taken > 0) drop_idle_beside_one_form();
+}
+
+/// What stood beside several effects and is nothing beside the one form.
+void PartLoop::drop_idle_beside_one_form() {
+  constexpr double kNothing = 9.0;  // chi-square
+  while (effects_.size() > 1) {
+    const auto fit = fit_of(effects_);
+    std::size_t idle = effects_.size();
+    double least = kNothing;
+    for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e) {
+      if (effects_[e].family->local) continue;
+      std::vector<bool> with(effects_.size(), true);
+      with[e] = false;
+      const double loss = fit->residual_square(with) - fit->residual_square();
+      if (loss >= least) continue;
+      least = loss;
+      idle = e;
+    }
+    if (idle == effects_.size()) return;
+    remove_effect(idle);
+  }
 }
 
 }  // namespace trueflank::loop

@@ -7,7 +7,9 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <vector>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -96,37 +98,48 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
       effects.push_back(candidates_[g]);
       group.push_back(g);
     }
-  DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
-  Eigen::MatrixXd columns = problem.candidates.cast<double>();
-  std::map<int, std::pair<Eigen::VectorXd, double>> zeros;
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    auto& [sum, weight] = zeros[problem.zero[i]];
-    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(columns.cols());
-    sum += problem.weight[i] * columns.row(i).transpose();
-    weight += problem.weight[i];
-  }
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    const auto& [sum, weight] = zeros[problem.zero[i]];
-    columns.row(i) -= (sum / weight).transpose();
-    columns.row(i) *= std::sqrt(problem.weight[i]);
-  }
-  const Eigen::VectorXd norms = columns.colwise().norm();
-  const auto likeness = [&](std::size_t effect) {
-    double least = 1.0;
-    for (Eigen::Index k = 0; k < form.columns(); ++k) {
-      const Eigen::Index other = static_cast<Eigen::Index>(effect) * form.columns() + k;
-      const double both = norms[k] * norms[other];
-      least = std::min(least, both > 0.0 ? std::abs(columns.col(k).dot(columns.col(other))) / both : 0.0);
+  const DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
+  const auto patches = static_cast<std::size_t>(problem.candidates.rows());
+  std::map<int, std::size_t> numbers;
+  std::vector<std::size_t> zero_of(patches);
+  for (std::size_t i = 0; i < patches; ++i)
+    zero_of[i] = numbers.try_emplace(problem.zero[i], numbers.size()).first->second;
+  // A column less its zeros, with the roots of the weights on.
+  const auto centred = [&](Eigen::Index k) {
+    Eigen::VectorXd column = problem.candidates.col(k).cast<double>();
+    std::vector<double> sums(numbers.size(), 0.0), weights(numbers.size(), 0.0);
+    for (std::size_t i = 0; i < patches; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      sums[zero_of[i]] += problem.weight[at] * column[at];
+      weights[zero_of[i]] += problem.weight[at];
     }
-    return least;
+    for (std::size_t i = 0; i < patches; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      column[at] -= sums[zero_of[i]] / weights[zero_of[i]];
+      column[at] *= std::sqrt(problem.weight[at]);
+    }
+    return column;
   };
+  const auto own_columns = static_cast<std::size_t>(form.columns());
+  std::vector<Eigen::VectorXd> own(own_columns);
+  for (std::size_t k = 0; k < own.size(); ++k) own[k] = centred(static_cast<Eigen::Index>(k));
+  // Names do not ask each other: the same on any number of processors.
+  std::vector<double> alike(effects.size(), 1.0);
+  for_each_piece(effects.size(), [&](std::size_t effect) {
+    for (std::size_t k = 0; effect > 0 && k < own.size(); ++k) {
+      const Eigen::VectorXd other = centred(static_cast<Eigen::Index>(effect * own_columns + k));
+      const double both = own[k].norm() * other.norm();
+      alike[effect] =
+          std::min(alike[effect], both > 0.0 ? std::abs(own[k].dot(other)) / both : 0.0);
+    }
+  });
   // Of shapes that are refined the nearest stands for all.
   std::vector<Effect> names;
   std::map<std::pair<const EffectFamily*, FlankChoice>, std::pair<std::size_t, double>> nearest;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Effect& name = candidates_[group[i]];
     const bool off_the_grid = name.family->shape_is_continuous && !name.family->shape_is_step;
-    const double like = likeness(i + 1);
+    const double like = alike[i + 1];
     if (!(like > (off_the_grid ? kNearlyOffTheGrid : kNearly))) continue;
     if (!off_the_grid) {
       names.push_back(name);

@@ -113,15 +113,14 @@ std::vector<std::size_t> put_rows_in_order(Observations& table) {
   std::vector<RowKey> keys;
   for (std::size_t i = first; i < table.rows.size(); ++i)
     keys.push_back(key_of(table, table.rows[i]));
-  std::vector<std::size_t> new_place(table.rows.size());
-  std::iota(new_place.begin(), new_place.end(), 0);
-  std::vector<Observation> rows(table.rows.begin(),
-                                table.rows.begin() + static_cast<std::ptrdiff_t>(first));
+  std::vector<std::size_t> new_place(keys.size());
+  std::vector<Observation> rows;
+  rows.reserve(keys.size());
   std::map<int, int> traces;
   std::map<ObservationKind, std::map<int, int>> sources;
   for (const Record& record : records_in_order(table, keys, first))
     for (const std::size_t i : record) {
-      new_place[i] = rows.size();
+      new_place[i - first] = first + rows.size();
       Observation& row = rows.emplace_back(table.rows[i]);
       std::map<int, int>& of_kind = sources[row.kind];
       row.source =
@@ -129,7 +128,7 @@ std::vector<std::size_t> put_rows_in_order(Observations& table) {
       if (row.trace >= 0)
         row.trace = traces.try_emplace(row.trace, static_cast<int>(traces.size())).first->second;
     }
-  table.rows = std::move(rows);
+  std::copy(rows.begin(), rows.end(), table.rows.begin() + static_cast<std::ptrdiff_t>(first));
   return new_place;
 }
 

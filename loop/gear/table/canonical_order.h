@@ -17,7 +17,7 @@ void put_files_in_order(MeasuredData& data);
 /// Puts the rows behind those of scans into an order that their values decide: records by kind,
 /// tooth and flank, values by their place. Zeros and sources are numbered in that order, of each
 /// kind by itself: it is the same whether records come in one file or in several. Places stay.
-/// Returns where each row went.
+/// Returns where each of these rows went, the first behind the scans first.
 std::vector<std::size_t> put_rows_in_order(Observations& table);
 
 }  // namespace trueflank::loop

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -39,7 +40,10 @@ std::vector<std::pair<PatchKey, RowNumbers>> patches_of_rows(const FlankGeometry
                                                              const Observations& table,
                                                              std::size_t from, std::size_t to) {
   std::vector<std::pair<PatchKey, RowNumbers>> gathered;
-  std::unordered_map<std::uint64_t, std::size_t> numbers;
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+  // Counted first, so that each list is made once: threads that ask for memory wait for each other.
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  std::vector<std::uint32_t> patch_of_row(to - from, kNone), counts;
   for (std::size_t i = from; i < to; ++i) {
     const Observation& row = table.rows[i];
     if (row.kind == ObservationKind::kIndex || row.kind == ObservationKind::kRadial ||
@@ -50,10 +54,19 @@ std::vector<std::pair<PatchKey, RowNumbers>> patches_of_rows(const FlankGeometry
     const std::uint64_t packed =
         (static_cast<std::uint64_t>(key[0]) << 32U) + static_cast<std::uint64_t>(key[1]) * 512U +
         static_cast<std::uint64_t>((key[2] + 1) * 64 + key[3] * 8 + key[4]);
-    const auto [number, is_new] = numbers.emplace(packed, gathered.size());
-    if (is_new) gathered.push_back({key, {}});
-    gathered[number->second].second.push_back(static_cast<std::uint32_t>(i));
+    const auto [number, is_new] =
+        numbers.try_emplace(packed, static_cast<std::uint32_t>(counts.size()));
+    if (is_new) {
+      gathered.push_back({key, {}});
+      counts.push_back(0);
+    }
+    patch_of_row[i - from] = number->second;
+    ++counts[number->second];
   }
+  for (std::size_t k = 0; k < gathered.size(); ++k) gathered[k].second.reserve(counts[k]);
+  for (std::size_t i = from; i < to; ++i)
+    if (const std::uint32_t patch = patch_of_row[i - from]; patch != kNone)
+      gathered[patch].second.push_back(static_cast<std::uint32_t>(i));
   return gathered;
 }
 

@@ -482,7 +482,9 @@ def inspection(rng, g, f, noise, rho, kind, d):
             for _ in range(3):
                 k0 = int(rng.integers(1, g.z + 1))
                 k1 = (k0 - 1 + g.span_k - 1) % g.z + 1
-                w = (f(place(g, np.array([k1]), 1, Lm, g.b / 2)) + f(place(g, np.array([k0]), -1, Lm, g.b / 2)))[0]
+                # The line between both contacts touches the base cylinder: their rolls add up to the span's transverse part.
+                Lspan = 0.5 * g.span * math.cos(g.bb)
+                w = (f(place(g, np.array([k1]), 1, Lspan, g.b / 2)) + f(place(g, np.array([k0]), -1, Lspan, g.b / 2)))[0]
                 sz.append(f'span,{g.span + (w + noise * rng.standard_normal()) / 1000:.5f},{g.span_k},{max(noise, 0.3):.2f}')
             open(f'{d}/sizes.csv', 'w').write('\n'.join(sz) + '\n')
             files.append(f'{d}/sizes.csv')
@@ -585,6 +587,7 @@ class Case:
             files = inspection(self.r, self.gear, form, self.noise, self.rho, self.way, where)[0]
         else:
             files = scan(self.r, self.gear, form, self.noise, self.rho, self.way == "a", where)[0]
+        self.sized = self.way in "sa" or any("sizes" in f for f in files)
         return trial.close_loop(self, program, where, "part.toml", *(f.split("/")[-1] for f in files), *["--aligned"] * (self.way == "a"))
 
     def judge(self):
@@ -596,7 +599,9 @@ class Case:
         wrong = [e["id"] for e in named if e["id"] not in self.alike and not want & set(e["confounded_with"])]
         if wrong:
             return f"misnamed {wrong}"
-        missing = [n for n in want if not any(e["id"] == n or n in e["confounded_with"] for e in named)]
+        # Rings and narrow gears have no span, and nothing else here shows a thickness: then it must be said to be hidden.
+        hidden = set() if self.sized else set(a["not_observable"])
+        missing = [n for n in want - hidden if not any(e["id"] == n or n in e["confounded_with"] for e in named)]
         if missing:
             return f"not named: {missing}"
         unnamed = len(named) < len(a["effects"])
@@ -615,6 +620,9 @@ class Case:
                 if key in ("order", "tooth") or key not in e["parameters"]:
                     continue
                 low, high = e["parameters"][key]["ci95"]
+                # A spur or helical gear looks the same turned over: which end of a free scan is up nobody knows.
+                if self.way == "s" and e["id"] in ("taper", "flank_twist"):
+                    value = math.copysign(value, low + high)
                 if key.endswith("_deg"):
                     value = 0.5 * (low + high) + (value - 0.5 * (low + high) + 180.0) % 360.0 - 180.0
                 held, asked = held + (low <= value <= high), asked + 1
