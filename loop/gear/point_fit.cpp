@@ -83,7 +83,8 @@ bool PointFit::as_it_was(std::size_t i) const {
          table_.rows[i].kind == ObservationKind::kScanFlank;
 }
 
-void PointFit::features_of(const PlacedPoint& placed, const Observation& row, double* values) const {
+void PointFit::features_of(const PlacedPoint& placed, const Observation& row,
+                           double* values) const {
   features_at(placed.place, row, values);
   values[columns_] = um_from_mm(placed.distance_mm);
 }
@@ -139,8 +140,8 @@ using PanelOfColumns = std::vector<ColumnOfPanel>;
 /// row are followed by a 1, whose products are the sums of the columns.
 class Gram {
  public:
-  /// `turned`, which others may use too, is where the rows of a panel are turned into columns; `room`
-  /// gives the memory.
+  /// `turned`, which others may use too, is where the rows of a panel are turned into columns;
+  /// `room` gives the memory.
   Gram(std::size_t columns, PanelOfColumns& turned, std::pmr::memory_resource& room)
       : width_(columns + 1),
         sum_(width_ * (width_ + 1) / 2, &room),

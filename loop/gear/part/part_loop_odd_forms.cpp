@@ -179,7 +179,8 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
            table.place(row).surface == Surface::kFlank;
   };
   // Flanks of scans do not ask each other: the same sums on any number of processors.
-  const std::size_t scanned = table.points_mm.size(), teeth = static_cast<std::size_t>(geometry.teeth());
+  const std::size_t scanned = table.points_mm.size(),
+                    teeth = static_cast<std::size_t>(geometry.teeth());
   const RowsByClass flanks(scanned, 2 * teeth * table.poses.size(), [&](std::size_t i) {
     const Observation& row = table.rows[i];
     if (row.kind != ObservationKind::kScanFlank || !is_asked(i)) return -1;
@@ -193,8 +194,8 @@ double spread_over_flanks(const FlankGeometry& geometry, const Observations& tab
   });
   for (std::size_t k = 0; k < of_flank.size(); ++k)
     if (of_flank[k].n > 0.0)
-      units[{static_cast<int>(k / 2 / teeth), -1, static_cast<int>(k / 2 % teeth) + 1, k % 2 == 1 ? 1 : -1}] =
-          of_flank[k];
+      units[{static_cast<int>(k / 2 / teeth), -1, static_cast<int>(k / 2 % teeth) + 1,
+             k % 2 == 1 ? 1 : -1}] = of_flank[k];
   for (std::size_t i = scanned; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     const bool traced =
