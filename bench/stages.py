@@ -55,7 +55,7 @@ STAGES = {
     "discovery": r"trueflank::loop::Discovery::Discovery\(|trueflank::loop::Discovery::finished\(|" + BESIDE +
                  r"trueflank::loop::(BlockStatistics|ProjectedCandidates|StructureTest|CrossValidation|QuickErrors|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run|" +
-                    BESIDE + r"trueflank::loop::\(anonymous namespace\)::CourseScan",
+                    BESIDE + r"trueflank::loop::(\(anonymous namespace\)::(CourseScan|RemainderSearch|Spectrum)|likeliest_rotation_wave)",
     "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
                      r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",

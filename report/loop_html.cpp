@@ -68,8 +68,9 @@ std::string charts(const GearLoop& closed, const ResidualGrid& before, const Res
             ". One scale before and after.</p><div class='two'>";
     for (const Flank flank : {Flank::kLeft, Flank::kRight})
       for (const ResidualGrid* grid : {&before, &after})
-        html += std::string("<figure><figcaption><b>") + (grid == &before ? "before" : "after") + "</b>, " +
-                (flank == Flank::kLeft ? "left" : "right") + " flanks</figcaption>" + *figure++ + "</figure>";
+        html += std::string("<figure><figcaption><b>") + (grid == &before ? "before" : "after") +
+                "</b>, " + (flank == Flank::kLeft ? "left" : "right") + " flanks</figcaption>" +
+                *figure++ + "</figure>";
     html += "</div>";
   }
   if (!missing.empty()) html += "<p class='note'>Not in these data: " + missing + ".</p>";
@@ -125,8 +126,8 @@ std::string loop_html(const GearLoop& closed) {
   const ResidualGrid &before = grids[0], &after = grids[1];
   auto left = begun_beside([&] { return remainder(closed, after); });
   const std::string all = charts(closed, before, after);
-  return loop_page_opening(r, "What the measured " + r.gear + " shows") + left.get() + all + iso_table(r) +
-         loop_page_end(r);
+  return loop_page_opening(r, "What the measured " + r.gear + " shows") + left.get() + all +
+         iso_table(r) + loop_page_end(r);
 }
 
 }  // namespace trueflank::loop

@@ -14,8 +14,9 @@
 namespace trueflank::loop {
 namespace {
 
-/// How many of `count` are one piece of work: pieces of one size, two for each processor, so that these end
-/// together; no larger than `most` and, as long as there are as many, no smaller than `least`.
+/// How many of `count` are one piece of work: pieces of one size, two for each processor, so that
+/// these end together; no larger than `most` and, as long as there are as many, no smaller than
+/// `least`.
 std::size_t size_of_pieces(std::size_t count, std::size_t least, std::size_t most) {
   const std::size_t pieces = 2 * processors();
   return std::clamp((count + pieces - 1) / pieces, least, most);
@@ -147,7 +148,8 @@ void BlockStatistics::sum_candidates() {
   group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
   zero_loss_.resize(groups);
   constexpr std::size_t kLeast = 32, kMost = 128;
-  for_each_run(groups, size_of_pieces(groups, kLeast, kMost), [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
+  for_each_run(groups, size_of_pieces(groups, kLeast, kMost),
+               [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
 }
 
 namespace {
@@ -327,8 +329,9 @@ void BlockStatistics::add_model_sums(int first) {
   }
   // Some panels at a time, so that what is read of a row of the candidates lies together.
   constexpr std::size_t kLeast = 2, kMost = 8;
-  for_each_run(panels_.size(), size_of_pieces(panels_.size(), kLeast, kMost),
-               [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
+  for_each_run(
+      panels_.size(), size_of_pieces(panels_.size(), kLeast, kMost),
+      [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();

@@ -21,8 +21,8 @@ constexpr std::size_t kRowsOfWork = 16384;
 constexpr std::size_t kTogether = 64;
 using FoundTogether = std::array<PlacedPoint, kTogether>;
 
-/// Does `work(from, to)` for runs of neighbours among the rows of scans, on all processors; returns the
-/// largest of its results.
+/// Does `work(from, to)` for runs of neighbours among the rows of scans, on all processors; returns
+/// the largest of its results.
 template <class Work>
 double largest_of_points(const Observations& table, const Work& work) {
   const std::size_t rows = table.points_mm.size();
@@ -38,8 +38,9 @@ double largest_of_points(const Observations& table, const Work& work) {
 }
 
 /// Rows of scanned flanks from ... to - 1, and their places as designed.
-std::vector<std::size_t> flanks_as_designed(const FlankGeometry& geometry, const Observations& table,
-                                            std::size_t from, std::size_t to, FoundTogether& placed) {
+std::vector<std::size_t> flanks_as_designed(const FlankGeometry& geometry,
+                                            const Observations& table, std::size_t from,
+                                            std::size_t to, FoundTogether& placed) {
   std::vector<std::size_t> rows;
   rows.reserve(to - from);
   for (std::size_t i = from; i < to; ++i)
@@ -65,10 +66,11 @@ class MoveBack {
     double deviation_um = 0.0;
     double change_um = 0.0;  ///< of what the fit leaves there
   };
-  /// `take(i, moved)` for rows from ... to - 1, kTogether at most: where their points lay, and their
-  /// deviations there; not for what is on no flank, or would come onto another one.
+  /// `take(i, moved)` for rows from ... to - 1, kTogether at most: where their points lay, and
+  /// their deviations there; not for what is on no flank, or would come onto another one.
   template <class Take>
-  void for_rows(const Observations& table, std::span<const std::size_t> rows, const Take& take) const {
+  void for_rows(const Observations& table, std::span<const std::size_t> rows,
+                const Take& take) const {
     std::array<std::array<double, 3>, kTogether> points;
     FoundTogether placed;
     std::array<std::size_t, kTogether> on_flanks;

@@ -6,8 +6,8 @@
 
 #include "trueflank/base/units.h"
 
-// The foot of a point on the nearest involute, written once for one point and for four at once: `Of::Value`
-// is a number or four of them, and `Of` has what differs. The same digits of both.
+// The foot of a point on the nearest involute, written once for one point and for four at once:
+// `Of::Value` is a number or four of them, and `Of` has what differs. The same digits of both.
 namespace trueflank::loop {
 
 /// What a gear's flanks are for this.
@@ -18,8 +18,8 @@ struct ToothedCylinder {
   bool herringbone = false;
 };
 
-/// Below this series for angles tell as many digits as the functions: the next term is less than 1e-17
-/// of the first.
+/// Below this series for angles tell as many digits as the functions: the next term is less than
+/// 1e-17 of the first.
 inline constexpr double kSmallAngle = 0.01;
 
 /// `Of` for one point.
@@ -46,13 +46,13 @@ struct OneAtATime {
 template <class Of>
 struct Foot {
   using Value = typename Of::Value;
-  Value tooth{}, side{};                      ///< 0-based; +1 or -1
-  Value radius{}, polar{};                    ///< of the point
-  Value roll{}, z{}, distance{};              ///< of the place; how far the point stands off the involute
+  Value tooth{}, side{};          ///< 0-based; +1 or -1
+  Value radius{}, polar{};        ///< of the point
+  Value roll{}, z{}, distance{};  ///< of the place; how far the point stands off the involute
   Value place_radius{}, place_polar{}, normal{};
-  Value turn{};                               ///< from the point to the place, within -pi and pi
-  /// Directions of the point, of the place and of its normal; the last two by series, where the turn is
-  /// below kSmallAngle.
+  Value turn{};  ///< from the point to the place, within -pi and pi
+  /// Directions of the point, of the place and of its normal; the last two by series, where the
+  /// turn is below kSmallAngle.
   std::array<Value, 2> from{}, to{}, normal_direction{};
 };
 
@@ -67,9 +67,9 @@ template <class Of>
 
 /// The arc tangent of (a - b) / (1 + a b) on top of that of b: that of a, where they are near.
 template <class Of>
-[[gnu::always_inline]] inline typename Of::Value arc_tangent_near(const typename Of::Value& a,
-                                                                  const typename Of::Value& b,
-                                                                  const typename Of::Value& arc_tangent_of_b) {
+[[gnu::always_inline]] inline typename Of::Value arc_tangent_near(
+    const typename Of::Value& a, const typename Of::Value& b,
+    const typename Of::Value& arc_tangent_of_b) {
   using Value = typename Of::Value;
   const Value t = (a - b) / (1.0 + a * b), s = t * t;
   const Value near =
@@ -89,22 +89,24 @@ template <class Of>
   return {direction[0] * cosine - direction[1] * sine, direction[0] * sine + direction[1] * cosine};
 }
 
-/// Direction of the normal, from that of the place. It stands to the direction of the place as the tangent of
-/// the base circle stands to the radius: by the angle whose cosine is base radius over radius, short of a
-/// right angle.
+/// Direction of the normal, from that of the place. It stands to the direction of the place as the
+/// tangent of the base circle stands to the radius: by the angle whose cosine is base radius over
+/// radius, short of a right angle.
 template <class Of>
 [[gnu::always_inline]] inline std::array<typename Of::Value, 2> normal_at(
-    const ToothedCylinder& g, const std::array<typename Of::Value, 2>& to, const typename Of::Value& roll,
-    const typename Of::Value& side, const typename Of::Value& radius) {
+    const ToothedCylinder& g, const std::array<typename Of::Value, 2>& to,
+    const typename Of::Value& roll, const typename Of::Value& side,
+    const typename Of::Value& radius) {
   using Value = typename Of::Value;
   const Value along = g.sense * roll / radius, across = side * g.base_radius / radius;
   return {to[0] * along - to[1] * across, to[0] * across + to[1] * along};
 }
 
-/// A place on a flank, but for its directions. The pressure angle is the arc tangent of the roll length over
-/// the base radius.
+/// A place on a flank, but for its directions. The pressure angle is the arc tangent of the roll
+/// length over the base radius.
 template <class Of>
-[[gnu::always_inline]] inline void set_place(const ToothedCylinder& g, const typename Of::Value& pressure_rad,
+[[gnu::always_inline]] inline void set_place(const ToothedCylinder& g,
+                                             const typename Of::Value& pressure_rad,
                                              Foot<Of>& foot) {
   using Value = typename Of::Value;
   const Value xi = foot.roll / g.base_radius;
@@ -117,8 +119,10 @@ template <class Of>
 
 /// Of a point outside the base circle; of one inside, only the tooth says something.
 template <class Of>
-[[gnu::always_inline]] inline Foot<Of> foot_of(const ToothedCylinder& g, const typename Of::Value& x,
-                                               const typename Of::Value& y, const typename Of::Value& z) {
+[[gnu::always_inline]] inline Foot<Of> foot_of(const ToothedCylinder& g,
+                                               const typename Of::Value& x,
+                                               const typename Of::Value& y,
+                                               const typename Of::Value& z) {
   using Value = typename Of::Value;
   Foot<Of> foot;
   foot.radius = Of::square_root(x * x + y * y);
@@ -129,7 +133,8 @@ template <class Of>
   const Value offset = from_first - number * pitch;
   foot.tooth = Of::wrapped(number, g.teeth);
   foot.side = Of::where(offset >= 0.0, Value{} + 1.0, Value{} - 1.0);
-  const Value outside = Of::where(foot.radius > g.base_radius, foot.radius, Value{} + g.base_radius);
+  const Value outside =
+      Of::where(foot.radius > g.base_radius, foot.radius, Value{} + g.base_radius);
   const Value roll = Of::square_root((outside - g.base_radius) * (outside + g.base_radius));
   const Value pressure = Of::arc_tangent(roll / g.base_radius);  // of the point
   const Value involute = roll - g.base_radius * pressure;
@@ -141,7 +146,8 @@ template <class Of>
   Value hand = Value{} + 1.0;
   if (g.herringbone) hand = Of::where(z > 0.5 * g.face_width, Value{} - 1.0, hand);
   foot.z = z + foot.distance * hand * foot.side * g.sin_base_helix;
-  set_place<Of>(g, arc_tangent_near<Of>(foot.roll / g.base_radius, roll / g.base_radius, pressure), foot);
+  set_place<Of>(g, arc_tangent_near<Of>(foot.roll / g.base_radius, roll / g.base_radius, pressure),
+                foot);
   foot.from = {x / foot.radius, y / foot.radius};
   // within two turns, but for flanks twisted further
   const Value turn = foot.place_polar - foot.polar;

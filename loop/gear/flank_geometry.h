@@ -111,7 +111,8 @@ class FlankGeometry {
   /// @{
   void nearest_flanks(std::span<const std::array<double, 3>> points_mm, double margin,
                       PlacedPoint* found) const;
-  void nearest(std::span<const std::array<double, 3>> points_mm, double reach_mm, PlacedPoint* found) const;
+  void nearest(std::span<const std::array<double, 3>> points_mm, double reach_mm,
+               PlacedPoint* found) const;
   void nearest_distances_mm(std::span<const std::array<double, 3>> points_mm, double reach_mm,
                             double* found) const;
   /// @}
@@ -143,7 +144,8 @@ class FlankGeometry {
   [[nodiscard]] ToothedCylinder cylinder() const;
   [[nodiscard]] Undirected found_at(const Foot<OneAtATime>& foot, double margin) const;
   template <class Take>
-  void for_feet(std::span<const std::array<double, 3>> points_mm, double margin, const Take& take) const;
+  void for_feet(std::span<const std::array<double, 3>> points_mm, double margin,
+                const Take& take) const;
   Gear gear_;
   double sense_, base_radius_, reference_radius_, tip_radius_, root_radius_, bore_radius_;
   double face_width_, base_helix_, half_angle_, pressure_angle_, root_roll_, tip_roll_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Feet of four points at once, in wide registers. Compiled without the error numbers of square roots
-// (CMakeLists.txt), so that four of them are one instruction.
+// Feet of four points at once, in wide registers. Compiled without the error numbers of square
+// roots (CMakeLists.txt), so that four of them are one instruction.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,7 +33,8 @@ using FourInts [[gnu::vector_size(4 * sizeof(std::int32_t))]] = std::int32_t;
   const Four sixteenths = x >= 0.0625 ? x * 16.0 + 0.5 : Four{};
   const FourInts i = __builtin_convertvector(sixteenths, FourInts);
   const Four c = __builtin_convertvector(i, Four) / 16.0;
-  const Four high{kAtanTable[i[0]][0], kAtanTable[i[1]][0], kAtanTable[i[2]][0], kAtanTable[i[3]][0]},
+  const Four high{kAtanTable[i[0]][0], kAtanTable[i[1]][0], kAtanTable[i[2]][0],
+                  kAtanTable[i[3]][0]},
       low{kAtanTable[i[0]][1], kAtanTable[i[1]][1], kAtanTable[i[2]][1], kAtanTable[i[3]][1]};
   return arc_tangent_beside(x, c, high, low);
 }
@@ -159,8 +160,8 @@ void FlankGeometry::nearest(std::span<const std::array<double, 3>> points_mm, do
   });
 }
 
-void FlankGeometry::nearest_distances_mm(std::span<const std::array<double, 3>> points_mm, double reach_mm,
-                                         double* found) const {
+void FlankGeometry::nearest_distances_mm(std::span<const std::array<double, 3>> points_mm,
+                                         double reach_mm, double* found) const {
   for_feet(points_mm, kFlankMargin, [&](std::size_t i, const Undirected& flank) {
     if (flank.place.surface == Surface::kFlank && std::abs(flank.distance_mm) < reach_mm) {
       found[i] = std::abs(flank.distance_mm);

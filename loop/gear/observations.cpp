@@ -266,8 +266,8 @@ class TableBuilder {
       for_each_piece(taken + (count + kOfWork - 1) / kOfWork, [&](std::size_t piece) {
         if (piece < taken) return take(some[(time - 1) % 2], from - kAtOnce);
         const std::size_t first = (piece - taken) * kOfWork;
-        put_places(from + first, std::span(some[time % 2])
-                                     .subspan(first, std::min(count - first, kOfWork)));
+        put_places(from + first,
+                   std::span(some[time % 2]).subspan(first, std::min(count - first, kOfWork)));
       });
     }
     const std::size_t all = points.size(), unused = all - kept;

@@ -441,8 +441,7 @@ class RemainderSearch {
     std::vector<Rows> of_patch(patches_.patches.size(), Rows::kNone);
     for (std::size_t p = 0; p < of_patch.size(); ++p)
       if (const Patches::Patch& patch = patches_.patches[p]; is_asked(patch))
-        of_patch[p] =
-            patch.kind == ObservationKind::kScanFlank ? Rows::kAll : Rows::kOnFlanks;
+        of_patch[p] = patch.kind == ObservationKind::kScanFlank ? Rows::kAll : Rows::kOnFlanks;
     used_.assign(table_.rows.size(), false);
     // (whole words: bits of one are not written by two threads)
     constexpr std::size_t kRowsOfWork = 16384;
@@ -451,9 +450,8 @@ class RemainderSearch {
         const int patch = patches_.patch_of_row[i];
         const Rows which = patch < 0 ? Rows::kNone : of_patch[static_cast<std::size_t>(patch)];
         const Observation& row = table_.rows[i];
-        used_[i] = which == Rows::kAll ||
-                   (which == Rows::kOnFlanks && row.places == 1 &&
-                    table_.place(row).surface == Surface::kFlank);
+        used_[i] = which == Rows::kAll || (which == Rows::kOnFlanks && row.places == 1 &&
+                                           table_.place(row).surface == Surface::kFlank);
       }
     });
   }

@@ -27,8 +27,8 @@ void expect_the_same_place(const loop::PlacedPoint& many, const loop::PlacedPoin
   EXPECT_EQ(many.distance_mm, one.distance_mm);
 }
 
-/// Points in the ring of the teeth, within the base circle and far outside, on the axes, on the borders
-/// between teeth and above the face; one count that is no multiple of four.
+/// Points in the ring of the teeth, within the base circle and far outside, on the axes, on the
+/// borders between teeth and above the face; one count that is no multiple of four.
 TEST(NearestOfMany, HasTheDigitsOfOnePoint) {
   std::mt19937 random(20261126);
   const std::vector<std::pair<MadeGear, bool>> gears{{spur(24), false},
@@ -37,11 +37,12 @@ TEST(NearestOfMany, HasTheDigitsOfOnePoint) {
                                                      {helical(200, 35.0), false},
                                                      {helical(30, 25.0), true}};
   for (const auto& [made, herringbone] : gears) {
-    const FlankGeometry geometry(*ToothProfile::make(design_of(made)), made.face_mm, 0.6 * made.reference(),
-                                 herringbone);
-    const double tip = std::max(geometry.tip_radius_mm(), geometry.root_radius_mm()), b = geometry.face_width_mm();
-    std::vector<std::array<double, 3>> points{
-        {tip, 0.0, 0.0}, {-tip, 0.0, 1.0}, {-tip, -0.0, 1.0}, {0.0, tip, 1.0}, {0.0, -tip, 1.0}, {0.0, 0.0, 1.0}};
+    const FlankGeometry geometry(*ToothProfile::make(design_of(made)), made.face_mm,
+                                 0.6 * made.reference(), herringbone);
+    const double tip = std::max(geometry.tip_radius_mm(), geometry.root_radius_mm()),
+                 b = geometry.face_width_mm();
+    std::vector<std::array<double, 3>> points{{tip, 0.0, 0.0}, {-tip, 0.0, 1.0}, {-tip, -0.0, 1.0},
+                                              {0.0, tip, 1.0}, {0.0, -tip, 1.0}, {0.0, 0.0, 1.0}};
     for (int tooth = 0; tooth < made.teeth; ++tooth)
       for (const double half : {0.0, 0.5}) {
         const double angle = kTwoPi * (tooth + half) / made.teeth;
@@ -49,9 +50,11 @@ TEST(NearestOfMany, HasTheDigitsOfOnePoint) {
       }
     std::uniform_real_distribution<double> share(0.0, 1.0);
     while (points.size() < 3001) {
-      const double radius = tip * (points.size() % 3 == 0 ? 1.3 * share(random) : 1.02 - 0.25 * share(random));
+      const double radius =
+          tip * (points.size() % 3 == 0 ? 1.3 * share(random) : 1.02 - 0.25 * share(random));
       const double angle = kTwoPi * share(random);
-      points.push_back({radius * std::cos(angle), radius * std::sin(angle), b * (1.2 * share(random) - 0.1)});
+      points.push_back(
+          {radius * std::cos(angle), radius * std::sin(angle), b * (1.2 * share(random) - 0.1)});
     }
     std::vector<loop::PlacedPoint> flanks(points.size()), surfaces(points.size());
     std::vector<double> distances(points.size());

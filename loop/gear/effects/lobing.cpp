@@ -34,7 +34,8 @@ EffectFamily lobing() {
   f.evaluate_together = [](const FlankGeometry& g, const Place& p, std::span<const Effect> effects,
                            double* c) {
     const bool on_flank = p.surface == Surface::kFlank;
-    const double radial = on_flank ? normal_part(g, p, p.polar_direction[0], p.polar_direction[1]) : 0.0;
+    const double radial =
+        on_flank ? normal_part(g, p, p.polar_direction[0], p.polar_direction[1]) : 0.0;
     WavesOf waves(p.polar_rad);
     for (const Effect& effect : effects) {
       const auto [cosine, sine] = waves.of(effect.shape[0]);

@@ -226,7 +226,8 @@ class Spectrum {
     Complex turn = 1.0;
     for (int k = 0; k < teeth_; ++k, turn = product(turn, step)) {
       const Flank& flank = flanks_[static_cast<std::size_t>(2 * k + side)];
-      const double *const x = &flank.real[at(a, -kFace)], *const y = &flank.imaginary[at(a, -kFace)];
+      const double *const x = &flank.real[at(a, -kFace)], *const y =
+                                                              &flank.imaginary[at(a, -kFace)];
       in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
         for (std::size_t b = 0; b < kColumns; ++b) {
           real[b] += x[b] * turn.real() - y[b] * turn.imag();
@@ -276,7 +277,8 @@ class Spectrum {
   }
 
   std::optional<FlankWaves> largest_wave() const {
-    // Wavelengths over the profile do not ask each other: the same powers on any number of processors.
+    // Wavelengths over the profile do not ask each other: the same powers on any number of
+    // processors.
     const auto asked = static_cast<std::size_t>(most_profile_ + 1);
     std::vector<std::vector<Orders>> of_profile(2 * asked);
     for_each_piece(of_profile.size(), [&](std::size_t i) {

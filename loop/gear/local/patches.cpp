@@ -300,8 +300,8 @@ class PatchMaker {
     std::map<std::pair<int, int>, int> counts;  // of kind and source
     std::vector<int> member_of(keys_.size());
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const auto [known, is_new] =
-          members.try_emplace({keys_[i][0], keys_[i][1], id_of(i)}, static_cast<int>(members.size()));
+      const auto [known, is_new] = members.try_emplace({keys_[i][0], keys_[i][1], id_of(i)},
+                                                       static_cast<int>(members.size()));
       member_of[i] = known->second;
       if (is_new) ++counts[{keys_[i][0], keys_[i][1]}];
     }

@@ -35,8 +35,8 @@ struct Means {
   std::vector<std::array<FlankMeans, 2>> flanks;
   std::array<std::array<std::array<Mean, kParts>, kParts>, 2> topography;
 
-  void add(const Observation& row, std::size_t tooth, std::size_t side, std::size_t u, std::size_t v,
-           double value) {
+  void add(const Observation& row, std::size_t tooth, std::size_t side, std::size_t u,
+           std::size_t v, double value) {
     FlankMeans& flank = flanks[tooth][side];
     const bool scan = row.kind == ObservationKind::kScanFlank;
     if (scan || row.kind == ObservationKind::kProfile) flank.profile[u].add(value);
@@ -70,8 +70,8 @@ struct Means {
 
 /// Grids of some residuals of the rows, gathered in one go.
 template <std::size_t count>
-std::array<ResidualGrid, count> grids_of(const GearLoop& closed,
-                                         const std::array<const std::vector<float>*, count>& residuals_um) {
+std::array<ResidualGrid, count> grids_of(
+    const GearLoop& closed, const std::array<const std::vector<float>*, count>& residuals_um) {
   const FlankGeometry& g = closed.geometry;
   std::vector<Means> means(count, Means(g.teeth()));
   const RowsByClass of_side(closed.table.rows.size(), 2, [&](std::size_t i) {

@@ -105,15 +105,15 @@ std::pair<int, int> orders_of(const ProfileTraces& traces) {
 
 using OrderSums = std::vector<std::complex<double>>;
 
-/// Waves of so many values stand beside each other, each with sums of its own: a wave's next order waits
-/// for the product of the last one.
+/// Waves of so many values stand beside each other, each with sums of its own: a wave's next order
+/// waits for the product of the last one.
 constexpr std::size_t kAtOnce = 8;
 struct ManyWaves {
   std::array<double, kAtOnce> real{}, imaginary{};
 };
 
-/// Adds values at their rotations to the sums of every order from the least on: a value's wave of the
-/// next order is that of the last one, turned by the rotation.
+/// Adds values at their rotations to the sums of every order from the least on: a value's wave of
+/// the next order is that of the last one, turned by the rotation.
 void add_values(std::span<const double> rotation, std::span<const double> um, int least,
                 std::vector<ManyWaves>& sums) {
   ManyWaves step, wave;
