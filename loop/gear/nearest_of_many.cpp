@@ -78,8 +78,8 @@ struct FourAtOnce {
   [[gnu::always_inline]] static Four nearest_number(const Four& x) {
     constexpr double kRoundsToInteger = 0x1.8p52;
     const Four even = (x + kRoundsToInteger) - kRoundsToInteger, rest = x - even;
-    const Four up = (rest == 0.5) & (x > 0.0) ? even + 1.0 : even;
-    return (rest == -0.5) & (x < 0.0) ? up - 1.0 : up;
+    const Four up = ((rest == 0.5) & (x > 0.0)) ? even + 1.0 : even;
+    return ((rest == -0.5) & (x < 0.0)) ? up - 1.0 : up;
   }
   [[gnu::always_inline]] static Four wrapped(const Four& number, int teeth) {
     const double z = teeth;

@@ -228,7 +228,8 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
   ProfileTraces traces = gathered(geometry, table, row_um, used);
   const auto teeth = static_cast<double>(traces.teeth.size());
   if (teeth < std::max(kFewestProfiledTeeth, kLeastShareOfTeeth * geometry.teeth())) return {};
-  const auto [least, most] = orders_of(traces);
+  const std::pair<int, int> orders = orders_of(traces);
+  const int least = orders.first, most = orders.second;
   if (most <= least) return {};
   std::map<int, double> values;
   for (auto& [key, trace] : traces.of) {
