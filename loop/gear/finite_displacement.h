@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 
 namespace trueflank::loop {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "trueflank/loop/discovery/discovery.h"
-#include "trueflank/loop/result/loop_result.h"
-#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
+#include "trueflank/loop/result/loop_result.h"
 
 // From chosen columns to what people read: parameters with intervals, words, what cannot be told apart.
 namespace trueflank::loop {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 
 namespace trueflank::loop {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <deque>
 
-#include "trueflank/loop/gear/trial_fit.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
 
 namespace trueflank::loop {
 namespace {

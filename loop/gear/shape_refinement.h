@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "trueflank/loop/gear/point_fit.h"
-#include "trueflank/loop/gear/trial_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
 
 namespace trueflank::loop {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/trial_fit.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/loop/made_gears.h"
-#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 #include "trueflank/loop/gear/table/alike_rows.h"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "trueflank/loop/gear/close_loop.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/local/neighbour_teeth.h"
-#include "trueflank/loop/gear/point_fit.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/remainder.h"
 #include "trueflank/loop/gear/table/shared_table.h"

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
-#include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
 

@@ -7,12 +7,12 @@
 
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/shape_refinement.h"
-#include "trueflank/loop/gear/trial_fit.h"
 
 namespace trueflank::loop {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trueflank/loop/gear/point_fit.h"
+#include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/table/alike_rows.h"
 
 namespace trueflank::loop {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/trial_fit.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
 
 #include <algorithm>
 #include <cmath>
