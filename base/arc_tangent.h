@@ -5,6 +5,8 @@
 #include <cstddef>
 
 // What the arc tangent is made of, for one number and for four at once: the same digits of both.
+// Always inlined: how four are handed to a function depends on the registers it was compiled for,
+// and these are called from code for wide ones (widest_registers.h).
 namespace trueflank {
 
 /// pi in two parts.
@@ -12,7 +14,7 @@ inline constexpr double kPiHigh = 0x1.921fb54442d18p+1, kPiLow = 0x1.1a62633145c
 
 /// c[0] + x (c[1] + x (...))
 template <typename Value, typename Real, std::size_t count>
-Value polynomial(const Value& x, const std::array<Real, count>& c) {
+[[gnu::always_inline]] inline Value polynomial(const Value& x, const std::array<Real, count>& c) {
   Value sum = Value{} + c[count - 1];
   for (std::size_t i = count - 1; i-- > 0;) sum = c[i] + x * sum;
   return sum;
@@ -50,7 +52,8 @@ inline constexpr double kAtanTable[17][2] = {{0.0, 0.0},
 /// Of 0 <= x <= 1 beside c = i/16, whose arc tangent stands in the table: atan(c) + atan((x - c) /
 /// (1 + x c)).
 template <typename Value>
-Value arc_tangent_beside(const Value& x, const Value& c, const Value& high, const Value& low) {
+[[gnu::always_inline]] inline Value arc_tangent_beside(const Value& x, const Value& c,
+                                                       const Value& high, const Value& low) {
   constexpr auto kSeries = inverse_odd_numbers<double, 7>(3, -1);
   const Value t = (x - c) / (1.0 + x * c);
   const Value z = t * t;
