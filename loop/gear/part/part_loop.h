@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -126,6 +127,12 @@ class PartLoop {
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
   void drop_idle_beside_one_form();
+  struct LeastMissed {
+    std::size_t effect = 0;
+    double loss = 1e300;
+  };
+  [[nodiscard]] LeastMissed least_missed(std::size_t first, std::size_t end,
+                                         const std::function<bool(const Effect&)>& is_asked) const;
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
                                       const std::vector<Effect>& forms,
                                       const std::vector<Effect>& beside = {});

@@ -328,19 +328,9 @@ void PartLoop::tell_as_one_form() {
 void PartLoop::drop_idle_beside_one_form() {
   constexpr double kNothing = 9.0;  // chi-square
   while (effects_.size() > 1) {
-    const auto fit = fit_of(effects_);
-    std::size_t idle = effects_.size();
-    double least = kNothing;
-    for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e) {
-      if (effects_[e].family->local) continue;
-      std::vector<bool> with(effects_.size(), true);
-      with[e] = false;
-      const double loss = fit->residual_square(with) - fit->residual_square();
-      if (loss >= least) continue;
-      least = loss;
-      idle = e;
-    }
-    if (idle == effects_.size()) return;
+    const auto [idle, loss] = least_missed(options_.given.size() - given_p_values_.size(), effects_.size(),
+                                           [](const Effect& e) { return !e.family->local; });
+    if (!(loss < kNothing)) return;
     remove_effect(idle);
   }
 }

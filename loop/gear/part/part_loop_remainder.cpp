@@ -236,24 +236,29 @@ bool PartLoop::take_up_remainder() {
   return taken > 0;
 }
 
+/// Of the effects [first, end) that are asked for, the one whose loss costs least, and how much (chi-square).
+PartLoop::LeastMissed PartLoop::least_missed(std::size_t first, std::size_t end,
+                                             const std::function<bool(const Effect&)>& is_asked) const {
+  const auto fit = fit_of(effects_);
+  LeastMissed found;
+  for (std::size_t e = first; e < end; ++e) {
+    if (!is_asked(effects_[e])) continue;
+    std::vector<bool> with(effects_.size(), true);
+    with[e] = false;
+    const double loss = fit->residual_square(with) - fit->residual_square();
+    if (loss < found.loss) found = {e, loss};
+  }
+  return found;
+}
+
 /// Forms that a better one, taken up later, made idle. True where there were any.
 bool PartLoop::drop_idle_forms() {
   constexpr double kIdle = 25.0;  // chi-square: five standard errors
   bool any = false;
   while (!given_p_values_.empty()) {
-    const auto fit = fit_of(effects_);
     const std::size_t first = options_.given.size() - given_p_values_.size();
-    std::size_t idle = 0;
-    double least = 1e300;
-    for (std::size_t e = first; e < options_.given.size(); ++e) {
-      std::vector<bool> with(effects_.size(), true);
-      with[e] = false;
-      const double loss = fit->residual_square(with) - fit->residual_square();
-      if (loss >= least) continue;
-      least = loss;
-      idle = e;
-    }
-    if (least > kIdle) return any;
+    const auto [idle, loss] = least_missed(first, options_.given.size(), [](const Effect&) { return true; });
+    if (loss > kIdle) return any;
     effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(idle));
     options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(idle));
     given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(idle - first));
