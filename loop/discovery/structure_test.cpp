@@ -13,6 +13,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/agreement.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -183,15 +184,14 @@ void StructureTest::test_by_flips(int flips) {
     FlipScores own_scores(static_cast<Eigen::Index>(columns.size()), beside_.unit_scores().cols());
     for (Eigen::Index unit = 0; unit < own_scores.cols(); ++unit)
       for (Eigen::Index k = 0; k < own_scores.rows(); ++k)
-        own_scores(k, unit) = static_cast<float>(
-            beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
+        own_scores(k, unit) =
+            static_cast<float>(beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
     const FlipScores scores = flipped(own_scores, signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
       const int own_columns = problem_.groups[asked[i]].columns;
-      own[asked[i]] =
-          judge_under_flips(asked[i], scores.middleRows(row, own_columns).leftCols(flips),
-                            largest_of_piece[piece]);
+      own[asked[i]] = judge_under_flips(
+          asked[i], scores.middleRows(row, own_columns).leftCols(flips), largest_of_piece[piece]);
       row += own_columns;
     }
   });
@@ -209,7 +209,8 @@ void StructureTest::test_by_flips(int flips) {
 void StructureTest::compare_with_flips(const std::vector<double>& own,
                                        const LargestOfSize& largest_of_size, int flips) {
   for (std::size_t g = 0; g < own.size(); ++g)
-    if (own[g] >= 0.0 && (most_likely_ < 0 || own[g] > own[most_likely_])) most_likely_ = static_cast<int>(g);
+    if (own[g] >= 0.0 && (most_likely_ < 0 || own[g] > own[most_likely_]))
+      most_likely_ = static_cast<int>(g);
   if (most_likely_ < 0) return;
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(flips);
   for (const auto& [columns, statistics] : largest_of_size)
@@ -260,6 +261,7 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     families[group.local_family].push_back(g);
     ++tested;
   }
+  local_families_ = families.size();
   for (const auto& [family, members] : families) {
     const double n = static_cast<double>(members.size());
     if (n < 8) continue;
@@ -284,7 +286,48 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
         most_likely_local_ = members[i];
       }
     }
+    test_two_that_hide_each_other(members, score);
   }
+}
+
+/// Of two that stand out, each widens what the other is judged by: both together against the rest.
+/// Neighbours that stand out alike are left to the search for sectors.
+void StructureTest::test_two_that_hide_each_other(const std::vector<int>& members,
+                                                  const std::vector<double>& score) {
+  const std::size_t n = members.size();
+  std::vector<double> sorted = score;
+  const double middle = median(sorted);
+  const auto size = [&](std::size_t i) { return std::abs(score[i] - middle); };
+  std::size_t first = 0, second = 1;
+  if (size(second) > size(first)) std::swap(first, second);
+  for (std::size_t i = 2; i < n; ++i) {
+    if (size(i) > size(first)) {
+      second = first;
+      first = i;
+    } else if (size(i) > size(second)) {
+      second = i;
+    }
+  }
+  const std::size_t apart = first > second ? first - second : second - first;
+  const bool beside = apart == 1 || apart == n - 1;
+  if (beside && (score[first] > middle) == (score[second] > middle)) return;
+  const auto rest = static_cast<double>(n - 2);
+  double mean = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (i != first && i != second) mean += score[i] / rest;
+  for (std::size_t i = 0; i < n; ++i)
+    if (i != first && i != second) square += (score[i] - mean) * (score[i] - mean);
+  const double variance = square / (rest - 1.0);
+  if (!(variance > 0.0)) return;
+  const double a = score[first] - mean, b = score[second] - mean;
+  // Both less the mean of the rest, which they share.
+  const double both = (a * a + b * b - (a + b) * (a + b) / (rest + 2.0)) / variance;
+  const double pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
+  const double p =
+      static_cast<double>(local_families_) * pairs * f_tail(0.5 * both, 2.0, rest - 1.0);
+  if (p >= local_p_value_) return;
+  local_p_value_ = p;
+  most_likely_local_ = members[first];
 }
 
 }  // namespace trueflank::loop

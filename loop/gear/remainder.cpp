@@ -11,6 +11,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/rough_zone.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
@@ -54,7 +55,7 @@ class RemainderSearch {
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
     for (RemainderFinding& finding :
-         look_around_gear(geometry_, moments_, [this](const ToothSector& sector, double p_value) {
+         look_around_gear(geometry_, moments_, [this](const ToothSector&sector, double p_value) {
            return dent_in_place_of(sector, p_value);
          }))
       found_.push_back(std::move(finding));
@@ -193,14 +194,15 @@ class RemainderSearch {
   /// Of values that are no scan's.
   void add_moments(const Observation& row, const Place& place, double um) {
     if (row.kind == ObservationKind::kRadial) return;
-    const std::array<double, ToothMoments::kForms> form = ToothMoments::forms_at(geometry_.profile_coordinate(place.roll_mm),
-                                                geometry_.face_coordinate(place.z_mm));
+    const std::array<double, ToothMoments::kForms> form = ToothMoments::forms_at(
+        geometry_.profile_coordinate(place.roll_mm), geometry_.face_coordinate(place.z_mm));
     const bool profile = row.kind == ObservationKind::kProfile,
                helix = row.kind == ObservationKind::kHelix;
-    ToothMoments& of_tooth = moments_of(profile ? MomentsOf::kProfiles
-                                   : helix ? MomentsOf::kHelices
-                                           : MomentsOf::kOthers,
-                                   row.source)[ToothMoments::at(place.side > 0 ? 1 : 0, place.tooth)];
+    ToothMoments& of_tooth =
+        moments_of(profile ? MomentsOf::kProfiles
+                   : helix ? MomentsOf::kHelices
+                           : MomentsOf::kOthers,
+                   row.source)[ToothMoments::at(place.side > 0 ? 1 : 0, place.tooth)];
     ++of_tooth.count;
     for (std::size_t k = 0; k < form.size(); ++k) {
       // A trace shows its own direction; with a zero of its own no height.
@@ -249,13 +251,16 @@ class RemainderSearch {
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
-    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || courses.high == courses.low) return;
+    if (places < (courses.lines > 0 ? kFewestLines : kFewestPlaces) || courses.high == courses.low)
+      return;
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
+    const std::optional<RoughZone> rough = scan ? std::nullopt : rough_zone_of(key, courses);
     for (const CourseFinding& found : findings_along(key, all, places)) {
       if (found.kind == CourseFinding::Kind::kSpot) {
         if (scan || which_ != RemainderOf::kAll) continue;
+        if (rough && found.at > rough->from && found.at < rough->to) continue;
         const int side = all.side_of[static_cast<std::size_t>(found.set)];
         const int course =
             all.members[static_cast<std::size_t>(side)][static_cast<std::size_t>(found.course)];
@@ -268,6 +273,32 @@ class RemainderSearch {
     }
   }
 
+  /// A part of all traces in which the surface, or the probe on it, is rougher; told as a finding.
+  std::optional<RoughZone> rough_zone_of(const CourseKey& key, const Courses& courses) {
+    std::vector<std::vector<ValueAlong>> traces;
+    for (const auto& flank : courses.of_flank)
+      for (const auto& [course, samples] : flank) {
+        std::vector<ValueAlong>& trace = traces.emplace_back();
+        for (const RemainderSample& sample : samples)
+          trace.push_back({(sample.at - courses.low) / (courses.high - courses.low), sample.um});
+        std::stable_sort(trace.begin(), trace.end(),
+                         [](const auto& a, const auto& b) { return a.at < b.at; });
+      }
+    ++looks_;
+    const std::optional<RoughZone> zone = rough_zone(traces);
+    if (!zone || zone->p_value > kRemainderLevel / looks_) return {};
+    const double length = courses.high - courses.low;
+    const double low = place_mm(key.face, courses.low + zone->from * length),
+                 high = place_mm(key.face, courses.low + zone->to * length);
+    add_text(zone->p_value,
+             printed("all traces over the %s are rougher between %s of %.4g and %.4g mm: %.3g um "
+                     "against %.3g um elsewhere",
+                     key.face ? "face" : "profile", key.face ? "heights" : "diameters",
+                     std::min(low, high), std::max(low, high), zone->inside_um, zone->outside_um),
+             zone->inside_um);
+    return zone;
+  }
+
   /// A place along the flank as people say it: a height, or a diameter.
   [[nodiscard]] double place_mm(bool face, double at) const {
     return face ? at : 2.0 * geometry_.on_flank(1, 1, at, 0.0).radius_mm;
@@ -275,8 +306,7 @@ class RemainderSearch {
 
   void add_form(const char* family, FlankChoice flank, EffectShape shape, double p_value,
                 double amount, bool local, double square = 0.0) {
-    found_.push_back(
-        finding_of(family, flank, std::move(shape), p_value, amount, local, square));
+    found_.push_back(finding_of(family, flank, std::move(shape), p_value, amount, local, square));
   }
 
   /// What is no form that could be a column.
@@ -284,7 +314,8 @@ class RemainderSearch {
     found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
   }
 
-  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike 0.
+  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike
+  /// 0.
   static double side_of_kink(const CourseFinding& kink) {
     const double slopes = std::abs(kink.before) + std::abs(kink.beyond);
     if (std::abs(kink.before + kink.beyond) < 0.3 * slopes) return 0.0;
@@ -302,19 +333,20 @@ class RemainderSearch {
     using Kind = CourseFinding::Kind;
     switch (found.kind) {
       case Kind::kStep:
-        add_form("unnamed_step", flank, {face, at}, found.p_value, found.amount, false, found.square);
+        add_form("unnamed_step", flank, {face, at}, found.p_value, found.amount, false,
+                 found.square);
         break;
       case Kind::kKink:
-        add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value, found.amount,
-                 false, found.square);
+        add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value,
+                 found.amount, false, found.square);
         break;
       case Kind::kBand:
         add_form("unnamed_band", flank, {face, at, width}, found.p_value, found.amount, false,
-            found.square);
+                 found.square);
         break;
       case Kind::kWave:
         add_form("unnamed_waviness", flank, {face, width}, found.p_value, found.amount, false,
-            found.square);
+                 found.square);
         break;
       default:
         add_text(
@@ -340,17 +372,17 @@ class RemainderSearch {
             : EffectShape{double(tooth), place_mm(false, at), middle,
                           2.0 * half * gear_effects::along_profile(geometry_, at), 0.0};
     add_form("unnamed_spot", flank_choice(geometry_, side), std::move(shape), found.p_value,
-        found.amount, true);
+             found.amount, true);
   }
 
   void look_for_spots(const std::vector<FlankSpot>& spots) {
     ++looks_;
     for (const FlankSpot& spot : spots)
       add_form("unnamed_spot", flank_choice(geometry_, spot.side > 0 ? 1 : 0),
-          {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm,
-           2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
-           2.0 * spot.half_face_mm},
-          spot.p_value, spot.amount_um, true);
+               {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm,
+                2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
+                2.0 * spot.half_face_mm},
+               spot.p_value, spot.amount_um, true);
   }
 
   [[nodiscard]] FlankSpectrum spectrum_across() const {
@@ -364,8 +396,8 @@ class RemainderSearch {
     looks_ += 3;
     if (const auto& wave = spectrum.waves)
       add_form("unnamed_marks", flank_choice(geometry_, wave->side > 0 ? 1 : 0),
-          {wave->waves_profile, wave->waves_face, double(wave->order)}, wave->p_value,
-          wave->amplitude_um, false);
+               {wave->waves_profile, wave->waves_face, double(wave->order)}, wave->p_value,
+               wave->amplitude_um, false);
     if (const auto& apart = spectrum.apart)
       add_text(apart->p_value,
                printed("the flanks stand each by itself, with a standard deviation of %.3g um from "
@@ -373,21 +405,24 @@ class RemainderSearch {
                        apart->spread_um),
                apart->spread_um);
     if (const auto& forms = spectrum.forms) {
-      const double long_mm = forms->face ? geometry_.face_width_mm()
-                                         : std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
-      add_text(forms->p_value,
-               printed("every flank has a form of its own over the %s, alike all over the %s: waves of "
-                       "about %.3g mm%s, with a standard deviation of %.3g um",
-                       forms->face ? "face" : "profile", forms->face ? "profile" : "face",
-                       long_mm / forms->waves, forms->face ? "" : " (of roll length)", forms->spread_um),
-               forms->spread_um);
+      const double long_mm =
+          forms->face ? geometry_.face_width_mm()
+                      : std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
+      add_text(
+          forms->p_value,
+          printed("every flank has a form of its own over the %s, alike all over the %s: waves of "
+                  "about %.3g mm%s, with a standard deviation of %.3g um",
+                  forms->face ? "face" : "profile", forms->face ? "profile" : "face",
+                  long_mm / forms->waves, forms->face ? "" : " (of roll length)", forms->spread_um),
+          forms->spread_um);
       found_.back().own = forms->face ? OwnCourse::kLead : OwnCourse::kProfile;
     }
   }
 
   [[nodiscard]] RotationWave wave_over_rotation() const {
     if (std::none_of(patches_.patches.begin(), patches_.patches.end(), [](const auto& patch) {
-          return patch.kind == ObservationKind::kProfile || patch.kind == ObservationKind::kScanFlank;
+          return patch.kind == ObservationKind::kProfile ||
+                 patch.kind == ObservationKind::kScanFlank;
         }))
       return {};
     return likeliest_rotation_wave(geometry_, table_, row_um_, used_);
@@ -425,11 +460,11 @@ class RemainderSearch {
     }
     const auto dent = largest_dent(geometry_, table_, row_um_, used_);
     if (!dent || !(square > 0.0) || dent->square <= product * product / square) return {};
-    return finding_of("unnamed_dent",
-                      dent->side == 0 ? FlankChoice::kBoth
-                                      : flank_choice(geometry_, dent->side > 0 ? 1 : 0),
-                      {dent->tooth, dent->half_teeth, dent->height_mm, dent->half_mm}, p_value,
-                      dent->amount_um, false);
+    return finding_of(
+        "unnamed_dent",
+        dent->side == 0 ? FlankChoice::kBoth : flank_choice(geometry_, dent->side > 0 ? 1 : 0),
+        {dent->tooth, dent->half_teeth, dent->height_mm, dent->half_mm}, p_value, dent->amount_um,
+        false);
   }
 
   [[nodiscard]] bool is_asked(const Patches::Patch& patch) const {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/ring_scan.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/moved_sector.h"
@@ -12,7 +14,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr int kFewestTeeth = 8;
+constexpr int kTeethOfARing = 8;
 
 class AroundSearch {
  public:
@@ -38,11 +40,11 @@ class AroundSearch {
         if (left) teeth[1].push_back(tooth);
         if (right && left) teeth[2].push_back(tooth);
       }
-      if (static_cast<int>(teeth[2].size()) >= kFewestTeeth)
+      if (static_cast<int>(teeth[2].size()) >= kTeethOfARing)
         look_around(key, of_teeth, teeth[2], -1);
       else
         for (const int side : {0, 1})
-          if (static_cast<int>(teeth[static_cast<std::size_t>(side)].size()) >= kFewestTeeth)
+          if (static_cast<int>(teeth[static_cast<std::size_t>(side)].size()) >= kTeethOfARing)
             look_around(key, of_teeth, teeth[static_cast<std::size_t>(side)], side);
     }
   }
@@ -55,10 +57,14 @@ class AroundSearch {
   /// What one kind of record shows of a tooth by itself.
   static std::vector<int> own_forms(MomentsOf what) {
     switch (what) {
-      case MomentsOf::kProfiles: return {1, 3};
-      case MomentsOf::kHelices: return {2, 4};
-      case MomentsOf::kOthers: return {0};
-      default: return {};
+      case MomentsOf::kProfiles:
+        return {1, 3};
+      case MomentsOf::kHelices:
+        return {2, 4};
+      case MomentsOf::kOthers:
+        return {0};
+      default:
+        return {};
     }
   }
 
@@ -70,37 +76,85 @@ class AroundSearch {
     const auto looks = static_cast<double>(kForms * moments_.size());
     for (const auto& [key, of_teeth] : moments_)
       for (const int form : own_forms(key.first)) {
-        const auto [right, left] = values_of_both_flanks(of_teeth, form);
+        std::vector<int> teeth;
+        const auto [right, left] = values_of_both_flanks(of_teeth, form, teeth);
         const double p_value = std::min(1.0, looks * chance_of_agreement(right, left));
         if (p_value > kRemainderLevel) continue;
         const bool opposite =
-            (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) < 0.0;
+            (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) <
+            0.0;
         const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
+        if (add_slow_wave(common, teeth, form, opposite, looks)) continue;
         const double spread = std::sqrt((common.array() - common.mean()).square().mean());
         add_text(p_value, words_of_own(form, key.first, opposite, spread),
                  (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
       }
   }
 
+  /// Slopes and bows that both flanks of every tooth agree on, and that one slow wave around the
+  /// gear follows: of few teeth no order of theirs is so unlikely as how little the wave leaves.
+  bool add_slow_wave(const Eigen::VectorXd& common, const std::vector<int>& teeth, int form,
+                     bool opposite, double looks) {
+    constexpr int kHighest = 2;
+    constexpr double kMostLeft = 0.1;  // of the squares
+    if (form == 0) return false;
+    const Eigen::Index n = common.size();
+    const double all = (common.array() - common.mean()).square().sum();
+    double least = kMostLeft * all;
+    int best = 0;
+    Eigen::Vector3d wave;
+    for (int order = 1; order <= kHighest; ++order) {
+      if (n < 2 * order + 4) break;
+      Eigen::Matrix<double, Eigen::Dynamic, 3> columns(n, 3);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double angle =
+            order * kTwoPi * (teeth[static_cast<std::size_t>(i)] - 1) / geometry_.teeth();
+        columns.row(i) << 1.0, std::cos(angle), std::sin(angle);
+      }
+      const Eigen::Matrix3d normal = columns.transpose() * columns;
+      if (!(normal.determinant() > 1e-6 * std::pow(static_cast<double>(n), 3))) continue;
+      const Eigen::Vector3d b = normal.inverse() * (columns.transpose() * common);
+      const double left = (common - columns * b).squaredNorm();
+      if (left >= least) continue;
+      least = left;
+      best = order;
+      wave = b;
+    }
+    if (best == 0) return false;
+    const auto degrees = static_cast<double>(n - 3);
+    const double p_value = std::min(
+        1.0, looks * kHighest * f_tail(0.5 * (all - least) / (least / degrees), 2.0, degrees));
+    if (p_value > kRemainderLevel) return false;
+    const double u = form == 1 ? 1.0 : form == 3 ? 2.0 : 0.0;
+    const double v = form == 2 ? 1.0 : form == 4 ? 2.0 : 0.0;
+    found_.push_back(finding_of("unnamed", FlankChoice::kBoth,
+                                {u, v, static_cast<double>(best), opposite ? 1.0 : 0.0}, p_value,
+                                wave.tail<2>().norm(), false));
+    return true;
+  }
+
   static std::string words_of_own(int form, MomentsOf what, bool opposite, double spread_um) {
     const char* on = opposite ? "opposite on" : "alike on";
     if (form == 0)
-      return printed("a place of its own of every tooth, %s both its flanks, with a standard "
-                     "deviation of %.3g um",
-                     on, spread_um);
-    return printed("a %s over the %s of its own on every tooth, %s both its flanks, with a "
-                   "standard deviation of %.3g um",
-                   form < 3 ? "slope" : "bow", what == MomentsOf::kProfiles ? "profile" : "face", on,
-                   (form < 3 ? 2.0 : 1.0) * spread_um);
+      return printed(
+          "a place of its own of every tooth, %s both its flanks, with a standard "
+          "deviation of %.3g um",
+          on, spread_um);
+    return printed(
+        "a %s over the %s of its own on every tooth, %s both its flanks, with a "
+        "standard deviation of %.3g um",
+        form < 3 ? "slope" : "bow", what == MomentsOf::kProfiles ? "profile" : "face", on,
+        (form < 3 ? 2.0 : 1.0) * spread_um);
   }
 
-  /// A form of the teeth of which both flanks were measured.
-  static std::array<Eigen::VectorXd, 2> values_of_both_flanks(const std::vector<ToothMoments>& of_teeth,
-                                                              int form) {
+  /// A form of the teeth of which both flanks were measured, and which they are.
+  static std::array<Eigen::VectorXd, 2> values_of_both_flanks(
+      const std::vector<ToothMoments>& of_teeth, int form, std::vector<int>& teeth) {
     const auto k = static_cast<std::size_t>(form);
     std::array<std::vector<double>, 2> values;
     for (std::size_t at = 0; at + 1 < of_teeth.size(); at += 2) {
       if (!(of_teeth[at].square[k] > 0.0) || !(of_teeth[at + 1].square[k] > 0.0)) continue;
+      teeth.push_back(static_cast<int>(at / 2));
       for (const std::size_t side : {0, 1})
         values[side].push_back(of_teeth[at + side].sum[k] / of_teeth[at + side].square[k]);
     }
@@ -119,8 +173,8 @@ class AroundSearch {
   };
 
   /// The form of a tooth on one side (0 right, 1 left), or of both together.
-  static std::optional<double> value_of(const std::vector<ToothMoments>& of_teeth, int tooth, int side,
-                                        const Series& series) {
+  static std::optional<double> value_of(const std::vector<ToothMoments>& of_teeth, int tooth,
+                                        int side, const Series& series) {
     const auto k = static_cast<std::size_t>(series.form);
     const ToothMoments& right = of_teeth[ToothMoments::at(0, tooth)];
     const ToothMoments& left = of_teeth[ToothMoments::at(1, tooth)];
@@ -154,8 +208,8 @@ class AroundSearch {
         what.push_back(one);
       }
     if (what.empty()) return;
-    if (const auto moved = side < 0 && has_heights(key.first) ? moved_sector(geometry_, of_teeth)
-                                                              : std::nullopt) {
+    if (const auto moved =
+            side < 0 && has_heights(key.first) ? moved_sector(geometry_, of_teeth) : std::nullopt) {
       found_.push_back(finding_of("unnamed_moved_sector", FlankChoice::kBoth,
                                   {double(moved->first), double(moved->count)}, moved->p_value,
                                   moved->amount_um, false));
@@ -168,7 +222,8 @@ class AroundSearch {
     if (found.series < 0) return;
     found.p_value = std::min(1.0, found.p_value * records);
     if (found.p_value > kRemainderLevel) return;
-    add_ring(found, teeth, what[static_cast<std::size_t>(found.series)], key.first == MomentsOf::kScan);
+    add_ring(found, teeth, what[static_cast<std::size_t>(found.series)],
+             key.first == MomentsOf::kScan);
   }
 
   void add_ring(const RingFinding& found, const std::vector<int>& teeth, const Series& series,
@@ -178,8 +233,8 @@ class AroundSearch {
     const double turned = series.opposite ? 1.0 : 0.0;
     const auto n = static_cast<int>(teeth.size());
     const auto add_here = [&](const char* family, EffectShape shape) {
-      found_.push_back(finding_of(family, series.flank, std::move(shape), found.p_value,
-                                  found.amount, false));
+      found_.push_back(
+          finding_of(family, series.flank, std::move(shape), found.p_value, found.amount, false));
     };
     using Kind = RingFinding::Kind;
     if (found.kind == Kind::kRamp) {
@@ -231,7 +286,7 @@ RemainderFinding finding_of(const char* family, FlankChoice flank, EffectShape s
       p_value, {}, square, amount, Effect{find_family(family), flank, std::move(shape)}, local};
   const Effect& effect = *finding.effect;
   const char* on = effect.family->flank_only || effect.flank == FlankChoice::kBoth ? ""
-                   : effect.flank == FlankChoice::kLeft ? ", left flanks"
+                   : effect.flank == FlankChoice::kLeft                            ? ", left flanks"
                                                         : ", right flanks";
   finding.text =
       effect.family->words(effect.shape, effect.flank) + on + printed(", %.3g um", amount);

@@ -50,6 +50,7 @@ namespace trueflank::loop::gear_effects {
 /// @{
 [[nodiscard]] EffectFamily unnamed();
 [[nodiscard]] EffectFamily unnamed_flank();
+[[nodiscard]] EffectFamily unnamed_tooth_aside();
 [[nodiscard]] EffectFamily unnamed_step();
 [[nodiscard]] EffectFamily unnamed_kink();
 [[nodiscard]] EffectFamily unnamed_bend();
@@ -59,6 +60,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
+[[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();

@@ -222,25 +222,34 @@ EffectFamily unnamed_bend() {
   return f;
 }
 
-/// 1 at an end, and dying away from it.
+/// 1 at an end, and dying away from it; the same at both ends (0).
 EffectFamily unnamed_rise() {
+  constexpr double kLow = -1.0, kBothEnds = 0.0, kHigh = 1.0;
   EffectFamily f = along_flank(
       "unnamed_rise", {"along", "dies_within_mm", "towards"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-        return std::exp(-std::abs(along(shape[0], p) - end_mm(g, shape[0], shape[2])) / shape[1]);
+        const auto from = [&](double end) {
+          return std::exp(-std::abs(along(shape[0], p) - end_mm(g, shape[0], end)) / shape[1]);
+        };
+        return shape[2] == kBothEnds ? from(kLow) + from(kHigh) : from(shape[2]);
       });
-  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    // Longer ones, at both ends, are nearly a parabola: a crowning.
+    constexpr double kLongest = 0.2;
+    const auto fits = [&](double length_mm) {
+      return shape[2] != kBothEnds || length_mm <= kLongest * std::abs(range_mm(g, shape[0]));
+    };
     std::vector<EffectShape> shapes;
     for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
-      shapes.push_back({shape[0], times * shape[1], shape[2]});
+      if (fits(times * shape[1])) shapes.push_back({shape[0], times * shape[1], shape[2]});
     return shapes;
   };
   f.is_like_many = true;
   f.term_keys = {kAlong, number("dies_within_mm"), {"towards"}};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, more and more " + over(shape[0]) +
-           towards(shape[0], shape[2]) + printed(", within %.2g mm", shape[1]) +
-           (shape[0] != 0.0 ? "" : " of roll length");
+           (shape[2] == 0.0 ? " towards both ends" : towards(shape[0], shape[2])) +
+           printed(", within %.2g mm", shape[1]) + (shape[0] != 0.0 ? "" : " of roll length");
   };
   return f;
 }

@@ -13,7 +13,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr int kOrders = 1999, kProfileParts = 5, kFaceParts = 8, kFewestTeeth = 8;
+constexpr int kOrders = 1999, kProfileParts = 5, kFaceParts = 8, kFewestNeighbours = 8;
 
 /// A place on a flank, the same on every tooth: kind of record, source, profile part, face part.
 using PlaceKey = std::array<int, 4>;
@@ -82,9 +82,10 @@ SharedByNeighbours shared_by_neighbours(const FlankGeometry& geometry, const Pat
     designed[static_cast<std::size_t>(place.tooth - 1)] = place.tooth - 1;
   }
   std::vector<int> measured;
-  std::copy_if(designed.begin(), designed.end(), std::back_inserter(measured), [](int k) { return k >= 0; });
+  std::copy_if(designed.begin(), designed.end(), std::back_inserter(measured),
+               [](int k) { return k >= 0; });
   SharedByNeighbours result;
-  if (static_cast<int>(measured.size()) < kFewestTeeth) return result;
+  if (static_cast<int>(measured.size()) < kFewestNeighbours) return result;
   std::array<Eigen::MatrixXd, 2> products;
   for (std::size_t s = 0; s < 2; ++s) {
     flanks[s].centre();
@@ -96,7 +97,8 @@ SharedByNeighbours shared_by_neighbours(const FlankGeometry& geometry, const Pat
   for (int order = 0; order < kOrders; ++order) {
     double shuffled = 0.0;
     for (const Eigen::MatrixXd& of_flank : products) {
-      for (std::size_t i = measured.size(); i > 1; --i) std::swap(measured[i - 1], measured[random() % i]);
+      for (std::size_t i = measured.size(); i > 1; --i)
+        std::swap(measured[i - 1], measured[random() % i]);
       std::vector<int> at = designed;
       std::size_t next = 0;
       for (int& k : at)
@@ -119,10 +121,12 @@ SharedByNeighbours shared_by_neighbours(const FlankGeometry& geometry, const Pat
 }
 
 std::string words_for(const SharedByNeighbours& shared) {
-  return printed("neighbouring teeth share what is left: most about tooth %d, at a height of %.3g mm, where %.3g um "
-                "are %s; a dent, swelling or warp of a few teeth rather than a wave",
-                 shared.tooth, shared.height_mm, std::abs(shared.amount_um),
-                shared.amount_um < 0.0 ? "missing" : "too much");
+  return printed(
+      "neighbouring teeth share what is left: most about tooth %d, at a height of %.3g mm, where "
+      "%.3g um "
+      "are %s; a dent, swelling or warp of a few teeth rather than a wave",
+      shared.tooth, shared.height_mm, std::abs(shared.amount_um),
+      shared.amount_um < 0.0 ? "missing" : "too much");
 }
 
 }  // namespace trueflank::loop

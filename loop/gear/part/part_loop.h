@@ -29,10 +29,10 @@ class PartLoop {
     Makings makings = kAnyMaking;  ///< ways of making that are open: of others no cause is named
     /// Effects that are in the model from the start (with free coefficients): found on other data.
     std::vector<Effect> given = {};
-    bool joined = false;  ///< parts in one table: what is one part's own is looked at there
+    bool joined = false;      ///< parts in one table: what is one part's own is looked at there
     bool names_only = false;  ///< no forms without a name
     std::vector<const EffectFamily*> without = {};  ///< families that are not asked about
-    int tables = 1;       ///< of how many this is one: the false alarm rate is shared among them
+    int tables = 1;  ///< of how many this is one: the false alarm rate is shared among them
   };
   PartLoop(const FlankGeometry& geometry, SharedTable table, Options options);
   PartLoop(const PartLoop&) = delete;  ///< fits refer to its tables
@@ -126,6 +126,13 @@ class PartLoop {
   void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
+  [[nodiscard]] std::size_t first_told_here() const;
+  [[nodiscard]] bool tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
+                                               FlankChoice flank);
+  [[nodiscard]] bool tell_as_bell_mouth(const std::vector<std::size_t>& all, int face,
+                                        FlankChoice flank);
+  [[nodiscard]] bool tell_as_dish_of_all_flanks();
+  [[nodiscard]] bool tell_as_bow();
   void drop_idle_beside_one_form();
   struct LeastMissed {
     std::size_t effect = 0;
@@ -165,13 +172,13 @@ class PartLoop {
   std::vector<Effect> candidates_;
   std::vector<bool> banned_, unseen_;
   DiscoveryProblem problem_;         ///< of the candidates on the patches; without groups: not yet
-  std::vector<Effect> problem_of_;  ///< candidates as they stand in it
+  std::vector<Effect> problem_of_;   ///< candidates as they stand in it
   std::optional<Discovery> choice_;  ///< of problem_; its rest is not asked yet
   DiscoveryResult
       discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;
   SharedByNeighbours neighbours_;
-  bool vetoed_ = false;  ///< effects were taken back
+  bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
   std::vector<double> given_p_values_;
   /// Residuals and what was found in them, for one set of effects.

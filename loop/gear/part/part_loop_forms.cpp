@@ -167,17 +167,48 @@ double sharp_lobes_um(const PointFit& fit) {
   return most_um;
 }
 
+/// Height of waves along the flanks that are sharper than a sine, told as one beside a half or a
+/// third of its length (flats of a hob): these have a mean; 0: there are none.
+double sharp_waves_um(const PointFit& fit) {
+  constexpr double kSameLength = 0.05;
+  const EffectFamily* family = find_family("unnamed_waviness");
+  double most_um = 0.0;
+  for (const Effect& longest : fit.effects()) {
+    if (longest.family != family) continue;
+    double sum_um = 0.0;
+    int count = 0;
+    for (std::size_t e = 0; e < fit.effects().size(); ++e) {
+      const Effect& wave = fit.effects()[e];
+      if (wave.family != family || wave.flank != longest.flank || wave.shape[0] != longest.shape[0])
+        continue;
+      const double ratio = longest.shape[1] / wave.shape[1];
+      if (ratio < 1.0 || std::abs(ratio - std::round(ratio)) > kSameLength) continue;
+      sum_um += std::sqrt(2.0) * fit.effect_size_um(static_cast<int>(e));
+      ++count;
+    }
+    if (count > 1) most_um = std::max(most_um, sum_um);
+  }
+  return most_um;
+}
+
 }  // namespace
 
 /// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
-/// kink or a bulge stands elsewhere): there the name stands by itself.
+/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside forms with
+/// a place or a width of their own that have no part of its course: a bell mouth at both ends has
+/// no slope.
 bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
-  constexpr double kFlat = 0.1, kMost = 0.5;
+  constexpr double kFlat = 0.1, kMost = 0.5, kNoPart = 0.2;
   bool runs = false;
   for (const bool face : {false, true}) {
     const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
     if (!(course.norm() > 0.0)) continue;
     const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face);
+    const bool own_shapes = std::none_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
+      const NeedsToBeSeen needs = form.needs();
+      return is_common_form(form) && !form.family->shapes(geometry_).empty() &&
+             (face ? needs.along_face : needs.along_profile);
+    });
     for (const int flank : {0, 1}) {
       const auto own = course.segment(flank * kPlaces, kPlaces);
       if (!(own.norm() > 1e-6 * course.norm())) continue;
@@ -186,7 +217,11 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
       int flat = 0;
       for (int i = flank * kPlaces; i + 1 < (flank + 1) * kPlaces; ++i)
         flat += std::abs(forms[i + 1] - forms[i]) < kFlat * step ? 1 : 0;
-      if (flat < kMost * (kPlaces - 1)) return false;
+      if (flat >= kMost * (kPlaces - 1)) continue;
+      const auto beside = forms.segment(flank * kPlaces, kPlaces);
+      const double both = (beside.array() - beside.mean()).matrix().dot(own);
+      const double norms = (beside.array() - beside.mean()).matrix().norm() * own.norm();
+      if (!own_shapes || std::abs(both) > kNoPart * norms) return false;
     }
   }
   return runs;
@@ -486,6 +521,7 @@ const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
 /// mean of its own.
 void PartLoop::tell_level_of_forms() {
   constexpr double kHangs = 0.25, kOfLobes = 0.5;
+  constexpr double kOfWaves = 1.5;  // arcs of a circle: 1.2
   if (effects_.empty()) return;
   const auto kept = fit_of(effects_);
   const PointFit& fit = *kept;
@@ -501,7 +537,7 @@ void PartLoop::tell_level_of_forms() {
              (is_wave_around(effect) && !effect.family->form_word.empty());
     drift_um = std::hypot(drift_um, 2.0 * std::sqrt(3.0) * fit.effect_size_um(static_cast<int>(e)));
   }
-  const double sharp_um = sharp_lobes_um(fit);
+  const double sharp_um = sharp_lobes_um(fit), waves_um = sharp_waves_um(fit);
   if (named.empty() || (!drifts && !(sharp_um > 0.0) && named.size() == effects_.size())) return;
   const auto kept_without = fit_of(named);
   const PointFit& without = *kept_without;
@@ -518,7 +554,8 @@ void PartLoop::tell_level_of_forms() {
     const double b0 = without.coefficients()[without.first_column(at)];
     if (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
         (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
-        fit.effect_size_um(static_cast<int>(e)) < kOfLobes * sharp_um)
+        fit.effect_size_um(static_cast<int>(e)) <
+            std::max(kOfLobes * sharp_um, kOfWaves * waves_um))
       effect.family = form;
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -92,6 +93,18 @@ bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
   return squares > kUndo * sum.squaredNorm();
 }
 
+/// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
+std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
+                                       FlankChoice flank) {
+  const double range_mm =
+      face != 0.0 ? geometry.face_width_mm()
+                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  std::vector<Effect> forms;
+  for (const double within : {0.05, 0.1, 0.15})
+    forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, 0.0}});
+  return forms;
+}
+
 /// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
 /// an end, and bands where several effects may be one.
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
@@ -103,6 +116,7 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   for (const double within : {0.05, 0.1, 0.2, 0.4})
     for (const double end : {-1.0, 1.0})
       forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, end}});
+  for (Effect& form : rises_at_both_ends(geometry, face, flank)) forms.push_back(std::move(form));
   for (double share = kFirst; share < 1.0 - 0.5 * kStep; share += kStep) {
     const double at =
         face != 0.0 ? share * geometry.face_width_mm()
@@ -115,6 +129,36 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
   }
   return forms;
+}
+
+/// Waves over the profile, the same on every tooth, about as long as those of an order around the
+/// gear.
+std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, FlankChoice flank) {
+  std::vector<Effect> waves;
+  for (double times = 0.6; times < 1.6; times += 0.04)
+    waves.push_back({find_family("unnamed_waviness"),
+                     flank,
+                     {0.0, times * kTwoPi * geometry.base_radius_mm() / order}});
+  return waves;
+}
+
+/// A slope over the profile or the face, and no more.
+bool is_straight(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr double kNothing = 1e-6;
+  const Runs runs = effect.columns() == 1 ? runs_of(geometry, effect) : Runs::kOtherwise;
+  if (runs != Runs::kOverProfile && runs != Runs::kOverFace) return false;
+  const int side = effect.flank == FlankChoice::kRight ? -1 : 1;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto at = [&](double share) {
+    double value = 0.0;
+    effect.evaluate(
+        geometry,
+        geometry.on_flank(1, side, low + share * (high - low), share * geometry.face_width_mm()),
+        &value);
+    return value;
+  };
+  return std::abs(at(0.1) + at(0.9) - 2.0 * at(0.5)) < kNothing * std::abs(at(0.9) - at(0.1)) &&
+         std::abs(at(0.1) + at(0.5) - 2.0 * at(0.3)) < kNothing * std::abs(at(0.9) - at(0.1));
 }
 
 /// Names of these effects that have a place or a width: one alone at its best shape may say it all.
@@ -140,6 +184,11 @@ std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, Flank
   for (const double lengths : {0.7, 0.85, 1.0, 1.2, 1.45})
     waves.push_back({find_family("unnamed_waviness"), flank, {face, lengths * range_mm}});
   return waves;
+}
+
+/// A slope over the profile (0) or the face (1), without a name.
+Effect slope_over(int face, FlankChoice flank) {
+  return {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
 }
 
 /// Hollows that end over the profile and over the face, to start from.
@@ -244,12 +293,116 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   return true;
 }
 
+/// What is told here of data at hand; what was told of others stays as it is.
+std::size_t PartLoop::first_told_here() const {
+  return options_.given.size() - given_p_values_.size();
+}
+
+/// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
+bool PartLoop::tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
+                                         FlankChoice flank) {
+  std::vector<std::size_t> orders;
+  double order = 0.0;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
+    if (effects_[e].family->tells_order_along_profile && effects_[e].flank == flank) {
+      orders.push_back(e);
+      order = effects_[e].order();
+    }
+  if (orders.empty()) return false;
+  const std::vector<Effect> waves = waves_of_order(geometry_, order, flank);
+  std::vector<std::size_t> all = orders;
+  all.insert(all.end(), over_profile.begin(), over_profile.end());
+  std::sort(all.begin(), all.end());
+  if (put_one_form_for(all, waves) || put_one_form_for(orders, waves)) return true;
+  if (over_profile.empty()) return false;
+  const std::vector<Effect> s_shapes = long_waves(geometry_, 0.0, flank);
+  return put_one_form_for(all, s_shapes) || put_one_form_for(all, s_shapes, {slope_over(0, flank)});
+}
+
+/// What dies away from both ends alike, beside the slope that has a name, for these effects along
+/// the profile (0) or the face (1).
+bool PartLoop::tell_as_bell_mouth(const std::vector<std::size_t>& all, int face,
+                                  FlankChoice flank) {
+  constexpr int kValuesOfBoth = 3;
+  std::vector<Effect> own;
+  std::vector<std::size_t> curved;
+  for (const std::size_t e : all) {
+    own.push_back(effects_[e]);
+    if (!effects_[e].family->named || !is_straight(geometry_, effects_[e])) curved.push_back(e);
+  }
+  if (curved.empty() || values_of(own, true) < kValuesOfBoth) return false;
+  const std::vector<Effect> rises = rises_at_both_ends(geometry_, face, flank);
+  if (curved.size() < all.size()) return put_one_form_for(curved, rises);
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Effect& slope = candidates_[c];
+    if (slope.family->named && !banned_[c] && slope.flank == flank && slope.shape.empty() &&
+        is_straight(geometry_, slope) && runs_of(geometry_, slope) == runs)
+      return put_one_form_for(all, rises, {slope});
+  }
+  return false;
+}
+
+/// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
+/// either side, and levels, were what it is made of.
+bool PartLoop::tell_as_dish_of_all_flanks() {
+  constexpr int kValuesOfDish = 5;
+  std::vector<std::size_t> all, uneven;
+  std::vector<Effect> own;
+  bool crossed = false, one_flank = false;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Runs runs = runs_of(geometry_, effects_[e]);
+    if (runs == Runs::kOtherwise) continue;
+    all.push_back(e);
+    own.push_back(effects_[e]);
+    if (runs != Runs::kNowhere) uneven.push_back(e);
+    crossed = crossed || runs == Runs::kOverBoth;
+    one_flank = one_flank || effects_[e].flank != FlankChoice::kBoth;
+  }
+  if (!crossed || !(one_flank || uneven.size() < all.size()) ||
+      values_of(own, true) < kValuesOfDish)
+    return false;
+  const std::vector<Effect> forms = dishes(geometry_, FlankChoice::kBoth);
+  return put_one_form_for(all, forms) ||
+         (uneven.size() < all.size() && put_one_form_for(uneven, forms));
+}
+
+/// A bent axis, beside an eccentricity or a lean that has a name, for what moves the sections or
+/// comes once per turn.
+bool PartLoop::tell_as_bow() {
+  std::vector<std::size_t> all;
+  bool curved = false;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const bool moves = effect.family->displacement_mm && effect.columns() == 2;
+    const bool form = effect.is_term() && effect.order() == 1.0 && effect.columns() == 2;
+    if (effect.flank != FlankChoice::kBoth || !(moves || form)) continue;
+    all.push_back(e);
+    curved = curved || effect.family->shape_is_step || (form && effect.needs().along_face);
+  }
+  if (!curved) return false;
+  std::vector<Effect> bows;
+  for (const double held_at : {-1.0, 0.0, 1.0, 2.0})
+    bows.push_back({find_family("unnamed_bow"), FlankChoice::kBoth, {held_at}});
+  if (put_one_form_for(all, bows)) return true;
+  for (const std::size_t kept : all) {
+    if (!effects_[kept].family->named || effects_[kept].family->shape_is_step) continue;
+    std::vector<std::size_t> others = all;
+    std::erase(others, kept);
+    if (!others.empty() && put_one_form_for(others, bows)) return true;
+  }
+  std::erase_if(all, [&](std::size_t e) {
+    return effects_[e].family->named && !effects_[e].family->shape_is_step;
+  });
+  return !all.empty() && put_one_form_for(all, bows);
+}
+
 /// Two slopes and bows, or one name with a place and a width, follow many forms: a profile that is
 /// thicker at its root alone was a pressure angle and a hollow. A sum in which a name stands is
 /// told as one form where that says as much with no more values.
 void PartLoop::tell_as_one_form() {
   if (options_.joined || table_->rows.empty()) return;
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
   const auto has_name = [&](const std::vector<std::size_t>& set) {
     return std::any_of(set.begin(), set.end(),
@@ -276,11 +429,10 @@ void PartLoop::tell_as_one_form() {
     if (put_one_form_for(set, forms_along(geometry_, face, flank, set.size() > 1))) return true;
     if (set.size() < 2) return false;
     const std::vector<Effect> waves = long_waves(geometry_, face, flank);
-    const Effect slope{
-        level.family, flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
-    return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope});
+    return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
+    if (tell_as_dish_of_all_flanks()) return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
       std::vector<std::size_t> all_over;
@@ -298,6 +450,7 @@ void PartLoop::tell_as_one_form() {
           std::count_if(along[1].begin(), along[1].end(), whole)};
       const bool crossed =
           std::ssize(all_over) > straight[0] + straight[1] || (straight[0] > 0 && straight[1] > 0);
+      if (tell_as_wave_over_profile(along[0], flank)) return true;
       constexpr int kValuesOfDish = 5;
       if (crossed && values(all_over) >= kValuesOfDish &&
           put_one_form_for(all_over, dishes(geometry_, flank)))
@@ -314,9 +467,10 @@ void PartLoop::tell_as_one_form() {
           if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
               along_one(set, face, flank))
             return true;
+        if (tell_as_bell_mouth(all, face, flank)) return true;
       }
     }
-    return false;
+    return tell_as_bow();
   };
   constexpr int kMost = 6;
   int taken = 0;
@@ -328,8 +482,9 @@ void PartLoop::tell_as_one_form() {
 void PartLoop::drop_idle_beside_one_form() {
   constexpr double kNothing = 9.0;  // chi-square
   while (effects_.size() > 1) {
-    const auto [idle, loss] = least_missed(options_.given.size() - given_p_values_.size(), effects_.size(),
-                                           [](const Effect& e) { return !e.family->local; });
+    const auto [idle, loss] =
+        least_missed(options_.given.size() - given_p_values_.size(), effects_.size(),
+                     [](const Effect& e) { return !e.family->local; });
     if (!(loss < kNothing)) return;
     remove_effect(idle);
   }

@@ -36,6 +36,7 @@ void PartLoop::drop_impossible() {
 void PartLoop::drop_what_mends_a_shape() {
   constexpr double kStandsOut =
       3.5;  // standard errors: less is never found alone among so many candidates
+  constexpr double kMissed = 36.0;  // chi-square
   const auto shaped = [](const Effect& e) {
     return e.family->shape_is_continuous && !e.family->shape_is_step;
   };
@@ -57,9 +58,16 @@ void PartLoop::drop_what_mends_a_shape() {
       least = e;
     }
     if (least == effects_.size()) return;
-    effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(least));
-    discovery_.chosen.erase(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least));
+    const std::vector<Effect> with = effects_;
+    const ChosenGroup record = discovery_.chosen[least];
+    remove_effect(least);
     refine_shapes(geometry_, table_, patches_, effects_, options_.given.size());
+    // Beside another shape its error is large though the two together say what neither says alone.
+    if (fit_of(effects_)->residual_square() - fit.residual_square() < kMissed) continue;
+    effects_ = with;
+    discovery_.chosen.insert(discovery_.chosen.begin() + static_cast<std::ptrdiff_t>(least),
+                             record);
+    return;
   }
 }
 
@@ -113,14 +121,15 @@ bool are_two_flanks_of_one(const Effect& a, const Effect& b) {
 }  // namespace
 
 /// An effect found on the left flanks and on the right ones, of one size, is one effect: of a
-/// tooth, too.
+/// tooth, too, and if it stands out on one flank by as much as it lies back on the other, it
+/// stands aside.
 void PartLoop::join_flanks() {
   constexpr double kErrors = 3.0, kSameSize = 0.1;
-  const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b) {
+  const auto same_size = [&](const PointFit& fit, std::size_t a, std::size_t b, double sign) {
     for (int k = 0; k < effects_[a].columns(); ++k) {
       const int at_a = fit.first_column(static_cast<int>(a)) + k,
                 at_b = fit.first_column(static_cast<int>(b)) + k;
-      const double left = fit.coefficients()[at_a], right = fit.coefficients()[at_b];
+      const double left = fit.coefficients()[at_a], right = sign * fit.coefficients()[at_b];
       const double spread = std::sqrt(fit.covariance()(at_a, at_a) + fit.covariance()(at_b, at_b));
       if (std::abs(left - right) >
           std::max(kErrors * spread, 0.5 * kSameSize * std::abs(left + right)))
@@ -131,12 +140,16 @@ void PartLoop::join_flanks() {
   for (std::size_t a = options_.given.size(); a < effects_.size(); ++a)
     for (std::size_t b = a + 1; b < effects_.size(); ++b) {
       const EffectFamily* both = on_both_flanks(*effects_[a].family);
-      if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b]) ||
-          !same_size(*fit_of(effects_), a, b))
-        continue;
+      if (both == nullptr || !are_two_flanks_of_one(effects_[a], effects_[b])) continue;
+      const auto fit = fit_of(effects_);
+      const bool aside = effects_[a].family->flank_only && effects_[a].family->local &&
+                         effects_[a].shape.size() == 1 && same_size(*fit, a, b, -1.0);
+      if (!aside && !same_size(*fit, a, b, 1.0)) continue;
       for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
         effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
       effects_[a].family = both;
+      if (aside)
+        effects_[a] = {find_family("unnamed_tooth_aside"), {}, {effects_[a].shape[0], 1.0}};
       effects_[a].flank = FlankChoice::kBoth;
       discovery_.chosen[a].p_value =
           std::min(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
@@ -210,8 +223,8 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
                   [](const Effect& e) { return e.is_term(); }))
     return false;
   // A kink has a place; three names that follow it have one each, and a width.
-  const bool beside_forms = std::any_of(effects_.begin(), effects_.end(),
-                                        [](const Effect& e) { return e.is_term(); });
+  const bool beside_forms =
+      std::any_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); });
   const int spared = values_of(effects_, beside_forms) - values_of(names.effects_, beside_forms);
   if (spared < least_spared) return false;
   const auto own = fit_of(effects_), other = names.fit_of(names.effects_);
@@ -246,7 +259,8 @@ void PartLoop::take_over(PartLoop& other) {
 
 namespace {
 
-/// Squares of profile traces [um^2]: of values beside each trace's mean, and beside its straight line.
+/// Squares of profile traces [um^2]: of values beside each trace's mean, and beside its straight
+/// line.
 struct TraceSquares {
   double whole = 0.0, bent = 0.0;
 };
@@ -269,8 +283,8 @@ TraceSquares squares_of_profiles(const FlankGeometry& geometry, const Observatio
   return squares;
 }
 
-/// True where the traces would bend as the wave does that takes `bare_um` to `after_um`, and do not:
-/// slopes that differ from tooth to tooth are told as a wave over the profile.
+/// True where the traces would bend as the wave does that takes `bare_um` to `after_um`, and do
+/// not: slopes that differ from tooth to tooth are told as a wave over the profile.
 bool is_wave_of_straight_traces(const FlankGeometry& geometry, const Observations& table,
                                 const std::vector<float>& bare_um,
                                 const std::vector<float>& after_um) {
@@ -314,16 +328,16 @@ void PartLoop::doubt_names_below_what_is_left() {
     // What it takes out beside the others: two that undo each other take out nothing.
     std::map<ObservationKind, double> taken;
     double most = 0.0;
-    for (const auto& [kind, error] : errors_of_kinds(geometry_, table_, patches_, *bare_um, known)) {
+    for (const auto& [kind, error] :
+         errors_of_kinds(geometry_, table_, patches_, *bare_um, known)) {
       taken[kind] = error.square / error.count - with[kind];
       most = std::max(most, taken[kind]);
     }
     const bool stands = std::any_of(taken.begin(), taken.end(), [&](const auto& of_kind) {
       return of_kind.second > kShows * most && of_kind.second >= kLess * left[of_kind.first];
     });
-    const bool slopes =
-        family.tells_order_along_profile && table_->points_mm.empty() &&
-        is_wave_of_straight_traces(geometry_, table_, *bare_um, *after_um);
+    const bool slopes = family.tells_order_along_profile && table_->points_mm.empty() &&
+                        is_wave_of_straight_traces(geometry_, table_, *bare_um, *after_um);
     if (stands && !slopes) continue;
     if (const EffectFamily* form = find_form(effects_[e].family->form_word);
         form != nullptr && !slopes) {

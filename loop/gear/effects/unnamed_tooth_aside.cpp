@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+
+/// A pitch error of one tooth: more material on one flank, as much less on the other.
+EffectFamily unnamed_tooth_aside() {
+  EffectFamily f;
+  f.id = "unnamed_tooth_aside";
+  f.description = "one tooth stands aside";
+  f.parameters = {"amount_um"};
+  f.shape_names = {"tooth", "aside"};
+  f.named = false;
+  f.term_keys = {{"tooth"}, {"aside"}};
+  f.local = true;
+  f.preference = 3;
+  f.correctable = Correctable::kNoCause;
+  f.shapes = [](const FlankGeometry& g) {
+    constexpr double kCounterClockwise = 1.0;
+    std::vector<EffectShape> shapes = whole_numbers(1, g.teeth());
+    for (EffectShape& shape : shapes) shape.push_back(kCounterClockwise);
+    return shapes;
+  };
+  f.evaluate = [](const FlankGeometry&, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? shape[1] * p.side
+                                                                                 : 0.0;
+  };
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "tooth " + std::to_string(static_cast<int>(shape[0])) +
+           " stands aside, ahead on one flank and back on the other";
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects
