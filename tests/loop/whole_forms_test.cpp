@@ -286,5 +286,40 @@ TEST(TeethAside, ThickTeethKeepTheirName) {
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
+TEST(NamesBesideForms, ATaperBesideAnEndReliefKeepsItsName) {
+  const MadeGear gear = spur(14);
+  for (const double end : {-1.0, 1.0})
+    for (const double amount : {-9.0, 9.0})
+      for (unsigned seed = 1; seed <= 2; ++seed) {
+        const auto relieved = [=](auto&, const FlankSpot& s, auto&) {
+          return -4.5 * s.v + amount * std::max(0.0, end * s.v - 0.6) / 0.4;
+        };
+        const auto result =
+            close(gear, scan_of(gear, {grown(relieved)}, scanned(8000, 0.85, seed)), true);
+        ASSERT_NE(find(result, "taper"), nullptr) << list(result);
+        EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, -9.0, 0.6) << list(result);
+        EXPECT_NE(list(result).find("a kink over the face"), std::string::npos) << list(result);
+        EXPECT_NE(list(result).find(end < 0.0 ? "towards the lower end" : "towards the upper end"),
+                  std::string::npos)
+            << list(result);
+      }
+}
+
+TEST(NamesBesideForms, AReliefBesideASlopeKeepsItsName) {
+  // Of a slope that comes three times per turn these three teeth show one of opposite flanks.
+  const MadeGear gear = spur(63);
+  const auto relieved = [](auto&, const FlankSpot& s, auto&) {
+    return 2.6 * s.side * s.u - 6.0 * std::pow(std::max(0.0, s.u - 0.4) / 0.6, 2);
+  };
+  InspectionOptions options = traced({1, 22, 43}, 0.42, 1);
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(relieved)}, options));
+    const auto* relief = find(result, "tip_relief");
+    ASSERT_NE(relief, nullptr) << list(result);
+    EXPECT_EQ(relief->flank, "both") << list(result);
+    EXPECT_NEAR(parameter(*relief, "amount_um").value, 6.0, 0.5) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -129,11 +129,23 @@ class PartLoop {
   [[nodiscard]] std::size_t first_told_here() const;
   [[nodiscard]] bool tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
                                                FlankChoice flank);
-  [[nodiscard]] bool tell_as_bell_mouth(const std::vector<std::size_t>& all, int face,
-                                        FlankChoice flank);
+  [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
+                                               FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
   [[nodiscard]] bool tell_as_bow();
+  struct ToldSoFar {
+    std::vector<Effect> effects, given;
+    std::vector<double> given_p_values;
+    std::vector<ChosenGroup> chosen;
+    double held_out_um = 0.0;
+  };
+  [[nodiscard]] ToldSoFar told_so_far() const;
+  void take_back(const ToldSoFar& told);
+  [[nodiscard]] double held_out_um() const;
   void drop_idle_beside_one_form();
+  void turn_kinks_beside_slopes();
+  void name_terms_beside_forms();
+  void name_forms_beside_names();
   struct LeastMissed {
     std::size_t effect = 0;
     double loss = 1e300;

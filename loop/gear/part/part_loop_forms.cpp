@@ -82,15 +82,28 @@ bool is_wave_around(const Effect& e) {
 
 bool is_form_without_name(const Effect& e) { return e.is_term() && e.family->form_word.empty(); }
 
-/// What the forms without a name do in the mean of the teeth.
-Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face) {
+/// A course that is a straight line on either flank.
+bool is_straight_line(const Eigen::VectorXd& course) {
+  constexpr double kNothing = 1e-6;
+  double bends = 0.0;
+  for (Eigen::Index i = 1; i + 1 < course.size(); ++i)
+    if (i != kPlaces && i + 1 != kPlaces)
+      bends = std::max(bends, std::abs(course[i - 1] - 2.0 * course[i] + course[i + 1]));
+  return bends <= kNothing * course.norm();
+}
+
+/// What the forms without a name do in the mean of the teeth, with or without slopes.
+Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face,
+                              bool with_slopes) {
   constexpr int kTeeth = 12;
   const int teeth = std::min(kTeeth, geometry.teeth());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
   for (std::size_t e = 0; e < fit.effects().size(); ++e) {
     if (!is_form_without_name(fit.effects()[e]) || fit.effects()[e].order() > 0.0) continue;
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(2 * kPlaces);
     for (int i = 0; i < teeth; ++i)
-      mean += values_along(geometry, fit, e, face, 1 + i * geometry.teeth() / teeth) / teeth;
+      own += values_along(geometry, fit, e, face, 1 + i * geometry.teeth() / teeth) / teeth;
+    if (with_slopes || !is_straight_line(own)) mean += own;
   }
   return mean;
 }
@@ -203,7 +216,8 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   for (const bool face : {false, true}) {
     const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
     if (!(course.norm() > 0.0)) continue;
-    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face);
+    // A slope is no part of a relief or a crowning.
+    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face, is_straight_line(course));
     const bool own_shapes = std::none_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
       const NeedsToBeSeen needs = form.needs();
       return is_common_form(form) && !form.family->shapes(geometry_).empty() &&
@@ -242,6 +256,8 @@ void PartLoop::tell_parts_of_a_form() {
   tell_means_across_flanks();
   tell_teeth_side_by_side();
   tell_what_teeth_do_not_share();
+  name_terms_beside_forms();
+  name_forms_beside_names();
 }
 
 /// What was told before (of other data) stays as it is.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "trueflank/base/units.h"
@@ -159,6 +160,33 @@ bool is_straight(const FlankGeometry& geometry, const Effect& effect) {
   };
   return std::abs(at(0.1) + at(0.9) - 2.0 * at(0.5)) < kNothing * std::abs(at(0.9) - at(0.1)) &&
          std::abs(at(0.1) + at(0.5) - 2.0 * at(0.3)) < kNothing * std::abs(at(0.9) - at(0.1));
+}
+
+/// True where both run along the profile, or both along the face, and differ by a factor and a
+/// level.
+bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b) {
+  constexpr int kOfGrid = 9;
+  constexpr double kAlike = 0.9999;
+  if (a.columns() != 1 || b.columns() != 1) return false;
+  const Runs runs = runs_of(geometry, a);
+  if ((runs != Runs::kOverProfile && runs != Runs::kOverFace) || runs_of(geometry, b) != runs)
+    return false;
+  const int side = a.flank == FlankChoice::kRight ? -1 : 1;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto course = [&](const Effect& effect) {
+    Eigen::Matrix<double, kOfGrid, 1> values;
+    for (int i = 0; i < kOfGrid; ++i) {
+      const double share = (i + 0.5) / kOfGrid;
+      effect.evaluate(
+          geometry,
+          geometry.on_flank(1, side, low + share * (high - low), share * geometry.face_width_mm()),
+          &values[i]);
+    }
+    values.array() -= values.mean();
+    return values;
+  };
+  const auto of_a = course(a), of_b = course(b);
+  return std::abs(of_a.dot(of_b)) > kAlike * of_a.norm() * of_b.norm();
 }
 
 /// Names of these effects that have a place or a width: one alone at its best shape may say it all.
@@ -319,10 +347,10 @@ bool PartLoop::tell_as_wave_over_profile(const std::vector<std::size_t>& over_pr
   return put_one_form_for(all, s_shapes) || put_one_form_for(all, s_shapes, {slope_over(0, flank)});
 }
 
-/// What dies away from both ends alike, beside the slope that has a name, for these effects along
-/// the profile (0) or the face (1).
-bool PartLoop::tell_as_bell_mouth(const std::vector<std::size_t>& all, int face,
-                                  FlankChoice flank) {
+/// One form along the profile (0) or the face (1) beside the slope that has a name, for all that
+/// runs that way: an end relief or a bell mouth of a tapered gear.
+bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
+                                         FlankChoice flank) {
   constexpr int kValuesOfBoth = 3;
   std::vector<Effect> own;
   std::vector<std::size_t> curved;
@@ -331,14 +359,14 @@ bool PartLoop::tell_as_bell_mouth(const std::vector<std::size_t>& all, int face,
     if (!effects_[e].family->named || !is_straight(geometry_, effects_[e])) curved.push_back(e);
   }
   if (curved.empty() || values_of(own, true) < kValuesOfBoth) return false;
-  const std::vector<Effect> rises = rises_at_both_ends(geometry_, face, flank);
-  if (curved.size() < all.size()) return put_one_form_for(curved, rises);
+  const std::vector<Effect> forms = forms_along(geometry_, face, flank, true);
+  if (curved.size() < all.size()) return put_one_form_for(curved, forms);
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     const Effect& slope = candidates_[c];
     if (slope.family->named && !banned_[c] && slope.flank == flank && slope.shape.empty() &&
         is_straight(geometry_, slope) && runs_of(geometry_, slope) == runs)
-      return put_one_form_for(all, rises, {slope});
+      return put_one_form_for(all, forms, {slope});
   }
   return false;
 }
@@ -467,15 +495,124 @@ void PartLoop::tell_as_one_form() {
           if ((has_name(set) || (set.size() > 1 && set.size() == all.size())) &&
               along_one(set, face, flank))
             return true;
-        if (tell_as_bell_mouth(all, face, flank)) return true;
+        if (tell_as_form_beside_slope(all, face, flank)) return true;
       }
     }
     return tell_as_bow();
   };
   constexpr int kMost = 6;
+  const ToldSoFar before = told_so_far();
   int taken = 0;
   while (taken < kMost && once()) ++taken;
-  if (taken > 0) drop_idle_beside_one_form();
+  if (taken == 0) return;
+  drop_idle_beside_one_form();
+  // One form that says less of the teeth that were set aside is not what the several were.
+  constexpr double kRises = 1.02;
+  if (held_out_um() > kRises * before.held_out_um) take_back(before);
+}
+
+/// What is told, to go back to.
+PartLoop::ToldSoFar PartLoop::told_so_far() const {
+  return {effects_, options_.given, given_p_values_, discovery_.chosen, held_out_um()};
+}
+
+void PartLoop::take_back(const ToldSoFar& told) {
+  effects_ = told.effects;
+  options_.given = told.given;
+  given_p_values_ = told.given_p_values;
+  discovery_.chosen = told.chosen;
+}
+
+/// Error of the hold-out; 0 where nothing was set aside.
+double PartLoop::held_out_um() const {
+  const auto fit = fit_of(effects_);
+  return fit->held_out() == 0
+             ? 0.0
+             : fit->errors(std::vector<bool>(effects_.size(), true)).held_out_rms_um;
+}
+
+/// A kink beside a slope says the same bent to either side: it runs over the shorter part, so that
+/// the slope is that of the longer one.
+void PartLoop::turn_kinks_beside_slopes() {
+  const EffectFamily* kinks = find_family("unnamed_kink");
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    Effect& kink = effects_[e];
+    if (kink.family != kinks || kink.shape[2] == 0.0) continue;
+    const Runs runs = kink.shape[0] != 0.0 ? Runs::kOverFace : Runs::kOverProfile;
+    const bool beside_slope =
+        std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
+          return (other.flank == kink.flank || other.flank == FlankChoice::kBoth) &&
+                 is_straight(geometry_, other) && runs_of(geometry_, other) == runs;
+        });
+    if (!beside_slope) continue;
+    const double low = kink.shape[0] != 0.0 ? 0.0 : geometry_.root_form_roll_mm(),
+                 high = kink.shape[0] != 0.0 ? geometry_.face_width_mm()
+                                             : geometry_.tip_form_roll_mm(),
+                 at = kink.shape[0] != 0.0 ? kink.shape[1]
+                                           : geometry_.roll_at_radius_mm(0.5 * kink.shape[1]);
+    kink.shape[2] = (at - low) / (high - low) < 0.5 ? -1.0 : 1.0;
+  }
+}
+
+/// A form with a place whose whole course one name with a place follows as well: a curve towards
+/// the tip beside a slope is a relief.
+void PartLoop::name_forms_beside_names() {
+  constexpr double kNoWorse = 1.0;  // chi-square
+  bool named = false;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect form = effects_[e];
+    if (!form.is_term() || !form.family->is_like_many || form.columns() != 1) continue;
+    const double as_form = fit_of(effects_)->residual_square();
+    std::vector<Effect> names;
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const EffectFamily& family = *candidates_[c].family;
+      if (family.named && family.shape_is_continuous && !family.shape_is_step && !unseen_[c] &&
+          candidates_[c].shape.size() == 1 && candidates_[c].flank == form.flank &&
+          runs_of(geometry_, candidates_[c]) == runs_of(geometry_, form))
+        names.push_back(candidates_[c]);
+    }
+    if (names.empty()) continue;
+    std::vector<Effect> rest = effects_;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
+    std::vector<Effect> with = with_best_form(geometry_, table_, patches_, rest, names);
+    if (with.empty()) continue;
+    // Where it stood: what was given stays in front.
+    std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());
+    const auto fit = fit_of(with);
+    if (fit->residual_square() > as_form + kNoWorse ||
+        !is_possible(geometry_, *fit, static_cast<int>(e)))
+      continue;
+    std::swap(effects_, with);
+    if (stands_beside_forms(*fit, e))
+      named = true;
+    else
+      std::swap(effects_, with);
+  }
+  if (named) join_flanks();
+}
+
+/// A slope or a bow that stands beside forms which leave most of the flank alone, or run the other
+/// way, gets its name where the data do not deny it.
+void PartLoop::name_terms_beside_forms() {
+  constexpr double kDenied = 9.0;  // chi-square
+  turn_kinks_beside_slopes();
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect term = effects_[e];
+    if (term.family->named || !term.family->form_word.empty() || term.columns() != 1) continue;
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Effect& name = candidates_[c];
+      if (!name.family->named || unseen_[c] || name.flank != term.flank || !name.shape.empty() ||
+          !run_alike(geometry_, name, term))
+        continue;
+      const double as_term = fit_of(effects_)->residual_square();
+      effects_[e] = name;
+      const auto fit = fit_of(effects_);
+      if (fit->residual_square() > as_term + kDenied || !stands_beside_forms(*fit, e) ||
+          !is_possible(geometry_, *fit, static_cast<int>(e)))
+        effects_[e] = term;
+      break;
+    }
+  }
 }
 
 /// What stood beside several effects and is nothing beside the one form.

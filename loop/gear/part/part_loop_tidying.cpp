@@ -160,14 +160,17 @@ void PartLoop::join_flanks() {
     }
 }
 
-/// Forms that were found first may stand where fewer names say the same: all is chosen once more
-/// from names alone.
+/// Forms that were found first may stand where fewer names say the same, or where the hold-out took
+/// all of them back: all is chosen once more from names alone.
 void PartLoop::prefer_names() {
-  if (std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
+  constexpr int kAnyNumber = -1000;
+  const bool all_taken_back = vetoed_ && effects_.size() == first_told_here();
+  if (!all_taken_back &&
+      std::none_of(effects_.begin(), effects_.end(), [](const Effect& e) { return e.is_term(); }))
     return;
   Options options = options_;
   options.names_only = true;
-  (void)adopt_if_simpler(std::move(options), 0);
+  (void)adopt_if_simpler(std::move(options), all_taken_back ? kAnyNumber : 0);
 }
 
 /// Two that these data cannot tell from one and the same third are perhaps that: without the first
