@@ -531,9 +531,10 @@ double PartLoop::held_out_um() const {
              : fit->errors(std::vector<bool>(effects_.size(), true)).held_out_rms_um;
 }
 
-/// A kink beside a slope says the same bent to either side: it runs over the shorter part, so that
-/// the slope is that of the longer one.
+/// A kink beside a slope says the same bent to either side: it runs over the part that is clearly
+/// the shorter one, so that the slope is that of the longer one.
 void PartLoop::turn_kinks_beside_slopes() {
+  constexpr double kClearly = 0.1;
   const EffectFamily* kinks = find_family("unnamed_kink");
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     Effect& kink = effects_[e];
@@ -550,7 +551,8 @@ void PartLoop::turn_kinks_beside_slopes() {
                                              : geometry_.tip_form_roll_mm(),
                  at = kink.shape[0] != 0.0 ? kink.shape[1]
                                            : geometry_.roll_at_radius_mm(0.5 * kink.shape[1]);
-    kink.shape[2] = (at - low) / (high - low) < 0.5 ? -1.0 : 1.0;
+    const double share = (at - low) / (high - low);
+    if (std::abs(share - 0.5) > kClearly) kink.shape[2] = share < 0.5 ? -1.0 : 1.0;
   }
 }
 
