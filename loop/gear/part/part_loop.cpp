@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/loop/discovery/kept_sums.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/plain_rms.h"
@@ -126,6 +127,7 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
     problem_ = make_problem(geometry_, table_, patches_, candidates_);
+    problem_.kept = std::make_shared<KeptSums>();
   } else {
     set_candidates(geometry_, patches_, problem_of_, candidates_, problem_);
     for (std::size_t i = 0; i < patches_.patches.size(); ++i)
