@@ -124,24 +124,47 @@ void BlockStatistics::take_sums_of_columns(BlockStatistics& earlier, const Group
   }
 }
 
-/// Model columns of an earlier choice: what is summed of them with panels that stayed.
+/// Model columns of an earlier choice and what that had of earlier ones: what is summed of them with panels that
+/// stayed.
 void BlockStatistics::keep_columns_of(BlockStatistics& earlier, const std::vector<bool>& stayed) {
+  // of columns that no choice asked for since
+  constexpr std::size_t kMostBytes = 32'000'000;
+  std::vector<bool> is_other;
   for (std::size_t p = 0; p < panels_.size(); ++p) {
-    bool is_new = p >= earlier.panels_.size() || !(panels_[p] == earlier.panels_[p]);
+    is_other.push_back(p >= earlier.panels_.size() || !(panels_[p] == earlier.panels_[p]));
     for (int g = panels_[p].first_group; g < panels_[p].first_group + panels_[p].groups; ++g)
-      is_new = is_new || !stayed[static_cast<std::size_t>(g)];
-    is_new_.push_back(is_new);
+      if (!stayed[static_cast<std::size_t>(g)]) is_other.back() = true;
   }
   for (int k = 0; k < earlier.model_columns(); ++k) {
     const auto column = static_cast<std::size_t>(k);
     KeptColumn kept{.column = earlier.model_.col(k),
                     .of_units = std::move(earlier.unit_candidates_[column]),
                     .of_folds = {},
-                    .of_all = std::move(earlier.all_.model_candidate[column])};
+                    .of_all = std::move(earlier.all_.model_candidate[column]),
+                    .lacks = is_other};
     for (Sums& sums : earlier.fold_sums_)
       kept.of_folds.push_back(std::move(sums.model_candidate[column]));
     kept_.push_back(std::move(kept));
   }
+  for (KeptColumn& kept : earlier.kept_) {
+    if ((kept_.size() - static_cast<std::size_t>(earlier.model_columns())) * bytes_of_column() >
+        kMostBytes)
+      break;
+    kept.lacks.resize(panels_.size(), true);
+    for (std::size_t p = 0; p < panels_.size(); ++p)
+      if (is_other[p]) kept.lacks[p] = true;
+    kept_.push_back(std::move(kept));
+  }
+}
+
+std::size_t BlockStatistics::bytes_of_column() const {
+  const auto units = static_cast<std::size_t>(units_), folds = fold_sums_.size();
+  return panels_.size() * kPanelColumns * (units + folds + 1) * sizeof(double);
+}
+
+std::size_t BlockStatistics::bytes() const {
+  return (kept_.size() + static_cast<std::size_t>(model_columns())) * bytes_of_column() +
+         static_cast<std::size_t>(centred_.size()) * sizeof(float);
 }
 
 namespace {
@@ -408,13 +431,8 @@ void BlockStatistics::add_model_sums(int first) {
     sums.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
   all_.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
   unit_candidates_.resize(static_cast<std::size_t>(m));
-  std::vector<bool> is_kept;
-  for (int k = first; k < m; ++k) {
-    is_kept.push_back(take_kept(k));
-    if (!is_kept.back())
-      unit_candidates_[static_cast<std::size_t>(k)].assign(
-          panels_.size() * static_cast<std::size_t>(units_), PanelRow{});
-  }
+  std::vector<std::vector<bool>> lacks;
+  for (int k = first; k < m; ++k) lacks.push_back(take_kept(k));
   // One unit within one fold at a time, so that each value is added once.
   std::vector<Part> parts;
   for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
@@ -441,7 +459,7 @@ void BlockStatistics::add_model_sums(int first) {
   constexpr std::size_t kLeast = 2, kMost = 8;
   for_each_run(
       panels_.size(), size_of_pieces(panels_.size(), kLeast, kMost),
-      [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, is_kept, from, to); });
+      [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, lacks, from, to); });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();
@@ -478,52 +496,48 @@ void add_single_rows(PanelRow& sum, const double* factors, const float* const* r
 
 }  // namespace
 
-/// True where an earlier choice had the same column: its sums are taken, those with new panels are zeros.
-bool BlockStatistics::take_kept(int column) {
+/// Where an earlier choice had the same column its sums are taken. The panels that it lacks, all where there is none:
+/// their sums are zeros.
+std::vector<bool> BlockStatistics::take_kept(int column) {
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const KeptColumn& kept) {
     return kept.column == model_.col(column);
   });
-  if (found == kept_.end()) return false;
   const auto k = static_cast<std::size_t>(column), units = static_cast<std::size_t>(units_);
-  const auto columns = candidates().cols();
+  if (found == kept_.end()) {
+    unit_candidates_[k].assign(panels_.size() * units, PanelRow{});
+    return std::vector<bool>(panels_.size(), true);
+  }
+  const std::vector<bool> lacks = std::move(found->lacks);
   unit_candidates_[k] = std::move(found->of_units);
   unit_candidates_[k].resize(panels_.size() * units);
+  for (std::size_t p = 0; p < panels_.size(); ++p)
+    if (lacks[p]) std::fill_n(unit_candidates_[k].data() + p * units, units, PanelRow{});
   const auto take = [&](Eigen::VectorXd& sums, Eigen::VectorXd& kept) {
     sums = std::move(kept);
-    sums.conservativeResize(columns);
+    sums.conservativeResize(candidates().cols());
     for (std::size_t p = 0; p < panels_.size(); ++p)
-      if (is_new_[p]) sums.segment(panels_[p].first_column, panels_[p].columns).setZero();
+      if (lacks[p]) sums.segment(panels_[p].first_column, panels_[p].columns).setZero();
   };
   for (std::size_t fold = 0; fold < fold_sums_.size(); ++fold)
     take(fold_sums_[fold].model_candidate[k], found->of_folds[fold]);
   take(all_.model_candidate[k], found->of_all);
-  for (std::size_t p = 0; p < panels_.size(); ++p)
-    if (is_new_[p]) std::fill_n(unit_candidates_[k].begin() + static_cast<std::ptrdiff_t>(p * units), units, PanelRow{});
   kept_.erase(found);
-  return true;
+  return lacks;
 }
 
-/// Products of the model columns from `first` on with the candidates of some panels; of those that are kept with new
-/// panels alone.
+/// Products of the model columns from `first` on with those of some panels that they lack.
 void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int first,
-                                         const std::vector<bool>& is_kept, std::size_t from,
-                                         std::size_t to) {
-  const auto is_asked = [&](std::size_t panel, std::size_t column) {
-    return !is_kept[column] || is_new_[panel];
-  };
+                                         const std::vector<std::vector<bool>>& lacks,
+                                         std::size_t from, std::size_t to) {
   const CandidateMatrix& candidates = this->candidates();
-  const std::size_t added = is_kept.size();
+  const std::size_t added = lacks.size();
   std::vector<std::size_t> panels, columns;  // that are asked
-  for (std::size_t p = from; p < to; ++p) {
-    bool any = false;
-    for (std::size_t k = 0; k < added; ++k) any = any || is_asked(p, k);
-    if (any) panels.push_back(p);
-  }
-  for (std::size_t k = 0; k < added; ++k) {
-    bool any = false;
-    for (const std::size_t p : panels) any = any || is_asked(p, k);
-    if (any) columns.push_back(k);
-  }
+  for (std::size_t p = from; p < to; ++p)
+    if (std::any_of(lacks.begin(), lacks.end(), [&](const auto& column) { return column[p]; }))
+      panels.push_back(p);
+  for (std::size_t k = 0; k < added; ++k)
+    if (std::any_of(panels.begin(), panels.end(), [&](std::size_t p) { return lacks[k][p]; }))
+      columns.push_back(k);
   if (panels.empty()) return;
   std::vector<double> factors;
   std::vector<const float*> rows;
@@ -549,7 +563,7 @@ void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int fir
           rows[r] = std::copy_n(rows[r], used, copies[r].begin()) - used;
       }
       for (const std::size_t k : columns) {
-        if (!is_asked(p, k)) continue;
+        if (!lacks[k][p]) continue;
         PanelRow sum{};
         add_single_rows(sum, factors.data() + k * count, rows.data(), count);
         const std::size_t column = static_cast<std::size_t>(first) + k;

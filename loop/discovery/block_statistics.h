@@ -23,6 +23,9 @@ class BlockStatistics {
   BlockStatistics(const DiscoveryProblem& problem, BlockStatistics&& earlier,
                   const std::vector<bool>& stayed);
 
+  /// About what it takes of memory.
+  [[nodiscard]] std::size_t bytes() const;
+
   /// Makes a group's columns model columns; returns the first of them. One pass over the values.
   int add_group(int group);
 
@@ -85,17 +88,19 @@ class BlockStatistics {
   struct Groups {
     std::size_t from, to;
   };
-  /// Sums of a model column of an earlier choice.
+  /// Sums of a model column of an earlier choice; not with panels that are others since then.
   struct KeptColumn {
     Eigen::VectorXd column;
     std::vector<PanelRow> of_units;
     std::vector<Eigen::VectorXd> of_folds;
     Eigen::VectorXd of_all;
+    std::vector<bool> lacks;  ///< per panel
   };
   void order_values();
   void sum_up(const std::vector<Groups>& groups);
   void take_sums_of(BlockStatistics& earlier, const std::vector<bool>& stayed);
   void take_sums_of_columns(BlockStatistics& earlier, const Groups& groups);
+  [[nodiscard]] std::size_t bytes_of_column() const;
   void keep_columns_of(BlockStatistics& earlier, const std::vector<bool>& stayed);
   void centre_on_zeros(const std::vector<Groups>& groups);
   void clear_sums();
@@ -104,10 +109,11 @@ class BlockStatistics {
   void sum_candidates(const std::vector<Groups>& groups);
   void sum_groups(const Groups& groups, const std::map<int, double>& trace_weight);
   void add_model_sums(int first);
-  [[nodiscard]] bool take_kept(int column);
+  [[nodiscard]] std::vector<bool> take_kept(int column);
   struct Part;
-  void add_candidate_sums(const std::vector<Part>& parts, int first, const std::vector<bool>& is_kept,
-                          std::size_t from, std::size_t to);
+  void add_candidate_sums(const std::vector<Part>& parts, int first,
+                          const std::vector<std::vector<bool>>& lacks, std::size_t from,
+                          std::size_t to);
 
   const DiscoveryProblem& problem_;
   CandidateMatrix centred_;  ///< the candidates less their zeros; empty: there are none
@@ -125,8 +131,7 @@ class BlockStatistics {
   double scatter_within_ = 0.0;
   std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
   std::vector<Eigen::MatrixXd> zero_loss_;
-  std::vector<KeptColumn> kept_;  ///< of which none was asked for yet
-  std::vector<bool> is_new_;      ///< panels of which kept columns have no sums
+  std::vector<KeptColumn> kept_;  ///< those that were not asked for yet, the latest first
 };
 
 }  // namespace trueflank::loop

@@ -13,6 +13,8 @@ class BlockStatistics;
 
 /// Sums over the candidates of a problem from which choices are made again and again: what stayed is not summed
 /// once more. They belong to one choice at a time. The sums are the same numbers as those made anew.
+/// Weights come and go with steps (patches across them are left out): sums of earlier weights stay beside those of the
+/// last ones, as memory for them is given.
 class KeptSums {
  public:
   KeptSums();
@@ -28,12 +30,9 @@ class KeptSums {
   void give_back(std::unique_ptr<BlockStatistics> sums);
 
  private:
-  [[nodiscard]] bool has_same_rows(const DiscoveryProblem& problem) const;
-  [[nodiscard]] bool stayed(const DiscoveryProblem& problem, std::size_t group) const;
-
-  std::unique_ptr<BlockStatistics> sums_;
-  DiscoveryProblem of_;           ///< the problem they are of, without its columns
-  std::vector<bool> forgotten_;  ///< groups
+  struct OfRows;
+  void make_room();
+  std::vector<OfRows> kept_;  ///< those asked for last first
 };
 
 }  // namespace trueflank::loop

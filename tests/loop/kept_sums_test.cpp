@@ -97,7 +97,8 @@ TEST(KeptSums, AreThoseMadeAnewWhateverMoved) {
     move_group(problem, kept, 77);
     choose({4, 9, 30, 40});  // one of the model and one beside it
     choose({30});
-    choose({9, 40, 30});
+    move_group(problem, kept, 61);
+    choose({9, 40, 30});  // two were not asked for when a group moved
   }
 }
 
@@ -111,7 +112,12 @@ TEST(KeptSums, OfOtherRowsOrNuisanceAreMadeAnew) {
     kept.give_back(std::move(sums));
   };
   choose();
+  const double weight = problem.weight[7];
   problem.weight[7] *= 1e-6;
+  choose();
+  move_group(problem, kept, 4);
+  choose();
+  problem.weight[7] = weight;  // as first, but for the group that moved since
   choose();
   problem.value[3] += 1.0;
   choose();

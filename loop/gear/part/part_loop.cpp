@@ -127,7 +127,9 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
     problem_ = make_problem(geometry_, table_, patches_, candidates_);
-    problem_.kept = std::make_shared<KeptSums>();
+    // (Of large scans, chosen for in a few rounds, what a point takes of memory counts.)
+    constexpr std::size_t kMostPoints = 100'000;
+    if (table_->points_mm.size() <= kMostPoints) problem_.kept = std::make_shared<KeptSums>();
   } else {
     set_candidates(geometry_, patches_, problem_of_, candidates_, problem_);
     for (std::size_t i = 0; i < patches_.patches.size(); ++i)
