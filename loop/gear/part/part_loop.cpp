@@ -40,13 +40,15 @@ void PartLoop::forget_fits() {
 }
 
 std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effects) const {
-  constexpr std::size_t kMost = 3;
+  // (of a scan they take memory for every unit)
+  const std::size_t most = table_->points_mm.empty() ? 6 : 3;
   auto found = std::find_if(fits_.begin(), fits_.end(),
                             [&](const auto& fit) { return fit->effects() == effects; });
   if (found == fits_.end()) {
-    if (fits_.size() == kMost) fits_.pop_back();
-    found = fits_.insert(fits_.end(),
-                         std::make_shared<const PointFit>(geometry_, table_, patches_, effects));
+    if (fits_.size() == most) fits_.pop_back();
+    auto fit = std::make_shared<const PointFit>(geometry_, table_, patches_, effects, 1,
+                                                DeviationsOf::kTable, fits_);
+    found = fits_.insert(fits_.end(), std::move(fit));
   }
   std::rotate(fits_.begin(), found, found + 1);
   return fits_.front();
