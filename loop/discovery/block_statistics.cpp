@@ -29,25 +29,142 @@ BlockStatistics::BlockStatistics(const DiscoveryProblem& problem)
       value_(problem.value),
       model_(problem.nuisance),
       panels_(panels_of(problem.groups)) {
+  order_values();
+  clear_sums();
+  sum_up({{0, problem.groups.size()}});
+}
+
+BlockStatistics::BlockStatistics(const DiscoveryProblem& problem, BlockStatistics&& earlier,
+                                 const std::vector<bool>& stayed)
+    : problem_(problem),
+      value_(problem.value),
+      model_(problem.nuisance),
+      panels_(panels_of(problem.groups)) {
+  order_values();
+  clear_sums();
+  take_sums_of(earlier, stayed);
+  keep_columns_of(earlier, stayed);
+  std::vector<Groups> others;
+  for (std::size_t g = 0; g < stayed.size(); ++g) {
+    if (stayed[g]) continue;
+    if (others.empty() || others.back().to != g) others.push_back({g, g});
+    others.back().to = g + 1;
+  }
+  sum_up(others);
+}
+
+void BlockStatistics::order_values() {
   for (int i = 0; i < value_.size(); ++i) {
-    if (problem.fold[i] == 0) continue;
+    if (problem_.fold[i] == 0) continue;
     order_.push_back(i);
-    units_ = std::max(units_, problem.unit[i] + 1);
-    folds_ = std::max(folds_, problem.fold[i]);
-    total_weight_ += problem.weight[i];
+    units_ = std::max(units_, problem_.unit[i] + 1);
+    folds_ = std::max(folds_, problem_.fold[i]);
+    total_weight_ += problem_.weight[i];
   }
   std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
-    return std::pair(problem.unit[a], problem.fold[a]) <
-           std::pair(problem.unit[b], problem.fold[b]);
+    return std::pair(problem_.unit[a], problem_.fold[a]) <
+           std::pair(problem_.unit[b], problem_.fold[b]);
   });
-  centre_on_zeros();
+}
+
+/// Of all columns, before any is summed.
+void BlockStatistics::clear_sums() {
+  const auto columns = problem_.candidates.cols();
   find_wholes();
   unit_sums_.resize(units_);
   fold_sums_.resize(folds_ + 1);
-  sum_candidates();
+  const auto clear = [&](Sums& sums) { sums.candidate_value = Eigen::VectorXd::Zero(columns); };
+  for (Sums& sums : unit_sums_) clear(sums);
+  for (Sums& sums : fold_sums_) clear(sums);
+  clear(all_);
+  group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(problem_.groups.size()));
+  zero_loss_.resize(problem_.groups.size());
+}
+
+/// Of the values, of the columns of some groups and of the nuisance.
+void BlockStatistics::sum_up(const std::vector<Groups>& groups) {
+  centre_on_zeros(groups);
+  sum_candidates(groups);
   add_model_sums(0);
   if (wholes_.size() >= kFewestWholesAsked && wholes_.size() <= kMostWholesAsked)
     scatter_within_ = loop::scatter_within(problem_, *this);
+}
+
+void BlockStatistics::take_sums_of(BlockStatistics& earlier, const std::vector<bool>& stayed) {
+  centred_ = std::move(earlier.centred_);
+  for (std::size_t g = 0, end = 0; g < stayed.size(); g = end + 1) {
+    for (end = g; end < stayed.size() && stayed[end];) ++end;
+    if (end > g) take_sums_of_columns(earlier, {g, end});
+  }
+}
+
+void BlockStatistics::take_sums_of_columns(BlockStatistics& earlier, const Groups& groups) {
+  const CandidateGroup& last = problem_.groups[groups.to - 1];
+  const Eigen::Index first = problem_.groups[groups.from].first_column,
+                     columns = last.first_column + last.columns - first;
+  const auto take = [&](Sums& sums, const Sums& from) {
+    sums.candidate_value.segment(first, columns) = from.candidate_value.segment(first, columns);
+  };
+  for (std::size_t i = 0; i < unit_sums_.size(); ++i) take(unit_sums_[i], earlier.unit_sums_[i]);
+  for (std::size_t i = 0; i < fold_sums_.size(); ++i) take(fold_sums_[i], earlier.fold_sums_[i]);
+  take(all_, earlier.all_);
+  for (std::size_t g = groups.from; g < groups.to; ++g) {
+    for (std::size_t fold = 0; fold < group_grams_.size(); ++fold)
+      group_grams_[fold][g] = std::move(earlier.group_grams_[fold][g]);
+    zero_loss_[g] = std::move(earlier.zero_loss_[g]);
+  }
+  const auto all = static_cast<std::size_t>(problem_.candidates.cols()),
+             all_before = static_cast<std::size_t>(earlier.all_.candidate_value.size());
+  for (auto& [number, whole] : wholes_) {
+    const std::vector<double>& before = earlier.wholes_.at(number).products;
+    for (std::size_t apart = 0; (apart + 1) * all <= whole.products.size() &&
+                                (apart + 1) * all_before <= before.size(); ++apart)
+      std::copy_n(before.data() + apart * all_before + first, columns,
+                  whole.products.data() + apart * all + first);
+  }
+}
+
+/// Model columns of an earlier choice and what that had of earlier ones: what is summed of them with panels that
+/// stayed.
+void BlockStatistics::keep_columns_of(BlockStatistics& earlier, const std::vector<bool>& stayed) {
+  // of columns that no choice asked for since
+  constexpr std::size_t kMostBytes = 32'000'000;
+  std::vector<bool> is_other;
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    is_other.push_back(p >= earlier.panels_.size() || !(panels_[p] == earlier.panels_[p]));
+    for (int g = panels_[p].first_group; g < panels_[p].first_group + panels_[p].groups; ++g)
+      if (!stayed[static_cast<std::size_t>(g)]) is_other.back() = true;
+  }
+  for (int k = 0; k < earlier.model_columns(); ++k) {
+    const auto column = static_cast<std::size_t>(k);
+    KeptColumn kept{.column = earlier.model_.col(k),
+                    .of_units = std::move(earlier.unit_candidates_[column]),
+                    .of_folds = {},
+                    .of_all = std::move(earlier.all_.model_candidate[column]),
+                    .lacks = is_other};
+    for (Sums& sums : earlier.fold_sums_)
+      kept.of_folds.push_back(std::move(sums.model_candidate[column]));
+    kept_.push_back(std::move(kept));
+  }
+  for (KeptColumn& kept : earlier.kept_) {
+    if ((kept_.size() - static_cast<std::size_t>(earlier.model_columns())) * bytes_of_column() >
+        kMostBytes)
+      break;
+    kept.lacks.resize(panels_.size(), true);
+    for (std::size_t p = 0; p < panels_.size(); ++p)
+      if (is_other[p]) kept.lacks[p] = true;
+    kept_.push_back(std::move(kept));
+  }
+}
+
+std::size_t BlockStatistics::bytes_of_column() const {
+  const auto units = static_cast<std::size_t>(units_), folds = fold_sums_.size();
+  return panels_.size() * kPanelColumns * (units + folds + 1) * sizeof(double);
+}
+
+std::size_t BlockStatistics::bytes() const {
+  return (kept_.size() + static_cast<std::size_t>(model_columns())) * bytes_of_column() +
+         static_cast<std::size_t>(centred_.size()) * sizeof(float);
 }
 
 namespace {
@@ -74,39 +191,56 @@ void centre_rows(const std::vector<float*>& rows, const std::vector<double>& wei
 }  // namespace
 
 /// Takes the weighted mean of every trace (apart in training and hold-out) out of all columns.
-void BlockStatistics::centre_on_zeros() {
+void BlockStatistics::centre_on_zeros(const std::vector<Groups>& groups) {
   std::map<int, std::vector<int>> traces;
   for (const int i : order_)
     if (problem_.zero[i] >= 0) traces[problem_.zero[i]].push_back(i);
   if (traces.empty()) return;
-  centred_ = problem_.candidates;
+  centred_.conservativeResize(problem_.candidates.rows(), problem_.candidates.cols());
+  struct Columns {
+    Eigen::Index first, count;
+  };
+  std::vector<Columns> runs;
+  for (const Groups& run : groups) {
+    if (run.from == run.to) continue;
+    const CandidateGroup& last = problem_.groups[run.to - 1];
+    const int first = problem_.groups[run.from].first_column;
+    runs.push_back({first, last.first_column + last.columns - first});
+    centred_.middleCols(first, runs.back().count) =
+        problem_.candidates.middleCols(first, runs.back().count);
+  }
   std::vector<const std::vector<int>*> rows_of_traces;
   for (const auto& [trace, rows] : traces) rows_of_traces.push_back(&rows);
   // Traces do not ask each other: the same digits on any number of processors.
   constexpr std::size_t kAtOnce = 16;
   for_each_run(rows_of_traces.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
-    std::vector<double> weights, sums(static_cast<std::size_t>(centred_.cols()));
-    std::vector<float> means(sums.size());
+    std::vector<double> weights, sums;
+    std::vector<float> means;
     std::vector<float*> candidates;
     for (std::size_t t = from; t < to; ++t) {
       const std::vector<int>& rows = *rows_of_traces[t];
       double weight = 0.0, value = 0.0;
       Eigen::RowVectorXd model = Eigen::RowVectorXd::Zero(model_.cols());
-      weights.clear(), candidates.clear();
+      weights.clear();
       for (const int i : rows) {
         const double w = problem_.weight[i];
         weight += w;
         value += w * value_[i];
         model += w * model_.row(i);
         weights.push_back(w);
-        candidates.push_back(centred_.row(i).data());
       }
       model /= weight;
       for (const int i : rows) {
         value_[i] -= value / weight;
         model_.row(i) -= model;
       }
-      centre_rows(candidates, weights, weight, sums, means);
+      for (const Columns& run : runs) {
+        candidates.clear();
+        for (const int i : rows) candidates.push_back(centred_.row(i).data() + run.first);
+        sums.resize(static_cast<std::size_t>(run.count));
+        means.resize(sums.size());
+        centre_rows(candidates, weights, weight, sums, means);
+      }
     }
   });
 }
@@ -124,17 +258,10 @@ void BlockStatistics::find_wholes() {
   if (wholes_.size() > kMostWholesAsked) return;
   for (auto& [number, whole] : wholes_)
     whole.products.assign(
-        static_cast<std::size_t>(widest) * static_cast<std::size_t>(candidates().cols()), 0.0);
+        static_cast<std::size_t>(widest) * static_cast<std::size_t>(problem_.candidates.cols()), 0.0);
 }
 
-void BlockStatistics::sum_candidates() {
-  const CandidateMatrix& candidates = this->candidates();
-  const auto clear = [&](Sums& sums) {
-    sums.candidate_value = Eigen::VectorXd::Zero(candidates.cols());
-  };
-  for (Sums& sums : unit_sums_) clear(sums);
-  for (Sums& sums : fold_sums_) clear(sums);
-  clear(all_);
+void BlockStatistics::sum_candidates(const std::vector<Groups>& groups) {
   std::map<int, double> trace_weight;
   for (const int i : order_) {
     const double w = problem_.weight[i], wy = w * value_[i];
@@ -144,12 +271,14 @@ void BlockStatistics::sum_candidates() {
     }
     if (problem_.zero[i] >= 0) trace_weight[problem_.zero[i]] += w;
   }
-  const std::size_t groups = problem_.groups.size();
-  group_grams_.assign(folds_ + 1, std::vector<Eigen::MatrixXd>(groups));
-  zero_loss_.resize(groups);
   constexpr std::size_t kLeast = 32, kMost = 128;
-  for_each_run(groups, size_of_pieces(groups, kLeast, kMost),
-               [&](std::size_t from, std::size_t to) { sum_groups(from, to, trace_weight); });
+  std::vector<Groups> pieces;
+  for (const Groups& run : groups) {
+    const std::size_t at_once = size_of_pieces(run.to - run.from, kLeast, kMost);
+    for (std::size_t from = run.from; from < run.to; from += at_once)
+      pieces.push_back({from, std::min(run.to, from + at_once)});
+  }
+  for_each_piece(pieces.size(), [&](std::size_t i) { sum_groups(pieces[i], trace_weight); });
 }
 
 namespace {
@@ -216,8 +345,8 @@ double* BlockStatistics::products_of_whole(int value, int first_column) {
 }
 
 /// Sums of the columns of some groups, which stand beside each other.
-void BlockStatistics::sum_groups(std::size_t from, std::size_t to,
-                                 const std::map<int, double>& trace_weight) {
+void BlockStatistics::sum_groups(const Groups& run, const std::map<int, double>& trace_weight) {
+  const auto& [from, to] = run;
   const CandidateMatrix& candidates = this->candidates();
   const std::vector<CandidateGroup>& groups = problem_.groups;
   const int first = groups[from].first_column;
@@ -302,9 +431,8 @@ void BlockStatistics::add_model_sums(int first) {
     sums.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
   all_.model_candidate.resize(static_cast<std::size_t>(m), Eigen::VectorXd::Zero(p));
   unit_candidates_.resize(static_cast<std::size_t>(m));
-  for (int k = first; k < m; ++k)
-    unit_candidates_[static_cast<std::size_t>(k)].assign(
-        panels_.size() * static_cast<std::size_t>(units_), PanelRow{});
+  std::vector<std::vector<bool>> lacks;
+  for (int k = first; k < m; ++k) lacks.push_back(take_kept(k));
   // One unit within one fold at a time, so that each value is added once.
   std::vector<Part> parts;
   for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
@@ -331,7 +459,7 @@ void BlockStatistics::add_model_sums(int first) {
   constexpr std::size_t kLeast = 2, kMost = 8;
   for_each_run(
       panels_.size(), size_of_pieces(panels_.size(), kLeast, kMost),
-      [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, from, to); });
+      [&](std::size_t from, std::size_t to) { add_candidate_sums(parts, first, lacks, from, to); });
   const auto mirror = [&](Sums& sums) {
     sums.model_model.bottomLeftCorner(added, first) =
         sums.model_model.topRightCorner(first, added).transpose();
@@ -368,23 +496,61 @@ void add_single_rows(PanelRow& sum, const double* factors, const float* const* r
 
 }  // namespace
 
-/// Products of the model columns from `first` on with the candidates of some panels.
+/// Where an earlier choice had the same column its sums are taken. The panels that it lacks, all where there is none:
+/// their sums are zeros.
+std::vector<bool> BlockStatistics::take_kept(int column) {
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const KeptColumn& kept) {
+    return kept.column == model_.col(column);
+  });
+  const auto k = static_cast<std::size_t>(column), units = static_cast<std::size_t>(units_);
+  if (found == kept_.end()) {
+    unit_candidates_[k].assign(panels_.size() * units, PanelRow{});
+    return std::vector<bool>(panels_.size(), true);
+  }
+  const std::vector<bool> lacks = std::move(found->lacks);
+  unit_candidates_[k] = std::move(found->of_units);
+  unit_candidates_[k].resize(panels_.size() * units);
+  for (std::size_t p = 0; p < panels_.size(); ++p)
+    if (lacks[p]) std::fill_n(unit_candidates_[k].data() + p * units, units, PanelRow{});
+  const auto take = [&](Eigen::VectorXd& sums, Eigen::VectorXd& kept) {
+    sums = std::move(kept);
+    sums.conservativeResize(candidates().cols());
+    for (std::size_t p = 0; p < panels_.size(); ++p)
+      if (lacks[p]) sums.segment(panels_[p].first_column, panels_[p].columns).setZero();
+  };
+  for (std::size_t fold = 0; fold < fold_sums_.size(); ++fold)
+    take(fold_sums_[fold].model_candidate[k], found->of_folds[fold]);
+  take(all_.model_candidate[k], found->of_all);
+  kept_.erase(found);
+  return lacks;
+}
+
+/// Products of the model columns from `first` on with those of some panels that they lack.
 void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int first,
+                                         const std::vector<std::vector<bool>>& lacks,
                                          std::size_t from, std::size_t to) {
   const CandidateMatrix& candidates = this->candidates();
-  const int added = model_columns() - first;
+  const std::size_t added = lacks.size();
+  std::vector<std::size_t> panels, columns;  // that are asked
+  for (std::size_t p = from; p < to; ++p)
+    if (std::any_of(lacks.begin(), lacks.end(), [&](const auto& column) { return column[p]; }))
+      panels.push_back(p);
+  for (std::size_t k = 0; k < added; ++k)
+    if (std::any_of(panels.begin(), panels.end(), [&](std::size_t p) { return lacks[k][p]; }))
+      columns.push_back(k);
+  if (panels.empty()) return;
   std::vector<double> factors;
   std::vector<const float*> rows;
   std::vector<std::array<float, kPanelColumns>> copies;
   for (const Part& part : parts) {
     const std::size_t count = part.end - part.begin;
-    factors.resize(count * static_cast<std::size_t>(added));
+    factors.resize(count * added);
     for (std::size_t r = 0; r < count; ++r) {
       const int i = order_[part.begin + r];
-      for (int k = 0; k < added; ++k)
-        factors[static_cast<std::size_t>(k) * count + r] = problem_.weight[i] * model_(i, first + k);
+      for (const std::size_t k : columns)
+        factors[k * count + r] = problem_.weight[i] * model_(i, first + static_cast<int>(k));
     }
-    for (std::size_t p = from; p < to; ++p) {
+    for (const std::size_t p : panels) {
       const PanelColumns& panel = panels_[p];
       const auto used = static_cast<std::size_t>(panel.columns);
       rows.resize(count);
@@ -396,10 +562,11 @@ void BlockStatistics::add_candidate_sums(const std::vector<Part>& parts, int fir
         for (std::size_t r = 0; r < count; ++r)
           rows[r] = std::copy_n(rows[r], used, copies[r].begin()) - used;
       }
-      for (int k = 0; k < added; ++k) {
+      for (const std::size_t k : columns) {
+        if (!lacks[k][p]) continue;
         PanelRow sum{};
-        add_single_rows(sum, factors.data() + static_cast<std::size_t>(k) * count, rows.data(), count);
-        const auto column = static_cast<std::size_t>(first + k);
+        add_single_rows(sum, factors.data() + k * count, rows.data(), count);
+        const std::size_t column = static_cast<std::size_t>(first) + k;
         PanelRow& of_unit = unit_candidates_[column][p * static_cast<std::size_t>(units_) +
                                                      static_cast<std::size_t>(part.unit)];
         for (std::size_t j = 0; j < kPanelColumns; ++j) of_unit[j] += sum[j];

@@ -18,6 +18,13 @@ constexpr std::size_t kFewestWholesAsked = 4, kMostWholesAsked = 96;
 class BlockStatistics {
  public:
   explicit BlockStatistics(const DiscoveryProblem& problem);
+  /// With the sums of an earlier choice on the same values, weights, units and folds: the columns of groups that
+  /// `stayed` are those they were. The same numbers as made anew.
+  BlockStatistics(const DiscoveryProblem& problem, BlockStatistics&& earlier,
+                  const std::vector<bool>& stayed);
+
+  /// About what it takes of memory.
+  [[nodiscard]] std::size_t bytes() const;
 
   /// Makes a group's columns model columns; returns the first of them. One pass over the values.
   int add_group(int group);
@@ -77,14 +84,35 @@ class BlockStatistics {
   [[nodiscard]] const Eigen::MatrixXd& zero_loss(int group) const { return zero_loss_[group]; }
 
  private:
-  void centre_on_zeros();
+  /// Neighbouring groups, from one to before another.
+  struct Groups {
+    std::size_t from, to;
+  };
+  /// Sums of a model column of an earlier choice; not with panels that are others since then.
+  struct KeptColumn {
+    Eigen::VectorXd column;
+    std::vector<PanelRow> of_units;
+    std::vector<Eigen::VectorXd> of_folds;
+    Eigen::VectorXd of_all;
+    std::vector<bool> lacks;  ///< per panel
+  };
+  void order_values();
+  void sum_up(const std::vector<Groups>& groups);
+  void take_sums_of(BlockStatistics& earlier, const std::vector<bool>& stayed);
+  void take_sums_of_columns(BlockStatistics& earlier, const Groups& groups);
+  [[nodiscard]] std::size_t bytes_of_column() const;
+  void keep_columns_of(BlockStatistics& earlier, const std::vector<bool>& stayed);
+  void centre_on_zeros(const std::vector<Groups>& groups);
+  void clear_sums();
   void find_wholes();
   double* products_of_whole(int value, int first_column);
-  void sum_candidates();
-  void sum_groups(std::size_t from, std::size_t to, const std::map<int, double>& trace_weight);
+  void sum_candidates(const std::vector<Groups>& groups);
+  void sum_groups(const Groups& groups, const std::map<int, double>& trace_weight);
   void add_model_sums(int first);
+  [[nodiscard]] std::vector<bool> take_kept(int column);
   struct Part;
-  void add_candidate_sums(const std::vector<Part>& parts, int first, std::size_t from,
+  void add_candidate_sums(const std::vector<Part>& parts, int first,
+                          const std::vector<std::vector<bool>>& lacks, std::size_t from,
                           std::size_t to);
 
   const DiscoveryProblem& problem_;
@@ -103,6 +131,7 @@ class BlockStatistics {
   double scatter_within_ = 0.0;
   std::vector<std::vector<Eigen::MatrixXd>> group_grams_;
   std::vector<Eigen::MatrixXd> zero_loss_;
+  std::vector<KeptColumn> kept_;  ///< those that were not asked for yet, the latest first
 };
 
 }  // namespace trueflank::loop

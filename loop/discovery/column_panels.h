@@ -24,6 +24,7 @@ using Panel = std::vector<PanelRow>;
 /// Neighbouring columns of a panel: whole groups, all of them local ones or none.
 struct PanelColumns {
   int first_group = 0, groups = 0, first_column = 0, columns = 0;
+  bool operator==(const PanelColumns&) const = default;
 };
 /// The columns of groups that stand beside each other, in order.
 [[nodiscard]] std::vector<PanelColumns> panels_of(const std::vector<CandidateGroup>& groups);

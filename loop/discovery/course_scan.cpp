@@ -116,6 +116,7 @@ class CourseScan {
   explicit CourseScan(const std::vector<MatrixXd>& sets) : sets_(sets), m_(sets.front().rows()) {
     clip();
     tell_spectrum();
+    for (const MatrixXd& set : sets_) louds_.push_back(loudness(set));
   }
 
   std::vector<CourseFinding> run() {
@@ -317,16 +318,13 @@ class CourseScan {
     CourseFinding best{CourseKind::kOwnWaves};
     double tests = 0.0;
     // One course that is louder than the others would count for all of them.
-    std::vector<VectorXd> louds;
     std::vector<MatrixXd> evened;
-    for (const MatrixXd& set : sets_) {
-      louds.push_back(loudness(set).by);
-      evened.push_back(set * louds.back().cwiseInverse().asDiagonal());
-    }
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      evened.push_back(sets_[s] * louds_[s].by.cwiseInverse().asDiagonal());
     const std::vector<VectorXd> powers = tapered_powers(evened);
     for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
       if (sets_[s].cols() < 1) continue;
-      const VectorXd &loud = louds[static_cast<std::size_t>(s)], &power = powers[static_cast<std::size_t>(s)];
+      const VectorXd &loud = louds_[static_cast<std::size_t>(s)].by, &power = powers[static_cast<std::size_t>(s)];
       const auto n = static_cast<double>(sets_[s].cols());
       const double least = kInALobe * power.tail(std::max<Index>(1, power.size() - kLongest)).mean();
       for (Index k = 5; k + 4 < power.size(); ++k) {
@@ -407,22 +405,32 @@ class CourseScan {
     return apart;
   }
 
-  /// How much rougher than usual a course is from place to place within each window, where it is:
-  /// wild points and bursts of noise are, what has a form is not. 1 elsewhere.
-  [[nodiscard]] static MatrixXd roughness(const MatrixXd& set, Index width) {
+  /// How rough courses are from place to place, as squares, and how rough each is usually.
+  struct Roughness {
+    MatrixXd squares;
+    std::vector<double> usual;
+  };
+  [[nodiscard]] static Roughness roughness_of(const MatrixXd& set) {
     const Index m = set.rows();
-    MatrixXd squares = MatrixXd::Zero(m, set.cols());
-    squares.middleRows(1, m - 2) =
+    Roughness rough{MatrixXd::Zero(m, set.cols()), {}};
+    rough.squares.middleRows(1, m - 2) =
         (set.topRows(m - 2) - 2.0 * set.middleRows(1, m - 2) + set.bottomRows(m - 2)).cwiseAbs2() /
         6.0;
-    MatrixXd rough = MatrixXd::Ones(m - width + 1, set.cols());
-    for (Index c = 0; c < set.cols(); ++c) {
-      const double usual = short_wave_scatter(set.col(c));
+    for (Index c = 0; c < set.cols(); ++c) rough.usual.push_back(short_wave_scatter(set.col(c)));
+    return rough;
+  }
+  /// How much rougher than usual a course is within each window, where it is: wild points and bursts of noise are,
+  /// what has a form is not. 1 elsewhere.
+  [[nodiscard]] static MatrixXd roughness(const Roughness& of, Index width) {
+    const Index m = of.squares.rows();
+    MatrixXd rough = MatrixXd::Ones(m - width + 1, of.squares.cols());
+    for (Index c = 0; c < rough.cols(); ++c) {
+      const double usual = of.usual[static_cast<std::size_t>(c)];
       if (!(usual > 0.0)) continue;
       for (Index i = 0; i + width <= m; ++i) {
         const Index from = std::max<Index>(1, i - 1), to = std::min(m - 1, i + width + 1);
         rough(i, c) =
-            std::max(1.0, std::sqrt(squares.col(c).segment(from, to - from).mean()) / usual);
+            std::max(1.0, std::sqrt(of.squares.col(c).segment(from, to - from).mean()) / usual);
       }
     }
     return rough;
@@ -433,9 +441,8 @@ class CourseScan {
   void look_for_spots() {
     // Slow errors and single teeth far out have longer tails than windows of clipped values.
     constexpr double kTailOfWhole = 12.0;
-    std::vector<Louder> louds;
-    for (const MatrixXd& set : sets_) louds.push_back(loudness(set));
     std::vector<MatrixXd> clipped, whole;
+    std::vector<Roughness> roughness_of_whole;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       // (a deep spot on one of few courses would stand in the plain mean)
       MatrixXd apart = clipped_[s];
@@ -446,6 +453,7 @@ class CourseScan {
       }
       clipped.push_back(std::move(apart));
       whole.push_back(apart_from_usual(sets_[s]));
+      roughness_of_whole.push_back(roughness_of(whole.back()));
     }
     CourseFinding best{CourseKind::kSpot};
     double tests = 0.0;
@@ -461,8 +469,8 @@ class CourseScan {
           MatrixXd sums(m_ - width + 1, apart.cols());
           for (Index i = 0; i + width <= m_; ++i)
             sums.row(i) = apart.middleRows(i, width).colwise().mean();
-          sums.array().rowwise() /= louds[s].by.transpose().array();
-          if (!clip && sums.size() > 0) sums.array() /= roughness(apart, width).array();
+          sums.array().rowwise() /= louds_[s].by.transpose().array();
+          if (!clip && sums.size() > 0) sums.array() /= roughness(roughness_of_whole[s], width).array();
           all.insert(all.end(), sums.data(), sums.data() + sums.size());
           spreads.push_back(
               static_cast<double>(sums.cols()) * apart_each < kEnough
@@ -484,7 +492,7 @@ class CourseScan {
               normal_two_sided(most / spread, excess_ / static_cast<double>(width));
           double p = std::max(
               normal,
-              least_chance(most / spread, louds[static_cast<std::size_t>(s)].degrees, normal));
+              least_chance(most / spread, louds_[static_cast<std::size_t>(s)].degrees, normal));
           if (!clip) p = std::max(p, student_two_sided(most / spread, kTailOfWhole));
           if (!(p < best.p_value)) continue;
           best.p_value = p;
@@ -503,6 +511,7 @@ class CourseScan {
   Index m_;
   std::vector<MatrixXd> clipped_;
   std::vector<VectorXd> mean_;
+  std::vector<Louder> louds_;
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;

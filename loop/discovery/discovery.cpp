@@ -10,6 +10,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/cross_validation.h"
+#include "trueflank/loop/discovery/kept_sums.h"
 #include "trueflank/loop/discovery/quick_errors.h"
 #include "trueflank/loop/discovery/structure_test.h"
 
@@ -31,9 +32,16 @@ class Discovery::Selection {
   Selection(const DiscoveryProblem& problem, const DiscoveryOptions& options)
       : problem_(problem),
         options_(options),
-        statistics_(problem),
+        kept_(problem.kept),
+        sums_(kept_ ? kept_->taken_for(problem) : std::make_unique<BlockStatistics>(problem)),
+        statistics_(*sums_),
         beside_(problem_, statistics_, options_.banned) {
     for (int i = 0; i < statistics_.model_columns(); ++i) nuisance_.push_back(i);
+  }
+  Selection(const Selection&) = delete;
+  Selection& operator=(const Selection&) = delete;
+  ~Selection() {
+    if (kept_) kept_->give_back(std::move(sums_));
   }
 
   /// All but what finished() adds.
@@ -397,7 +405,9 @@ class Discovery::Selection {
 
   const DiscoveryProblem& problem_;
   DiscoveryOptions options_;
-  BlockStatistics statistics_;
+  std::shared_ptr<KeptSums> kept_;  ///< (the problem may be another when the choice ends)
+  std::unique_ptr<BlockStatistics> sums_;
+  BlockStatistics& statistics_;
   ProjectedCandidates beside_;
   std::optional<QuickErrors> quick_;
   std::vector<int> quick_of_;  ///< the model whose they are

@@ -13,6 +13,8 @@ namespace trueflank::loop {
 
 using CandidateMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+class KeptSums;
+
 /// Columns that enter a model together.
 struct CandidateGroup {
   int first_column = 0;
@@ -39,6 +41,8 @@ struct DiscoveryProblem {
   std::vector<int> zero;            ///< n: values that share an unknown constant; -1: none
   /// n: values of one trace or flank, whose parts may be units; -1: none. Empty: none at all.
   std::vector<int> whole;
+  /// Where choices are made again: sums over the candidates that stayed. nullptr: all are made anew.
+  std::shared_ptr<KeptSums> kept;
 };
 
 struct DiscoveryOptions {

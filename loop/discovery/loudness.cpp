@@ -2,7 +2,9 @@
 #include "trueflank/loop/discovery/loudness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
@@ -23,20 +25,40 @@ double scatter_of_bends(const VectorXd& course) {
   return robust_sigma(std::vector(bends.data(), bends.data() + bends.size()));
 }
 
+/// cos(pi j / 2m) of j = 0 ... 4m - 1. A loop asks for courses of a few lengths again and again: those asked for
+/// last are at hand.
+const std::vector<double>& cosines_of(Index m) {
+  constexpr std::size_t kMostKept = 4;
+  thread_local std::deque<std::vector<double>> kept;
+  const auto count = static_cast<std::size_t>(4 * m);
+  for (const std::vector<double>& known : kept)
+    if (known.size() == count) return known;
+  if (kept.size() == kMostKept) kept.pop_front();
+  std::vector<double>& cosine = kept.emplace_back(count);
+  const double step = 0.5 * kPi / static_cast<double>(m);
+  for (std::size_t j = 0; j < count; ++j) cosine[j] = std::cos(step * static_cast<double>(j));
+  return cosine;
+}
+
 /// By the median of the cosine coefficients of the shorter two thirds of the wavelengths.
 double scatter_of_waves(const VectorXd& course) {
-  const Index m = course.size();
-  // cos(pi k (i + 1/2) / m) has 4 m values.
-  const double step = 0.5 * kPi / static_cast<double>(m);
-  std::vector<double> cosine(static_cast<std::size_t>(4 * m));
-  for (std::size_t j = 0; j < cosine.size(); ++j)
-    cosine[j] = std::cos(step * static_cast<double>(j));
+  constexpr std::size_t kAtOnce = 4;  // sums that do not wait for each other
+  const auto m = static_cast<std::size_t>(course.size());
+  const std::vector<double>& cosine = cosines_of(course.size());
   std::vector<double> coefficients;
-  for (Index k = m / 3; k < m; ++k) {
-    double sum = 0.0;
-    for (Index i = 0; i < m; ++i)
-      sum += course[i] * cosine[static_cast<std::size_t>(k * (2 * i + 1) % (4 * m))];
-    coefficients.push_back(sum * std::sqrt(2.0 / static_cast<double>(m)));
+  for (std::size_t first = m / 3; first < m; first += kAtOnce) {
+    std::array<double, kAtOnce> sums{};
+    std::array<std::size_t, kAtOnce> at{};  // k (2i + 1), less multiples of 4m
+    for (std::size_t c = 0; c < kAtOnce; ++c) at[c] = std::min(first + c, m - 1);
+    const std::array<std::size_t, kAtOnce> k = at;
+    for (const double value : course)
+      for (std::size_t c = 0; c < kAtOnce; ++c) {
+        sums[c] += value * cosine[at[c]];
+        at[c] += 2 * k[c];
+        if (at[c] >= 4 * m) at[c] -= 4 * m;
+      }
+    for (std::size_t c = 0; c < std::min(kAtOnce, m - first); ++c)
+      coefficients.push_back(sums[c] * std::sqrt(2.0 / static_cast<double>(m)));
   }
   return robust_sigma(std::move(coefficients));
 }

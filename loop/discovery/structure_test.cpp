@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <random>
 #include <tuple>
 
@@ -58,7 +59,7 @@ using FlipSigns = std::array<float, 64>;
 
 /// Signs of all units in all flips, those of one set of flips after the other; the same for the
 /// same number of units. Of flips beyond the last 0.
-std::vector<FlipSigns> flip_signs(std::size_t units, std::size_t flips) {
+std::vector<FlipSigns> new_flip_signs(std::size_t units, std::size_t flips) {
   constexpr std::size_t kAtOnce = std::tuple_size_v<FlipSigns>;
   std::mt19937_64 random(20260101);
   std::vector<FlipSigns> signs(units * ((flips + kAtOnce - 1) / kAtOnce), FlipSigns{});
@@ -72,6 +73,20 @@ std::vector<FlipSigns> flip_signs(std::size_t units, std::size_t flips) {
       for (std::size_t j = 0; j < count; ++j)
         of_set[i][j] = ((bits[j * words + i / 64] >> (i % 64)) & 1u) != 0u ? 1.0f : -1.0f;
   }
+  return signs;
+}
+
+/// The same. Every step of a choice asks for them: those of few units stay at hand.
+std::shared_ptr<const std::vector<FlipSigns>> flip_signs(std::size_t units, std::size_t flips) {
+  constexpr std::size_t kMostBytes = 4'000'000;
+  struct Kept {
+    std::size_t units = 0, flips = 0;
+    std::shared_ptr<const std::vector<FlipSigns>> signs;
+  };
+  thread_local Kept kept;
+  if (kept.signs && kept.units == units && kept.flips == flips) return kept.signs;
+  auto signs = std::make_shared<const std::vector<FlipSigns>>(new_flip_signs(units, flips));
+  if (signs->size() * sizeof(FlipSigns) <= kMostBytes) kept = {units, flips, signs};
   return signs;
 }
 
@@ -163,7 +178,7 @@ double StructureTest::judge_under_flips(std::size_t g, const Eigen::Ref<const Fl
 void StructureTest::test_by_flips(int flips) {
   const std::size_t groups = problem_.groups.size();
   group_p_values_.assign(groups, 1.0);
-  const std::vector<FlipSigns> signs =
+  const auto signs =
       flip_signs(static_cast<std::size_t>(statistics_.units()), static_cast<std::size_t>(flips));
   std::vector<std::size_t> asked;
   for (std::size_t g = 0; g < groups; ++g)
@@ -184,9 +199,9 @@ void StructureTest::test_by_flips(int flips) {
     FlipScores own_scores(static_cast<Eigen::Index>(columns.size()), beside_.unit_scores().cols());
     for (Eigen::Index unit = 0; unit < own_scores.cols(); ++unit)
       for (Eigen::Index k = 0; k < own_scores.rows(); ++k)
-        own_scores(k, unit) =
-            static_cast<float>(beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
-    const FlipScores scores = flipped(own_scores, signs);
+        own_scores(k, unit) = static_cast<float>(
+            beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
+    const FlipScores scores = flipped(own_scores, *signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
       const int own_columns = problem_.groups[asked[i]].columns;

@@ -23,7 +23,7 @@ bool counts_as_error(ObservationKind kind) {
 }
 
 PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect> effects, std::size_t stride, DeviationsOf what)
+                   std::vector<Effect> effects, std::size_t stride, DeviationsOf what, Known known)
     : geometry_(geometry),
       table_(table),
       patches_(patches),
@@ -36,7 +36,7 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
     first_column_.push_back(columns_);
     columns_ += effect.columns();
   }
-  keep_features();
+  keep_features(known);
   average_zeros();
   accumulate();
   // (a fit is kept beside others: the features of few rows only)
@@ -201,6 +201,20 @@ class Gram {
   std::size_t filled_ = 0;
 };
 
+/// sums += weight * row * row', the lower triangle.
+void add_square(Eigen::MatrixXd& sums, const Eigen::VectorXd& row, double weight) {
+  const auto n = static_cast<std::size_t>(row.size());
+  const double* const x = row.data();
+  double* const all = sums.data();
+  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+    for (std::size_t c = 0; c < n; ++c) {
+      const double factor = weight * x[c];
+      double* const column = all + c * n;
+      for (std::size_t r = c; r < n; ++r) column[r] += factor * x[r];
+    }
+  });
+}
+
 void fill_upper(Eigen::MatrixXd& m) {
   if (m.size() > 0) m.triangularView<Eigen::StrictlyUpper>() = m.transpose();
 }
@@ -288,16 +302,17 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
   RowPanel panel(*this);
   std::vector<std::size_t> rows;
+  Eigen::VectorXd apart(n);
   const auto add_row = [&](std::size_t r, const double* values) {
     const Observation& observation = table_.rows[rows[r]];
     const PatchOfRow& patch = patches[static_cast<std::size_t>(patches_.patch_of_row[rows[r]])];
     const bool held = patch.held, in_trace = observation.trace >= 0;
     const bool counts = counts_as_error(observation.kind);
     if (in_trace) {
-      Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(values, n);
-      part -= zero_means_[2 * observation.trace + (held ? 1 : 0)];
-      if (!held) sums.train.selfadjointView<Eigen::Lower>().rankUpdate(part, patch.weight);
-      if (held && counts) sums.plain_held.selfadjointView<Eigen::Lower>().rankUpdate(part);
+      apart = Eigen::Map<const Eigen::VectorXd>(values, n) -
+              zero_means_[2 * observation.trace + (held ? 1 : 0)];
+      if (!held) add_square(sums.train, apart, patch.weight);
+      if (held && counts) add_square(sums.plain_held, apart, 1.0);
       panel.subtract(whole_zero_means_[observation.trace]);
     }
     auto& unit = (held || in_trace ? other : learnt)[patch.unit];

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "trueflank/loop/gear/local/patches.h"
@@ -22,9 +24,11 @@ enum class DeviationsOf : std::uint8_t { kTable, kDesign };
 /// ones on any number of them. With a stride only every n-th value is used.
 class PointFit {
  public:
+  /// Other fits to the same values: columns that they have are not computed again.
+  using Known = std::span<const std::shared_ptr<const PointFit>>;
   PointFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
            std::vector<Effect> effects, std::size_t stride = 1,
-           DeviationsOf what = DeviationsOf::kTable);
+           DeviationsOf what = DeviationsOf::kTable, Known known = {});
 
   [[nodiscard]] const std::vector<Effect>& effects() const { return effects_; }
   [[nodiscard]] int first_column(int effect) const { return first_column_[effect]; }
@@ -69,7 +73,9 @@ class PointFit {
   [[nodiscard]] int held_out() const { return held_out_; }
 
  private:
-  void keep_features();
+  void keep_features(Known known);
+  [[nodiscard]] bool take_features(const Effect& effect, const std::vector<std::uint32_t>& rows,
+                                   int first_column, Known known);
   void features(std::size_t row, double* values) const;
   void features_at(const Place& place, const Observation& row, double* values) const;
   void features_of(const PlacedPoint& placed, const Observation& row, double* values) const;

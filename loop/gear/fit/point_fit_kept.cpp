@@ -11,7 +11,7 @@
 namespace trueflank::loop {
 
 /// Rows of traces are asked three times: for their zeros, for all sums, for what is left.
-void PointFit::keep_features() {
+void PointFit::keep_features(Known known) {
   constexpr std::size_t kMost = 4'000'000;
   const auto width = static_cast<std::size_t>(columns_) + 1;
   if (table_.traces == 0 || !table_.points_mm.empty() || table_.rows.size() * width > kMost) return;
@@ -37,6 +37,7 @@ void PointFit::keep_features() {
   const AlikeRows alike = alike_rows(table_, rows);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
+    if (take_features(effect, rows, first_column_[e], known)) continue;
     double* const column = kept_.data() + first_column_[e];
     if (!effect.family->same_on_every_tooth || !effect.family->same_on_every_tooth(effect.shape)) {
       for (const std::uint32_t i : rows) add(effect, i, column + i * width);
@@ -47,6 +48,25 @@ void PointFit::keep_features() {
       if (const std::uint32_t first = alike.first[alike.kind[r]]; first != rows[r])
         std::copy_n(column + first * width, effect.columns(), column + rows[r] * width);
   }
+}
+
+/// From a fit that has them; false where none has.
+bool PointFit::take_features(const Effect& effect, const std::vector<std::uint32_t>& rows,
+                             int first_column, Known known) {
+  for (const auto& fit : known) {
+    const auto found = std::find(fit->effects_.begin(), fit->effects_.end(), effect);
+    if (found == fit->effects_.end() || fit->kept_.empty() || fit->stride_ != stride_) continue;
+    const auto width = static_cast<std::size_t>(columns_) + 1,
+               other_width = static_cast<std::size_t>(fit->columns_) + 1;
+    const double* const from =
+        fit->kept_.data() +
+        fit->first_column_[static_cast<std::size_t>(found - fit->effects_.begin())];
+    double* const to = kept_.data() + first_column;
+    for (const std::uint32_t i : rows)
+      std::copy_n(from + i * other_width, effect.columns(), to + i * width);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace trueflank::loop

@@ -6,6 +6,7 @@
 
 #include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/discovery/kept_sums.h"
 #include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
@@ -184,6 +185,8 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
     if (g >= before.size() || g >= stood.size() || !(before[g] == effects[g]) ||
         stood[g].first_column != problem.groups[g].first_column)
       changed.push_back(g);
+  if (problem.kept)
+    for (const std::size_t g : changed) problem.kept->forget(g);
   // Patches do not ask each other: the same columns on any number of processors.
   const std::vector<EffectRun> runs = runs_of(geometry, effects, problem.groups, changed);
   if (runs.empty()) return;

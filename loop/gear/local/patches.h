@@ -116,7 +116,7 @@ class NuisanceColumns {
                                             const Observations& table, const Patches& patches,
                                             const std::vector<Effect>& effects);
 /// Other candidates for a problem of the same patches; those that stand where they stood before are
-/// kept.
+/// kept, and so are sums over them (DiscoveryProblem::kept).
 void set_candidates(const FlankGeometry& geometry, const Patches& patches,
                     const std::vector<Effect>& before, const std::vector<Effect>& effects,
                     DiscoveryProblem& problem);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueflank/loop/discovery/kept_sums.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/plain_rms.h"
@@ -39,13 +40,15 @@ void PartLoop::forget_fits() {
 }
 
 std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effects) const {
-  constexpr std::size_t kMost = 3;
+  // (of a scan they take memory for every unit)
+  const std::size_t most = table_->points_mm.empty() ? 6 : 3;
   auto found = std::find_if(fits_.begin(), fits_.end(),
                             [&](const auto& fit) { return fit->effects() == effects; });
   if (found == fits_.end()) {
-    if (fits_.size() == kMost) fits_.pop_back();
-    found = fits_.insert(fits_.end(),
-                         std::make_shared<const PointFit>(geometry_, table_, patches_, effects));
+    if (fits_.size() == most) fits_.pop_back();
+    auto fit = std::make_shared<const PointFit>(geometry_, table_, patches_, effects, 1,
+                                                DeviationsOf::kTable, fits_);
+    found = fits_.insert(fits_.end(), std::move(fit));
   }
   std::rotate(fits_.begin(), found, found + 1);
   return fits_.front();
@@ -126,6 +129,9 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
     problem_ = make_problem(geometry_, table_, patches_, candidates_);
+    // (Of large scans, chosen for in a few rounds, what a point takes of memory counts.)
+    constexpr std::size_t kMostPoints = 100'000;
+    if (table_->points_mm.size() <= kMostPoints) problem_.kept = std::make_shared<KeptSums>();
   } else {
     set_candidates(geometry_, patches_, problem_of_, candidates_, problem_);
     for (std::size_t i = 0; i < patches_.patches.size(); ++i)
