@@ -286,6 +286,18 @@ TEST(TeethAside, ThickTeethKeepTheirName) {
   EXPECT_EQ(result.effects.size(), 2U) << list(result);
 }
 
+TEST(TeethAside, WhatTheToothBesideLeavesHasNoName) {
+  // A slit ring: one tooth stands aside, and the next a little out.
+  const MadeGear gear = spur(27);
+  const auto slit = [](auto&, const FlankSpot& s, auto&) {
+    return s.tooth == 9 ? 30.0 * s.side : s.tooth == 10 ? 8.0 : 0.0;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(slit)}, scanned(8000, 2.0, 1)), true);
+  EXPECT_FALSE(has_name(result)) << list(result);
+  EXPECT_NE(list(result).find("tooth 9 stands aside"), std::string::npos) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
 TEST(NamesBesideForms, ATaperBesideAnEndReliefKeepsItsName) {
   const MadeGear gear = spur(14);
   for (const double end : {-1.0, 1.0})

@@ -82,19 +82,20 @@ bool is_wave_around(const Effect& e) {
 
 bool is_form_without_name(const Effect& e) { return e.is_term() && e.family->form_word.empty(); }
 
-/// A course that is a straight line on either flank.
-bool is_straight_line(const Eigen::VectorXd& course) {
+/// A course that is a straight line on either flank, opposite to the other's.
+bool is_opposite_slope(const Eigen::VectorXd& course) {
   constexpr double kNothing = 1e-6;
   double bends = 0.0;
   for (Eigen::Index i = 1; i + 1 < course.size(); ++i)
     if (i != kPlaces && i + 1 != kPlaces)
       bends = std::max(bends, std::abs(course[i - 1] - 2.0 * course[i] + course[i + 1]));
-  return bends <= kNothing * course.norm();
+  const double nothing = kNothing * course.norm();
+  return bends <= nothing && (course.head(kPlaces) + course.tail(kPlaces)).norm() <= nothing;
 }
 
-/// What the forms without a name do in the mean of the teeth, with or without slopes.
-Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face,
-                              bool with_slopes) {
+/// What the forms without a name do in the mean of the teeth, but for slopes that are opposite on
+/// the two flanks: these are no part of what is equal on both.
+Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face) {
   constexpr int kTeeth = 12;
   const int teeth = std::min(kTeeth, geometry.teeth());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
@@ -103,7 +104,7 @@ Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit
     Eigen::VectorXd own = Eigen::VectorXd::Zero(2 * kPlaces);
     for (int i = 0; i < teeth; ++i)
       own += values_along(geometry, fit, e, face, 1 + i * geometry.teeth() / teeth) / teeth;
-    if (with_slopes || !is_straight_line(own)) mean += own;
+    if (!is_opposite_slope(own)) mean += own;
   }
   return mean;
 }
@@ -207,21 +208,19 @@ double sharp_waves_um(const PointFit& fit) {
 }  // namespace
 
 /// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
-/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside forms with
-/// a place or a width of their own that have no part of its course: a bell mouth at both ends has
-/// no slope.
+/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside rises that
+/// have no part of its course: a bell mouth at both ends has no slope.
 bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   constexpr double kFlat = 0.1, kMost = 0.5, kNoPart = 0.2;
   bool runs = false;
   for (const bool face : {false, true}) {
     const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
     if (!(course.norm() > 0.0)) continue;
-    // A slope is no part of a relief or a crowning.
-    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face, is_straight_line(course));
-    const bool own_shapes = std::none_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
+    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face);
+    const bool rises_alone = std::all_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
       const NeedsToBeSeen needs = form.needs();
-      return is_common_form(form) && !form.family->shapes(geometry_).empty() &&
-             (face ? needs.along_face : needs.along_profile);
+      return !is_common_form(form) || !(face ? needs.along_face : needs.along_profile) ||
+             form.family == find_family("unnamed_rise");
     });
     for (const int flank : {0, 1}) {
       const auto own = course.segment(flank * kPlaces, kPlaces);
@@ -235,7 +234,7 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
       const auto beside = forms.segment(flank * kPlaces, kPlaces);
       const double both = (beside.array() - beside.mean()).matrix().dot(own);
       const double norms = (beside.array() - beside.mean()).matrix().norm() * own.norm();
-      if (!own_shapes || std::abs(both) > kNoPart * norms) return false;
+      if (!rises_alone || std::abs(both) > kNoPart * norms) return false;
     }
   }
   return runs;
@@ -524,6 +523,26 @@ void PartLoop::tell_teeth_side_by_side() {
     effects_.push_back(*form);
     discovery_.chosen.push_back(record);
     one = options_.given.size();
+  }
+  tell_teeth_beside_dents();
+}
+
+/// Beside a dent or swelling of a few teeth, or a tooth that stands aside, a single tooth is what
+/// these leave.
+void PartLoop::tell_teeth_beside_dents() {
+  constexpr double kBeside = 1.5;  // teeth
+  const int z = geometry_.teeth();
+  const EffectFamily *dent = find_family("unnamed_dent"),
+                     *aside = find_family("unnamed_tooth_aside");
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr || !effects_[e].family->local) continue;
+    const bool beside = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
+      if (other.family != dent && other.family != aside) return false;
+      const double half = other.family == dent ? other.shape[1] : 0.0;
+      return std::abs(std::remainder(other.shape[0] - effects_[e].shape[0], z)) < kBeside + half;
+    });
+    if (beside) effects_[e].family = form;
   }
 }
 
