@@ -5,8 +5,9 @@
 
 #include "trueflank/base/arc_tangent.h"
 
-// Four arc tangents at once, in wide registers (widest_registers.h): the digits that base/elementary_functions.cpp
-// gives for one number. For sources compiled with -Wno-psabi; always inlined (arc_tangent.h says why).
+// Four arc tangents at once, in wide registers (widest_registers.h): the digits that
+// base/elementary_functions.cpp gives for one number. For sources compiled with -Wno-psabi; always
+// inlined (arc_tangent.h says why).
 namespace trueflank {
 
 using Four [[gnu::vector_size(4 * sizeof(double))]] = double;

@@ -63,7 +63,8 @@ DiscoveryProblem wide_problem(bool zeros) {
   for (int times = 1; times < 4; ++times) {
     const auto first = static_cast<int>(problem.candidates.cols());
     problem.candidates.conservativeResize(Eigen::NoChange, first + once.cols());
-    problem.candidates.rightCols(once.cols()) = once.array().pow(static_cast<float>(times + 1)).matrix();
+    problem.candidates.rightCols(once.cols()) =
+        once.array().pow(static_cast<float>(times + 1)).matrix();
     for (CandidateGroup group : groups) {
       group.first_column += first;
       group.local_family = -1;

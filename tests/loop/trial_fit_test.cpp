@@ -225,6 +225,21 @@ class TrialFitsOfTraces : public ::testing::Test {
   loop::Patches patches_;
 };
 
+TEST_F(TrialFitsOfTraces, FitsThatTakeColumnsFromOthersAreTheSame) {
+  const Effect wave = of("unnamed_waviness", {1.0, 3.3}), tilt = of("axis_tilt", {0.0}),
+               step = of("unnamed_step", {1.0, 4.0}), moved = of("unnamed_waviness", {1.0, 3.2});
+  const auto fit_of = [&](const std::vector<Effect>& effects, loop::PointFit::Known known = {}) {
+    return std::make_shared<const loop::PointFit>(geometry_, table_, patches_, effects, 1,
+                                                  loop::DeviationsOf::kTable, known);
+  };
+  const std::vector others{fit_of({wave, tilt}), fit_of({step})};
+  const auto own = fit_of({tilt, moved, step}), taken = fit_of({tilt, moved, step}, others);
+  EXPECT_EQ(taken->coefficients(), own->coefficients());
+  EXPECT_EQ(taken->covariance(), own->covariance());
+  EXPECT_EQ(taken->residual_square(), own->residual_square());
+  EXPECT_EQ(*taken->residuals_um(), *own->residuals_um());
+}
+
 TEST_F(TrialFitsOfTraces, RowsAreAlikeThatDifferByTheToothAlone) {
   std::vector<std::uint32_t> rows;
   for (std::uint32_t i = 0; i < table_.rows.size(); ++i) rows.push_back(i);
