@@ -7,10 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-
-#include "trueflank/base/four_arc_tangents.h"
-#include "trueflank/base/widest_registers.h"
 
 namespace trueflank {
 namespace {
@@ -36,6 +32,20 @@ struct CornerPath {
   double mate_per_gear = 0.0;   ///< teeth of the mate / teeth of the visited gear
   enum class Kind { kExternalPair, kRingTipInPlanet, kPlanetTipInRing } kind = Kind::kExternalPair;
 
+  /// Largest angle from the middle of the visited gap at which the corner crosses a radius; negative
+  /// where it never gets there.
+  [[nodiscard]] double widest_angle(double radius) const {
+    const double a = centre_distance, t = tip_radius;
+    const double sign = kind == Kind::kPlanetTipInRing ? -1.0 : 1.0;
+    const double cosine = sign * (a * a + t * t - radius * radius) / (2.0 * a * t);
+    if (cosine >= 1.0 || cosine <= -1.0) return -1.0;
+    // before and after the line of centres: (+-beta - half_angle) mate_per_gear -+ psi
+    const double beta = std::acos(cosine), across = t * std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    const double turned = beta * mate_per_gear - std::atan2(across, from_axis(t * cosine));
+    return std::abs(turned) + std::abs(half_angle) * mate_per_gear;
+  }
+
+ private:
   /// Of the corner from the visited gear's axis along the line of centres.
   [[nodiscard]] double from_axis(double along) const {
     switch (kind) {
@@ -47,28 +57,11 @@ struct CornerPath {
   }
 };
 
-/// From the corner to a point of the visited gear's root, along the circle there: the largest angle from the middle of
-/// the gap at which the corner crosses it, against the point's.
 double clearance_at(const CornerPath& path, const Point2& point, int teeth) {
   const double radius = point.norm();
-  const double a = path.centre_distance, t = path.tip_radius;
-  const double sign = path.kind == CornerPath::Kind::kPlanetTipInRing ? -1.0 : 1.0;
-  const double cosine = sign * (a * a + t * t - radius * radius) / (2.0 * a * t);
-  if (cosine >= 1.0 || cosine <= -1.0) return kNever_mm;
-  // before and after the line of centres: (+-beta - half_angle) mate_per_gear -+ psi
-  const double across = t * std::sqrt((1.0 - cosine) * (1.0 + cosine));
-  // (half of beta, psi, and the point's angle from the middle of the tooth)
-  const double y[] = {std::sqrt(1.0 - cosine), across, point.y()},
-               x[] = {std::sqrt(1.0 + cosine), path.from_axis(t * cosine), point.x()};
-  double angle[4];
-  in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
-    const Four angles = arc_tangents(Four{y[0], y[1], y[2], 0.0}, Four{x[0], x[1], x[2], 1.0});
-    std::memcpy(angle, &angles, sizeof angle);
-  });
-  const double beta = 2.0 * angle[0];
-  const double turned = beta * path.mate_per_gear - angle[1];
-  const double widest = std::abs(turned) + std::abs(path.half_angle) * path.mate_per_gear;
-  const double gap = kPi / teeth - angle[2];
+  const double widest = path.widest_angle(radius);
+  if (widest < 0.0) return kNever_mm;
+  const double gap = kPi / teeth - std::atan2(point.y(), point.x());
   return radius * (gap - widest);
 }
 

@@ -479,8 +479,8 @@ class RemainderSearch {
         of_patch[p] = patch.kind == ObservationKind::kScanFlank ? Rows::kAll : Rows::kOnFlanks;
     used_.assign(table_.rows.size(), false);
     // (whole words: bits of one are not written by two threads)
-    constexpr std::size_t kRowsOfWork = 16384;
-    for_each_run(used_.size(), kRowsOfWork, [&](std::size_t from, std::size_t to) {
+    constexpr std::size_t kRowsOfPiece = 16384;
+    for_each_run(used_.size(), kRowsOfPiece, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from; i < to; ++i) {
         const int patch = patches_.patch_of_row[i];
         const Rows which = patch < 0 ? Rows::kNone : of_patch[static_cast<std::size_t>(patch)];

@@ -97,39 +97,48 @@ class AroundSearch {
                      bool opposite, double looks) {
     constexpr int kHighest = 2;
     constexpr double kMostLeft = 0.1;  // of the squares
+    constexpr double kToldApart = 1e-6;
     if (form == 0) return false;
     const Eigen::Index n = common.size();
     const double all = (common.array() - common.mean()).square().sum();
     double least = kMostLeft * all;
     int best = 0;
-    Eigen::Vector3d wave;
+    double amplitude = 0.0;
     for (int order = 1; order <= kHighest; ++order) {
       if (n < 2 * order + 4) break;
-      Eigen::Matrix<double, Eigen::Dynamic, 3> columns(n, 3);
+      Eigen::VectorXd cosine(n), sine(n);
       for (Eigen::Index i = 0; i < n; ++i) {
         const double angle =
             order * kTwoPi * (teeth[static_cast<std::size_t>(i)] - 1) / geometry_.teeth();
-        columns.row(i) << 1.0, std::cos(angle), std::sin(angle);
+        cosine[i] = std::cos(angle);
+        sine[i] = std::sin(angle);
       }
-      const Eigen::Matrix3d normal = columns.transpose() * columns;
-      if (!(normal.determinant() > 1e-6 * std::pow(static_cast<double>(n), 3))) continue;
-      const Eigen::Vector3d b = normal.inverse() * (columns.transpose() * common);
-      const double left = (common - columns * b).squaredNorm();
+      cosine.array() -= cosine.mean();
+      sine.array() -= sine.mean();
+      const double cc = cosine.squaredNorm(), ss = sine.squaredNorm(), cs = cosine.dot(sine);
+      const double determinant = cc * ss - cs * cs;
+      if (!(determinant > kToldApart * static_cast<double>(n * n))) continue;
+      const double of_cosine = cosine.dot(common), of_sine = sine.dot(common);
+      const double a = (ss * of_cosine - cs * of_sine) / determinant,
+                   b = (cc * of_sine - cs * of_cosine) / determinant;
+      const double left = all - a * of_cosine - b * of_sine;
       if (left >= least) continue;
       least = left;
       best = order;
-      wave = b;
+      amplitude = std::hypot(a, b);
     }
     if (best == 0) return false;
     const auto degrees = static_cast<double>(n - 3);
     const double p_value = std::min(
-        1.0, looks * kHighest * f_tail(0.5 * (all - least) / (least / degrees), 2.0, degrees));
+        1.0,
+        looks * kHighest *
+            f_tail(0.5 * (all - least) * degrees / std::max(least, 1e-12 * all), 2.0, degrees));
     if (p_value > kRemainderLevel) return false;
     const double u = form == 1 ? 1.0 : form == 3 ? 2.0 : 0.0;
     const double v = form == 2 ? 1.0 : form == 4 ? 2.0 : 0.0;
     found_.push_back(finding_of("unnamed", FlankChoice::kBoth,
                                 {u, v, static_cast<double>(best), opposite ? 1.0 : 0.0}, p_value,
-                                wave.tail<2>().norm(), false));
+                                amplitude, false));
     return true;
   }
 

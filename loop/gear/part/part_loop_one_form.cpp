@@ -9,6 +9,7 @@
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
@@ -19,45 +20,6 @@ namespace {
 /// Short waves have a cosine and a sine.
 constexpr int kMostColumns = 2;
 using Columns = Eigen::Matrix<double, kMostColumns, 1>;
-
-/// How an effect that is the same on every tooth, and on the flanks it acts on, runs along them.
-enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
-
-Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
-  constexpr int kOfGrid = 9;
-  constexpr double kAlike = 1e-6;
-  if (effect.columns() > kMostColumns || effect.order() != 0.0 || effect.family->local)
-    return Runs::kOtherwise;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto at = [&](int tooth, int side, double u, double v) {
-    Columns values = Columns::Zero();
-    effect.evaluate(
-        geometry,
-        geometry.on_flank(tooth, side, low + u * (high - low), v * geometry.face_width_mm()),
-        values.data());
-    return values;
-  };
-  const auto off = [](const Columns& a, const Columns& b) { return (a - b).cwiseAbs().maxCoeff(); };
-  double size = 0.0, profile = 0.0, face = 0.0, apart = 0.0;
-  for (const int side : {1, -1})
-    for (int i = 0; i < kOfGrid; ++i)
-      for (int k = 0; k < kOfGrid; ++k) {
-        const double u = (i + 0.5) / kOfGrid, v = (k + 0.5) / kOfGrid;
-        const Columns here = at(1, side, u, v);
-        size = std::max(size, here.cwiseAbs().maxCoeff());
-        profile = std::max(profile, off(here, at(1, side, 0.5 / kOfGrid, v)));
-        face = std::max(face, off(here, at(1, side, u, 0.5 / kOfGrid)));
-        if (effect.flank == FlankChoice::kBoth)
-          apart = std::max(apart, off(here, at(1, -side, u, v)));
-      }
-  for (int tooth = 2; tooth <= geometry.teeth(); ++tooth)
-    for (const int side : {1, -1})
-      apart = std::max(apart, off(at(tooth, side, 0.7, 0.3), at(1, side, 0.7, 0.3)));
-  const double nothing = kAlike * size;
-  if (apart > nothing) return Runs::kOtherwise;
-  if (profile > nothing && face > nothing) return Runs::kOverBoth;
-  return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
-}
 
 /// True where effects are larger, each by itself, than they are together.
 bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
@@ -141,52 +103,6 @@ std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, 
                      flank,
                      {0.0, times * kTwoPi * geometry.base_radius_mm() / order}});
   return waves;
-}
-
-/// A slope over the profile or the face, and no more.
-bool is_straight(const FlankGeometry& geometry, const Effect& effect) {
-  constexpr double kNothing = 1e-6;
-  const Runs runs = effect.columns() == 1 ? runs_of(geometry, effect) : Runs::kOtherwise;
-  if (runs != Runs::kOverProfile && runs != Runs::kOverFace) return false;
-  const int side = effect.flank == FlankChoice::kRight ? -1 : 1;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto at = [&](double share) {
-    double value = 0.0;
-    effect.evaluate(
-        geometry,
-        geometry.on_flank(1, side, low + share * (high - low), share * geometry.face_width_mm()),
-        &value);
-    return value;
-  };
-  return std::abs(at(0.1) + at(0.9) - 2.0 * at(0.5)) < kNothing * std::abs(at(0.9) - at(0.1)) &&
-         std::abs(at(0.1) + at(0.5) - 2.0 * at(0.3)) < kNothing * std::abs(at(0.9) - at(0.1));
-}
-
-/// True where both run along the profile, or both along the face, and differ by a factor and a
-/// level.
-bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b) {
-  constexpr int kOfGrid = 9;
-  constexpr double kAlike = 0.9999;
-  if (a.columns() != 1 || b.columns() != 1) return false;
-  const Runs runs = runs_of(geometry, a);
-  if ((runs != Runs::kOverProfile && runs != Runs::kOverFace) || runs_of(geometry, b) != runs)
-    return false;
-  const int side = a.flank == FlankChoice::kRight ? -1 : 1;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto course = [&](const Effect& effect) {
-    Eigen::Matrix<double, kOfGrid, 1> values;
-    for (int i = 0; i < kOfGrid; ++i) {
-      const double share = (i + 0.5) / kOfGrid;
-      effect.evaluate(
-          geometry,
-          geometry.on_flank(1, side, low + share * (high - low), share * geometry.face_width_mm()),
-          &values[i]);
-    }
-    values.array() -= values.mean();
-    return values;
-  };
-  const auto of_a = course(a), of_b = course(b);
-  return std::abs(of_a.dot(of_b)) > kAlike * of_a.norm() * of_b.norm();
 }
 
 /// Names of these effects that have a place or a width: one alone at its best shape may say it all.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trueflank/loop/gear/effect.h"
+
+// How effects that are the same on every tooth run along the flanks.
+namespace trueflank::loop {
+
+/// Along which direction an effect differs, alike on every tooth and on the flanks it acts on.
+/// kOtherwise: it is not alike there, comes in waves around the gear, or has more than two columns.
+enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
+
+[[nodiscard]] Runs runs_of(const FlankGeometry& geometry, const Effect& effect);
+
+/// A slope over the profile or the face, and no more.
+[[nodiscard]] bool is_straight(const FlankGeometry& geometry, const Effect& effect);
+
+/// True where both run along the profile, or both along the face, and differ by a factor and a
+/// level.
+[[nodiscard]] bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b);
+
+}  // namespace trueflank::loop
