@@ -14,7 +14,7 @@ struct ValueAlong {
 
 /// A part of all courses over which neighbouring values differ more.
 struct RoughZone {
-  double from = 0.0, to = 0.0;               ///< in twelfths of the courses
+  double from = 0.0, to = 0.0;               ///< 0 ... 1, whole twelfths
   double inside_um = 0.0, outside_um = 0.0;  ///< standard deviations of the values
   double p_value = 1.0;                      ///< corrected for all places and lengths looked at
 };

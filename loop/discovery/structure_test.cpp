@@ -199,8 +199,8 @@ void StructureTest::test_by_flips(int flips) {
     FlipScores own_scores(static_cast<Eigen::Index>(columns.size()), beside_.unit_scores().cols());
     for (Eigen::Index unit = 0; unit < own_scores.cols(); ++unit)
       for (Eigen::Index k = 0; k < own_scores.rows(); ++k)
-        own_scores(k, unit) = static_cast<float>(
-            beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
+        own_scores(k, unit) =
+            static_cast<float>(beside_.unit_scores()(columns[static_cast<std::size_t>(k)], unit));
     const FlipScores scores = flipped(own_scores, *signs);
     Eigen::Index row = 0;
     for (std::size_t i = first; i < end; ++i) {
@@ -276,7 +276,6 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
     families[group.local_family].push_back(g);
     ++tested;
   }
-  local_families_ = families.size();
   for (const auto& [family, members] : families) {
     const double n = static_cast<double>(members.size());
     if (n < 8) continue;
@@ -301,14 +300,15 @@ void StructureTest::test_local(const std::vector<bool>& banned) {
         most_likely_local_ = members[i];
       }
     }
-    test_two_that_hide_each_other(members, score);
+    test_two_that_hide_each_other(members, score, static_cast<double>(families.size()));
   }
 }
 
 /// Of two that stand out, each widens what the other is judged by: both together against the rest.
 /// Neighbours that stand out alike are left to the search for sectors.
 void StructureTest::test_two_that_hide_each_other(const std::vector<int>& members,
-                                                  const std::vector<double>& score) {
+                                                  const std::vector<double>& score,
+                                                  double families) {
   const std::size_t n = members.size();
   std::vector<double> sorted = score;
   const double middle = median(sorted);
@@ -338,8 +338,7 @@ void StructureTest::test_two_that_hide_each_other(const std::vector<int>& member
   // Both less the mean of the rest, which they share.
   const double both = (a * a + b * b - (a + b) * (a + b) / (rest + 2.0)) / variance;
   const double pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
-  const double p =
-      static_cast<double>(local_families_) * pairs * f_tail(0.5 * both, 2.0, rest - 1.0);
+  const double p = families * pairs * f_tail(0.5 * both, 2.0, rest - 1.0);
   if (p >= local_p_value_) return;
   local_p_value_ = p;
   most_likely_local_ = members[first];

@@ -49,7 +49,7 @@ class StructureTest {
   void test_wholes(const std::vector<bool>& banned);
   void test_local(const std::vector<bool>& banned);
   void test_two_that_hide_each_other(const std::vector<int>& members,
-                                     const std::vector<double>& score);
+                                     const std::vector<double>& score, double families);
 
   const DiscoveryProblem& problem_;
   const BlockStatistics& statistics_;
@@ -61,7 +61,6 @@ class StructureTest {
   std::vector<double> group_p_values_;
   double p_value_ = 1.0, local_p_value_ = 1.0, most_likely_single_p_value_ = 1.0;
   int most_likely_ = -1, most_likely_local_ = -1;
-  std::size_t local_families_ = 0;
 };
 
 }  // namespace trueflank::loop

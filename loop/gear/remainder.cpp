@@ -286,7 +286,9 @@ class RemainderSearch {
       }
     ++looks_;
     const std::optional<RoughZone> zone = rough_zone(traces);
-    if (!zone || zone->p_value > kRemainderLevel / looks_) return {};
+    // As it will be judged with all others: spots in a zone that is not told are told themselves.
+    const auto most_looks = static_cast<double>(4 * courses_.size() + 4);
+    if (!zone || zone->p_value > kRemainderLevel / most_looks) return {};
     const double length = courses.high - courses.low;
     const double low = place_mm(key.face, courses.low + zone->from * length),
                  high = place_mm(key.face, courses.low + zone->to * length);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "tests/loop/measured_process.h"
 #include "trueflank/loop/gear/close_loop.h"
 
@@ -74,6 +76,17 @@ inline const loop::Parameter& parameter(const loop::FoundEffect& effect, const s
   for (const auto& p : effect.parameters)
     if (p.name == name) return p;
   throw std::runtime_error("no parameter " + name);
+}
+inline bool has_name(const loop::LoopResult& result) {
+  return std::any_of(result.effects.begin(), result.effects.end(),
+                     [](const auto& effect) { return effect.named; });
+}
+inline ScanOptions scanned(int points, double noise_um, unsigned seed) {
+  ScanOptions options;
+  options.points = points;
+  options.noise_um = noise_um;
+  options.seed = seed;
+  return options;
 }
 /// The effects in one line, for messages of failing tests.
 inline std::string list(const loop::LoopResult& result) {

@@ -19,19 +19,6 @@ InspectionOptions four_teeth(unsigned seed) {
   return options;
 }
 
-ScanOptions scanned(int points, double noise_um, unsigned seed) {
-  ScanOptions options;
-  options.points = points;
-  options.noise_um = noise_um;
-  options.seed = seed;
-  return options;
-}
-
-bool has_name(const loop::LoopResult& result) {
-  return std::any_of(result.effects.begin(), result.effects.end(),
-                     [](const auto& effect) { return effect.named; });
-}
-
 TEST(OneForm, WhatIsThickerTowardsAnEndIsNoSlopeWithABow) {
   const MadeGear gear = spur(24);
   const auto plated = [](auto&, const FlankSpot& s, auto&) {

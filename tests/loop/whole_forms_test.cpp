@@ -22,19 +22,6 @@ InspectionOptions traced(std::vector<int> teeth, double noise_um, unsigned seed)
   return options;
 }
 
-ScanOptions scanned(int points, double noise_um, unsigned seed) {
-  ScanOptions options;
-  options.points = points;
-  options.noise_um = noise_um;
-  options.seed = seed;
-  return options;
-}
-
-bool has_name(const loop::LoopResult& result) {
-  return std::any_of(result.effects.begin(), result.effects.end(),
-                     [](const auto& effect) { return effect.named; });
-}
-
 TEST(BellMouth, AtBothEndsIsNoCrowning) {
   const MadeGear gear = spur(31);
   const auto bell = [](auto&, const FlankSpot& s, auto&) {

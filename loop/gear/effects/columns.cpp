@@ -67,7 +67,23 @@ std::string on_which_flanks(const FoundEffect& found) {
 }
 
 std::string times_per_turn(double order) {
-  return order == 1.0 ? "once per turn" : order == 2.0 ? "twice per turn" : printed("%.0f times per turn", order);
+  return order == 1.0   ? "once per turn"
+         : order == 2.0 ? "twice per turn"
+                        : printed("%.0f times per turn", order);
+}
+
+EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
+  EffectFamily f;
+  f.id = id;
+  f.description = "structure that no named effect explains";
+  f.parameters = {"cos_um", "sin_um"};
+  f.shape_names = std::move(shape_names);
+  f.named = false;
+  f.preference = 3;
+  f.correctable = Correctable::kNoCause;
+  f.columns = [](const EffectShape&) { return 1; };
+  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
+  return f;
 }
 
 }  // namespace trueflank::loop::gear_effects

@@ -25,7 +25,8 @@ class WavesOf {
  public:
   explicit WavesOf(double angle_rad) : angle_(angle_rad) {}
 
-  /// {cos, sin} of order times the angle. Accuracy: order times 2e-16 of what a call of its own tells.
+  /// {cos, sin} of order times the angle. Accuracy: order times 2e-16 of what a call of its own
+  /// tells.
   [[nodiscard]] std::array<double, 2> of(double order) {
     if (order == order_) return wave_;
     if (order == order_ + 1.0) {
@@ -48,8 +49,10 @@ class WavesOf {
   std::array<double, 2> wave_{}, step_{};
 };
 
-/// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on height.
-void two_directions(const FlankGeometry& geometry, const Place& place, double factor, double* columns);
+/// Columns of a displacement by (1, 0) and (0, 1) of the teeth, times a factor that may depend on
+/// height.
+void two_directions(const FlankGeometry& geometry, const Place& place, double factor,
+                    double* columns);
 
 /// A family whose one column is a function of profile coordinate u (-1 root form ... +1 tip), face
 /// coordinate v (-1 ... +1 from bottom to top) and side, on flanks only.
@@ -68,14 +71,18 @@ template <class Function>
 /// One shape a number, from ... to.
 [[nodiscard]] std::vector<EffectShape> whole_numbers(int from, int to);
 /// Heights below the face width, in equal steps or equal ratios.
-[[nodiscard]] std::vector<EffectShape> heights(const FlankGeometry& geometry, double from_mm, double to_mm,
-                                               int count, bool in_ratios);
+[[nodiscard]] std::vector<EffectShape> heights(const FlankGeometry& geometry, double from_mm,
+                                               double to_mm, int count, bool in_ratios);
 
 /// Limits of a height over the face, and of a diameter between root form and tip.
 [[nodiscard]] std::pair<double, double> height_limits(const FlankGeometry& geometry);
 [[nodiscard]] std::pair<double, double> diameter_limits(const FlankGeometry& geometry);
 /// Diameter at a share of the roll length from root form (0) to tip form (1).
 [[nodiscard]] double diameter_at_roll_share(const FlankGeometry& geometry, double share);
+
+/// A form that the search through the remainder, or the telling of several effects as one, finds:
+/// of one column, without a name, a cause or candidates of its own.
+[[nodiscard]] EffectFamily described(const std::string& id, std::vector<std::string> shape_names);
 
 /// @name Words of sentences
 /// @{

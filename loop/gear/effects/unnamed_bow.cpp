@@ -30,16 +30,8 @@ const char* held_where(double held) {
 /// Told in place of eccentricities, tilts and steps that follow it (part_loop_one_form.cpp), and no
 /// candidate of its own.
 EffectFamily unnamed_bow() {
-  EffectFamily f;
-  f.id = "unnamed_bow";
-  f.description = "structure that no named effect explains";
-  f.parameters = {"cos_um", "sin_um"};
-  f.shape_names = {"held_at"};
-  f.named = false;
-  f.preference = 3;
-  f.correctable = Correctable::kNoCause;
+  EffectFamily f = described("unnamed_bow", {"held_at"});
   f.columns = [](const EffectShape&) { return 2; };
-  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     two_directions(g, p, moved(g.face_coordinate(p.z_mm), shape[0]), c);
   };

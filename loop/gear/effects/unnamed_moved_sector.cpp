@@ -9,16 +9,8 @@ namespace trueflank::loop::gear_effects {
 
 /// Found around the gear (moved_sector.h), and no candidate of its own.
 EffectFamily unnamed_moved_sector() {
-  EffectFamily f;
-  f.id = "unnamed_moved_sector";
-  f.description = "structure that no named effect explains";
-  f.parameters = {"cos_um", "sin_um"};
-  f.shape_names = {"first_tooth", "teeth"};
-  f.named = false;
-  f.preference = 3;
-  f.correctable = Correctable::kNoCause;
+  EffectFamily f = described("unnamed_moved_sector", {"first_tooth", "teeth"});
   f.columns = [](const EffectShape&) { return 2; };
-  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const int z = g.teeth(), from = static_cast<int>(shape[0]);
     const bool on = ((p.tooth - from) % z + z) % z < static_cast<int>(shape[1]);
@@ -36,9 +28,10 @@ EffectFamily unnamed_moved_sector() {
   };
   f.term_keys = {{"first_tooth"}, {"teeth"}};
   f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("%.0f teeth from tooth %.0f on stand aside as one body: two views of a scan, "
-                   "halves of a mould or two clampings that do not meet",
-                   shape[1], shape[0]);
+    return printed(
+        "%.0f teeth from tooth %.0f on stand aside as one body: two views of a scan, "
+        "halves of a mould or two clampings that do not meet",
+        shape[1], shape[0]);
   };
   return f;
 }

@@ -97,20 +97,6 @@ std::vector<EffectShape> places_inside(const FlankGeometry& g, const EffectShape
 const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 TermKey number(const std::string& name) { return {name, TermKey::Kind::kNumber}; }
 
-EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
-  EffectFamily f;
-  f.id = id;
-  f.description = "structure that no named effect explains";
-  f.parameters = {"cos_um", "sin_um"};
-  f.shape_names = std::move(shape_names);
-  f.named = false;
-  f.preference = 3;
-  f.correctable = Correctable::kNoCause;
-  f.columns = [](const EffectShape&) { return 1; };
-  f.shapes = [](const FlankGeometry&) { return std::vector<EffectShape>{}; };
-  return f;
-}
-
 NeedsToBeSeen needs_of_direction(const EffectShape& shape) {
   return {.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
 }

@@ -168,7 +168,7 @@ void PartLoop::select() {
   ChosenGroup record;
   record.group = -1;
   discovery_.chosen.insert(discovery_.chosen.begin(), options_.given.size(), record);
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   for (std::size_t i = 0; i < given_p_values_.size(); ++i)
     discovery_.chosen[told + i].p_value = given_p_values_[i];
 }

@@ -126,22 +126,16 @@ class PartLoop {
   void tell_what_waves_leave();
   void tell_what_teeth_do_not_share();
   void tell_as_one_form();
-  [[nodiscard]] std::size_t first_told_here() const;
+  /// What was told of other data stands in front, and stays as it is.
+  [[nodiscard]] std::size_t first_told_here() const {
+    return options_.given.size() - given_p_values_.size();
+  }
   [[nodiscard]] bool tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
   [[nodiscard]] bool tell_as_bow();
-  struct ToldSoFar {
-    std::vector<Effect> effects, given;
-    std::vector<double> given_p_values;
-    std::vector<ChosenGroup> chosen;
-    double held_out_um = 0.0;
-  };
-  [[nodiscard]] ToldSoFar told_so_far() const;
-  void take_back(const ToldSoFar& told);
-  [[nodiscard]] double held_out_um() const;
   void drop_idle_beside_one_form();
   void turn_kinks_beside_slopes();
   void name_terms_beside_forms();

@@ -262,7 +262,7 @@ void PartLoop::tell_parts_of_a_form() {
 /// What was told before (of other data) stays as it is.
 const EffectFamily* PartLoop::form_instead(std::size_t e) const {
   const EffectFamily& family = *effects_[e].family;
-  const bool free = e >= options_.given.size() - given_p_values_.size();
+  const bool free = e >= first_told_here();
   return free && family.named ? find_form(family.form_word) : nullptr;
 }
 
@@ -583,7 +583,7 @@ void PartLoop::tell_level_of_forms() {
     const int at = own++;
     const EffectFamily* form =
         effect.family->named && !effect.family->local ? form_of_level(e) : nullptr;
-    if (form == nullptr || e < options_.given.size() - given_p_values_.size()) continue;
+    if (form == nullptr || e < first_told_here()) continue;
     if (!is_level(geometry_, fit, e)) continue;
     const double b = fit.coefficients()[fit.first_column(static_cast<int>(e))];
     const double b0 = without.coefficients()[without.first_column(at)];

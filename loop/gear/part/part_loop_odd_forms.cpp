@@ -206,7 +206,7 @@ void PartLoop::tell_parts_in_the_mean_of_waves() {
     if (const EffectFamily* form = form_instead(e)) effects_[e].family = form;
   }
   const auto fit = fit_of(effects_);
-  for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e) {
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1 ||
         effects_[e].order() != 0.0 || form_of_level(e) == nullptr)
       continue;
@@ -246,7 +246,7 @@ void PartLoop::tell_means_of_one_wave() {
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
     const bool named = effect.family->named && !effect.family->local && effect.columns() == 1 &&
-                       effect.order() == 0.0 && e >= options_.given.size() - given_p_values_.size();
+                       effect.order() == 0.0 && e >= first_told_here();
     if (!named && !is_form(effect)) continue;
     FlankField field = field_of(geometry_, *fit, e);
     take_off_heights(field);
@@ -402,7 +402,7 @@ void PartLoop::tell_means_across_flanks() {
   const std::array<MeanOfFlank, 2> mean = mean_of_flanks(forms);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1 ||
-        effects_[e].order() != 0.0 || e < options_.given.size() - given_p_values_.size())
+        effects_[e].order() != 0.0 || e < first_told_here())
       continue;
     const EffectFamily* form = form_instead(e) != nullptr ? form_instead(e) : form_of_level(e);
     if (form != nullptr && is_mean_across(mean_of_flanks(field_of(geometry_, *fit, e)), mean))

@@ -237,11 +237,6 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   return true;
 }
 
-/// What is told here of data at hand; what was told of others stays as it is.
-std::size_t PartLoop::first_told_here() const {
-  return options_.given.size() - given_p_values_.size();
-}
-
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
 bool PartLoop::tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
                                          FlankChoice flank) {
@@ -417,34 +412,9 @@ void PartLoop::tell_as_one_form() {
     return tell_as_bow();
   };
   constexpr int kMost = 6;
-  const ToldSoFar before = told_so_far();
   int taken = 0;
   while (taken < kMost && once()) ++taken;
-  if (taken == 0) return;
-  drop_idle_beside_one_form();
-  // One form that says less of the teeth that were set aside is not what the several were.
-  constexpr double kRises = 1.02;
-  if (held_out_um() > kRises * before.held_out_um) take_back(before);
-}
-
-/// What is told, to go back to.
-PartLoop::ToldSoFar PartLoop::told_so_far() const {
-  return {effects_, options_.given, given_p_values_, discovery_.chosen, held_out_um()};
-}
-
-void PartLoop::take_back(const ToldSoFar& told) {
-  effects_ = told.effects;
-  options_.given = told.given;
-  given_p_values_ = told.given_p_values;
-  discovery_.chosen = told.chosen;
-}
-
-/// Error of the hold-out; 0 where nothing was set aside.
-double PartLoop::held_out_um() const {
-  const auto fit = fit_of(effects_);
-  return fit->held_out() == 0
-             ? 0.0
-             : fit->errors(std::vector<bool>(effects_.size(), true)).held_out_rms_um;
+  if (taken > 0) drop_idle_beside_one_form();
 }
 
 /// A kink beside a slope says the same bent to either side: it runs over the part that is clearly
@@ -537,9 +507,8 @@ void PartLoop::name_terms_beside_forms() {
 void PartLoop::drop_idle_beside_one_form() {
   constexpr double kNothing = 9.0;  // chi-square
   while (effects_.size() > 1) {
-    const auto [idle, loss] =
-        least_missed(options_.given.size() - given_p_values_.size(), effects_.size(),
-                     [](const Effect& e) { return !e.family->local; });
+    const auto [idle, loss] = least_missed(first_told_here(), effects_.size(),
+                                           [](const Effect& e) { return !e.family->local; });
     if (!(loss < kNothing)) return;
     remove_effect(idle);
   }

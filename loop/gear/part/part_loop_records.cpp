@@ -84,7 +84,7 @@ bool is_constant_on_flanks(const Effect& effect) {
 
 /// Takes an effect out of the answer, wherever it stands.
 void PartLoop::remove_effect(std::size_t e) {
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   const auto at = static_cast<std::ptrdiff_t>(e);
   effects_.erase(effects_.begin() + at);
   discovery_.chosen.erase(discovery_.chosen.begin() + at);
@@ -102,7 +102,7 @@ void PartLoop::drop_what_new_ones_say(std::size_t first_new) {
     with[e] = false;
     return fit.residual_square(with) - fit.residual_square();
   };
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   std::vector<double> most(effects_.size());  // what it may earn and still go
   const std::vector<Effect> old(effects_.begin(),
                                 effects_.begin() + static_cast<std::ptrdiff_t>(first_new));
@@ -174,7 +174,7 @@ bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>&
 /// tell, which show nothing else: `alone` says what they show.
 std::vector<Effect> PartLoop::waves_in_place_of(const std::vector<Effect>& alone) const {
   std::vector<Effect> waves;
-  for (std::size_t e = options_.given.size() - given_p_values_.size(); e < effects_.size(); ++e)
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
     if (effects_[e].is_term() && effects_[e].order() > 0.0 && is_constant_on_flanks(effects_[e]) &&
         std::find(alone.begin(), alone.end(), effects_[e]) == alone.end())
       waves.push_back(effects_[e]);
@@ -188,7 +188,7 @@ void PartLoop::hold_to_single_values() {
   Observations single = values_one_a_tooth(table_);
   if (single.rows.empty()) return;
   Options options = options_;
-  options.given.resize(options_.given.size() - given_p_values_.size());
+  options.given.resize(first_told_here());
   PartLoop alone(geometry_, std::move(single), std::move(options));
   alone.run();
   alone_ = alone.told();

@@ -256,7 +256,7 @@ bool PartLoop::drop_idle_forms() {
   constexpr double kIdle = 25.0;  // chi-square: five standard errors
   bool any = false;
   while (!given_p_values_.empty()) {
-    const std::size_t first = options_.given.size() - given_p_values_.size();
+    const std::size_t first = first_told_here();
     const auto [idle, loss] = least_missed(first, options_.given.size(), [](const Effect&) { return true; });
     if (loss > kIdle) return any;
     effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(idle));
@@ -270,7 +270,7 @@ bool PartLoop::drop_idle_forms() {
 /// Machine's orders are many: one that was learnt from four fifths of the data, or before the other
 /// effects, must stand out of its kind in all of the data beside these. True where one does not.
 bool PartLoop::drop_doubtful_orders() {
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   bool any = false;
   for (std::size_t e = effects_.size(); e-- > told;) {
     const EffectFamily& family = *effects_[e].family;
@@ -402,7 +402,7 @@ bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
 /// rise. A place beyond doubt that goes so (its ends lie in the fold beside it) is told as left.
 void PartLoop::veto() {
   constexpr double kClearly = 0.98;
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   while (effects_.size() > told) {
     const auto fit = fit_of(effects_);
     if (fit->held_out() == 0) return;

@@ -215,7 +215,7 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
   // Chi-square: three standard errors, and what a column more takes out by chance; a thousandth of
   // the error is no loss.
   constexpr double kNothing = 9.0, kByChance = 4.0, kNoLoss = 1e-3;
-  options.given.resize(options_.given.size() - given_p_values_.size());
+  options.given.resize(first_told_here());
   SharedTable measured = table_;
   if (measured->is_displaced) undo_displacement(geometry_, measured.own());
   PartLoop names(geometry_, std::move(measured), std::move(options));
@@ -309,7 +309,7 @@ bool is_wave_of_straight_traces(const FlankGeometry& geometry, const Observation
 /// order that straight traces look like.
 void PartLoop::doubt_names_below_what_is_left() {
   constexpr double kLess = 0.25, kShows = 0.01;  // of squares
-  const std::size_t told = options_.given.size() - given_p_values_.size();
+  const std::size_t told = first_told_here();
   if (effects_.size() == told) return;
   const PointFit fit(geometry_, table_, patches_, effects_);
   const auto after_um = fit.residuals_um();
