@@ -79,6 +79,11 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
       random_error(geometry, loop.table(), loop.patches(), left_um, loop.what_is_left());
   result.noise = noise.um;
   result.notes = loop.table().notes;
+  for (const LouderPlace& place : loop.patches().louder)
+    result.notes.push_back(
+        printed("%s, points of the scan scatter %.2g times as much as elsewhere: "
+                "what they show counts for less",
+                place.words().c_str(), place.times));
   const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};

@@ -50,6 +50,7 @@ class RemainderSearch {
     for (auto& [key, courses] : courses_) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
     look_across(spectrum.get());
+    tell_rough_places();
     const auto looks = static_cast<double>(looks_);
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
@@ -385,6 +386,19 @@ class RemainderSearch {
                 2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
                 2.0 * spot.half_face_mm},
                spot.p_value, spot.amount_um, true);
+  }
+
+  /// A scanner's error differs by two or three from place to place; more is the surface.
+  void tell_rough_places() {
+    constexpr double kRough = 4.0;
+    ++looks_;
+    for (const LouderPlace& place : patches_.louder)
+      if (place.times >= kRough)
+        add_text(place.p_value,
+                 printed("the surface is rougher %s: its points scatter %.2g times as much as "
+                         "elsewhere",
+                         place.words().c_str(), place.times),
+                 0.0);
   }
 
   [[nodiscard]] FlankSpectrum spectrum_across() const {

@@ -35,18 +35,17 @@ struct OfFlank {
 class FarPoints {
  public:
   FarPoints(const FlankGeometry& geometry, const Observations& table, const RowsByClass& rows,
-            const std::vector<float>& row_um, const std::array<double, 2>& far_um)
-      : geometry_(geometry), table_(table), rows_(rows), row_um_(row_um), far_um_(far_um) {}
+            const std::vector<float>& row_um, const IsFar& is_far)
+      : geometry_(geometry), table_(table), rows_(rows), row_um_(row_um), is_far_(is_far) {}
 
   [[nodiscard]] OfFlank look_at(std::size_t flank) const {
     OfFlank found;
-    const double limit = far_um_[flank % 2];
     rows_.for_each(flank, [&](std::size_t i) {
       found.points += 1.0;
-      if (std::abs(row_um_[i]) > limit) found.far += 1.0;
+      if (is_far_(i, flank % 2)) found.far += 1.0;
     });
     if (found.far < 2.0 || found.far > kMostFar || found.points <= kNear) return found;
-    const std::vector<FlankPoint> points = points_of(flank, limit);
+    const std::vector<FlankPoint> points = points_of(flank);
     std::vector<std::size_t> far;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (points[i].far) far.push_back(i);
@@ -93,12 +92,11 @@ class FarPoints {
   }
 
  private:
-  [[nodiscard]] std::vector<FlankPoint> points_of(std::size_t flank, double limit) const {
+  [[nodiscard]] std::vector<FlankPoint> points_of(std::size_t flank) const {
     std::vector<FlankPoint> points;
     rows_.for_each(flank, table_, [&](std::size_t i) {
       const Place& place = table_.place(table_.rows[i]);
-      const double um = row_um_[i];
-      points.push_back({place.roll_mm, place.z_mm, um, std::abs(um) > limit});
+      points.push_back({place.roll_mm, place.z_mm, row_um_[i], is_far_(i, flank % 2)});
     });
     return points;
   }
@@ -133,16 +131,15 @@ class FarPoints {
   const Observations& table_;
   const RowsByClass& rows_;
   const std::vector<float>& row_um_;
-  const std::array<double, 2> far_um_;
+  const IsFar& is_far_;
 };
 
 }  // namespace
 
 std::vector<FlankSpot> far_points_together(const FlankGeometry& geometry, const Observations& table,
                                            const RowsByClass& rows, std::size_t flanks,
-                                           const std::vector<float>& row_um,
-                                           const std::array<double, 2>& far_um) {
-  const FarPoints search(geometry, table, rows, row_um, far_um);
+                                           const std::vector<float>& row_um, const IsFar& is_far) {
+  const FarPoints search(geometry, table, rows, row_um, is_far);
   std::vector<OfFlank> found(flanks);
   for_each_piece(flanks, [&](std::size_t flank) { found[flank] = search.look_at(flank); });
   OfFlank all;

@@ -38,7 +38,9 @@ class SpotSearch {
  public:
   SpotSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
              const std::vector<float>& row_um)
-      : geometry_(geometry) {
+      : geometry_(geometry), row_um_(row_um), patch_of_row_(patches.patch_of_row) {
+    for (const Patches::Patch& patch : patches.patches)
+      loud_of_patch_.push_back(static_cast<float>(patch.loud));
     const auto flanks = 2 * static_cast<std::size_t>(geometry.teeth());
     std::vector<int> flank_of(patches.patches.size(), -1);
     for (std::size_t p = 0; p < flank_of.size(); ++p) {
@@ -62,7 +64,7 @@ class SpotSearch {
       std::vector<float> um;
       um.reserve(points / 2);
       for (std::size_t flank = side; flank < flanks; flank += 2)
-        rows.for_each(flank, [&](std::size_t i) { um.push_back(row_um[i]); });
+        rows.for_each(flank, [&](std::size_t i) { um.push_back(level_um(i)); });
       limits[side] = kClip * robust_sigma(um);
       const auto limit = static_cast<float>(limits[side]);
       for (float& value : um) value = std::clamp(value, -limit, limit);
@@ -85,20 +87,22 @@ class SpotSearch {
         const Place& place = table.place(table.rows[i]);
         const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
                                       cell(geometry.face_coordinate(place.z_mm)) + 1);
-        const double um = row_um[i];
-        field.sum[at] += std::clamp(um, -limit, limit);
-        field.plain[at] += um;
+        const float um = level_um(i);
+        field.sum[at] += std::clamp(static_cast<double>(um), -limit, limit);
+        field.plain[at] += row_um[i];
         field.count[at] += 1.0;
-        if (any) steps.push_back(row_um[i] - last_um);
-        last_um = row_um[i];
+        if (any) steps.push_back(um - last_um);
+        last_um = um;
         any = true;
       });
       field.loud = robust_sigma(std::move(steps));
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
     });
     tell_loud_flanks();
-    together_ = far_points_together(geometry, table, rows, flanks, row_um,
-                                    {kFar / kClip * limits[0], kFar / kClip * limits[1]});
+    const std::array<double, 2> far_um{kFar / kClip * limits[0], kFar / kClip * limits[1]};
+    together_ = far_points_together(
+        geometry, table, rows, flanks, row_um,
+        [&](std::size_t i, std::size_t side) { return std::abs(level_um(i)) > far_um[side]; });
   }
 
   std::vector<FlankSpot> run() {
@@ -128,6 +132,11 @@ class SpotSearch {
     FlankSpot most_likely, fullest;
     double square = 0.0;
   };
+
+  /// A value as it would be where the random error is the usual one of its side.
+  [[nodiscard]] float level_um(std::size_t row) const {
+    return row_um_[row] / loud_of_patch_[static_cast<std::size_t>(patch_of_row_[row])];
+  }
 
   /// Points that lie far off together, on flanks where no window is as sure.
   void add_far_points(std::vector<FlankSpot>& spots) const {
@@ -258,6 +267,9 @@ class SpotSearch {
   }
 
   const FlankGeometry& geometry_;
+  const std::vector<float>& row_um_;
+  const std::vector<int>& patch_of_row_;
+  std::vector<float> loud_of_patch_;
   int cells_ = 0;
   std::array<double, 2> excess_{};  ///< kurtosis of single values of a side
   std::array<double, 2> degrees_{};  ///< with which the flanks' loudness is known

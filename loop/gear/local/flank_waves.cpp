@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 
 /// Waves asked about, in halves: up to six over the profile, sixteen over the face.
 constexpr int kProfile = 12, kFace = 32, kColumns = 2 * kFace + 1;
-constexpr std::size_t kMostValues = 40000;
+constexpr std::size_t kMostOfSpectrum = 40000;
 constexpr int kFewestTeeth = 8;
 /// A flank with fewer values tells nothing of waves in it.
 constexpr int kFewestValues = 12;
@@ -37,15 +37,15 @@ struct Value {
 };
 
 /// Values that are added at once.
-constexpr std::size_t kAtOnce = 4;
+constexpr std::size_t kWavesAtOnce = 4;
 
 /// Sums over values of the four products of cosines and sines over the profile and over the face.
 class WaveProducts {
  public:
-  /// At most kAtOnce of them.
+  /// At most kWavesAtOnce of them.
   void add(std::span<const Value* const> values) {
-    std::array<std::array<double, kAlong>, kAtOnce> along{};
-    std::array<std::array<double, kRow>, kAtOnce> across{};
+    std::array<std::array<double, kAlong>, kWavesAtOnce> along{};
+    std::array<std::array<double, kRow>, kWavesAtOnce> across{};
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Complex step_u = std::polar(1.0, kPi * values[i]->u),
                     step_v = std::polar(1.0, kPi * values[i]->v);
@@ -76,7 +76,7 @@ class WaveProducts {
 
  private:
   static constexpr std::size_t kAlong = 2 * (kProfile + 1), kHalf = kFace + 1, kRow = 2 * kHalf + 2;
-  static_assert(kAtOnce == 4 && kRow % 4 == 0);
+  static_assert(kWavesAtOnce == 4 && kRow % 4 == 0);
   std::array<std::array<double, kRow>, kAlong> sums_{};
 };
 
@@ -117,8 +117,8 @@ class Spectrum {
     for (std::size_t i = 0; i < used.size(); ++i)
       count += used[i] && table.rows[i].kind == ObservationKind::kScanFlank ? 1 : 0;
     if (count == 0) return;
-    const ThinnedRows some(count, kMostValues);
-    share_ = std::min(1.0, static_cast<double>(kMostValues) / static_cast<double>(count));
+    const ThinnedRows some(count, kMostOfSpectrum);
+    share_ = std::min(1.0, static_cast<double>(kMostOfSpectrum) / static_cast<double>(count));
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!some.has(i) || !used[i] || table.rows[i].kind != ObservationKind::kScanFlank) continue;
       const Place& place = table.place(table.rows[i]);
@@ -203,8 +203,8 @@ class Spectrum {
       Flank& flank = flanks_[f];
       WaveProducts products;
       const std::size_t end = first[f + 1];
-      for (std::size_t next = first[f]; next < end; next += kAtOnce)
-        products.add({sorted.data() + next, std::min(kAtOnce, end - next)});
+      for (std::size_t next = first[f]; next < end; next += kWavesAtOnce)
+        products.add({sorted.data() + next, std::min(kWavesAtOnce, end - next)});
       flank.real.assign(static_cast<std::size_t>((kProfile + 1) * kColumns), 0.0);
       flank.imaginary = flank.real;
       for (int a = 0; a <= kProfile; ++a)

@@ -7,11 +7,14 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
 namespace trueflank::loop {
@@ -432,8 +435,9 @@ class PatchMaker {
       if (r == kNone || l == kNone) continue;
       const double d = result_.patches[l].mean_um - 2.0 * result_.patches[i].mean_um +
                        result_.patches[r].mean_um;
-      squares.push_back(d * d / 6.0);
-      of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / 6.0);
+      const double times = loud_square(l) + 4.0 * loud_square(i) + loud_square(r);
+      squares.push_back(d * d / times);
+      of_side[keys_[i][4] > 0 ? 1 : 0].push_back(d * d / times);
     }
     const std::array<std::size_t, 2> counts{of_side[0].size(), of_side[1].size()};
     Variances result{robust_variance(squares), {robust_variance(of_side[0]), robust_variance(of_side[1])}};
@@ -483,18 +487,84 @@ class PatchMaker {
     return degrees < kEnough ? by_differences : std::min(by_differences, scatter / degrees);
   }
 
+  [[nodiscard]] double loud_square(int patch) const {
+    const double loud = result_.patches[patch].loud;
+    return loud * loud;
+  }
+
+  template <class OwnOf>
+  void tell_loud_places(const std::vector<int>& members, const OwnOf& own_of) {
+    std::vector<FlankPart> parts;
+    parts.reserve(members.size());
+    for (const int i : members) {
+      const Key& key = keys_[i];
+      const Patches::Patch& patch = result_.patches[i];
+      parts.push_back({key[3], key[4] > 0 ? 1U : 0U, key[5], key[6], patch.mean_um, own_of(patch)});
+    }
+    const LoudPlaces loud = loud_places(parts);
+    for (std::size_t k = 0; k < members.size(); ++k)
+      result_.patches[members[k]].loud = loud.factors[k];
+    for (const LoudPlace& place : loud.places)
+      add_louder(place, result_.patches[members.front()].source);
+  }
+
+  /// The same place on both sides is one.
+  void add_louder(const LoudPlace& place, int source) {
+    const bool flank = place.of == LoudPlace::Of::kFlank;
+    LouderPlace told{.source = source,
+                     .flank = (place.side > 0) == (geometry_.sense() > 0.0) ? FlankChoice::kLeft
+                                                                            : FlankChoice::kRight,
+                     .tooth = flank ? place.first : 0,
+                     .over_face = place.of == LoudPlace::Of::kFace,
+                     .times = place.times,
+                     .p_value = place.p_value};
+    if (!flank) {
+      const double low = told.over_face ? low_of_face_part(place.first)
+                                        : diameter_at_part(place.first),
+                   high = told.over_face ? low_of_face_part(place.last + 1)
+                                         : diameter_at_part(place.last + 1);
+      std::tie(told.low_mm, told.high_mm) = std::minmax(low, high);
+      for (LouderPlace& other : result_.louder) {
+        const bool same = other.source == source && other.tooth == 0 && other.flank != told.flank &&
+                          other.flank != FlankChoice::kBoth && other.over_face == told.over_face &&
+                          other.low_mm < told.high_mm && told.low_mm < other.high_mm;
+        if (!same) continue;
+        other.flank = FlankChoice::kBoth;
+        other.low_mm = std::min(other.low_mm, told.low_mm);
+        other.high_mm = std::max(other.high_mm, told.high_mm);
+        other.times = std::sqrt(other.times * told.times);
+        other.p_value = std::min(other.p_value, told.p_value);
+        return;
+      }
+    }
+    result_.louder.push_back(told);
+  }
+  [[nodiscard]] double low_of_face_part(int part) const {
+    const double b = geometry_.face_width_mm();
+    if (part < kFinerParts) return std::min(b, static_cast<double>(part) / kFinerParts);
+    return std::clamp(b * (part - kFinerParts) / face_parts_, 0.0, b);
+  }
+  [[nodiscard]] double diameter_at_part(int part) const {
+    const double low = geometry_.root_form_roll_mm(), high = geometry_.tip_form_roll_mm();
+    return 2.0 * geometry_.on_flank(1, 1, low + (high - low) * part / kProfileParts, 0.0).radius_mm;
+  }
+
   void weigh() {
     std::map<std::pair<int, int>, std::vector<int>> classes;
     for (std::size_t i = 0; i < keys_.size(); ++i)
       classes[{keys_[i][0], keys_[i][1]}].push_back(static_cast<int>(i));
     for (const auto& [key, members] : classes) {
       const auto kind = static_cast<ObservationKind>(key.first);
-      Variances variances = variances_of(kind, members);
-      if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial)
-        variances.of_side.fill(variance_around(members));
       double mean_count = 0.0;
       for (const int i : members)
         mean_count += result_.patches[i].count / static_cast<double>(members.size());
+      const auto own_of = [&](const Patches::Patch& patch) {
+        return is_single(kind) ? 1.0 : 2.0 * patch.count / (patch.count + mean_count);
+      };
+      if (kind == ObservationKind::kScanFlank) tell_loud_places(members, own_of);
+      Variances variances = variances_of(kind, members);
+      if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial)
+        variances.of_side.fill(variance_around(members));
       // Tip and root circles are turned, not cut with the teeth: trusted to a few um only.
       for (double& variance : variances.of_side) {
         if (kind == ObservationKind::kScanTip || kind == ObservationKind::kScanRoot)
@@ -504,8 +574,7 @@ class PatchMaker {
       for (const int i : members) {
         Patches::Patch& patch = result_.patches[i];
         const double variance = variances.of_side[keys_[i][4] > 0 ? 1 : 0];
-        const double own = is_single(kind) ? 1.0 : 2.0 * patch.count / (patch.count + mean_count);
-        patch.weight = own / variance;
+        patch.weight = own_of(patch) / (variance * loud_square(i));
       }
     }
     // Single values say their own error; sizes have no neighbours to ask.
@@ -534,6 +603,15 @@ class PatchMaker {
 };
 
 }  // namespace
+
+std::string LouderPlace::words() const {
+  const char* const side = flank == FlankChoice::kLeft    ? "left "
+                           : flank == FlankChoice::kRight ? "right "
+                                                          : "";
+  if (tooth > 0) return printed("on the %sflank of tooth %d", side, tooth);
+  return printed("on all %sflanks between %s of %.4g and %.4g mm", side,
+                 over_face ? "heights" : "diameters", low_mm, high_mm);
+}
 
 Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
   return PatchMaker(geometry, table).make();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,19 @@ namespace trueflank::loop {
 
 /// Folds of the cross-validation, and the one of tips, roots and sizes.
 inline constexpr int kFolds = 8, kAnchorFold = kFolds + 1;
+
+/// A place of a scan at which the random error is at least twice the usual one of its flanks.
+struct LouderPlace {
+  int source = 0;
+  FlankChoice flank = FlankChoice::kBoth;
+  int tooth = 0;  ///< 0: all teeth, between two diameters or two heights
+  bool over_face = false;
+  double low_mm = 0.0, high_mm = 0.0;
+  double times = 1.0, p_value = 1.0;
+
+  /// "on the left flanks between diameters of 40 and 41.2 mm".
+  [[nodiscard]] std::string words() const;
+};
 
 struct WeightedPlace {
   Place place;
@@ -28,6 +42,7 @@ struct Patches {
     double mean_um = 0.0;
     double count = 0.0;
     double weight = 0.0;
+    double loud = 1.0;  ///< its values' random error over the usual one (scanned flanks)
     double z_low_mm = 1e300, z_high_mm = -1e300;  ///< of its values
     int unit = 0, fold = 0, zero = -1, source = 0;
     int whole = -1;  ///< the trace or flank it is a piece of; -1: a single value, tip, root or bore
@@ -36,6 +51,7 @@ struct Patches {
   std::vector<Patch> patches;
   std::vector<int> patch_of_row;
   int units = 0;
+  std::vector<LouderPlace> louder;  ///< of scans
 
   std::vector<std::pair<std::size_t, double>> left_out;  ///< patches, and the weight they had
 

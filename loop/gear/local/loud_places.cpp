@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/loud_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/discovery/loudness.h"
+#include "trueflank/loop/discovery/order_statistics.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
+
+/// Where neighbours stand side by side.
+enum class Line : std::uint8_t { kOverProfile, kOverFace };
+
+class LoudPlaceSearch {
+ public:
+  explicit LoudPlaceSearch(const std::vector<FlankPart>& parts)
+      : parts_(parts), factors_(parts.size(), 1.0) {
+    for (const FlankPart& part : parts) {
+      teeth_ = std::max(teeth_, static_cast<std::size_t>(part.tooth) + 1);
+      profiles_ = std::max(profiles_, static_cast<std::size_t>(part.profile) + 1);
+      faces_ = std::max(faces_, static_cast<std::size_t>(part.face) + 1);
+    }
+    at_.assign(2 * teeth_ * profiles_ * faces_, kNoPart);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      at_[place(parts[i].side, static_cast<std::size_t>(parts[i].tooth),
+                static_cast<std::size_t>(parts[i].profile),
+                static_cast<std::size_t>(parts[i].face))] = i;
+  }
+
+  LoudPlaces run() {
+    take_common_off();
+    for (const std::size_t side : {0U, 1U}) {
+      // A place over the profile is judged by neighbours over the face, and the other way round:
+      // each difference stands at one place.
+      const std::vector<double> profile =
+          factors_of(side, LoudPlace::Of::kProfile, profiles_,
+                     [](const FlankPart& part) { return static_cast<std::size_t>(part.profile); });
+      const std::vector<double> face =
+          factors_of(side, LoudPlace::Of::kFace, faces_,
+                     [](const FlankPart& part) { return static_cast<std::size_t>(part.face); });
+      multiply(side, [&](const FlankPart& part) {
+        return profile[static_cast<std::size_t>(part.profile)] *
+               face[static_cast<std::size_t>(part.face)];
+      });
+      const std::vector<double> flank =
+          factors_of(side, LoudPlace::Of::kFlank, teeth_,
+                     [](const FlankPart& part) { return static_cast<std::size_t>(part.tooth); });
+      multiply(side,
+               [&](const FlankPart& part) { return flank[static_cast<std::size_t>(part.tooth)]; });
+    }
+    return {std::move(factors_), std::move(places_)};
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(std::size_t side, std::size_t tooth, std::size_t profile,
+                                  std::size_t face) const {
+    return ((side * teeth_ + tooth) * profiles_ + profile) * faces_ + face;
+  }
+
+  /// Where too few flanks show a place, nothing is known of what they have in common.
+  void take_common_off() {
+    constexpr int kFewest = 3;
+    left_.assign(parts_.size(), 0.0);
+    common_known_.assign(parts_.size(), false);
+    for (const std::size_t side : {0U, 1U})
+      for (std::size_t u = 0; u < profiles_; ++u)
+        for (std::size_t v = 0; v < faces_; ++v) {
+          double sum = 0.0, known = 0.0;
+          int count = 0;
+          for (std::size_t tooth = 0; tooth < teeth_; ++tooth)
+            if (const std::size_t i = at_[place(side, tooth, u, v)]; i != kNoPart) {
+              sum += parts_[i].known * parts_[i].um;
+              known += parts_[i].known;
+              ++count;
+            }
+          if (count < kFewest) continue;
+          for (std::size_t tooth = 0; tooth < teeth_; ++tooth)
+            if (const std::size_t i = at_[place(side, tooth, u, v)]; i != kNoPart) {
+              left_[i] = parts_[i].um - sum / known;
+              common_known_[i] = true;
+            }
+        }
+  }
+
+  /// Factors of the members that parts belong to.
+  template <class MemberOf>
+  [[nodiscard]] std::vector<double> factors_of(std::size_t side, LoudPlace::Of of,
+                                               std::size_t members, const MemberOf& member_of) {
+    const Line line = of == LoudPlace::Of::kProfile ? Line::kOverFace : Line::kOverProfile;
+    constexpr double kWorth = 1.3;
+    std::vector<std::vector<double>> differences(members);
+    const bool over_face = line == Line::kOverFace;
+    const std::size_t lines = over_face ? profiles_ : faces_,
+                      places = over_face ? faces_ : profiles_;
+    for (std::size_t tooth = 0; tooth < teeth_; ++tooth)
+      for (std::size_t number = 0; number < lines; ++number) {
+        std::vector<std::size_t> parts;  // along the line
+        for (std::size_t k = 0; k < places; ++k) {
+          const std::size_t i =
+              over_face ? at_[place(side, tooth, number, k)] : at_[place(side, tooth, k, number)];
+          if (i != kNoPart && common_known_[i]) parts.push_back(i);
+        }
+        for (std::size_t k = 1; k + 1 < parts.size(); ++k)
+          if (const auto off = off_its_neighbours(parts[k - 1], parts[k], parts[k + 1], line))
+            differences[member_of(parts_[parts[k]])].push_back(*off);
+      }
+    std::vector<double> scatters, values;
+    for (std::vector<double>& of_member : differences) {
+      values.push_back(static_cast<double>(std::max<std::size_t>(1, of_member.size())));
+      scatters.push_back(
+          of_member.size() < kFewestDifferences ? 0.0 : robust_sigma(std::move(of_member)));
+    }
+    std::vector<double> factors = loudness_of(scatters, values).factors;
+    const bool even = std::all_of(factors.begin(), factors.end(), [](double factor) {
+      return factor < kWorth && factor > 1.0 / kWorth;
+    });
+    if (even) factors.assign(members, 1.0);
+    tell_places(side, of, factors, scatters, values);
+    return factors;
+  }
+
+  /// Loud members that stand side by side are one place; flanks are told one by one.
+  void tell_places(std::size_t side, LoudPlace::Of of, const std::vector<double>& factors,
+                   const std::vector<double>& scatters, const std::vector<double>& values) {
+    constexpr double kTold = 2.0, kVarianceOfLog = 2.5;  // the latter over the number of values
+    const auto known = static_cast<double>(
+        std::count_if(scatters.begin(), scatters.end(), [](double s) { return s > 0.0; }));
+    bool goes_on = false;
+    double logs = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      if (!(scatters[k] > 0.0)) continue;
+      if (factors[k] < kTold) {
+        goes_on = false;
+        continue;
+      }
+      const double log = std::log(factors[k]);
+      const double p =
+          std::min(1.0, known * normal_two_sided(log / std::sqrt(kVarianceOfLog / values[k])));
+      const auto number = static_cast<int>(k);
+      if (!goes_on || of == LoudPlace::Of::kFlank) {
+        places_.push_back({.of = of, .side = side, .first = number, .p_value = p});
+        logs = count = 0.0;
+      }
+      goes_on = true;
+      logs += log;
+      count += 1.0;
+      LoudPlace& place = places_.back();
+      place.last = number;
+      place.times = std::exp(logs / count);
+      place.p_value = std::min(place.p_value, p);
+    }
+  }
+
+  /// How far a part lies off the straight line between two others, in standard errors as they are
+  /// known so far.
+  [[nodiscard]] std::optional<double> off_its_neighbours(std::size_t before, std::size_t at,
+                                                         std::size_t after, Line line) const {
+    constexpr double kFarthest = 6.0;
+    const auto along_line = [&](std::size_t i) {
+      return static_cast<double>(line == Line::kOverFace ? parts_[i].face : parts_[i].profile);
+    };
+    const double reach = along_line(after) - along_line(before);
+    if (reach > kFarthest) return {};
+    const double of_before = (along_line(after) - along_line(at)) / reach,
+                 of_after = 1.0 - of_before;
+    const auto variance = [&](std::size_t i) {
+      return factors_[i] * factors_[i] / parts_[i].known;
+    };
+    return (left_[at] - of_before * left_[before] - of_after * left_[after]) /
+           std::sqrt(variance(at) + of_before * of_before * variance(before) +
+                     of_after * of_after * variance(after));
+  }
+
+  template <class FactorOf>
+  void multiply(std::size_t side, const FactorOf& factor_of) {
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (parts_[i].side == side) factors_[i] *= factor_of(parts_[i]);
+  }
+
+  static constexpr std::size_t kFewestDifferences = 12;
+  const std::vector<FlankPart>& parts_;
+  std::size_t teeth_ = 0, profiles_ = 0, faces_ = 0;
+  std::vector<std::size_t> at_;  ///< number of the part at a place
+  std::vector<double> left_;     ///< less what all flanks have in common [um]
+  std::vector<bool> common_known_;
+  std::vector<double> factors_;
+  std::vector<LoudPlace> places_;
+};
+
+}  // namespace
+
+LoudPlaces loud_places(const std::vector<FlankPart>& parts) {
+  if (parts.empty()) return {};
+  return LoudPlaceSearch(parts).run();
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+// A scanner sees some places worse than others: edges, the depth of a gap, a shining flank.
+namespace trueflank::loop {
+
+/// A small part of a scanned flank, by its numbers over the profile and over the face.
+struct FlankPart {
+  int tooth = 0;
+  std::size_t side = 0;  ///< 0 or 1
+  int profile = 0, face = 0;
+  double um = 0.0;     ///< the mean deviation there
+  double known = 1.0;  ///< inverse variance of it, up to a common factor
+};
+
+/// Neighbouring parts of all flanks of a side, or one flank, whose random error is larger.
+struct LoudPlace {
+  enum class Of { kProfile, kFace, kFlank };
+  Of of = Of::kFlank;
+  std::size_t side = 0;
+  int first = 0, last = 0;  ///< numbers of the parts over the profile or the face, or the tooth
+  double times = 1.0;       ///< the usual error of the side
+  double p_value = 1.0;     ///< of the surest of its parts, corrected for all of them
+};
+
+struct LoudPlaces {
+  std::vector<double> factors;    ///< one for each part
+  std::vector<LoudPlace> places;  ///< those twice as loud as is usual, or more
+};
+
+/// By what factor the random error of each part is larger than the usual one of its side: the
+/// product of one factor for its place over the profile, one for its place over the face, and one
+/// for its flank. From how far parts lie off the line between those beside them, less what all
+/// flanks of the side have in common: a form of the surface is no error. All are 1 where they
+/// differ hardly more than chance makes them.
+[[nodiscard]] LoudPlaces loud_places(const std::vector<FlankPart>& parts);
+
+}  // namespace trueflank::loop
