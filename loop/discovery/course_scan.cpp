@@ -114,9 +114,10 @@ const CourseForms& forms_of_rows(Index m) {
 class CourseScan {
  public:
   explicit CourseScan(const std::vector<MatrixXd>& sets) : sets_(sets), m_(sets.front().rows()) {
+    for (const MatrixXd& set : sets_) louds_.push_back(loudness(set));
+    tell_noise();
     clip();
     tell_spectrum();
-    for (const MatrixXd& set : sets_) louds_.push_back(loudness(set));
   }
 
   std::vector<CourseFinding> run() {
@@ -146,13 +147,42 @@ class CourseScan {
     if (finding.p_value < 1.0) found_.push_back(finding);
   }
 
+  /// One set may be measured worse: where its courses scatter more by more than chance, it has an
+  /// error of its own.
+  void tell_noise() {
+    constexpr double kVarianceOfLog = 2.5, kSure = 4.0, kMore = 1.3;
+    noise_.assign(sets_.size(), 1.0);
+    double squares = 0.0, degrees = 0.0, least = 1e300, most = 0.0, fewest = 1e300;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      std::vector<double> scatters = louds_[s].scatters;
+      const double own = scatters.empty() ? 0.0 : median(scatters);
+      const auto courses = static_cast<double>(sets_[s].cols());
+      if (!(own > 0.0) || courses < 2.0) return;
+      noise_[s] = own;
+      squares += (courses - 1.0) * own * own;
+      degrees += courses - 1.0;
+      least = std::min(least, own);
+      most = std::max(most, own);
+      fewest = std::min(fewest, courses * static_cast<double>(m_));
+    }
+    const double by_chance = kSure * std::sqrt(2.0 * kVarianceOfLog / fewest);
+    if (std::log(most / least) < std::max(std::log(kMore), by_chance)) {
+      noise_.assign(sets_.size(), 1.0);
+      return;
+    }
+    for (double& noise : noise_) noise /= std::sqrt(squares / degrees);
+  }
+
   void clip() {
     std::vector<double> all;
-    for (const MatrixXd& set : sets_) all.insert(all.end(), set.data(), set.data() + set.size());
-    const double limit = kClip * robust_sigma(all);
-    for (double& value : all) value = std::clamp(value, -limit, limit);
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      for (const double value : sets_[s].reshaped()) all.push_back(value / noise_[s]);
+    const double usual = kClip * robust_sigma(all);
+    for (double& value : all) value = std::clamp(value, -usual, usual);
     excess_ = excess_kurtosis(all);
-    for (const MatrixXd& set : sets_) {
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const MatrixXd& set = sets_[s];
+      const double limit = usual * noise_[s];
       clipped_.push_back(set.cwiseMax(-limit).cwiseMin(limit));
       mean_.push_back(set.cols() > 0 ? VectorXd(set.rowwise().mean()) : VectorXd::Zero(m_));
       mean_.back().array() -= mean_.back().mean();
@@ -188,20 +218,24 @@ class CourseScan {
   struct Common {
     int set = -1;
     VectorXd mean;
-    double courses = 0.0;
+    double courses = 0.0;            ///< as many of the usual error
     std::vector<double> amplitudes;  ///< of kWaveStep apart numbers of waves
   };
   static constexpr double kFewestWaves = 2.0, kWaveStep = 0.25;
   [[nodiscard]] double most_waves() const { return 0.42 * static_cast<double>(m_); }
 
   [[nodiscard]] Common common(int set) const {
-    if (set >= 0) return {set, mean_[set], static_cast<double>(sets_[set].cols()), {}};
+    if (set >= 0)
+      return {set,
+              mean_[set],
+              static_cast<double>(sets_[set].cols()) / (noise_[set] * noise_[set]),
+              {}};
     VectorXd sum = VectorXd::Zero(m_);
     double inverse = 0.0, n = 0.0;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       if (sets_[s].cols() < 2) continue;
       sum += mean_[s];
-      inverse += 1.0 / static_cast<double>(sets_[s].cols());
+      inverse += noise_[s] * noise_[s] / static_cast<double>(sets_[s].cols());
       n += 1.0;
     }
     return {set, sum / n, n * n / inverse, {}};
@@ -377,14 +411,15 @@ class CourseScan {
   struct Louder {
     VectorXd by;
     double degrees = 0.0;
+    std::vector<double> scatters;
   };
   [[nodiscard]] Louder loudness(const MatrixXd& set) const {
     std::vector<double> scatters;
     for (Index c = 0; c < set.cols(); ++c) scatters.push_back(short_wave_scatter(set.col(c)));
     const Loudness loud =
         loudness_of(scatters, std::vector(scatters.size(), static_cast<double>(m_)));
-    return {Eigen::Map<const VectorXd>(loud.factors.data(), set.cols()).cwiseMax(1.0),
-            loud.degrees};
+    return {Eigen::Map<const VectorXd>(loud.factors.data(), set.cols()).cwiseMax(1.0), loud.degrees,
+            std::move(scatters)};
   }
 
   /// Courses less what is usual in each of them and at each place in all: where every one of few
@@ -469,7 +504,7 @@ class CourseScan {
           MatrixXd sums(m_ - width + 1, apart.cols());
           for (Index i = 0; i + width <= m_; ++i)
             sums.row(i) = apart.middleRows(i, width).colwise().mean();
-          sums.array().rowwise() /= louds_[s].by.transpose().array();
+          sums.array().rowwise() /= noise_[s] * louds_[s].by.transpose().array();
           if (!clip && sums.size() > 0) sums.array() /= roughness(roughness_of_whole[s], width).array();
           all.insert(all.end(), sums.data(), sums.data() + sums.size());
           spreads.push_back(
@@ -512,6 +547,7 @@ class CourseScan {
   std::vector<MatrixXd> clipped_;
   std::vector<VectorXd> mean_;
   std::vector<Louder> louds_;
+  std::vector<double> noise_;  ///< of each set, over that of all
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;

@@ -11,6 +11,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/rough_zone.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/dents.h"
@@ -47,6 +48,7 @@ class RemainderSearch {
     auto spectrum = begun_beside([this] { return spectrum_across(); });
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
     gather();
+    tell_loud_traces();
     for (auto& [key, courses] : courses_) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
     look_across(spectrum.get());
@@ -192,6 +194,37 @@ class RemainderSearch {
                                                place.tooth, helix ? place.z_mm : place.roll_mm, um);
   }
 
+  /// Which traces of a flank scatter more than the usual one.
+  void tell_loud_traces() {
+    for (const auto& [key, courses] : courses_) {
+      if (!is_of_trace(key.kind)) continue;
+      const auto moments =
+          moments_.find({key.face ? MomentsOf::kHelices : MomentsOf::kProfiles, key.source});
+      if (moments == moments_.end()) continue;
+      for (const int side : {0, 1}) {
+        std::vector<double> scatters, values;
+        std::vector<std::size_t> of_tooth;
+        for (const auto& [number, samples] : courses.of_flank[static_cast<std::size_t>(side)]) {
+          std::vector<RemainderSample> in_order = samples;
+          std::stable_sort(in_order.begin(), in_order.end(),
+                           [](const auto& a, const auto& b) { return a.at < b.at; });
+          Eigen::VectorXd course(static_cast<Eigen::Index>(in_order.size()));
+          for (std::size_t i = 0; i < in_order.size(); ++i)
+            course[static_cast<Eigen::Index>(i)] = in_order[i].um;
+          scatters.push_back(short_wave_scatter(course));
+          values.push_back(static_cast<double>(in_order.size()));
+          of_tooth.push_back(
+              ToothMoments::at(side, courses.tooth_of[static_cast<std::size_t>(side)].at(number)));
+        }
+        const std::vector<double> loud = loudness_of(scatters, values).factors;
+        for (std::size_t k = 0; k < loud.size(); ++k) {
+          double& of = moments->second[of_tooth[k]].loud;
+          of = std::max(of, loud[k]);
+        }
+      }
+    }
+  }
+
   /// Of values that are no scan's.
   void add_moments(const Observation& row, const Place& place, double um) {
     if (row.kind == ObservationKind::kRadial) return;
@@ -257,12 +290,14 @@ class RemainderSearch {
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
-    const std::optional<RoughZone> rough = scan ? std::nullopt : rough_zone_of(key, courses);
+    const RoughFlanks rough = scan ? RoughFlanks{} : rough_flanks_of(key, courses);
     for (const CourseFinding& found : findings_along(key, all, places)) {
       if (found.kind == CourseFinding::Kind::kSpot) {
         if (scan || which_ != RemainderOf::kAll) continue;
-        if (rough && found.at > rough->from && found.at < rough->to) continue;
         const int side = all.side_of[static_cast<std::size_t>(found.set)];
+        if ((rough.side < 0 || rough.side == side) && found.at > rough.zone.from &&
+            found.at < rough.zone.to)
+          continue;
         const int course =
             all.members[static_cast<std::size_t>(side)][static_cast<std::size_t>(found.course)];
         add_spot_of_trace(key, courses, places, found, side,
@@ -274,32 +309,56 @@ class RemainderSearch {
     }
   }
 
-  /// A part of all traces in which the surface, or the probe on it, is rougher; told as a finding.
-  std::optional<RoughZone> rough_zone_of(const CourseKey& key, const Courses& courses) {
-    std::vector<std::vector<ValueAlong>> traces;
-    for (const auto& flank : courses.of_flank)
-      for (const auto& [course, samples] : flank) {
-        std::vector<ValueAlong>& trace = traces.emplace_back();
+  /// A part of the traces of both sides (-1) or of one in which the surface, or the probe on it, is
+  /// rougher. Without a length: there is none.
+  struct RoughFlanks {
+    int side = -1;
+    RoughZone zone;
+  };
+
+  /// The surest one, told as a finding.
+  RoughFlanks rough_flanks_of(const CourseKey& key, const Courses& courses) {
+    std::array<std::vector<std::vector<ValueAlong>>, 2> of_side;
+    for (std::size_t side = 0; side < of_side.size(); ++side)
+      for (const auto& [course, samples] : courses.of_flank[side]) {
+        std::vector<ValueAlong>& trace = of_side[side].emplace_back();
         for (const RemainderSample& sample : samples)
           trace.push_back({(sample.at - courses.low) / (courses.high - courses.low), sample.um});
         std::stable_sort(trace.begin(), trace.end(),
                          [](const auto& a, const auto& b) { return a.at < b.at; });
       }
     ++looks_;
-    const std::optional<RoughZone> zone = rough_zone(traces);
+    std::vector<std::vector<ValueAlong>> both = of_side[0];
+    both.insert(both.end(), of_side[1].begin(), of_side[1].end());
+    RoughFlanks surest;
+    int asked = 0;
+    for (const int side : {-1, 0, 1}) {
+      const auto& traces = side < 0 ? both : of_side[static_cast<std::size_t>(side)];
+      if (traces.empty() || (side >= 0 && traces.size() == both.size())) continue;
+      ++asked;
+      const std::optional<RoughZone> zone = rough_zone(traces);
+      if (zone && zone->p_value < surest.zone.p_value) surest = {side, *zone};
+    }
+    RoughZone& zone = surest.zone;
+    zone.p_value = std::min(1.0, asked * zone.p_value);
     // As it will be judged with all others: spots in a zone that is not told are told themselves.
     const auto most_looks = static_cast<double>(4 * courses_.size() + 4);
-    if (!zone || zone->p_value > kRemainderLevel / most_looks) return {};
+    if (zone.p_value > kRemainderLevel / most_looks) return {};
     const double length = courses.high - courses.low;
-    const double low = place_mm(key.face, courses.low + zone->from * length),
-                 high = place_mm(key.face, courses.low + zone->to * length);
-    add_text(zone->p_value,
-             printed("all traces over the %s are rougher between %s of %.4g and %.4g mm: %.3g um "
+    const double low = place_mm(key.face, courses.low + zone.from * length),
+                 high = place_mm(key.face, courses.low + zone.to * length);
+    const FlankChoice flank = flank_choice(geometry_, surest.side);
+    add_text(zone.p_value,
+             printed("all traces over the %s%s are rougher between %s of %.4g and %.4g mm: %.3g um "
                      "against %.3g um elsewhere",
-                     key.face ? "face" : "profile", key.face ? "heights" : "diameters",
-                     std::min(low, high), std::max(low, high), zone->inside_um, zone->outside_um),
-             zone->inside_um);
-    return zone;
+                     key.face ? "face" : "profile",
+                     flank == FlankChoice::kLeft    ? " of left flanks"
+                     : flank == FlankChoice::kRight ? " of right flanks"
+                                                    : "",
+                     key.face ? "heights" : "diameters", std::min(low, high), std::max(low, high),
+                     zone.inside_um, zone.outside_um),
+             zone.inside_um);
+    return surest;
   }
 
   /// A place along the flank as people say it: a height, or a diameter.

@@ -78,7 +78,7 @@ class AroundSearch {
       for (const int form : own_forms(key.first)) {
         std::vector<int> teeth;
         const auto [right, left] = values_of_both_flanks(of_teeth, form, teeth);
-        const double p_value = std::min(1.0, looks * chance_of_agreement(right, left));
+        const double p_value = std::min(1.0, looks * chance_of_both(of_teeth, teeth, right, left));
         if (p_value > kRemainderLevel) continue;
         const bool opposite =
             (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) <
@@ -89,6 +89,26 @@ class AroundSearch {
         add_text(p_value, words_of_own(form, key.first, opposite, spread),
                  (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
       }
+  }
+
+  /// A tooth that is measured worse is far out on both flanks, and would agree with itself: its
+  /// values count for as much less.
+  static double chance_of_both(const std::vector<ToothMoments>& of_teeth,
+                               const std::vector<int>& teeth, const Eigen::VectorXd& right,
+                               const Eigen::VectorXd& left) {
+    if (teeth.empty()) return 1.0;
+    std::array<Eigen::VectorXd, 2> even{right, left};
+    bool any = false;
+    for (const std::size_t side : {0U, 1U}) {
+      const double mean = even[side].mean();
+      for (std::size_t i = 0; i < teeth.size(); ++i) {
+        const double loud = of_teeth[ToothMoments::at(static_cast<int>(side), teeth[i])].loud;
+        any = any || loud > 1.0;
+        double& value = even[side][static_cast<Eigen::Index>(i)];
+        value = mean + (value - mean) / loud;
+      }
+    }
+    return any ? chance_of_agreement(even[0], even[1]) : chance_of_agreement(right, left);
   }
 
   /// Slopes and bows that both flanks of every tooth agree on, and that one slow wave around the

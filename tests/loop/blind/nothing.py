@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Data in which nothing is hidden, a kind at a time: how often the program sees something all the same. Gears of
 made.py; ways of measuring and errors that its trial draws seldom or not at all: errors that hang together far along a
-thin scan, long tails in an index, coarse readings, teeth or a flank measured worse, traces of uneven teeth, scans whose
-points stand thin at the ends, in lines over the profile or over the face.
+thin scan, long tails in an index, coarse readings, teeth, a flank or edges measured worse, traces of uneven teeth, scans
+whose points stand thin at the ends, in lines over the profile or over the face.
 Usage: nothing.py PROGRAM DIRECTORY [--seed N] [--each N] [--only TEXT] [--least SHARE] [--list]"""
 import json
 import math
@@ -43,7 +43,13 @@ def louder(gear, r, how):
     return lambda k, side: 1.0
 
 
-def scanned(gear, r, s, noise, count, lines, loud, thin):
+def louder_by_place(edge, u, v, tooth):
+    """How much larger the errors of a scanner are at the edges that it sees worse."""
+    return {"tips": 1.0 + 2.0 * (u > 0.6), "ends": 1.0 + 2.0 * (numpy.abs(v) > 0.75),
+            "shade": 1.5 + math.cos(tooth)}.get(edge, numpy.ones_like(u))
+
+
+def scanned(gear, r, s, noise, count, lines, loud, thin, edge):
     """Points of all flanks, in lines over the profile ("u"), over the face ("v") or in no order ("")."""
     rows, each = ["x_mm,y_mm,z_mm"], max(20, count // (2 * gear.teeth))
     for tooth in range(1, gear.teeth + 1):
@@ -55,7 +61,7 @@ def scanned(gear, r, s, noise, count, lines, loud, thin):
                 along, across = (u, v) if lines == "u" else (v, u)
                 order = numpy.lexsort((along, numpy.floor((across + 1.0) * 0.5 * max(3.0, round(math.sqrt(each))))))
                 u, v = u[order], v[order]
-            value = 1e-3 * s * loud(tooth, side) * errors(noise, r, each)
+            value = 1e-3 * s * loud(tooth, side) * louder_by_place(edge, u, v, tooth) * errors(noise, r, each)
             radius, angle = gear.point(tooth, side, u)
             normal = gear.normal_angle(tooth, side, u)
             for a, b, c in zip(radius * numpy.cos(angle) + value * numpy.cos(normal),
@@ -103,6 +109,8 @@ def kinds():
     of["scan 8000 thin ends ar"] = {"scan": 8000, "noise": "ar", "lines": "u", "thin": True}
     of["scan 8000 loud teeth"] = {"scan": 8000, "noise": "white", "lines": "u", "loud": "teeth"}
     of["scan 8000 loud flank"] = {"scan": 8000, "noise": "white", "lines": "u", "loud": "flank"}
+    for edge in ("tips", "ends", "shade"):
+        of[f"scan 8000 loud {edge}"] = {"scan": 8000, "noise": "white", "lines": "", "edge": edge}
     of["all teeth loud teeth"] = {"noise": "white", "teeth": "all", "records": ("profile", "helix"), "loud": "teeth"}
     of["all teeth coarse"] = {"noise": "white", "teeth": "all", "records": ("profile", "helix"), "step": 2.5}
     of["uneven teeth coarse"] = {"noise": "white", "teeth": "some", "records": ("profile", "helix", "index"), "step": 2.5}
@@ -124,7 +132,8 @@ class Case:
         p, r = self.plan, self.random
         loud = louder(self.gear, r, p.get("loud", ""))
         if p.get("scan"):
-            return scanned(self.gear, r, self.sigma, p["noise"], p["scan"], p["lines"], loud, p.get("thin", False))
+            return scanned(self.gear, r, self.sigma, p["noise"], p["scan"], p["lines"], loud, p.get("thin", False),
+                           p.get("edge", ""))
         teeth = list(range(1, self.gear.teeth + 1))
         if p["teeth"] == "some":
             teeth = sorted(int(k) for k in r.choice(teeth, int(r.choice([3, 4, 6, 8, 9, 12])), replace=False))
