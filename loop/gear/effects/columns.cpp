@@ -32,7 +32,8 @@ std::vector<EffectShape> heights(const FlankGeometry& g, double from_mm, double 
 }
 
 std::pair<double, double> height_limits(const FlankGeometry& g) {
-  return {0.02, g.face_width_mm()};
+  constexpr double kInset = 0.02;  // nearer to an end it moves all of the face, or none
+  return {kInset * g.face_width_mm(), (1.0 - kInset) * g.face_width_mm()};
 }
 
 std::pair<double, double> diameter_limits(const FlankGeometry& g) {

@@ -89,6 +89,7 @@ void PartLoop::run() {
   if (!scan_for_more) return;
   prefer_names();
   prefer_one_name_to_two();
+  drop_names_that_may_be_nothing();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;
   doubt_names_below_what_is_left();

@@ -136,6 +136,9 @@ class PartLoop {
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
   [[nodiscard]] bool tell_as_bow();
+  [[nodiscard]] std::optional<Effect> sector_in_place_of(const std::vector<std::size_t>& these,
+                                                         bool opposite);
+  [[nodiscard]] bool tell_as_sector();
   void drop_idle_beside_one_form();
   void turn_kinks_beside_slopes();
   void name_terms_beside_forms();
@@ -159,6 +162,7 @@ class PartLoop {
   void doubt_names_below_what_is_left();
   void prefer_names();
   void prefer_one_name_to_two();
+  void drop_names_that_may_be_nothing();
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);
   [[nodiscard]] const EffectFamily* form_of_level(std::size_t effect) const;

@@ -205,6 +205,16 @@ double sharp_waves_um(const PointFit& fit) {
   return most_um;
 }
 
+/// Size of every other tooth that stands out alike on both flanks; 0: there is none.
+double comb_um(const PointFit& fit) {
+  const EffectFamily* family = find_family("unnamed_alternation");
+  double sum_um = 0.0;
+  for (std::size_t e = 0; e < fit.effects().size(); ++e)
+    if (fit.effects()[e].family == family && fit.effects()[e].shape[2] == 0.0)
+      sum_um += fit.effect_size_um(static_cast<int>(e));
+  return sum_um;
+}
+
 }  // namespace
 
 /// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
@@ -557,6 +567,7 @@ const EffectFamily* PartLoop::form_of_level(std::size_t e) const {
 void PartLoop::tell_level_of_forms() {
   constexpr double kHangs = 0.25, kOfLobes = 0.5;
   constexpr double kOfWaves = 1.5;  // arcs of a circle: 1.2
+  constexpr double kOfComb = 1.3;   // every other tooth as designed: 1
   if (effects_.empty()) return;
   const auto kept = fit_of(effects_);
   const PointFit& fit = *kept;
@@ -590,7 +601,7 @@ void PartLoop::tell_level_of_forms() {
     if (std::abs(b - b0) > kHangs * std::max(std::abs(b), std::abs(b0)) ||
         (drifts && fit.effect_size_um(static_cast<int>(e)) < drift_um) ||
         fit.effect_size_um(static_cast<int>(e)) <
-            std::max(kOfLobes * sharp_um, kOfWaves * waves_um))
+            std::max({kOfLobes * sharp_um, kOfWaves * waves_um, kOfComb * comb_um(fit)}))
       effect.family = form;
   }
 }

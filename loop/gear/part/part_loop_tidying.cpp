@@ -193,6 +193,29 @@ void PartLoop::prefer_one_name_to_two() {
     }
 }
 
+/// A name whose own interval holds zero, now that all else stands beside it, is no finding.
+void PartLoop::drop_names_that_may_be_nothing() {
+  for (bool again = true; again;) {
+    again = false;
+    const auto fit = fit_of(effects_);
+    double least = 1.0;  // of the half width
+    std::size_t weakest = 0;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+      if (!effects_[e].family->named || effects_[e].family->local || effects_[e].columns() != 1)
+        continue;
+      const int column = fit->first_column(static_cast<int>(e));
+      const double half =
+          student_95(fit->degrees(column)) * std::sqrt(fit->covariance()(column, column));
+      const double ratio = std::abs(fit->coefficients()[column]) / half;
+      if (!(ratio < least)) continue;
+      least = ratio;
+      weakest = e;
+      again = true;
+    }
+    if (again) remove_effect(weakest);
+  }
+}
+
 int values_of(const std::vector<Effect>& effects, bool places_too) {
   int values = 0;
   for (const Effect& effect : effects) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waves around the gear, single teeth and levels that some teeth side by side say as well.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr int kFewestWavesOfSector = 3;
+
+/// A wave around the gear that is alike all over the flanks.
+bool is_wave_of_teeth(const Effect& e) {
+  const NeedsToBeSeen needs = e.needs();
+  return e.order() > 0.0 && !e.family->tells_order_along_profile && !needs.along_profile &&
+         !needs.along_face;
+}
+
+/// How far each tooth stands out by what some effects say and by what is left beside all.
+struct HeightOfTeeth {
+  std::vector<double> sum, weight;
+};
+
+/// Teeth side by side that stand out most from the rest, of as many as half of them: first and
+/// count.
+std::pair<int, int> standing_out(const HeightOfTeeth& heights) {
+  const auto z = static_cast<int>(heights.sum.size());
+  double all = 0.0, of_all = 0.0, most = 0.0;
+  for (int k = 0; k < z; ++k) {
+    all += heights.sum[static_cast<std::size_t>(k)];
+    of_all += heights.weight[static_cast<std::size_t>(k)];
+  }
+  std::pair<int, int> best{0, 0};
+  for (int first = 0; first < z; ++first) {
+    double inside = 0.0, of_inside = 0.0;
+    for (int count = 1; count <= z / 2; ++count) {
+      const auto tooth = static_cast<std::size_t>((first + count - 1) % z);
+      inside += heights.sum[tooth];
+      of_inside += heights.weight[tooth];
+      const double of_outside = of_all - of_inside;
+      if (count < 2 || !(of_inside > 0.0) || !(of_outside > 0.0)) continue;
+      const double step = inside / of_inside - (all - inside) / of_outside;
+      const double square = step * step * of_inside * of_outside / of_all;
+      if (!(square > most)) continue;
+      most = square;
+      best = {first + 1, count};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+/// The sector that follows best what these effects say together.
+std::optional<Effect> PartLoop::sector_in_place_of(const std::vector<std::size_t>& these,
+                                                   bool opposite) {
+  const auto fit = fit_of(effects_);
+  std::vector<Effect> own;
+  for (const std::size_t e : these) own.push_back(effects_[e]);
+  const DiscoveryProblem problem = make_problem(geometry_, table_, patches_, own);
+  Eigen::VectorXd height = Eigen::VectorXd::Zero(problem.candidates.rows());
+  for (std::size_t i = 0; i < these.size(); ++i)
+    height += problem.candidates.middleCols(problem.groups[i].first_column, own[i].columns())
+                  .cast<double>() *
+              fit->coefficients().segment(fit->first_column(static_cast<int>(these[i])),
+                                          own[i].columns());
+  std::vector<double> left(patches_.patches.size(), 0.0), count(left);
+  const auto row_um = fit->residuals_um();
+  for (std::size_t row = 0; row < row_um->size(); ++row)
+    if (const int patch = patches_.patch_of_row[row]; patch >= 0) {
+      left[static_cast<std::size_t>(patch)] += (*row_um)[row];
+      count[static_cast<std::size_t>(patch)] += 1.0;
+    }
+  const auto z = static_cast<std::size_t>(geometry_.teeth());
+  HeightOfTeeth heights{std::vector<double>(z, 0.0), std::vector<double>(z, 0.0)};
+  for (std::size_t p = 0; p < patches_.patches.size(); ++p) {
+    const Patches::Patch& patch = patches_.patches[p];
+    const bool flank =
+        patch.kind == ObservationKind::kScanFlank || patch.kind == ObservationKind::kIndex;
+    if (!flank || count[p] == 0.0) continue;
+    const Place& place = patch.places.front().place;
+    const auto tooth = static_cast<std::size_t>(place.tooth - 1);
+    const double um = height[static_cast<Eigen::Index>(p)] + left[p] / count[p];
+    heights.sum[tooth] += patch.weight * um * (opposite ? place.side : 1);
+    heights.weight[tooth] += patch.weight;
+  }
+  const auto [first, teeth] = standing_out(heights);
+  if (teeth < 2) return {};
+  return Effect{find_family("unnamed_sector"),
+                FlankChoice::kBoth,
+                {double(first), double(teeth), 0.0, 0.0, opposite ? 1.0 : 0.0}};
+}
+
+/// A sector beside a large eccentricity is not seen before waves of many orders, single teeth and
+/// the mean of all have taken it up: together they are tried against it, first with all that they
+/// may have bent.
+bool PartLoop::tell_as_sector() {
+  std::vector<std::size_t> waves, moved, levels, teeth;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (effect.family->local && effect.columns() == 1)
+      teeth.push_back(e);
+    else if (is_wave_of_teeth(effect))
+      (effect.family->displacement_mm ? moved : waves).push_back(e);
+    else if (runs_of(geometry_, effect) == Runs::kNowhere)
+      levels.push_back(e);
+  }
+  if (static_cast<int>(waves.size()) < kFewestWavesOfSector) return false;
+  using Some = std::vector<std::vector<std::size_t>>;
+  for (const Some& with :
+       {Some{moved, levels, teeth}, Some{levels, teeth}, Some{teeth}, Some{levels}, Some{}}) {
+    std::vector<std::size_t> these = waves;
+    for (const std::vector<std::size_t>& more : with)
+      these.insert(these.end(), more.begin(), more.end());
+    std::sort(these.begin(), these.end());
+    for (const bool opposite : {false, true})
+      if (const std::optional<Effect> sector = sector_in_place_of(these, opposite);
+          sector && put_one_form_for(these, {*sector}))
+        return true;
+  }
+  return false;
+}
+
+}  // namespace trueflank::loop
