@@ -125,14 +125,17 @@ class CourseScan {
       std::vector<int> asked;
       for (int s = 0; s < static_cast<int>(sets_.size()); ++s)
         if (sets_[s].cols() >= 2) asked.push_back(s);
-      if (asked.size() > 1) asked.push_back(-1);
+      const bool two = asked.size() == 2 && sets_.size() == 2;
+      if (asked.size() > 1) asked.push_back(kMean);
       std::vector<Common> commons;
       for (const int set : asked) commons.push_back(common(set));
       measure_waves(commons);
       for (const Common& one : commons) look_for_common(one);
+      if (two) look_for_opposite_step();
       count_ = static_cast<double>(asked.size());
       // Two kinds of question, localised and wavelike, share the level.
-      for (CourseFinding* f : {&step_, &kink_, &band_}) keep(*f, 2.0 * count_ * forms_);
+      keep(step_, 2.0 * (count_ + (two ? 1.0 : 0.0)) * forms_);
+      for (CourseFinding* f : {&kink_, &band_}) keep(*f, 2.0 * count_ * forms_);
       keep(wave_, 2.0 * count_ * frequencies_);
     }
     look_for_own_waves();
@@ -224,6 +227,7 @@ class CourseScan {
   static constexpr double kFewestWaves = 2.0, kWaveStep = 0.25;
   [[nodiscard]] double most_waves() const { return 0.42 * static_cast<double>(m_); }
 
+  static constexpr int kMean = -1, kHalfDifference = -2;
   [[nodiscard]] Common common(int set) const {
     if (set >= 0)
       return {set,
@@ -263,6 +267,16 @@ class CourseScan {
     for (const CourseForm& form : forms)
       judge(form, one.set, 1.0 / one.courses, one.mean, variance);
     look_for_common_wave(one, variance);
+  }
+
+  /// Halves that are turned against each other step up on one flank and down on the other.
+  void look_for_opposite_step() {
+    Common apart = common(kMean);
+    apart.mean = 0.5 * (mean_[0] - mean_[1]);
+    const VectorXd variance = spectrum_ / apart.courses;
+    for (const CourseForm& form : forms_of_rows(m_).forms)
+      if (form.kind == CourseKind::kStep)
+        judge(form, kHalfDifference, 1.0 / apart.courses, apart.mean, variance);
   }
 
   /// `scale`: variance of the mean over that of one course.

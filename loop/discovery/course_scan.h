@@ -20,7 +20,7 @@ struct CourseFinding {
   };
   Kind kind = Kind::kBand;
   double p_value = 1.0;  ///< corrected for all that was looked at in the call
-  int set = -1;          ///< of the sets; -1: their mean
+  int set = -1;          ///< of the sets; -1: their mean; -2: half the difference of two (steps)
   int course = -1;       ///< kSpot: of the set
   double at = 0.0, width = 0.0;
   double square = 0.0;  ///< squares it takes out of all courses; forms in common only

@@ -395,8 +395,8 @@ class RemainderSearch {
     using Kind = CourseFinding::Kind;
     switch (found.kind) {
       case Kind::kStep:
-        add_form("unnamed_step", flank, {face, at}, found.p_value, found.amount, false,
-                 found.square);
+        add_form("unnamed_step", flank, {face, at, found.set < -1 ? 1.0 : 0.0}, found.p_value,
+                 found.amount, false, found.square);
         break;
       case Kind::kKink:
         add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value,

@@ -140,14 +140,19 @@ double along_profile(const FlankGeometry& geometry, double roll_mm) {
 
 EffectFamily unnamed_step() {
   EffectFamily f =
-      along_flank("unnamed_step", {"along", "place_mm"},
+      along_flank("unnamed_step", {"along", "place_mm", "opposite_flanks"},
                   [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-                    return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? 1.0 : 0.0;
+                    const double beyond = shape[2] != 0.0 ? p.side : 1.0;
+                    return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? beyond : 0.0;
                   });
   f.nearby = places_beside;
-  f.term_keys = {kAlong, number("place_mm")};
+  f.term_keys = {kAlong,
+                 number("place_mm"),
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
   f.words = [](const EffectShape& shape, FlankChoice) {
-    return "the same on every tooth, a step " + over(shape[0]) + " " + at_place(shape[0], shape[1]);
+    return "the same on every tooth, a step " + over(shape[0]) + " " +
+           at_place(shape[0], shape[1]) +
+           (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
   };
   return f;
 }

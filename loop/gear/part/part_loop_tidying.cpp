@@ -144,10 +144,13 @@ void PartLoop::join_flanks() {
       const auto fit = fit_of(effects_);
       const bool aside = effects_[a].family->flank_only && effects_[a].family->local &&
                          effects_[a].shape.size() == 1 && same_size(*fit, a, b, -1.0);
-      if (!aside && !same_size(*fit, a, b, 1.0)) continue;
+      const bool turned = effects_[a].family == find_family("unnamed_step") &&
+                          effects_[a].shape[2] == 0.0 && same_size(*fit, a, b, -1.0);
+      if (!aside && !turned && !same_size(*fit, a, b, 1.0)) continue;
       for (std::size_t k = 0; k < effects_[a].shape.size(); ++k)
         effects_[a].shape[k] = 0.5 * (effects_[a].shape[k] + effects_[b].shape[k]);
       effects_[a].family = both;
+      if (turned) effects_[a].shape[2] = 1.0;
       if (aside)
         effects_[a] = {find_family("unnamed_tooth_aside"), {}, {effects_[a].shape[0], 1.0}};
       effects_[a].flank = FlankChoice::kBoth;
