@@ -237,6 +237,10 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
                              " only; what does not repeat is not corrected");
       continue;
     }
+    if (const std::string why = text_of(item, "not_corrected"); !why.empty()) {
+      result.left_.push_back(id + ": " + why);
+      continue;
+    }
     const auto found = family_of_effect(id, item, result.declared_);
     if (!found) return fail(found.error());
     const EffectFamily& family = **found;

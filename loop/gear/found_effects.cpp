@@ -9,6 +9,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/arbitrary_pose.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -156,6 +157,13 @@ class Describer {
     if (sources_.table != nullptr)
       found.orders_alike =
           orders_alike(sources_.geometry, *sources_.table, sources_.fit, members.front());
+    if (sources_.table != nullptr && found.correctable && is_of_any_pose(*sources_.table) &&
+        hangs_on_pose(sources_.geometry, sources_.fit, members)) {
+      found.correctable = false;
+      found.not_corrected =
+          "a scan in any pose does not say which tooth is the first, nor which end is up; measure "
+          "it in the gear's frame (--aligned)";
+    }
     found.sentence = sentence(found, members.front());
     found.sure = sure_words(found.p_value, found.confounded_with);
   }

@@ -95,6 +95,7 @@ Json effect_json(const FoundEffect& e, const ResultUnit& unit) {
     for (const auto& [process, cause] : e.by_process) by_process[process] = cause;
     json["by_process"] = by_process;
   }
+  if (!e.not_corrected.empty()) json["not_corrected"] = e.not_corrected;
   if (!e.orders_alike.empty()) json["orders_alike"] = e.orders_alike;
   if (!e.side.empty()) json["side"] = e.side;
   if (e.repeatable) {

@@ -64,6 +64,8 @@ struct FoundEffect {
   /// Waves per turn that the teeth that were traced would show alike; empty: none.
   std::vector<int> orders_alike;
   bool correctable = true;
+  /// Why it is not corrected although its kind could be; empty: it is, or its kind cannot.
+  std::string not_corrected = {};
   /// @name Where several parts were measured
   /// @{
   std::optional<bool> repeatable = {};  ///< told from one-off effects; empty: one part only

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/paired_sums.h"

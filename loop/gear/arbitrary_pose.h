@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/gear/fit/point_fit.h"
+
+// A scan in any pose does not say which tooth is the first, nor which end of the gear is up.
+namespace trueflank::loop {
+
+/// True where nothing but such scans (and sizes) was measured.
+[[nodiscard]] bool is_of_any_pose(const Observations& table);
+
+/// True where these effects of a fit, taken together, would be another correction with another
+/// tooth for the first or the other end up: they differ from tooth to tooth, or between a flank and
+/// the other one seen from the other end.
+[[nodiscard]] bool hangs_on_pose(const FlankGeometry& geometry, const PointFit& fit,
+                                 const std::vector<int>& effects);
+
+}  // namespace trueflank::loop
