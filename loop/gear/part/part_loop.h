@@ -135,6 +135,7 @@ class PartLoop {
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
+  [[nodiscard]] bool tell_as_corner();
   [[nodiscard]] bool tell_as_bow();
   [[nodiscard]] std::optional<Effect> sector_in_place_of(const std::vector<std::size_t>& these,
                                                          bool opposite);
