@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kRowsOfWork = 16384;
 
 /// Rows whose places are found together.
-constexpr std::size_t kTogether = 64;
-using FoundTogether = std::array<PlacedPoint, kTogether>;
+constexpr std::size_t kOfOneMotion = 64;
+using FoundTogether = std::array<PlacedPoint, kOfOneMotion>;
 
 /// Does `work(from, to)` for runs of neighbours among the rows of scans, on all processors; returns
 /// the largest of its results.
@@ -30,8 +30,8 @@ double largest_of_points(const Observations& table, const Work& work) {
   for_each_piece(largest.size(), [&](std::size_t piece) {
     const std::size_t end = std::min(rows, (piece + 1) * kRowsOfWork);
     double most = 0.0;
-    for (std::size_t i = piece * kRowsOfWork; i < end; i += kTogether)
-      most = std::max(most, work(i, std::min(end, i + kTogether)));
+    for (std::size_t i = piece * kRowsOfWork; i < end; i += kOfOneMotion)
+      most = std::max(most, work(i, std::min(end, i + kOfOneMotion)));
     largest[piece] = most;
   });
   return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
@@ -66,14 +66,14 @@ class MoveBack {
     double deviation_um = 0.0;
     double change_um = 0.0;  ///< of what the fit leaves there
   };
-  /// `take(i, moved)` for rows from ... to - 1, kTogether at most: where their points lay, and
+  /// `take(i, moved)` for rows from ... to - 1, kOfOneMotion at most: where their points lay, and
   /// their deviations there; not for what is on no flank, or would come onto another one.
   template <class Take>
   void for_rows(const Observations& table, std::span<const std::size_t> rows,
                 const Take& take) const {
-    std::array<std::array<double, 3>, kTogether> points;
+    std::array<std::array<double, 3>, kOfOneMotion> points;
     FoundTogether placed;
-    std::array<std::size_t, kTogether> on_flanks;
+    std::array<std::size_t, kOfOneMotion> on_flanks;
     std::size_t count = 0;
     for (const std::size_t i : rows) {
       if (table.rows[i].kind != ObservationKind::kScanFlank) continue;
@@ -143,7 +143,7 @@ double change_of_sample_um(const FlankGeometry& geometry, const PointFit& fit,
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < table.points_mm.size();) {
     rows.clear();
-    for (; rows.size() < kTogether && i < table.points_mm.size(); i += stride) rows.push_back(i);
+    for (; rows.size() < kOfOneMotion && i < table.points_mm.size(); i += stride) rows.push_back(i);
     move_back.for_rows(table, rows, [&](std::size_t, const MoveBack::Moved& moved) {
       most = std::max(most, std::abs(moved.change_um));
     });
@@ -155,7 +155,7 @@ double linearise_at(const FlankGeometry& geometry, const PointFit& fit, Observat
   const MoveBack move_back(geometry, fit);
   table.is_displaced = true;
   return largest_of_points(table, [&](std::size_t from, std::size_t to) {
-    std::array<std::size_t, kTogether> rows;
+    std::array<std::size_t, kOfOneMotion> rows;
     std::iota(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(to - from), from);
     double most = 0.0;
     move_back.for_rows(table, {rows.data(), to - from},

@@ -187,20 +187,35 @@ EffectFamily unnamed_kink() {
   return f;
 }
 
-/// Flat to its place, and from there on a parabola: 1 at the end it bends towards.
+/// Flat to its place, and from there on a parabola: 1 at the end it bends towards. Towards both
+/// ends (0): the same from the other end, the place being the upper one, or that towards the tip.
 EffectFamily unnamed_bend() {
-  constexpr double kTowardsLow = -1.0, kTowardsHigh = 1.0;
+  constexpr double kTowardsLow = -1.0, kBothEnds = 0.0, kTowardsHigh = 1.0;
   EffectFamily f =
       along_flank("unnamed_bend", {"along", "place_mm", "curves"},
                   [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-                    const double at = stands_at(g, shape[0], shape[1]);
-                    const double range = end_mm(g, shape[0], shape[2]) - at;
-                    const double share = range != 0.0 ? (along(shape[0], p) - at) / range : 0.0;
-                    return share > 0.0 ? share * share : 0.0;
+                    const double low = end_mm(g, shape[0], kTowardsLow),
+                                 high = end_mm(g, shape[0], kTowardsHigh),
+                                 at = stands_at(g, shape[0], shape[1]);
+                    const double end = shape[2] == kTowardsLow ? low : high, range = end - at;
+                    if (range == 0.0) return 0.0;
+                    const double share = (along(shape[0], p) - at) / range;
+                    const double from_low = (low + high - along(shape[0], p) - at) / range;
+                    const double most = shape[2] == kBothEnds ? std::max(share, from_low) : share;
+                    return most > 0.0 ? most * most : 0.0;
                   });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = places_inside(g, shape);
-    shapes.push_back({shape[0], shape[1], shape[2] == kTowardsLow ? kTowardsHigh : kTowardsLow});
+    if (shape[2] != kBothEnds) {
+      shapes.push_back({shape[0], shape[1], shape[2] == kTowardsLow ? kTowardsHigh : kTowardsLow});
+      return shapes;
+    }
+    // Longer ones are nearly a parabola over all of it: a crowning.
+    constexpr double kNearest = 0.65;
+    const double low = end_mm(g, shape[0], kTowardsLow), high = end_mm(g, shape[0], kTowardsHigh);
+    std::erase_if(shapes, [&](const EffectShape& s) {
+      return (stands_at(g, s[0], s[1]) - low) / (high - low) < kNearest;
+    });
     return shapes;
   };
   f.is_like_many = true;
@@ -208,7 +223,7 @@ EffectFamily unnamed_bend() {
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, flat to a place " + over(shape[0]) + " " +
            at_place(shape[0], shape[1]) + ", and curved from there on" +
-           towards(shape[0], shape[2]);
+           (shape[2] == 0.0 ? ", and as far from the other end" : towards(shape[0], shape[2]));
   };
   return f;
 }

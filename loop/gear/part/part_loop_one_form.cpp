@@ -72,7 +72,7 @@ std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double fac
 /// an end, and bands where several effects may be one.
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
                                 bool bands) {
-  constexpr double kFirst = 0.1, kStep = 0.1;
+  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
   std::vector<Effect> forms;
@@ -87,6 +87,8 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
     for (const double end : {-1.0, 1.0})
       for (const char* family : {"unnamed_kink", "unnamed_bend"})
         forms.push_back({find_family(family), flank, {face, at, end}});
+    if (share > kNearBothEnds)
+      forms.push_back({find_family("unnamed_bend"), flank, {face, at, 0.0}});
     if (bands)
       for (const double width : {0.1, 0.2, 0.35})
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
@@ -272,8 +274,9 @@ bool PartLoop::tell_as_wave_over_profile(const std::vector<std::size_t>& over_pr
   return put_one_form_for(all, s_shapes) || put_one_form_for(all, s_shapes, {slope_over(0, flank)});
 }
 
-/// One form along the profile (0) or the face (1) beside the slope that has a name, for all that
-/// runs that way: an end relief or a bell mouth of a tapered gear.
+/// One form along the profile (0) or the face (1) beside the slope, or the bow, that has a name,
+/// for all that runs that way: an end relief or a bell mouth of a tapered gear, rounded ends of a
+/// crowned one.
 bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                          FlankChoice flank) {
   constexpr int kValuesOfBoth = 3;
@@ -287,12 +290,14 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
   const std::vector<Effect> forms = forms_along(geometry_, face, flank, true);
   if (curved.size() < all.size()) return put_one_form_for(curved, forms);
   const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const Effect& slope = candidates_[c];
-    if (slope.family->named && !banned_[c] && slope.flank == flank && slope.shape.empty() &&
-        is_straight(geometry_, slope) && runs_of(geometry_, slope) == runs)
-      return put_one_form_for(all, forms, {slope});
-  }
+  for (const bool straight : {true, false})
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Effect& name = candidates_[c];
+      if (name.family->named && !unseen_[c] && name.flank == flank && name.shape.empty() &&
+          is_straight(geometry_, name) == straight && runs_of(geometry_, name) == runs &&
+          put_one_form_for(all, forms, {name}))
+        return true;
+    }
   return false;
 }
 
