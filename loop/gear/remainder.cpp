@@ -447,15 +447,13 @@ class RemainderSearch {
                spot.p_value, spot.amount_um, true);
   }
 
-  /// A scanner's error differs by two or three from place to place; more is the surface.
   void tell_rough_places() {
-    constexpr double kRough = 4.0;
     ++looks_;
     for (const LouderPlace& place : patches_.louder)
-      if (place.times >= kRough)
+      if (place.is_rough())
         add_text(place.p_value,
                  printed("the surface is rougher %s: its points scatter %.2g times as much as "
-                         "elsewhere",
+                         "elsewhere (or the scanner sees it worse there)",
                          place.words().c_str(), place.times),
                  0.0);
   }

@@ -107,7 +107,7 @@ loop::LoopResult of_scan(const MadeGear& gear, unsigned seed, bool aligned,
 
 TEST(LoudPlaces, OfAScanAreNoSpotsAndNoEffects) {
   const MadeGear gear = spur(29);
-  const auto tip = [](const FlankSpot& s) { return s.u > 0.6 ? 3.0 : 1.0; };
+  const auto tip = [](const FlankSpot& s) { return s.u > 0.84 ? 3.5 : 1.0; };
   const auto ends = [](const FlankSpot& s) { return std::abs(s.v) > 0.8 ? 3.0 : 1.0; };
   const auto tooth = [](const FlankSpot& s) { return s.tooth == 3 ? 3.5 : 1.0; };
   int alarms = 0;

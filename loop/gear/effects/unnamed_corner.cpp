@@ -11,16 +11,14 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
-/// Between a plane (1) and a parabola (2): what wears off is either.
-constexpr double kPower = 1.5;
-
-/// 1 at the corner, 0 from the line on between where it ends along profile and face.
+/// 1 at the corner, 0 from the line on between where it ends along profile and face; in between a
+/// plane (power 1), a parabola (2) or another power.
 double of_corner(const FlankGeometry& g, const Place& p, const EffectShape& shape) {
   const double corner_mm = shape[0] != 0.0 ? g.tip_form_roll_mm() : g.root_form_roll_mm();
   const double end_mm = shape[1] != 0.0 ? g.face_width_mm() : 0.0;
   const double rest =
       1.0 - std::abs(p.roll_mm - corner_mm) / shape[2] - std::abs(p.z_mm - end_mm) / shape[3];
-  return rest > 0.0 ? std::pow(std::min(rest, 1.0), kPower) : 0.0;
+  return rest > 0.0 ? std::pow(std::min(rest, 1.0), shape[4]) : 0.0;
 }
 
 }  // namespace
@@ -28,7 +26,8 @@ double of_corner(const FlankGeometry& g, const Place& p, const EffectShape& shap
 /// Teeth that carry at one corner wear there. Told in place of slopes, twists and waves that follow
 /// it (part_loop_one_form.cpp), and no candidate of its own.
 EffectFamily unnamed_corner() {
-  EffectFamily f = described("unnamed_corner", {"at_tip", "at_upper_end", "profile_mm", "face_mm"});
+  EffectFamily f =
+      described("unnamed_corner", {"at_tip", "at_upper_end", "profile_mm", "face_mm", "power"});
   f.one_flank_too = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = p.surface == Surface::kFlank ? of_corner(g, p, shape) : 0.0;
@@ -49,12 +48,22 @@ EffectFamily unnamed_corner() {
         beside[3] = std::clamp(second * shape[3], kShortest * whole[1], kLongest * whole[1]);
         if (beside != shape) shapes.push_back(std::move(beside));
       }
+    // (a plane that ends nearer is nearly a parabola that ends farther off)
+    for (const double times : {0.8, 0.93, 1.07, 1.25})
+      for (const double reach : {1.0, times}) {
+        EffectShape beside = shape;
+        beside[4] = std::clamp(times * shape[4], 1.0, 3.0);
+        beside[2] = std::clamp(reach * shape[2], kShortest * whole[0], kLongest * whole[0]);
+        beside[3] = std::clamp(reach * shape[3], kShortest * whole[1], kLongest * whole[1]);
+        if (beside != shape) shapes.push_back(std::move(beside));
+      }
     return shapes;
   };
   f.term_keys = {{"corner", TermKey::Kind::kWord, {"root", "tip"}},
                  {"end", TermKey::Kind::kWord, {"lower", "upper"}},
                  {"profile_mm", TermKey::Kind::kNumber},
-                 {"face_mm", TermKey::Kind::kNumber}};
+                 {"face_mm", TermKey::Kind::kNumber},
+                 {"power", TermKey::Kind::kNumber}};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, the corner at the " +
            std::string(shape[0] != 0.0 ? "tip" : "root") + " and the " +

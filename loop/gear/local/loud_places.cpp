@@ -185,7 +185,7 @@ class LoudPlaceSearch {
       if (parts_[i].side == side) factors_[i] *= factor_of(parts_[i]);
   }
 
-  static constexpr std::size_t kFewestDifferences = 12;
+  static constexpr std::size_t kFewestDifferences = 30;
   const std::vector<FlankPart>& parts_;
   std::size_t teeth_ = 0, profiles_ = 0, faces_ = 0;
   std::vector<std::size_t> at_;  ///< number of the part at a place

@@ -524,6 +524,8 @@ class PatchMaker {
                    high = told.over_face ? low_of_face_part(place.last + 1)
                                          : diameter_at_part(place.last + 1);
       std::tie(told.low_mm, told.high_mm) = std::minmax(low, high);
+      told.share = told.over_face ? (told.high_mm - told.low_mm) / geometry_.face_width_mm()
+                                  : (place.last + 1.0 - place.first) / kProfileParts;
       for (LouderPlace& other : result_.louder) {
         const bool same = other.source == source && other.tooth == 0 && other.flank != told.flank &&
                           other.flank != FlankChoice::kBoth && other.over_face == told.over_face &&
@@ -532,6 +534,7 @@ class PatchMaker {
         other.flank = FlankChoice::kBoth;
         other.low_mm = std::min(other.low_mm, told.low_mm);
         other.high_mm = std::max(other.high_mm, told.high_mm);
+        other.share = std::max(other.share, told.share);
         other.times = std::sqrt(other.times * told.times);
         other.p_value = std::min(other.p_value, told.p_value);
         return;

@@ -22,8 +22,15 @@ struct LouderPlace {
   int tooth = 0;  ///< 0: all teeth, between two diameters or two heights
   bool over_face = false;
   double low_mm = 0.0, high_mm = 0.0;
+  double share = 0.0;  ///< of the profile or the face
   double times = 1.0, p_value = 1.0;
 
+  /// A scanner sees edges, or a flank, two or three times worse; a wide part of all flanks that
+  /// scatters as much, or more than that anywhere, is the surface.
+  [[nodiscard]] bool is_rough() const {
+    constexpr double kWide = 0.14, kRough = 4.0, kRoughWhereWide = 2.5;
+    return times >= (share >= kWide ? kRoughWhereWide : kRough);
+  }
   /// "on the left flanks between diameters of 40 and 41.2 mm".
   [[nodiscard]] std::string words() const;
 };

@@ -137,8 +137,8 @@ class PartLoop {
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
   [[nodiscard]] bool tell_as_corner();
   [[nodiscard]] bool tell_as_bow();
-  [[nodiscard]] std::optional<Effect> sector_in_place_of(const std::vector<std::size_t>& these,
-                                                         bool opposite);
+  [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
+                                                        bool opposite);
   [[nodiscard]] bool tell_as_sector();
   void drop_idle_beside_one_form();
   void turn_kinks_beside_slopes();

@@ -159,11 +159,12 @@ std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   std::vector<Effect> forms;
   for (const double tip : {0.0, 1.0})
     for (const double upper : {0.0, 1.0})
-      for (const double over_profile : {0.3, 0.5, 0.8, 1.2})
-        for (const double over_face : {0.3, 0.5, 0.8, 1.2})
-          forms.push_back({find_family("unnamed_corner"),
-                           flank,
-                           {tip, upper, over_profile * profile_mm, over_face * face_mm}});
+      for (const double over_profile : {0.35, 0.6, 1.0})
+        for (const double over_face : {0.35, 0.6, 1.0})
+          for (const double power : {1.2, 1.8})
+            forms.push_back({find_family("unnamed_corner"),
+                             flank,
+                             {tip, upper, over_profile * profile_mm, over_face * face_mm, power}});
   return forms;
 }
 
@@ -304,7 +305,7 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
 /// A corner of the flanks of one side, or of both, for all that is the same on every tooth: slopes
 /// of both flanks, alike and opposite, are one of one side. A name may stand beside it.
 bool PartLoop::tell_as_corner() {
-  constexpr int kValuesOfCorner = 4;
+  constexpr int kValuesOfCorner = 5;
   std::vector<std::size_t> all, names;
   std::vector<Effect> own;
   bool crossed = false;

@@ -54,9 +54,10 @@ std::pair<int, int> standing_out(const HeightOfTeeth& heights) {
 
 }  // namespace
 
-/// The sector that follows best what these effects say together.
-std::optional<Effect> PartLoop::sector_in_place_of(const std::vector<std::size_t>& these,
-                                                   bool opposite) {
+/// The sector that follows best what these effects say together, and swellings about its middle;
+/// none where no teeth stand out.
+std::vector<Effect> PartLoop::sectors_in_place_of(const std::vector<std::size_t>& these,
+                                                  bool opposite) {
   const auto fit = fit_of(effects_);
   std::vector<Effect> own;
   for (const std::size_t e : these) own.push_back(effects_[e]);
@@ -89,9 +90,16 @@ std::optional<Effect> PartLoop::sector_in_place_of(const std::vector<std::size_t
   }
   const auto [first, teeth] = standing_out(heights);
   if (teeth < 2) return {};
-  return Effect{find_family("unnamed_sector"),
-                FlankChoice::kBoth,
-                {double(first), double(teeth), 0.0, 0.0, opposite ? 1.0 : 0.0}};
+  std::vector<Effect> forms{{find_family("unnamed_sector"),
+                             FlankChoice::kBoth,
+                             {double(first), double(teeth), 0.0, 0.0, opposite ? 1.0 : 0.0}}};
+  if (opposite) return forms;
+  for (double middle = -1.0; middle <= 1.0; middle += 0.5)
+    for (double half = 0.3; half < 1.0; half *= 1.15)
+      forms.push_back({find_family("unnamed_dent"),
+                       FlankChoice::kBoth,
+                       {first + 0.5 * (teeth - 1) + middle, half * teeth, 0.0, 0.0}});
+  return forms;
 }
 
 /// A sector beside a large eccentricity is not seen before waves of many orders, single teeth and
@@ -117,8 +125,8 @@ bool PartLoop::tell_as_sector() {
       these.insert(these.end(), more.begin(), more.end());
     std::sort(these.begin(), these.end());
     for (const bool opposite : {false, true})
-      if (const std::optional<Effect> sector = sector_in_place_of(these, opposite);
-          sector && put_one_form_for(these, {*sector}))
+      if (const std::vector<Effect> forms = sectors_in_place_of(these, opposite);
+          !forms.empty() && put_one_form_for(these, forms))
         return true;
   }
   return false;
