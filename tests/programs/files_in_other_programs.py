@@ -6,6 +6,7 @@ PrusaSlicer and admesh must find closed bodies with nothing to repair, OpenSCAD 
 shape from the .scad, ezdxf must find no error in the .dxf and the area of the section in it, xmllint
 must take .svg and the model in the .3mf for well-formed.
 """
+import functools
 import os
 import pathlib
 import struct
@@ -15,7 +16,6 @@ import unittest
 import zipfile
 
 import ezdxf
-import ezdxf.path
 import numpy as np
 
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
@@ -113,6 +113,26 @@ def farthest_mm(points, begin, end):
     return farthest
 
 
+def area_inside(polyline):
+    """Area inside a closed LWPOLYLINE of lines and arcs, from the points and bulges that ezdxf reads: the polygon and, of an arc of
+    4 atan(bulge), the segment between it and its chord."""
+    x, y, bulge = np.array(polyline.get_points("xyb")).T
+    along = np.roll(x, -1) - x, np.roll(y, -1) - y
+    angle = 4 * np.arctan(bulge)
+    curved = np.abs(angle) > 1e-3  # below: the first term of the series
+    segment = np.where(curved, (angle - np.sin(angle)) / (8 * np.sin(np.where(curved, angle, 1.0) / 2) ** 2), angle / 12)
+    chord = along[0] ** 2 + along[1] ** 2
+    return abs((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2 + (segment * chord).sum())
+
+
+@functools.cache
+def rendered(path, *definitions):
+    """What OpenSCAD makes of a file: triangles and what it says."""
+    out = OUTPUT / "rendered.stl"
+    text = run("openscad", "-o", out, *(f"-D{d}" for d in definitions), path)
+    return read_stl(out), text
+
+
 def prusa(path):
     """Values of `prusa-slicer --info`, a dictionary for each object of the file."""
     objects = []
@@ -177,10 +197,9 @@ class Files(unittest.TestCase):
         for name in EXAMPLES:
             for part in self.parts(name):
                 with self.subTest(f"{name}/{part}"):
-                    rendered = OUTPUT / "rendered.stl"
-                    text = run("openscad", "-o", rendered, OUTPUT / name / f"{part}.scad")
+                    theirs, text = rendered(OUTPUT / name / f"{part}.scad")
                     self.assertNotIn("WARNING", text)
-                    theirs, ours = read_stl(rendered), read_stl(OUTPUT / name / f"{part}.stl")
+                    ours = read_stl(OUTPUT / name / f"{part}.stl")
                     self.assertAlmostEqual(volume_of(theirs) / volume_of(ours), 1, delta=1e-4)
                     heights = [np.unique(np.round(t[:, :, 2], 3)) for t in (ours, theirs)]
                     for z in np.unique(np.concatenate(heights)):
@@ -191,11 +210,8 @@ class Files(unittest.TestCase):
                                 self.assertLess(farthest_mm(corners, *section(other, z)), TOLERANCE_MM + 1e-4)
 
     def test_openscad_takes_new_sizes(self):
-        folder = OUTPUT / DRIVE
         def volume(part, *definitions):
-            out = OUTPUT / "changed.stl"
-            run("openscad", "-o", out, *(f"-D{d}" for d in definitions), folder / f"{part}.scad")
-            return volume_of(read_stl(out))
+            return volume_of(rendered(OUTPUT / DRIVE / f"{part}.scad", *definitions)[0])
         whole = volume("planet")
         # 2 x 39 flanks and 2 x 32 flanks lose about half of 0.1 mm each over their height
         thinner = volume("planet", "extra_thinning_um=100")
@@ -225,9 +241,7 @@ class Files(unittest.TestCase):
                                 areas.append(np.pi * entity.dxf.radius**2)
                                 continue
                             self.assertTrue(entity.closed)
-                            path = ezdxf.path.make_path(entity)
-                            x, y = np.array([(p.x, p.y) for p in path.flattening(1e-4)]).T
-                            areas.append(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
+                            areas.append(area_inside(entity))
                     section = max(areas) - (sum(areas) - max(areas))
                     mesh = read_stl(OUTPUT / name / f"{part}.stl")
                     low = mesh[np.isclose(mesh[:, :, 2], 0).all(axis=1)][:, :, :2]
