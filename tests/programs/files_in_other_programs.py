@@ -18,6 +18,8 @@ import zipfile
 import ezdxf
 import numpy as np
 
+import segments
+
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
@@ -86,31 +88,6 @@ def wall_corners(triangles, z):
     """Corners of walls at a height (n x 2)."""
     walls = triangles[np.ptp(triangles[:, :, 2], axis=1) > 1e-4]
     return np.unique(walls[above_mm(walls, z) == 0][:, :2], axis=0)
-
-
-def nearest_mm(points, begin, end):
-    """Distance of each point to the nearest of some segments; infinite where there are none."""
-    along = end - begin
-    share = np.einsum("pij,ij->pi", points[:, None] - begin[None], along)
-    share = np.clip(share / np.maximum((along * along).sum(axis=1), 1e-30), 0, 1)
-    nearest = begin[None] + share[..., None] * along[None]
-    return np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1, initial=np.inf)
-
-
-def farthest_mm(points, begin, end):
-    """Largest distance of points to the nearest of some segments."""
-    low, high = np.minimum(begin, end)[:, 0], np.maximum(begin, end)[:, 0]
-    ordered = points[np.argsort(points[:, 0])]
-    farthest = 0.0
-    for strip in np.array_split(ordered, max(1, len(ordered) // 40)):
-        close = (low <= strip[-1, 0] + CLOSE_MM) & (high >= strip[0, 0] - CLOSE_MM)
-        distances = nearest_mm(strip, begin[close], end[close])
-        # a segment that is left out is farther off than CLOSE_MM: it may be the nearest of these only
-        doubtful = distances > CLOSE_MM
-        if doubtful.any():
-            distances[doubtful] = nearest_mm(strip[doubtful], begin, end)
-        farthest = max(farthest, distances.max())
-    return farthest
 
 
 def area_inside(polyline):
@@ -207,7 +184,7 @@ class Files(unittest.TestCase):
                         for one, other in ((ours, theirs), (theirs, ours)):
                             corners = wall_corners(one, z)
                             if len(corners) > 0:
-                                self.assertLess(farthest_mm(corners, *section(other, z)), TOLERANCE_MM + 1e-4)
+                                self.assertLess(segments.nearest(corners, *section(other, z), CLOSE_MM).max(), TOLERANCE_MM + 1e-4)
 
     def test_openscad_takes_new_sizes(self):
         def volume(part, *definitions):
