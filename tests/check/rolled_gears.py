@@ -25,12 +25,13 @@ def widest(branches, radii):
     """At each radius the widest of the branches, each a curve of angle over radius that may turn back."""
     angle = np.full(radii.shape, -np.inf)
     for r, a in branches:
-        for k in range(len(r) - 1):
-            low, high = sorted((r[k], r[k + 1]))
-            first, last = np.searchsorted(radii, (low, high))
-            if last > first and high > low:
-                t = (radii[first:last] - r[k]) / (r[k + 1] - r[k])
-                angle[first:last] = np.maximum(angle[first:last], a[k] + t * (a[k + 1] - a[k]))
+        # where it turns back one run ends and the next begins
+        turns = np.flatnonzero(np.diff(np.sign(np.diff(r)))) + 1
+        for begin, end in zip([0, *turns], [*turns, len(r) - 1]):
+            run = slice(begin, end + 1)
+            along, over = (r[run], a[run]) if r[end] > r[begin] else (r[run][::-1], a[run][::-1])
+            first, last = np.searchsorted(radii, (along[0], along[-1]))
+            angle[first:last] = np.maximum(angle[first:last], np.interp(radii[first:last], along, over))
     return angle
 
 
