@@ -33,6 +33,8 @@ std::string tools_from(const std::string& tools, const std::filesystem::path& de
 
 /// Searches for the design that was asked for, and writes it.
 ResultAll<std::filesystem::path> write_wished(const NewOptions& options, std::string& told) {
+  // before seconds are searched for what could not be written
+  if (const auto path = new_design_path(options.name); !path) return fail_all({path.error()});
   const auto design = wished_design(std::filesystem::path(options.name).stem().string(),
                                     {.kind = options.kind,
                                      .input = options.input,

@@ -29,7 +29,7 @@ Result<std::filesystem::path> write_new_design(const std::string& name,
   return write_design(name, *text);
 }
 
-Result<std::filesystem::path> write_design(const std::string& name, const std::string& text) {
+Result<std::filesystem::path> new_design_path(const std::string& name) {
   std::filesystem::path path(name);
   if (path.filename().string().find_first_not_of('.') == std::string::npos || path.filename() == ".toml")
     return fail({.code = ErrorCode::kUsage,
@@ -44,8 +44,14 @@ Result<std::filesystem::path> write_design(const std::string& name, const std::s
                  .message = "this file exists and is not replaced",
                  .remedy = "another NAME",
                  .file = path.string()});
-  if (auto ok = io::write_file(path, text); !ok) return fail(ok.error());
   return path;
+}
+
+Result<std::filesystem::path> write_design(const std::string& name, const std::string& text) {
+  const auto path = new_design_path(name);
+  if (!path) return fail(path.error());
+  if (auto ok = io::write_file(*path, text); !ok) return fail(ok.error());
+  return *path;
 }
 
 }  // namespace trueflank

@@ -19,6 +19,9 @@ struct NewDesignOptions {
 [[nodiscard]] Result<std::string> new_design_text(const std::string& name,
                                                   const NewDesignOptions& options);
 
+/// The file of a new design, NAME.toml. Errors: kUsage where the name is none or the file exists.
+[[nodiscard]] Result<std::filesystem::path> new_design_path(const std::string& name);
+
 /// Writes a design's text to NAME.toml (see below), which must not exist.
 [[nodiscard]] Result<std::filesystem::path> write_design(const std::string& name, const std::string& text);
 

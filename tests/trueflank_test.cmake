@@ -11,15 +11,15 @@ function(trueflank_test_cost result slow said)
 endfunction()
 
 # The tests of one folder:
-#   trueflank_test(<name> [SLOW] [WHOLE] [OPTIMISED] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
+#   trueflank_test(<name> [SLOW] [WHOLE | TOGETHER <filter>] [OPTIMISED] [COST <s>] SOURCES <file>... [LIBRARIES <target>...])
 # builds test_<name> and makes every TEST in it a test of its own, `<name>.Subject.Statement`.
 # It links to trueflank::<name> where there is such a folder, to LIBRARIES, and to tests/support.
 # SLOW: labelled slow, not <name>; not run by the dev preset. WHOLE: one ctest entry for all, for
-# tests that share something expensive. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
+# tests that share something expensive; TOGETHER: one for those of a gtest filter without dashes, `<name>.<filter>`. OPTIMISED: what the sources themselves compute takes long; others are compiled with -O1
 # in a release, in two thirds of the time (docs/decisions/0250). COST: the longest start first, so that no processor waits for them at the end; seconds
 # on a quiet one, for SLOW 10 where nothing is said.
 function(trueflank_test name)
-  cmake_parse_arguments(arg "SLOW;WHOLE;OPTIMISED" "COST" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "SLOW;WHOLE;OPTIMISED" "COST;TOGETHER" "SOURCES;LIBRARIES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "trueflank_test(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -51,8 +51,14 @@ function(trueflank_test name)
     add_test(NAME ${name} COMMAND ${target})
     set_tests_properties(${name} PROPERTIES LABELS ${label} COST ${cost})
   else()
+    set(others "*")
+    if(arg_TOGETHER)
+      set(others "-${arg_TOGETHER}")
+      add_test(NAME ${name}.${arg_TOGETHER} COMMAND ${target} --gtest_filter=${arg_TOGETHER})
+      set_tests_properties(${name}.${arg_TOGETHER} PROPERTIES LABELS ${label} COST ${cost})
+    endif()
     # At test time, not after each link: listing tests is no part of building.
-    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." TEST_FILTER "${others}" DISCOVERY_MODE PRE_TEST
       DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${label} COST ${cost})
   endif()
 endfunction()

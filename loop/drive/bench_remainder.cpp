@@ -2,6 +2,7 @@
 #include "trueflank/loop/drive/bench_remainder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -20,6 +21,9 @@ namespace {
 /// Chance that noise alone is called structure; the questions share it.
 constexpr double kLevel = 0.005;
 constexpr int kFlips = 1999;
+/// Flips that are computed beside each other, each with its own sums: one after the other every sum waits for the one before.
+constexpr std::size_t kBeside = 8;
+using Beside = std::array<double, kBeside>;
 
 /// One question: visits of one cell agree.
 struct Question {
@@ -150,17 +154,22 @@ class Asking {
     return part;
   }
 
-  /// Sum over pairs of one cell, but for those so near in time that their errors may hang together.
-  [[nodiscard]] double agreement(const Question& q, const Eigen::VectorXd& size, int near) const {
-    std::vector<double> sum(static_cast<std::size_t>(q.cells), 0.0);
-    double pairs = 0.0;
-    for (Eigen::Index v = 0; v < size.size(); ++v) {
-      const int c = q.cell[static_cast<std::size_t>(v)];
-      double& of_cell = sum[static_cast<std::size_t>(c)];
-      pairs += 2.0 * size[v] * of_cell;
-      of_cell += size[v];
-      for (Eigen::Index w = std::max<Eigen::Index>(0, v - near); w < v; ++w)
-        if (q.cell[static_cast<std::size_t>(w)] == c) pairs -= 2.0 * size[v] * size[w];
+  /// Sum over pairs of one cell, but for those so near in time that their errors may hang together. Of as many flips as
+  /// there are, each as if it were alone; `sums` is room for them.
+  [[nodiscard]] static Beside agreement(const Question& q, const std::vector<Beside>& size, int near,
+                                        std::vector<Beside>& sums) {
+    sums.assign(static_cast<std::size_t>(q.cells), Beside{});
+    Beside pairs{};
+    for (std::size_t v = 0; v < size.size(); ++v) {
+      const Beside& own = size[v];
+      Beside& of_cell = sums[static_cast<std::size_t>(q.cell[v])];
+      for (std::size_t i = 0; i < kBeside; ++i) {
+        pairs[i] += 2.0 * own[i] * of_cell[i];
+        of_cell[i] += own[i];
+      }
+      for (std::size_t w = v - std::min(v, static_cast<std::size_t>(near)); w < v; ++w)
+        if (q.cell[w] == q.cell[v])
+          for (std::size_t i = 0; i < kBeside; ++i) pairs[i] -= 2.0 * own[i] * size[w][i];
     }
     return pairs;
   }
@@ -178,23 +187,29 @@ class Asking {
               : 1;
     std::mt19937_64 random(20261122);
     const auto asked = static_cast<Eigen::Index>(questions_.size());
-    for (Question& q : questions_) q.agreement = agreement(q, size_, hangs ? block : 0);
+    const int near = hangs ? block : 0;
+    std::vector<Beside> flipped(first_.size()), sums;
+    for (std::size_t v = 0; v < first_.size(); ++v) flipped[v].fill(size_[static_cast<Eigen::Index>(v)]);
+    for (Question& q : questions_) q.agreement = agreement(q, flipped, near, sums)[0];
     const int flips = n > 1000.0 ? kFlips / 4 : kFlips;
     Eigen::MatrixXd of_flips(flips, asked);
-    Eigen::VectorXd flipped = size_;
-    for (int f = 0; f < flips; ++f) {
-      const auto shift = static_cast<Eigen::Index>(random() % static_cast<std::uint64_t>(block));
-      double sign = 1.0;
-      std::map<int, double> of_reading;  // what shares the rounding of one reading turns together
-      for (Eigen::Index v = 0; v < size_.size(); ++v) {
-        if (v == 0 || (v + shift) % block == 0) sign = (random() & 1) != 0 ? 1.0 : -1.0;
-        const int reading = table_.points[first_[static_cast<std::size_t>(v)]].reading;
-        flipped[v] =
-            size_[v] * (reading < 0 ? sign : of_reading.emplace(reading, sign).first->second);
+    for (int first = 0; first < flips; first += static_cast<int>(kBeside)) {
+      const int count = std::min(static_cast<int>(kBeside), flips - first);
+      for (int i = 0; i < count; ++i) {
+        const auto shift = static_cast<Eigen::Index>(random() % static_cast<std::uint64_t>(block));
+        double sign = 1.0;
+        std::map<int, double> of_reading;  // what shares the rounding of one reading turns together
+        for (Eigen::Index v = 0; v < size_.size(); ++v) {
+          if (v == 0 || (v + shift) % block == 0) sign = (random() & 1) != 0 ? 1.0 : -1.0;
+          const int reading = table_.points[first_[static_cast<std::size_t>(v)]].reading;
+          flipped[static_cast<std::size_t>(v)][static_cast<std::size_t>(i)] =
+              size_[v] * (reading < 0 ? sign : of_reading.emplace(reading, sign).first->second);
+        }
       }
-      for (Eigen::Index k = 0; k < asked; ++k)
-        of_flips(f, k) =
-            agreement(questions_[static_cast<std::size_t>(k)], flipped, hangs ? block : 0);
+      for (Eigen::Index k = 0; k < asked; ++k) {
+        const Beside found = agreement(questions_[static_cast<std::size_t>(k)], flipped, near, sums);
+        for (int i = 0; i < count; ++i) of_flips(first + i, k) = found[static_cast<std::size_t>(i)];
+      }
     }
     judge_against(of_flips);
   }

@@ -32,8 +32,10 @@ class NewWishes(unittest.TestCase):
         self.assertAlmostEqual(report["train"]["ratio"] / 96, 1, delta=0.02)
         size = [c["value"] for c in report["checks"] if c["id"] == "housing_size"]
         self.assertLessEqual(size[0], 90)
-        again = run("new", "joint", "--ratio", "96")
+        # that the file exists is told before anything is searched for, and by that what else is wrong
+        again = run("new", "joint", "--ratio", "96", "--outer-diameter", "4")
         self.assertEqual(again.returncode, 2)
+        self.assertIn("exists", again.stderr)
 
     def test_every_kind_is_found_and_passes(self):
         motor = ("--motor", "nema17")

@@ -5,6 +5,8 @@ A rack's contour is a set of points with normals. A point cuts where its normal 
 gearing); what no point of the contour reaches deeper is left. A ring's flank is cut by the same rack from the other
 side; its fillet is the circle that touches flank and root circle, found by bisection on the points. Lengths in
 modules, angles in radians, a tooth space stands on the line to the mate."""
+import functools
+
 import numpy as np
 
 FLANK_POINTS, FILLET_POINTS, RADII = 1500, 1500, 3000
@@ -23,12 +25,13 @@ def widest(branches, radii):
     """At each radius the widest of the branches, each a curve of angle over radius that may turn back."""
     angle = np.full(radii.shape, -np.inf)
     for r, a in branches:
-        for k in range(len(r) - 1):
-            low, high = sorted((r[k], r[k + 1]))
-            first, last = np.searchsorted(radii, (low, high))
-            if last > first and high > low:
-                t = (radii[first:last] - r[k]) / (r[k + 1] - r[k])
-                angle[first:last] = np.maximum(angle[first:last], a[k] + t * (a[k + 1] - a[k]))
+        # where it turns back one run ends and the next begins
+        turns = np.flatnonzero(np.diff(np.sign(np.diff(r)))) + 1
+        for begin, end in zip([0, *turns], [*turns, len(r) - 1]):
+            run = slice(begin, end + 1)
+            along, over = (r[run], a[run]) if r[end] > r[begin] else (r[run][::-1], a[run][::-1])
+            first, last = np.searchsorted(radii, (along[0], along[-1]))
+            angle[first:last] = np.maximum(angle[first:last], np.interp(radii[first:last], along, over))
     return angle
 
 
@@ -93,6 +96,13 @@ def contour(gear, parts=slice(None)):
     return np.concatenate([r, r]), np.concatenate([a, -a])
 
 
+def within(points, low, high):
+    """Radii of complex numbers, and these, where they lie between two radii."""
+    square = points.real**2 + points.imag**2
+    near = (square >= low * low) & (square <= high * high)
+    return np.sqrt(square[near]), points[near]
+
+
 class Mesh:
     """gear1 (external) in gear2 (external or ring) at a centre distance; gear 1 turns, gear 2 is pushed."""
 
@@ -100,47 +110,46 @@ class Mesh:
         self.gear1, self.gear2, self.distance = gear1, gear2, distance
         self.internal = isinstance(gear2, Ring)
 
-    def seen_from_2(self, radius, angle, turned):
+    def seen_from_2(self, points, turned, low, high):
         """Points of gear 1 (a tooth of it on the line of centres where turned = 0) in polar coordinates of gear 2,
-        whose middle of space looks at gear 1's axis; gear 2 turns along with the ratio."""
-        x, y = radius * np.cos(angle + turned), radius * np.sin(angle + turned)
-        if self.internal:
-            x, y = x + self.distance, y
-            turned2 = turned * self.gear1.teeth / self.gear2.teeth
-        else:
-            x, y = self.distance - x, y
-            turned2 = turned * self.gear1.teeth / self.gear2.teeth
+        whose middle of space looks at gear 1's axis; gear 2 turns along with the ratio. Of radii between `low` and `high`."""
+        seen = points * np.exp(1j * turned)
+        seen = seen + self.distance if self.internal else self.distance - seen.conj()
+        radius, seen = within(seen, low, high)
+        turned2 = turned * self.gear1.teeth / self.gear2.teeth
         pitch = 2 * np.pi / self.gear2.teeth
-        return np.hypot(x, y), (np.arctan2(y, x) - turned2 + pitch / 2) % pitch - pitch / 2
+        return radius, (np.angle(seen) - turned2 + pitch / 2) % pitch - pitch / 2
 
-    def points_of_1(self, parts=slice(None)):
-        """The teeth of gear 1 about the line of centres."""
-        r, a = contour(self.gear1, parts)
+    @functools.lru_cache(maxsize=None)
+    def points_of_1(self, flanks_only=False):
+        """The teeth of gear 1 about the line of centres, as complex numbers."""
+        r, a = contour(self.gear1, self.gear1.radii > self.gear1.form if flanks_only else slice(None))
         pitch = 2 * np.pi / self.gear1.teeth
         reach = min(4, self.gear1.teeth // 2)
-        return np.concatenate([r] * (2 * reach)), np.concatenate([a + (k + 0.5) * pitch for k in range(-reach, reach)])
+        return np.concatenate([r * np.exp(1j * (a + (k + 0.5) * pitch)) for k in range(-reach, reach)])
 
-    def within(self, radius, lower, upper):
-        """Space half angle of gear 2 at a radius; nothing stands in the way where it has no teeth."""
-        space = np.interp(radius, self.gear2.radii, self.gear2.space)
-        return np.where((radius >= lower) & (radius <= upper), space, np.inf)
+    @functools.lru_cache(maxsize=None)
+    def points_of_2(self):
+        """The spaces of gear 2 about the line of centres, as complex numbers."""
+        r, a = contour(self.gear2)
+        pitch = 2 * np.pi / self.gear2.teeth
+        return np.concatenate([r * np.exp(1j * (a + k * pitch)) for k in range(-4, 5)])
 
     def turns(self, steps):
         return np.arange(steps) / steps * 2 * np.pi / self.gear1.teeth
 
     def plays(self, steps, flanks_only):
         """How far gear 2 can be turned either way at each position of gear 1: two rows."""
-        g1, g2 = self.gear1, self.gear2
-        parts = g1.radii > g1.form if flanks_only else slice(None)
-        radius, angle = self.points_of_1(parts)
-        low, high = (g2.tip, g2.form) if self.internal else (g2.form, g2.tip)
+        gear = self.gear2
+        low, high = (gear.tip, gear.form) if self.internal else (gear.form, gear.tip)
         if not flanks_only:
-            low, high = (g2.tip, np.inf) if self.internal else (0.0, g2.tip)
+            low, high = (gear.tip, np.inf) if self.internal else (0.0, gear.tip)
         found = []
         for turned in self.turns(steps):
-            r2, a2 = self.seen_from_2(radius, angle, turned)
-            free = self.within(r2, low, high)
-            found.append([np.min(free - a2), np.min(free + a2)])
+            r2, a2 = self.seen_from_2(self.points_of_1(flanks_only), turned, low, high)
+            free = np.interp(r2, gear.radii, gear.space)
+            # nothing stands in the way where gear 2 has no teeth
+            found.append([np.min(free - a2, initial=np.inf), np.min(free + a2, initial=np.inf)])
         return np.array(found).T
 
     def conjugate_plays(self, steps=120):
@@ -154,24 +163,19 @@ class Mesh:
         return depth_in(self.gear1, self.points_in_1(turned1, turned2), least)
 
     def points_in_2(self, turned1, turned2):
-        radius, angle = self.points_of_1()
-        r2, a2 = self.seen_from_2(radius, angle, turned1)
+        r2, a2 = self.seen_from_2(self.points_of_1(), turned1, *sorted((self.gear2.root, self.gear2.tip)))
         return r2, a2 - turned2
 
     def points_in_1(self, turned1, turned2):
         """Points of gear 2 near the mesh in coordinates of gear 1, the middle of its space at 0."""
-        g1, g2 = self.gear1, self.gear2
-        r, a = contour(g2)
-        pitch2 = 2 * np.pi / g2.teeth
-        ratio = g1.teeth / g2.teeth
-        angles = np.concatenate([a + k * pitch2 for k in range(-4, 5)]) + turned1 * ratio + turned2
-        radius = np.concatenate([r] * 9)
-        x, y = radius * np.cos(angles), radius * np.sin(angles)
-        x = x - self.distance if self.internal else self.distance - x
-        pitch = 2 * np.pi / g1.teeth
+        ratio = self.gear1.teeth / self.gear2.teeth
+        seen = self.points_of_2() * np.exp(1j * (turned1 * ratio + turned2))
+        seen = seen - self.distance if self.internal else self.distance - seen.conj()
+        radius, seen = within(seen, self.gear1.root, self.gear1.tip)
+        pitch = 2 * np.pi / self.gear1.teeth
         # a tooth of gear 1 stands at angle turned1: its spaces half a pitch aside
-        seen = np.arctan2(y, x) - turned1 - pitch / 2
-        return np.hypot(x, y), (seen + pitch / 2) % pitch - pitch / 2
+        angle = np.angle(seen) - turned1 - pitch / 2
+        return radius, (angle + pitch / 2) % pitch - pitch / 2
 
 
 def depth_in(gear, points, least=0.0):

@@ -6,6 +6,7 @@ PrusaSlicer and admesh must find closed bodies with nothing to repair, OpenSCAD 
 shape from the .scad, ezdxf must find no error in the .dxf and the area of the section in it, xmllint
 must take .svg and the model in the .3mf for well-formed.
 """
+import functools
 import os
 import pathlib
 import struct
@@ -15,8 +16,9 @@ import unittest
 import zipfile
 
 import ezdxf
-import ezdxf.path
 import numpy as np
+
+import segments
 
 SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
@@ -88,29 +90,24 @@ def wall_corners(triangles, z):
     return np.unique(walls[above_mm(walls, z) == 0][:, :2], axis=0)
 
 
-def nearest_mm(points, begin, end):
-    """Distance of each point to the nearest of some segments; infinite where there are none."""
-    along = end - begin
-    share = np.einsum("pij,ij->pi", points[:, None] - begin[None], along)
-    share = np.clip(share / np.maximum((along * along).sum(axis=1), 1e-30), 0, 1)
-    nearest = begin[None] + share[..., None] * along[None]
-    return np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1, initial=np.inf)
+def area_inside(polyline):
+    """Area inside a closed LWPOLYLINE of lines and arcs, from the points and bulges that ezdxf reads: the polygon and, of an arc of
+    4 atan(bulge), the segment between it and its chord."""
+    x, y, bulge = np.array(polyline.get_points("xyb")).T
+    along = np.roll(x, -1) - x, np.roll(y, -1) - y
+    angle = 4 * np.arctan(bulge)
+    curved = np.abs(angle) > 1e-3  # below: the first term of the series
+    segment = np.where(curved, (angle - np.sin(angle)) / (8 * np.sin(np.where(curved, angle, 1.0) / 2) ** 2), angle / 12)
+    chord = along[0] ** 2 + along[1] ** 2
+    return abs((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2 + (segment * chord).sum())
 
 
-def farthest_mm(points, begin, end):
-    """Largest distance of points to the nearest of some segments."""
-    low, high = np.minimum(begin, end)[:, 0], np.maximum(begin, end)[:, 0]
-    ordered = points[np.argsort(points[:, 0])]
-    farthest = 0.0
-    for strip in np.array_split(ordered, max(1, len(ordered) // 40)):
-        close = (low <= strip[-1, 0] + CLOSE_MM) & (high >= strip[0, 0] - CLOSE_MM)
-        distances = nearest_mm(strip, begin[close], end[close])
-        # a segment that is left out is farther off than CLOSE_MM: it may be the nearest of these only
-        doubtful = distances > CLOSE_MM
-        if doubtful.any():
-            distances[doubtful] = nearest_mm(strip[doubtful], begin, end)
-        farthest = max(farthest, distances.max())
-    return farthest
+@functools.cache
+def rendered(path, *definitions):
+    """What OpenSCAD makes of a file: triangles and what it says."""
+    out = OUTPUT / "rendered.stl"
+    text = run("openscad", "-o", out, *(f"-D{d}" for d in definitions), path)
+    return read_stl(out), text
 
 
 def prusa(path):
@@ -177,10 +174,9 @@ class Files(unittest.TestCase):
         for name in EXAMPLES:
             for part in self.parts(name):
                 with self.subTest(f"{name}/{part}"):
-                    rendered = OUTPUT / "rendered.stl"
-                    text = run("openscad", "-o", rendered, OUTPUT / name / f"{part}.scad")
+                    theirs, text = rendered(OUTPUT / name / f"{part}.scad")
                     self.assertNotIn("WARNING", text)
-                    theirs, ours = read_stl(rendered), read_stl(OUTPUT / name / f"{part}.stl")
+                    ours = read_stl(OUTPUT / name / f"{part}.stl")
                     self.assertAlmostEqual(volume_of(theirs) / volume_of(ours), 1, delta=1e-4)
                     heights = [np.unique(np.round(t[:, :, 2], 3)) for t in (ours, theirs)]
                     for z in np.unique(np.concatenate(heights)):
@@ -188,14 +184,11 @@ class Files(unittest.TestCase):
                         for one, other in ((ours, theirs), (theirs, ours)):
                             corners = wall_corners(one, z)
                             if len(corners) > 0:
-                                self.assertLess(farthest_mm(corners, *section(other, z)), TOLERANCE_MM + 1e-4)
+                                self.assertLess(segments.nearest(corners, *section(other, z), CLOSE_MM).max(), TOLERANCE_MM + 1e-4)
 
     def test_openscad_takes_new_sizes(self):
-        folder = OUTPUT / DRIVE
         def volume(part, *definitions):
-            out = OUTPUT / "changed.stl"
-            run("openscad", "-o", out, *(f"-D{d}" for d in definitions), folder / f"{part}.scad")
-            return volume_of(read_stl(out))
+            return volume_of(rendered(OUTPUT / DRIVE / f"{part}.scad", *definitions)[0])
         whole = volume("planet")
         # 2 x 39 flanks and 2 x 32 flanks lose about half of 0.1 mm each over their height
         thinner = volume("planet", "extra_thinning_um=100")
@@ -225,9 +218,7 @@ class Files(unittest.TestCase):
                                 areas.append(np.pi * entity.dxf.radius**2)
                                 continue
                             self.assertTrue(entity.closed)
-                            path = ezdxf.path.make_path(entity)
-                            x, y = np.array([(p.x, p.y) for p in path.flattening(1e-4)]).T
-                            areas.append(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
+                            areas.append(area_inside(entity))
                     section = max(areas) - (sum(areas) - max(areas))
                     mesh = read_stl(OUTPUT / name / f"{part}.stl")
                     low = mesh[np.isclose(mesh[:, :, 2], 0).all(axis=1)][:, :, :2]

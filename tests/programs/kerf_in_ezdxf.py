@@ -16,6 +16,8 @@ import unittest
 import ezdxf
 import numpy as np
 
+import segments
+
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 KERF_MM = 0.25
@@ -75,17 +77,7 @@ def contours(folder, layer):
 
 def distances(points, line):
     """From each point to a closed chain of points."""
-    if not np.allclose(line[0], line[-1]):
-        line = np.vstack([line, line[:1]])
-    a, d = line[:-1], np.diff(line, axis=0)
-    keep = (d**2).sum(axis=1) > 0
-    a, d = a[keep], d[keep]
-    square = (d**2).sum(axis=1)
-    result = np.empty(len(points))
-    for i, p in enumerate(points):
-        along = np.clip(((p - a) * d).sum(axis=1) / square, 0, 1)
-        result[i] = np.sqrt((((a + along[:, None] * d) - p)**2).sum(axis=1).min())
-    return result
+    return segments.nearest(points, line, np.roll(line, -1, axis=0), KERF_MM)
 
 
 def area(line):

@@ -16,7 +16,9 @@ SOURCE = pathlib.Path(os.environ["TRUEFLANK_SOURCE_DIR"])
 PROGRAM = os.environ["TRUEFLANK_PROGRAM"]
 OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"])
 BED = "0x0,250x0,250x210,0x210"  # prusa-mk4, as the design says
-QUICK = ["--layer-height", "0.3", "--first-layer-height", "0.3", "--perimeters", "2", "--fill-density", "10%"]
+# Where a seam is seen least takes a third of the slicer's time, and asks nothing of a plate.
+QUICK = ["--layer-height", "0.3", "--first-layer-height", "0.3", "--perimeters", "2", "--fill-density", "10%",
+         "--seam-position", "rear"]
 
 
 def run(*command):

@@ -95,12 +95,18 @@ class StepAssembly : public ::testing::Test {
     placements_.push_back({.part = 0, .name = "sun", .rotation_rad = 0.1});
   }
 
+  /// The assembly, read once for all tests that look at it.
+  StepDocument& gearbox() {
+    static StepDocument document(io::step_text(parts_, placements_, "gearbox"));
+    return document;
+  }
+
   std::vector<io::StepPart> parts_;
   std::vector<Placement> placements_;
 };
 
 TEST_F(StepAssembly, BodiesHaveTheirNamesAndPlaces) {
-  StepDocument document(io::step_text(parts_, placements_, "gearbox"));
+  StepDocument& document = gearbox();
   const TDF_Label assembly = document.only_free_shape();
   ASSERT_TRUE(XCAFDoc_ShapeTool::IsAssembly(assembly));
   EXPECT_EQ(name_of(assembly), "gearbox");
@@ -120,8 +126,7 @@ TEST_F(StepAssembly, BodiesHaveTheirNamesAndPlaces) {
 }
 
 TEST_F(StepAssembly, BodiesShareTheirParts) {
-  const std::string text = io::step_text(parts_, placements_, "gearbox");
-  StepDocument document(text);
+  StepDocument& document = gearbox();
   const TDF_LabelSequence bodies = document.components(document.only_free_shape());
   ASSERT_EQ(bodies.Length(), 4);
   std::vector<TDF_Label> referred(4);
@@ -140,7 +145,7 @@ TEST_F(StepAssembly, BodiesShareTheirParts) {
 }
 
 TEST_F(StepAssembly, PartsHaveTheirColours) {
-  StepDocument document(io::step_text(parts_, placements_, "gearbox"));
+  StepDocument& document = gearbox();
   const TDF_LabelSequence bodies = document.components(document.only_free_shape());
   ASSERT_EQ(bodies.Length(), 4);
   for (const int i : {0, 3}) {

@@ -22,6 +22,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "tests/programs/opencascade_solid.h"
@@ -223,16 +224,11 @@ struct Example {
     train = std::make_shared<const GearTrain>(*lay_out(file->design));
     shapes = *part_shapes(*train);
   }
-  [[nodiscard]] ReadPmi read(const std::string& name) const {
-    for (const PartShape& part : shapes.parts) {
-      if (part.name != name) continue;
-      auto solid = brep_of(part);
-      EXPECT_TRUE(solid);
-      const io::StepPmi pmi = io::step_pmi(*train, part, *solid);
-      return read_pmi(ap242(part, std::move(*solid), pmi));
-    }
-    ADD_FAILURE() << "no part " << name;
-    return {};
+  /// Read once for all tests that look at the part.
+  [[nodiscard]] const ReadPmi& read(const std::string& name) const {
+    const auto [kept, is_new] = read_.try_emplace(name);
+    if (is_new) kept->second = read_anew(name);
+    return kept->second;
   }
   [[nodiscard]] const TrainGear& gear(const std::string& name) const {
     return *std::find_if(train->gears.begin(), train->gears.end(),
@@ -245,7 +241,26 @@ struct Example {
   }
   std::shared_ptr<const GearTrain> train;
   PartShapes shapes;
+
+ private:
+  [[nodiscard]] ReadPmi read_anew(const std::string& name) const {
+    for (const PartShape& part : shapes.parts) {
+      if (part.name != name) continue;
+      auto solid = brep_of(part);
+      EXPECT_TRUE(solid);
+      const io::StepPmi pmi = io::step_pmi(*train, part, *solid);
+      return read_pmi(ap242(part, std::move(*solid), pmi));
+    }
+    ADD_FAILURE() << "no part " << name;
+    return {};
+  }
+  mutable std::map<std::string, ReadPmi> read_;
 };
+
+const Example& bilateral_drive() {
+  static const Example example("bilateral_drive");
+  return example;
+}
 
 const ReadDimension* diameter(const ReadPmi& pmi, double value_mm) {
   for (const ReadDimension& d : pmi.dimensions)
@@ -254,8 +269,8 @@ const ReadDimension* diameter(const ReadPmi& pmi, double value_mm) {
 }
 
 TEST(StepPmi, ABoreHasItsFitAndCarriesTheDatum) {
-  const Example example("bilateral_drive");
-  const ReadPmi pmi = example.read("planet");
+  const Example& example = bilateral_drive();
+  const ReadPmi& pmi = example.read("planet");
   const double bore_mm = find_gear(example.train->design, "planet1")->bore.diameter_mm;
   const ReadDimension* bore = diameter(pmi, bore_mm);
   ASSERT_NE(bore, nullptr);
@@ -271,8 +286,8 @@ TEST(StepPmi, ABoreHasItsFitAndCarriesTheDatum) {
 }
 
 TEST(StepPmi, TipsRunAsTrueAsTheTeethHaveTo) {
-  const Example example("bilateral_drive");
-  const ReadPmi pmi = example.read("planet");
+  const Example& example = bilateral_drive();
+  const ReadPmi& pmi = example.read("planet");
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string name = i == 0 ? "planet1" : "planet2";
     const TrainGear& gear = example.gear(name);
@@ -283,8 +298,8 @@ TEST(StepPmi, TipsRunAsTrueAsTheTeethHaveTo) {
 }
 
 TEST(StepPmi, WidthsAreBetweenTheFacesTheySpan) {
-  const Example example("bilateral_drive");
-  const ReadPmi pmi = example.read("planet");
+  const Example& example = bilateral_drive();
+  const ReadPmi& pmi = example.read("planet");
   const double whole_mm = example.gear("planet1").face_width_mm +
                           example.gear("planet2").face_width_mm +
                           example.train->design.layer_gap_mm;
@@ -299,8 +314,8 @@ TEST(StepPmi, WidthsAreBetweenTheFacesTheySpan) {
 }
 
 TEST(StepPmi, ARingIsHeldByItsOuterCylinder) {
-  const Example example("bilateral_drive");
-  const ReadPmi pmi = example.read("ring1");
+  const Example& example = bilateral_drive();
+  const ReadPmi& pmi = example.read("ring1");
   ASSERT_EQ(pmi.tolerances.size(), 5U);  // tips, upper face twice, lower face, bolts
   const double outer_mm = *find_gear(example.train->design, "ring1")->outer_diameter_mm;
   for (std::size_t i : {0, 1}) expect_cylinders(pmi.tolerances[i].datum_faces, outer_mm);
@@ -311,7 +326,7 @@ TEST(StepPmi, ARingIsHeldByItsOuterCylinder) {
 
 TEST(StepPmi, FacesAreFlatAndParallelAndHolesStandInTheirZones) {
   const Example example("carried_drive");
-  const ReadPmi planet = example.read("planet"), plate = example.read("carrier");
+  const ReadPmi &planet = example.read("planet"), &plate = example.read("carrier");
   const auto of_type = [](const ReadPmi& pmi, XCAFDimTolObjects_GeomToleranceType type) {
     const auto found = std::find_if(pmi.tolerances.begin(), pmi.tolerances.end(),
                                     [&](const ReadTolerance& t) { return t.type == type; });

@@ -16,8 +16,7 @@ TEST(Search, WhatIsPassedOverChangesNothingOfWhatIsListed) {
   EXPECT_EQ(few.sets(), sets().sets.size());
   EXPECT_EQ(text_of(few),
             text_of(listed_records(listing(3), records().optimised, sets().sets.size())));
-  const SearchReport all = conclude_search(requirements(), sets(), records(), {}),
-                     short_list = conclude_search(listing(3), sets(), few, {});
+  const SearchReport &all = report(), short_list = conclude_search(listing(3), sets(), few, {});
   ASSERT_EQ(short_list.designs.size(), all.designs.size());
   for (std::size_t i = 0; i < all.designs.size(); ++i)
     EXPECT_EQ(short_list.designs[i].candidate.free, all.designs[i].candidate.free);
@@ -50,7 +49,7 @@ TEST(Search, WithTheLossesOfADriveTheSameAreListedAsWithoutABound) {
 
 TEST(Search, WhereListedDesignsFailAChecksThoseBehindThemAreOptimised) {
   // the first three sets fail what no distance mends: the answer is that of the whole list
-  const SearchReport plain = conclude_search(requirements(), sets(), records(), {});
+  const SearchReport& plain = report();
   const auto judge = [&](const GearTrain& train) {
     DesignVerdict verdict;
     for (const FoundDesign& found : plain.designs)
@@ -68,14 +67,14 @@ TEST(Search, WhereListedDesignsFailAChecksThoseBehindThemAreOptimised) {
 }
 
 TEST(Search, DesignsAreRankedAndEveryClassIsCounted) {
-  const SearchReport report = conclude_search(requirements(), sets(), records(), {});
-  ASSERT_EQ(report.designs.size(), 3u);
-  EXPECT_GE(report.designs[0].candidate.forward, report.designs[1].candidate.forward);
-  EXPECT_GE(report.designs[1].candidate.forward, report.designs[2].candidate.forward);
-  long long sum = static_cast<long long>(report.feasible);
-  for (const SetClass& c : report.classes) sum += c.count;
-  EXPECT_EQ(sum, report.considered);
-  for (const FoundDesign& found : report.designs) EXPECT_TRUE(lay_out(found.design).has_value());
+  const SearchReport& ranked = report();
+  ASSERT_EQ(ranked.designs.size(), 3u);
+  EXPECT_GE(ranked.designs[0].candidate.forward, ranked.designs[1].candidate.forward);
+  EXPECT_GE(ranked.designs[1].candidate.forward, ranked.designs[2].candidate.forward);
+  long long sum = static_cast<long long>(ranked.feasible);
+  for (const SetClass& c : ranked.classes) sum += c.count;
+  EXPECT_EQ(sum, ranked.considered);
+  for (const FoundDesign& found : ranked.designs) EXPECT_TRUE(lay_out(found.design).has_value());
 }
 
 TEST(Search, ADesignThatFailsACheckIsTightenedUntilItPasses) {

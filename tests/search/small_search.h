@@ -32,6 +32,10 @@ inline const SearchRecords& records() {
   static const SearchRecords found = run_search(requirements(), sets(), {.threads = 1});
   return found;
 }
+inline const SearchReport& report() {
+  static const SearchReport found = conclude_search(requirements(), sets(), records(), {});
+  return found;
+}
 inline std::string text_of(const std::vector<SearchRecord>& list) {
   std::string text = journal_header(requirements(), sets()) + "\n";
   for (const SearchRecord& record : list) text += journal_line(record) + "\n";
