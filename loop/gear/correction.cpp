@@ -33,6 +33,12 @@ std::string text_of(const Json& json, const std::string& key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
+/// A text of the file as one line: what it tells a terminal to do is not done.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text;
+}
 bool flag_of(const Json& json, const std::string& key, bool otherwise) {
   const auto found = json.find(key);
   return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
@@ -154,6 +160,9 @@ Error too_many(const std::string& what, const std::string& key, std::size_t coun
 Error wrong_flank(const std::string& id) {
   return broken("flank is neither left nor right nor both", "effects." + id);
 }
+Error moves_both(const std::string& id) {
+  return broken("what moves the body moves both flanks", "effects." + id);
+}
 Error broken_wave(const std::string& id) {
   return broken("the order of a wave around the gear is a whole number", "effects." + id);
 }
@@ -181,6 +190,8 @@ Result<CorrectableTerms> correctable_terms(const std::string& id, const Json& it
       return fail(broken("a term without its numbers", "effects.terms"));
     if (!closes_around(*part.effect.family, part.effect.shape)) return fail(broken_wave("terms"));
     part.effect.flank = *flank;
+    if (part.effect.family->displacement_mm && *flank != FlankChoice::kBoth)
+      return fail(moves_both(id));
     if (part.effect.family->correctable != Correctable::kGeometry)
       found.left.push_back(id + ": " + part.effect.family->description);
     else
@@ -213,8 +224,9 @@ Result<Correction::Part> named_part(const std::string& id, const Json& item, con
   part.effect.flank = *flank;
   if (!read_parameters(item, family, part.effect.shape, part.coefficients))
     return fail(broken("an effect without its parameters", "effects." + id));
-  if (!closes_around(family, part.effect.shape))
-    return fail(broken_wave(id));
+  if (!closes_around(family, part.effect.shape)) return fail(broken_wave(id));
+  if (family.displacement_mm && part.effect.flank != FlankChoice::kBoth)
+    return fail(moves_both(id));
   return part;
 }
 
@@ -250,7 +262,9 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
     if (!found) return fail(found.error());
     const EffectFamily& family = **found;
     if (!family.named && !flag_of(item, "correctable", true)) {
-      result.left_.push_back(id + ": described only; its cause is not known");
+      const std::string what = text_of(item, "description");
+      result.left_.push_back(id + ": " + (what.empty() ? "" : what + ": ") +
+                             "described only; its cause is not known");
     } else if (!family.named) {
       auto terms = correctable_terms(id, item, family);
       if (!terms) return fail(std::move(terms.error()));
@@ -266,6 +280,8 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
       result.corrected_.push_back(id);
     }
   }
+  for (std::string& text : result.left_) text = one_line(std::move(text));
+  for (std::string& text : result.corrected_) text = one_line(std::move(text));
   if (result.operations() > kMostOperations)
     return fail({.code = ErrorCode::kOutOfRange,
                  .message = "the effects take more computing at each place than any mesh has time for",

@@ -222,6 +222,16 @@ TEST_F(CorrectedMake, AFormWithoutANameIsCalledAsItsTermCallsIt) {
   EXPECT_NE(left->notes.find("a form"), std::string::npos) << left->notes;
 }
 
+TEST_F(CorrectedMake, WhatIsLeftIsToldInTheWordsOfTheLoopWithoutControlCodes) {
+  const auto made = make(
+      R"({"id": "unnamed", "correctable": false, "description": "a rise\u001b[8m of\nboth ends"},
+         {"id": "mine\u001b[31m", "form": {"a_um": "u"}, "parameters": {"a_um": {"value": 1}}})");
+  ASSERT_TRUE(made) << made.error().front().message;
+  EXPECT_NE(made->notes.find("a rise [8m of both ends: described only"), std::string::npos)
+      << made->notes;
+  EXPECT_EQ(made->notes.find('\033'), std::string::npos);
+}
+
 TEST_F(CorrectedMake, AFormulaWithAPoleBetweenThePlacesLookedAtIsRefused) {
   for (const char* formula : {"tan(pi * (u + 0.123) / 2)", "1 / (u - 0.33)", "1 / (u - 0.33)^2", "tan(pi * (v + 0.123) / 2)",
                               "u / (v - 0.4)^2"}) {
@@ -318,6 +328,9 @@ TEST_F(CorrectedMake, ALoopFileOfWrongTypesIsAnErrorOfItsData) {
         R"({"id": "scale", "flank": "upper", "parameters": {"percent": {"value": 0.1}}})",
         R"({"id": "unnamed", "terms": [{"order": "x"}]})",
         R"({"id": "unnamed", "flank": "upper", "terms": [{"form": "bow_over_face", "cos_um": 1}]})",
+        R"({"id": "lobing", "flank": "left", "parameters": {"order": {"value": 3},
+            "amplitude_um": {"value": 1}, "phase_deg": {"value": 0}}})",
+        R"({"id": "unnamed", "flank": "left", "terms": [{"form": "size_of_part", "cos_um": 1}]})",
         R"({"id": "mine", "form": {"a": 3}, "correctable": 8})", R"("scale")", R"(null)"}) {
     const auto made = make(effects);
     ASSERT_FALSE(made) << effects;
