@@ -355,6 +355,15 @@ TEST(CentreDistanceFigures, OfTheCureHold) {
   EXPECT_NEAR(check_centre_distance(laid_out(d))[0].value, 0.0, 1e-4);
 }
 
+TEST(Findings, TheVerdictIsTheWorstOfThem) {
+  const Finding passes{.status = CheckStatus::kPass}, warns{.status = CheckStatus::kWarn},
+      fails{.status = CheckStatus::kFail}, idle{.status = CheckStatus::kNotApplicable};
+  EXPECT_EQ(verdict({}), CheckStatus::kPass);
+  EXPECT_EQ(verdict({idle, passes, idle}), CheckStatus::kPass);
+  EXPECT_EQ(verdict({passes, warns, passes}), CheckStatus::kWarn);
+  EXPECT_EQ(verdict({warns, fails, passes}), CheckStatus::kFail);
+}
+
 TEST(Findings, FoundAnewStandForThoseOfTheSameChecksAndNoOthers) {
   Findings findings{{.id = "tolerance", .where = "sun-planet"},
                     {.id = "axial", .where = "train"},
