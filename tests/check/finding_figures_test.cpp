@@ -12,6 +12,7 @@
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/design_tolerances.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/tip_clearance.h"
@@ -329,6 +330,19 @@ TEST(BacklashFigures, NormalToTheFlanksItIsLessByBothAngles) {
   EXPECT_EQ(f.message.find("modifications"), std::string::npos);
   EXPECT_NE(check_backlash(laid_out(pair_design(20, 40, false)))[0].message.find("no play"),
             std::string::npos);
+}
+
+TEST(BacklashFigures, AClearanceThatIsAskedForLacksWhatItTakesOnTwoFlanks) {
+  for (const double helix : {0.0, kPi / 9.0}) {
+    GearboxDesign d = pair_design(20, 40, false, 0.02);
+    d.helix_angle_rad = helix;
+    EXPECT_EQ(lacking_for_clearance_mm(laid_out(d)), 0.0);
+    d.made.clearance_mm = 0.03;
+    const double transverse = std::atan(std::tan(kPi / 9.0) / std::cos(helix)),
+                 base_helix = std::asin(std::sin(helix) * kCos20);
+    EXPECT_NEAR(lacking_for_clearance_mm(laid_out(d)),
+                0.06 / (std::cos(transverse) * std::cos(base_helix)) - 0.02, 1e-6);
+  }
 }
 
 TEST(BacklashFigures, AHelixThatIsOffTakesItFromBothSides) {
