@@ -33,6 +33,12 @@ std::string text_of(const Json& json, const std::string& key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
+/// A text of the file as one line: what it tells a terminal to do is not done.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text;
+}
 bool flag_of(const Json& json, const std::string& key, bool otherwise) {
   const auto found = json.find(key);
   return found != json.end() && found->is_boolean() ? found->get<bool>() : otherwise;
@@ -151,32 +157,46 @@ Error too_many(const std::string& what, const std::string& key, std::size_t coun
           .remedy = std::to_string(kMostEffects) + " at most"};
 }
 
+Error wrong_flank(const std::string& id) {
+  return broken("flank is neither left nor right nor both", "effects." + id);
+}
+Error moves_both(const std::string& id) {
+  return broken("what moves the body moves both flanks", "effects." + id);
+}
+Error broken_wave(const std::string& id) {
+  return broken("the order of a wave around the gear is a whole number", "effects." + id);
+}
+
 /// An effect without a name: its terms, each an effect of its own.
 struct CorrectableTerms {
   std::vector<Correction::Part> parts;
   std::vector<std::string> left;
-  bool any = false;
 };
 Result<CorrectableTerms> correctable_terms(const std::string& id, const Json& item, const EffectFamily& family) {
   CorrectableTerms found;
   const auto terms = item.find("terms");
-  if (terms == item.end() || !terms->is_array()) {
+  if (terms == item.end() || !terms->is_array() || terms->empty()) {
     const std::string description = text_of(item, "description");
     found.left.push_back(id + ": " + (description.empty() ? "no terms" : description) + "; inspect or reject the part");
     return found;
   }
   if (terms->size() > kMostEffects) return fail(too_many("terms", "effects.terms", terms->size()));
+  const auto flank = flank_of(item);
+  if (!flank) return fail(wrong_flank(id));
   for (const Json& term : *terms) {
     Correction::Part part;
     part.effect.family = family_of_term(term, family);
     if (part.effect.family == nullptr || !read_term(term, *part.effect.family, part.effect.shape, part.coefficients))
       return fail(broken("a term without its numbers", "effects.terms"));
+    if (!closes_around(*part.effect.family, part.effect.shape)) return fail(broken_wave("terms"));
+    part.effect.flank = *flank;
+    if (part.effect.family->displacement_mm && *flank != FlankChoice::kBoth)
+      return fail(moves_both(id));
     if (part.effect.family->correctable != Correctable::kGeometry)
       found.left.push_back(id + ": " + part.effect.family->description);
     else
       found.parts.push_back(std::move(part));
   }
-  found.any = true;
   return found;
 }
 
@@ -200,12 +220,13 @@ Result<Correction::Part> named_part(const std::string& id, const Json& item, con
   Correction::Part part;
   part.effect.family = &family;
   const auto flank = flank_of(item);
-  if (!flank) return fail(broken("flank is neither left nor right nor both", "effects." + id));
+  if (!flank) return fail(wrong_flank(id));
   part.effect.flank = *flank;
   if (!read_parameters(item, family, part.effect.shape, part.coefficients))
     return fail(broken("an effect without its parameters", "effects." + id));
-  if (!closes_around(family, part.effect.shape))
-    return fail(broken("the order of a wave around the gear is a whole number", "effects." + id));
+  if (!closes_around(family, part.effect.shape)) return fail(broken_wave(id));
+  if (family.displacement_mm && part.effect.flank != FlankChoice::kBoth)
+    return fail(moves_both(id));
   return part;
 }
 
@@ -245,13 +266,15 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
     if (!found) return fail(found.error());
     const EffectFamily& family = **found;
     if (!family.named && !flag_of(item, "correctable", true)) {
-      result.left_.push_back(id + ": described only; its cause is not known");
+      const std::string what = text_of(item, "description");
+      result.left_.push_back(id + ": " + (what.empty() ? "" : what + ": ") +
+                             "described only; its cause is not known");
     } else if (!family.named) {
       auto terms = correctable_terms(id, item, family);
       if (!terms) return fail(std::move(terms.error()));
+      if (!terms->parts.empty()) result.corrected_.push_back(id);
       std::move(terms->parts.begin(), terms->parts.end(), std::back_inserter(result.parts_));
       std::move(terms->left.begin(), terms->left.end(), std::back_inserter(result.left_));
-      if (terms->any) result.corrected_.push_back(id);
     } else if (family.correctable != Correctable::kGeometry) {
       result.left_.push_back(id + ": " + family.correction);
     } else {
@@ -261,6 +284,8 @@ Result<Correction> Correction::make(std::string_view loop_json, const FlankGeome
       result.corrected_.push_back(id);
     }
   }
+  for (std::string& text : result.left_) text = one_line(std::move(text));
+  for (std::string& text : result.corrected_) text = one_line(std::move(text));
   if (result.operations() > kMostOperations)
     return fail({.code = ErrorCode::kOutOfRange,
                  .message = "the effects take more computing at each place than any mesh has time for",
@@ -397,9 +422,13 @@ Correction Correction::without_scale() const {
   return some;
 }
 
-Correction Correction::of(const std::string& id) const {
+std::string Correction::name_of(const EffectFamily& family) {
+  return family.named || family.form_word.empty() ? family.id : "unnamed (" + family.form_word + ")";
+}
+
+Correction Correction::of(const std::string& name) const {
   Correction some = *this;
-  std::erase_if(some.parts_, [&](const Part& p) { return p.effect.family->id != id; });
+  std::erase_if(some.parts_, [&](const Part& p) { return name_of(*p.effect.family) != name; });
   return some;
 }
 
@@ -410,11 +439,12 @@ Correction Correction::of_body() const {
 }
 
 std::vector<std::string> Correction::effects() const {
-  std::vector<std::string> ids;
-  for (const Part& part : parts_)
-    if (std::find(ids.begin(), ids.end(), part.effect.family->id) == ids.end())
-      ids.push_back(part.effect.family->id);
-  return ids;
+  std::vector<std::string> names;
+  for (const Part& part : parts_) {
+    const std::string name = name_of(*part.effect.family);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
 }
 
 bool Correction::moves_whole_part() const {

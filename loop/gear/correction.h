@@ -51,11 +51,13 @@ class Correction {
   /// the two, some hundredths of a micrometre.
   [[nodiscard]] Correction scale_alone() const;
   [[nodiscard]] Correction without_scale() const;
-  /// What it cancels of one id.
-  [[nodiscard]] Correction of(const std::string& id) const;
+  /// What people call an effect: its id; of a form without a name "unnamed" and its form.
+  [[nodiscard]] static std::string name_of(const EffectFamily& family);
+  /// What it cancels of one name.
+  [[nodiscard]] Correction of(const std::string& name) const;
   /// What it does by moving points of the body, not flanks.
   [[nodiscard]] Correction of_body() const;
-  /// The ids of which something is cancelled, each once.
+  /// The names of what is cancelled, each once.
   [[nodiscard]] std::vector<std::string> effects() const;
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] const FlankGeometry& geometry() const { return geometry_; }

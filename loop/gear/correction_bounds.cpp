@@ -211,7 +211,7 @@ std::optional<Error> wrong_shape(const Correction& correction) {
       const double value = part.effect.shape[k];
       if (value >= low / kBeyondLimits && value <= high * kBeyondLimits) continue;
       Error error =
-          refusal(family.id, "its " + family.shape_names[k] + " lies outside of this gear");
+          refusal(Correction::name_of(family), "its " + family.shape_names[k] + " lies outside of this gear");
       error.value = printed_number(value, "%.6g");
       error.remedy = printed_number(low, "%.4g") + " to " + printed_number(high, "%.4g");
       return error;
@@ -228,11 +228,11 @@ Status within_bounds(const Correction& correction) {
   if (auto error = wrong_shape(correction)) return fail(std::move(*error));
   std::string largest;
   double farthest_mm = -1.0;
-  for (const std::string& id : correction.effects()) {
-    const Correction alone = correction.of(id);
+  for (const std::string& name : correction.effects()) {
+    const Correction alone = correction.of(name);
     const CorrectionReach reach = reach_of(alone);
-    if (const auto beyond = beyond_bounds(alone, reach)) return fail(refusal(id, *beyond));
-    if (reach.farthest_mm > farthest_mm) largest = id, farthest_mm = reach.farthest_mm;
+    if (const auto beyond = beyond_bounds(alone, reach)) return fail(refusal(name, *beyond));
+    if (reach.farthest_mm > farthest_mm) largest = name, farthest_mm = reach.farthest_mm;
   }
   if (correction.effects().size() < 2) return {};
   if (const auto beyond = beyond_bounds(correction, reach_of(correction)))

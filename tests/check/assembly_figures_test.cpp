@@ -201,6 +201,21 @@ TEST(AssemblyFigures, AMeshOutOfPhaseIsToldWithItsArc) {
   EXPECT_FALSE(says(f, "Order:"));
 }
 
+TEST(AssemblyFigures, OnePlanetOutOfPhaseIsNamed) {
+  for (const std::size_t planet : {0U, 1U, 2U}) {
+    GearTrain train = laid_out(simple_design(12, 30, 72, 3));
+    const auto member = static_cast<std::size_t>(train.topology().find_member("planet"));
+    ASSERT_EQ(train.phases.member_rotation_rad[member].size(), 3U);
+    train.phases.member_rotation_rad[member][planet] += 0.01;
+    const Finding f = judged(train);
+    EXPECT_EQ(f.status, CheckStatus::kFail);
+    EXPECT_TRUE(says(f, "of planet " + std::to_string(planet + 1))) << f.message;
+    // one that stands out less is not
+    train.phases.member_rotation_rad[member][(planet + 1) % 3] += 0.005;
+    EXPECT_TRUE(says(judged(train), "of planet " + std::to_string(planet + 1)));
+  }
+}
+
 TEST(AssemblyOrder, TheSunGoesInWhereNoPlanetBarsIt) {
   const auto told = [](const Teeth& t) { return judged(laid_out(design_of(t, 3))); };
   EXPECT_TRUE(says(told({12, 39, 90, 32, 81}), "then the sun along the axis from either side"));

@@ -12,6 +12,7 @@
 #include "trueflank/check/backlash.h"
 #include "trueflank/check/centre_distance.h"
 #include "trueflank/check/contact_ratio.h"
+#include "trueflank/check/design_tolerances.h"
 #include "trueflank/check/finding.h"
 #include "trueflank/check/planet_spacing.h"
 #include "trueflank/check/tip_clearance.h"
@@ -331,6 +332,19 @@ TEST(BacklashFigures, NormalToTheFlanksItIsLessByBothAngles) {
             std::string::npos);
 }
 
+TEST(BacklashFigures, AClearanceThatIsAskedForLacksWhatItTakesOnTwoFlanks) {
+  for (const double helix : {0.0, kPi / 9.0}) {
+    GearboxDesign d = pair_design(20, 40, false, 0.02);
+    d.helix_angle_rad = helix;
+    EXPECT_EQ(lacking_for_clearance_mm(laid_out(d)), 0.0);
+    d.made.clearance_mm = 0.03;
+    const double transverse = std::atan(std::tan(kPi / 9.0) / std::cos(helix)),
+                 base_helix = std::asin(std::sin(helix) * kCos20);
+    EXPECT_NEAR(lacking_for_clearance_mm(laid_out(d)),
+                0.06 / (std::cos(transverse) * std::cos(base_helix)) - 0.02, 1e-6);
+  }
+}
+
 TEST(BacklashFigures, AHelixThatIsOffTakesItFromBothSides) {
   GearboxDesign d = pair_design(20, 40, false, 0.05);
   d.gears[0].shift = d.gears[1].shift = 0.0;
@@ -353,6 +367,15 @@ TEST(CentreDistanceFigures, OfTheCureHold) {
   EXPECT_NEAR(0.2 + change, shift, 1e-5);
   d.centre_distance_mm = number_after(f.cure, "centre distance ");
   EXPECT_NEAR(check_centre_distance(laid_out(d))[0].value, 0.0, 1e-4);
+}
+
+TEST(Findings, TheVerdictIsTheWorstOfThem) {
+  const Finding passes{.status = CheckStatus::kPass}, warns{.status = CheckStatus::kWarn},
+      fails{.status = CheckStatus::kFail}, idle{.status = CheckStatus::kNotApplicable};
+  EXPECT_EQ(verdict({}), CheckStatus::kPass);
+  EXPECT_EQ(verdict({idle, passes, idle}), CheckStatus::kPass);
+  EXPECT_EQ(verdict({passes, warns, passes}), CheckStatus::kWarn);
+  EXPECT_EQ(verdict({warns, fails, passes}), CheckStatus::kFail);
 }
 
 TEST(Findings, FoundAnewStandForThoseOfTheSameChecksAndNoOthers) {

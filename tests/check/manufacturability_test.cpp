@@ -46,6 +46,28 @@ TEST(Manufacturability, WarnsOfTeethSmallerThanTheNozzleCanLay) {
     EXPECT_EQ(finding.status, CheckStatus::kPass) << finding.message;
 }
 
+TEST(Manufacturability, TheWallIsLeastOverTheFarthestPlaceOfTheBore) {
+  GearboxDesign design{.name = "gear", .topology = train_topology("gear"), .module_mm = 2.0};
+  design.gears = {GearDesign{.name = "gear", .teeth = 30}};
+  design.made.process = *ProcessTable().find("fdm-0.4");
+  const double root_mm = lay_out(design)->gears[0].profile.root_radius_mm();
+  const double corner_mm = root_mm - 0.3;  // less than the process makes
+  const double flat_mm = corner_mm * std::sqrt(0.75),
+               key_mm = std::sqrt(corner_mm * corner_mm - 16.0);
+  for (const BoreDesign& bore : {BoreDesign{.diameter_mm = 2.0 * corner_mm},
+                                 BoreDesign{.diameter_mm = 2.0 * flat_mm, .kind = BoreKind::kHex},
+                                 BoreDesign{.diameter_mm = 2.0 * (key_mm - 3.0),
+                                 .kind = BoreKind::kKeyway,
+                                 .keyway_width_mm = 8.0,
+                                 .keyway_depth_mm = 3.0}}) {
+    design.gears[0].bore = bore;
+    const Findings found = check_manufacturability(*lay_out(design));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].value, 0.3, 1e-9);
+    EXPECT_NE(found[0].message.find("wall between bore and root circle"), std::string::npos);
+  }
+}
+
 TEST(Manufacturability, WarnsOfLessBacklashThanTheProcessWants) {
   const Findings tight = check_manufacturability(pair_train(2.0, "fdm-0.4", 0.1));
   const Finding* mesh = find(tight, "pinion-wheel");

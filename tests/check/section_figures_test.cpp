@@ -148,6 +148,8 @@ TEST(OverlapFigures, TheTipThatGoesTooDeepIsTheOneToShorten) {
       const Finding overlap = only(check_gearbox(laid_out(design)), "overlap");
       ASSERT_EQ(overlap.status, CheckStatus::kFail) << ring << name;
       EXPECT_EQ(overlap.cure.find(std::string("tip diameter of ") + name), 0u) << overlap.cure;
+      EXPECT_NE(overlap.message.find(std::string("tip corner of ") + name), std::string::npos)
+          << overlap.message;
     }
 }
 

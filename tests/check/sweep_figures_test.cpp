@@ -277,6 +277,37 @@ TEST(SweepClearance, IsNoMoreThanThatOfAnySampleInAnyColumn) {
   }
 }
 
+TEST(TipsClear, LooksAtTheTipsOfBothGears) {
+  for (const bool ring : {false, true})
+    for (const char* longer : {"pinion", "wheel"}) {
+      GearboxDesign design = pair_design(20, 50, ring, 0.2);
+      const auto clear = [&] {
+        const GearTrain train = laid_out(design);
+        return tips_clear(train.pair(train.meshes[0]), 0.0);
+      };
+      EXPECT_TRUE(clear()) << ring;
+      // up to 1.3 modules above the pitch circle: 0.05 beyond the mate's root
+      const bool in_ring = ring && longer == std::string("wheel");
+      const double pitch_diameter = longer == std::string("wheel") ? 50.0 : 20.0;
+      gear(design, longer).tip_diameter_mm = pitch_diameter + (in_ring ? -2.6 : 2.6);
+      EXPECT_FALSE(clear()) << ring << ' ' << longer;
+    }
+}
+
+TEST(TipsClear, DecidesAtTheClearanceItself) {
+  int meshes = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const auto train = lay_out(random_design(seed));
+    if (!train) continue;
+    const GearPair pair = train->pair(train->meshes[0]);
+    const double clearance_mm = tips_swept_mm(pair, CurveSpline::kError, 0.0, 0.0, -1e9);
+    EXPECT_TRUE(tips_clear(pair, clearance_mm)) << seed;
+    EXPECT_FALSE(tips_clear(pair, clearance_mm + 1e-9)) << seed;
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 20);
+}
+
 TEST(TipsClear, AsksTheTipsAlone) {
   GearboxDesign design = pair_design(23, 37, false, 0.0);
   const auto pair_of = [&](const PairSection& section) {

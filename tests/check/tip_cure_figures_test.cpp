@@ -123,6 +123,48 @@ TEST(ShortenedTips, ThatAreWrittenStayWhereClearOnesAreNoShorterThanTheStandards
   EXPECT_FALSE(shorten_given(laid_out(design), judgement, change));
 }
 
+TEST(ContactJudge, LooksAtOneLayerAsAtThatLayerOfTheWhole) {
+  GearboxDesign design = paper_design(0.0);
+  const GearTrain plain = laid_out(design);
+  for (const char* name : {"sun", "planet2"})  // into the mate's root
+    gear(design, name).tip_diameter_mm = 2.0 * plain.find(name)->profile.tip_radius_mm() + 0.8;
+  const GearTrain train = laid_out(design);
+  ContactJudge judge;
+  const auto told = [](const Judgement& judgement, int layer) {
+    std::vector<std::pair<std::string, double>> complaints;
+    for (const Complaint& c : judgement.complaints)
+      if (layer == 0 || c.layer == layer) complaints.emplace_back(c.id, c.lacking);
+    return complaints;
+  };
+  const Judgement whole = ContactJudge::without_turning(train), turned = judge.by_turning(train);
+  int layers_with_complaints = 0;
+  for (const int layer : {1, 2}) {
+    EXPECT_EQ(told(ContactJudge::without_turning(train, layer), 0), told(whole, layer)) << layer;
+    EXPECT_EQ(told(judge.by_turning(train, layer), 0), told(turned, layer)) << layer;
+    layers_with_complaints += told(whole, layer).empty() ? 0 : 1;
+  }
+  EXPECT_EQ(layers_with_complaints, 2);
+}
+
+TEST(ContactJudge, ClearancesAreThoseOfTheTurnedTeeth) {
+  for (const double asked_mm : {0.0, 0.01})
+    for (const auto& [pinion, wheel, ring] :
+         {std::tuple{25, 29, true}, {20, 60, true}, {17, 40, false}}) {
+      GearboxDesign design = pair_design(pinion, wheel, ring, 0.05);
+      if (asked_mm > 0.0) design.made.clearance_mm = asked_mm;
+      const GearTrain train = laid_out(design);
+      const GearPair pair = train.pair(train.meshes[0]);
+      ContactJudge judge;
+      const ContactJudge::Clearances& c = judge.clearances(train, train.meshes[0]);
+      const double driving_mm = driving_clearance(pair).clearance_mm;
+      EXPECT_EQ(c.driving_mm, driving_mm);
+      if (driving_mm < 0.0 || asked_mm > 0.0)
+        EXPECT_EQ(c.centred_mm, sweep_clearance_mm(pair)) << pinion << ' ' << asked_mm;
+      else
+        EXPECT_GE(sweep_clearance_mm(pair), c.centred_mm) << pinion;
+    }
+}
+
 /// Of a layer: tips that turning shows in the way.
 DesignChange in_the_way(const GearTrain& train, int layer) {
   ContactJudge judge;

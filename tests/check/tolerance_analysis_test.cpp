@@ -47,7 +47,10 @@ TEST(Tolerance, ShareThatJamsIsTheNormalDistributionsTail) {
   const ToleranceResult result = analysed(train, {.tooth_thickness_um = 30, .sets = 40000});
   const double expected = 0.5 * std::erfc(20.0 / (10.0 * std::sqrt(2.0)) / std::sqrt(2.0));
   EXPECT_NEAR(result.jam_share, expected, 0.005);  // 4 standard errors, and the cut tails
-  EXPECT_EQ(only(check_tolerance(train, result), "tolerance", "train").status, CheckStatus::kFail);
+  const Finding f = only(check_tolerance(train, result), "tolerance", "train");
+  EXPECT_EQ(f.status, CheckStatus::kFail);
+  EXPECT_NEAR(f.value, 100.0 * result.jam_share, 1e-12);
+  EXPECT_NEAR(f.margin, f.limit - f.value, 1e-12);
 }
 
 TEST(Tolerance, MorePlanetsJamMoreOften) {

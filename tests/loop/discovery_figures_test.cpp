@@ -12,6 +12,7 @@
 #include "trueflank/geometry/linear_equations.h"
 #include "trueflank/loop/discovery/block_statistics.h"
 #include "trueflank/loop/discovery/column_panels.h"
+#include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/discovery.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/ring_scan.h"
@@ -258,6 +259,12 @@ TEST(Discovery, FindsWhatIsHiddenAndNothingElse) {
       1u);
 }
 
+TEST(Discovery, FindsWhatIsCommonBesideWhatIsOnOnePlaceAlone) {
+  for (const double height : {2.5, 8.0})
+    EXPECT_EQ(chosen(discover(holding({{3, 1.0}, {15, height}}), {.flips = 199})),
+              (std::vector<int>{3, 15}));
+}
+
 TEST(Discovery, OfTwinsThePreferredOneIsChosenAndTheOtherIsConfounded) {
   for (const int better : {3, 6}) {
     DiscoveryProblem problem = made_problem(7, false);
@@ -464,8 +471,8 @@ TEST(RingScanFigures, OfASawAreTheRiseOfItsTeethAndItsFTest) {
   EXPECT_NEAR(found.amount, rise, 1e-9);
   // Of 4, 6, 8 and 12 places, which close around the ring, as many starts; of the others 24.
   const double looked_at = 4.0 + 6.0 + 8.0 + 12.0 + 24.0 * 5.0;
-  EXPECT_NEAR(found.p_value / p_by_hand(series, rise * rise * saw.squaredNorm(), 1.0, looked_at), 1.0,
-              1e-9);
+  EXPECT_NEAR(found.p_value / p_by_hand(series, rise * rise * saw.squaredNorm(), 1.0, looked_at),
+              1.0, 1e-9);
 }
 
 TEST(RingScanFigures, OfSeriesWithoutSpreadAreNothingAndOfEqualsTheFirstKind) {
@@ -473,6 +480,31 @@ TEST(RingScanFigures, OfSeriesWithoutSpreadAreNothingAndOfEqualsTheFirstKind) {
   EXPECT_EQ(found.p_value, 1.0);
   EXPECT_EQ(found.series, -1);
   EXPECT_EQ(found.kind, RingFinding::Kind::kArc);
+}
+
+/// Straight lines that meet, in units of the course.
+TEST(CourseScanFigures, AKinkHasTheSlopesToItsSides) {
+  constexpr int kPlaces = 60, kCourses = 6;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (const auto& [at, before, beyond] : {std::tuple{0.4, 3.0, -5.0}, {0.7, -2.0, 6.0}}) {
+    Eigen::MatrixXd courses(kPlaces, kCourses);
+    for (int c = 0; c < kCourses; ++c)
+      for (int i = 0; i < kPlaces; ++i) {
+        const double off = i / (kPlaces - 1.0) - at;
+        courses(i, c) = (off < 0.0 ? before : beyond) * off + 0.02 * normal(random);
+      }
+    courses.rowwise() -= courses.colwise().mean().eval();
+    const auto found = scan_courses({courses});
+    const auto kink = std::find_if(found.begin(), found.end(), [](const CourseFinding& f) {
+      return f.kind == CourseFinding::Kind::kKink;
+    });
+    ASSERT_NE(kink, found.end());
+    EXPECT_NEAR(kink->at, at, 0.02);
+    // The bend lies on one of the places, a sixtieth apart: of 0.3 of the course a twentieth.
+    EXPECT_NEAR(kink->before, before, 0.05 * std::abs(beyond - before));
+    EXPECT_NEAR(kink->beyond, beyond, 0.05 * std::abs(beyond - before));
+  }
 }
 
 TEST(ChanceOfAgreement, IsStudentsOfTheCorrelation) {

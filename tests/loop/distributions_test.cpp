@@ -26,11 +26,14 @@ TEST(Distributions, StudentsTailsAgreeWithClosedForms) {
 }
 
 TEST(Distributions, LongTailsRaiseTheNormalTailAsAMixtureOfSpreadsDoes) {
-  for (double z : {0.3, 2.0, 5.0, 9.0}) EXPECT_NEAR(normal_two_sided(z), std::erfc(z / std::sqrt(2.0)), 1e-16);
-  // Normal values of two spreads, as often of the one as of the other: variance 1, kurtosis 3 (1 + d^2).
+  for (double z : {0.3, 2.0, 5.0, 9.0})
+    EXPECT_NEAR(normal_two_sided(z), std::erfc(z / std::sqrt(2.0)), 1e-16);
+  // Normal values of two spreads, as often of the one as of the other: variance 1, kurtosis 3 (1 +
+  // d^2).
   const double d = 0.2, excess = 3.0 * d * d;
   for (double z : {2.5, 3.0, 3.5}) {
-    const double mixed = 0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 - d))) + 0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 + d)));
+    const double mixed = 0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 - d))) +
+                         0.5 * std::erfc(z / std::sqrt(2.0 * (1.0 + d)));
     EXPECT_NEAR(normal_two_sided(z, excess), mixed, 0.15 * mixed) << z;
     EXPECT_GT(normal_two_sided(z, excess), 1.05 * normal_two_sided(z)) << z;
   }
@@ -120,6 +123,23 @@ TEST(Distributions, TheLargestOfAnExponentialTailIsAnAccidentAsOftenAsItSays) {
       below += gap_beyond_tail_p_value(largest, sizes) < 0.05 ? 1 : 0;
     }
     EXPECT_NEAR(below, 0.05 * kTrials, 4.0 * std::sqrt(0.05 * 0.95 * kTrials)) << count;
+  }
+}
+
+// The gaps between sorted sizes of an exponential tail, each times its rank, are draws of one
+// exponential (Renyi): eight of few sizes, a third of many.
+TEST(Distributions, TheLargestIsJudgedByTheGapsOfTheTailAlone) {
+  for (const auto& [count, in_tail] : {std::pair{5, 5}, {9, 8}, {20, 8}, {60, 20}}) {
+    std::vector<double> others{100.0};
+    double sum = 0.0;
+    for (int rank = 2; rank <= count; ++rank) {
+      const double gap = rank <= in_tail ? 0.3 + 0.1 * (rank % 3) : 1.0;
+      if (rank <= in_tail) sum += rank * gap;
+      others.push_back(others.back() - gap);
+    }
+    EXPECT_NEAR(gap_beyond_tail_p_value(104.0, others), std::pow(1.0 + 4.0 / sum, 1 - in_tail),
+                1e-12)
+        << count;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "tests/loop/made_gears.h"
 #include "trueflank/loop/gear/correction.h"
+#include "trueflank/loop/result/describe.h"
 
 // What a cause may be depends on how the part was made; what no gear can have is not told.
 namespace trueflank::test {
@@ -78,6 +79,71 @@ TEST(PossibleCauses, AFormWithoutCauseIsCorrectedAsTheNamedOneIs) {
   const auto size = std::hypot(at_a[0], at_a[1]);
   EXPECT_GT(size, 0.01);
   EXPECT_NEAR(std::hypot(at_a[0] - at_b[0], at_a[1] - at_b[1]), 0.0, 0.01 * size);
+}
+
+/// A loop.json with the one effect, five micrometres or hundredths of a percent of it.
+std::string written_as_loop_json(const loop::EffectFamily& family, const std::string& flank,
+                                 const loop::EffectShape& shape, const std::vector<double>& amounts) {
+  loop::LoopResult result;
+  result.gear = "gear";
+  loop::FoundEffect found;
+  found.id = family.named ? family.id : "unnamed";
+  found.named = family.named;
+  found.flank = flank;
+  found.correctable = family.correctable == loop::Correctable::kGeometry;
+  if (family.named) {
+    for (std::size_t k = 0; k < shape.size(); ++k)
+      found.parameters.push_back({family.shape_names[k], shape[k], kNaN, kNaN});
+    const bool wave = family.form == loop::ParameterForm::kWave;
+    const std::vector<double> told =
+        wave ? std::vector{std::hypot(amounts[0], amounts[1]),
+                           deg_from_rad(std::atan2(amounts[1], amounts[0])) / family.phase_divisor}
+             : amounts;
+    for (std::size_t k = 0; k < family.parameters.size(); ++k)
+      found.parameters.push_back({family.parameters[k], told[k], kNaN, kNaN});
+  } else {
+    found.terms.push_back(loop::term_of(family, shape));
+    found.terms.back().cos = amounts[0];
+    if (family.columns(shape) == 2) found.terms.back().sin = amounts[1];
+  }
+  result.effects.push_back(std::move(found));
+  return loop_json(result);
+}
+
+TEST(PossibleCauses, EveryFormIsCorrectedOnTheFlanksOfItsNameAlone) {
+  const auto geometry = geometry_of(spur(24));
+  for (const loop::EffectFamily& named : loop::effect_library()) {
+    const loop::EffectFamily* form = loop::find_form(named.form_word);
+    if (form == nullptr || named.correctable != loop::Correctable::kGeometry) continue;
+    const std::vector<loop::EffectShape> shapes =
+        named.shapes ? named.shapes(geometry) : std::vector<loop::EffectShape>{{}};
+    const auto& shape = shapes[shapes.size() / 2];
+    std::vector<std::string> flanks{"both"};
+    if (named.one_flank_too) flanks.insert(flanks.end(), {"left", "right"});
+    for (const std::string& flank : flanks) {
+      const std::vector<double> amounts{0.05, 0.02, 0.01};
+      const auto a =
+          loop::Correction::make(written_as_loop_json(named, flank, shape, amounts), geometry);
+      const auto b =
+          loop::Correction::make(written_as_loop_json(*form, flank, shape, amounts), geometry);
+      ASSERT_TRUE(a && b) << named.id << " " << flank;
+      ASSERT_EQ(b->corrected().size(), 1U) << named.id << " " << flank;
+      double moved_um = 0.0;
+      for (const int side : {1, -1})
+        for (const double height : {0.1, 0.8}) {
+          const auto place = geometry.on_flank(
+              3, side, 0.3 * geometry.root_form_roll_mm() + 0.7 * geometry.tip_form_roll_mm(),
+              height * geometry.face_width_mm());
+          const std::array<double, 3> point{place.radius_mm * std::cos(place.polar_rad),
+                                            place.radius_mm * std::sin(place.polar_rad), place.z_mm};
+          const auto by_name = a->displacement_mm(point), by_form = b->displacement_mm(point);
+          for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(by_name[k], by_form[k], 1e-9) << named.id << " " << flank << " " << side;
+          moved_um += um_from_mm(std::hypot(by_name[0], by_name[1]));
+        }
+      EXPECT_GT(moved_um, 1e-3) << named.id << " " << flank;
+    }
+  }
 }
 
 TEST(PossibleCauses, TheDataAreBelievedAndAnUnknownProcessIsSaid) {

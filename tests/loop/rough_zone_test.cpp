@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <optional>
 #include <random>
 
 #include "tests/loop/made_gears.h"
+#include "trueflank/loop/discovery/distributions.h"
 
 namespace trueflank::test {
 namespace {
@@ -87,6 +91,90 @@ TEST(RoughZone, OfTooFewOrTooShortCoursesIsNone) {
   EXPECT_FALSE(rough_zone(courses_of(1, 8, 12, 0.0, torn)).has_value());
   EXPECT_FALSE(rough_zone(Courses(8)).has_value());
   EXPECT_FALSE(rough_zone(courses_of(1, 8, 120, 0.0, [](double) { return 0.0; })).has_value());
+}
+
+/// The upper of the two in the middle.
+double median_of(std::vector<double> sizes) {
+  std::sort(sizes.begin(), sizes.end());
+  return sizes[sizes.size() / 2];
+}
+
+/// What the header says, zone by zone: Student's test of the logarithms of the ratios of medians of
+/// second differences, each at least as uncertain as medians of so many normal values are.
+std::optional<loop::RoughZone> by_definition(const Courses& courses) {
+  std::optional<loop::RoughZone> surest;
+  double least_p = 1.0;
+  int looks = 0;
+  for (int from = 0; from < 12; ++from)
+    for (int to = from + 2; to <= std::min(12, from + 8); ++to) {
+      ++looks;
+      const auto is_inside = [&](const ValueAlong& value) {
+        const int part = std::min(11, static_cast<int>(12.0 * value.at));
+        return from <= part && part < to;
+      };
+      std::vector<double> logs, sizes[2];
+      double of_counts = 0.0;
+      for (const auto& course : courses) {
+        std::vector<double> bends[2];
+        for (std::size_t i = 0; i < course.size(); ++i) {
+          sizes[is_inside(course[i])].push_back(std::abs(course[i].um));
+          if (i == 0 || i + 1 == course.size()) continue;
+          const double slope = course[i].um - course[i - 1].um;
+          bends[is_inside(course[i])].push_back(std::abs(course[i + 1].um - course[i].um - slope));
+        }
+        if (std::min(bends[0].size(), bends[1].size()) < 12) continue;
+        const double inside = median_of(bends[1]), outside = median_of(bends[0]);
+        if (inside == 0.0 || outside == 0.0) continue;
+        logs.push_back(std::log(inside) - std::log(outside));
+        for (const auto& one : bends) of_counts += 2.7 / static_cast<double>(one.size());
+      }
+      if (logs.size() < 4) continue;
+      const double n = static_cast<double>(logs.size());
+      const double mean = std::accumulate(logs.begin(), logs.end(), 0.0) / n;
+      double variance = 0.0;
+      for (const double one : logs) variance += std::pow(one - mean, 2) / (n - 1.0);
+      const double error = std::sqrt(std::max(variance, of_counts / n) / n);
+      const double p = 0.5 * loop::student_two_sided(mean / error, n - 1.0);
+      if (std::exp(mean) < 1.7 || p >= least_p) continue;
+      least_p = p;
+      surest = {.from = from / 12.0,
+                .to = to / 12.0,
+                .inside_um = 1.4826 * median_of(sizes[1]),
+                .outside_um = 1.4826 * median_of(sizes[0])};
+    }
+  if (surest) surest->p_value = std::min(1.0, looks * least_p);
+  return surest;
+}
+
+TEST(RoughZone, IsWhatItsDefinitionSays) {
+  int zones = 0, doubtful = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const double from = 0.1 * (seed % 6), to = from + 0.2 + 0.1 * (seed % 4);
+    // every third time they differ from each other by more than chance makes them
+    Courses courses;
+    for (unsigned c = 0; c < 4 + seed % 2; ++c) {
+      const double times = seed % 3 == 0 ? 1.5 + 4.0 * (c % 2) : 1.0 + 0.5 * (seed % 5);
+      const auto loud = [&](double at) { return at >= from && at < to ? times : 1.0; };
+      const int values = 50 + static_cast<int>(seed % 3) * 40;
+      courses.push_back(courses_of(100 * seed + c, 1, values, 0.2, loud).front());
+    }
+    // one that says nothing, in the middle, and one that is shorter than the others
+    if (seed % 4 != 0)
+      courses.insert(courses.begin() + 1, std::vector<ValueAlong>(courses[0].size()));
+    if (seed % 2 == 0) courses.back().resize(courses.back().size() / 2);
+    const auto told = rough_zone(courses), wanted = by_definition(courses);
+    ASSERT_EQ(told.has_value(), wanted.has_value()) << seed;
+    if (!told) continue;
+    ++zones;
+    doubtful += told->p_value == 1.0 ? 1 : 0;
+    EXPECT_DOUBLE_EQ(told->from, wanted->from) << seed;
+    EXPECT_DOUBLE_EQ(told->to, wanted->to) << seed;
+    EXPECT_NEAR(told->inside_um, wanted->inside_um, 1e-12) << seed;
+    EXPECT_NEAR(told->outside_um, wanted->outside_um, 1e-12) << seed;
+    EXPECT_NEAR(told->p_value, wanted->p_value, 1e-9 * wanted->p_value) << seed;
+  }
+  EXPECT_GT(zones, 15);
+  EXPECT_GT(doubtful, 0);
 }
 
 TEST(RoughZone, OfTornFlanksIsToldAndNoSpots) {

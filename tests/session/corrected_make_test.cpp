@@ -198,6 +198,38 @@ TEST_F(CorrectedMake, AWaveThatDoesNotCloseAroundTheGearIsRefused) {
     expect_refused(family(id), 5.0, 2.5);
     EXPECT_TRUE(make(effect_json(family(id), 1.0, 3.0))) << id;
   }
+  for (const char* form : {"wave_of_radius", "wave_of_pitch"}) {
+    const auto term = [&](const char* order) {
+      return R"({"id": "unnamed", "terms": [{"form": ")" + std::string(form) + R"(", "order": )" + order +
+             R"(, "cos_um": 5, "sin_um": 0}]})";
+    };
+    EXPECT_FALSE(make(term("2.5"))) << form;
+    EXPECT_TRUE(make(term("3"))) << form;
+  }
+}
+
+TEST_F(CorrectedMake, AFormWithoutANameIsCalledAsItsTermCallsIt) {
+  const auto refused =
+      make(R"({"id": "unnamed", "terms": [{"form": "bow_over_face", "cos_um": 5000}]})");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().front().message.find("unnamed (bow_over_face)"), std::string::npos)
+      << refused.error().front().message;
+  const auto left = make(
+      R"({"id": "unnamed", "terms": [{"form": "sideways_step_over_height", "height_mm": 3, "cos_um": 5, "sin_um": 0}]},
+         {"id": "unnamed", "description": "a form", "terms": []})");
+  ASSERT_TRUE(left) << left.error().front().message;
+  EXPECT_EQ(left->notes.find("corrected on"), std::string::npos) << left->notes;
+  EXPECT_NE(left->notes.find("a form"), std::string::npos) << left->notes;
+}
+
+TEST_F(CorrectedMake, WhatIsLeftIsToldInTheWordsOfTheLoopWithoutControlCodes) {
+  const auto made = make(
+      R"({"id": "unnamed", "correctable": false, "description": "a rise\u001b[8m of\nboth ends"},
+         {"id": "mine\u001b[31m", "form": {"a_um": "u"}, "parameters": {"a_um": {"value": 1}}})");
+  ASSERT_TRUE(made) << made.error().front().message;
+  EXPECT_NE(made->notes.find("a rise [8m of both ends: described only"), std::string::npos)
+      << made->notes;
+  EXPECT_EQ(made->notes.find('\033'), std::string::npos);
 }
 
 TEST_F(CorrectedMake, AFormulaWithAPoleBetweenThePlacesLookedAtIsRefused) {
@@ -295,6 +327,10 @@ TEST_F(CorrectedMake, ALoopFileOfWrongTypesIsAnErrorOfItsData) {
         R"({"id": "scale", "repeatable": "no", "part": 7, "flank": 9, "parameters": {}})",
         R"({"id": "scale", "flank": "upper", "parameters": {"percent": {"value": 0.1}}})",
         R"({"id": "unnamed", "terms": [{"order": "x"}]})",
+        R"({"id": "unnamed", "flank": "upper", "terms": [{"form": "bow_over_face", "cos_um": 1}]})",
+        R"({"id": "lobing", "flank": "left", "parameters": {"order": {"value": 3},
+            "amplitude_um": {"value": 1}, "phase_deg": {"value": 0}}})",
+        R"({"id": "unnamed", "flank": "left", "terms": [{"form": "size_of_part", "cos_um": 1}]})",
         R"({"id": "mine", "form": {"a": 3}, "correctable": 8})", R"("scale")", R"(null)"}) {
     const auto made = make(effects);
     ASSERT_FALSE(made) << effects;
