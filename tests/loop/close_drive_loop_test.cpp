@@ -340,8 +340,8 @@ TEST(DriveLoop, ASensorThatSaturatesIsToldByTheLoadFromWhichItBends) {
   EXPECT_LT(closed->result.after.rms, 1.2 * 0.05 / std::sqrt(2.0)) << told(closed->result);
 }
 
-/// A drag over a run in which the drive grows warm, every set point once in a dwell of four rows.
-loop::BenchData warming_run(const loop::DriveModel& model, std::uint64_t seed,
+/// A drag over a run in which the drive grows warm, every set point once in a dwell of some rows.
+loop::BenchData warming_run(const loop::DriveModel& model, std::uint64_t seed, int dwell,
                             const std::function<double(double taken, double celsius)>& drag_nm) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -354,9 +354,9 @@ loop::BenchData warming_run(const loop::DriveModel& model, std::uint64_t seed,
   constexpr double kSigma = 0.001;
   loop::BenchData data;
   data.files = {"run.csv"};
-  const double rows = 4.0 * static_cast<double>(set_points.size());
+  const double rows = static_cast<double>(dwell) * static_cast<double>(set_points.size());
   for (const auto& [load, rpm, forward] : set_points)
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < dwell; ++i) {
       const double taken = static_cast<double>(data.rows.size()) / rows;
       loop::BenchRow row;
       row.forward = forward > 0.5;
@@ -380,7 +380,7 @@ loop::BenchData warming_run(const loop::DriveModel& model, std::uint64_t seed,
 TEST(DriveLoop, ARunInIsNotTakenForWarmth) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const auto closed = loop::close_drive_loop(
-        bench_model(), warming_run(bench_model(), seed, [](double t, double) { return 0.006 * std::exp(-t / 0.2); }));
+        bench_model(), warming_run(bench_model(), seed, 4, [](double t, double) { return 0.006 * std::exp(-t / 0.2); }));
     ASSERT_TRUE(closed);
     const loop::LoopResult& r = closed->result;
     EXPECT_FALSE(r.effects.empty());
@@ -396,7 +396,8 @@ TEST(DriveLoop, AStepOverTheTemperatureEarlyInTheRunIsNoThinning) {
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     const auto closed = loop::close_drive_loop(
         bench_model(),
-        warming_run(bench_model(), seed, [](double, double c) { return c < 36.0 ? 0.003 : 0.0; }));
+        warming_run(bench_model(), seed, 2 + static_cast<int>(seed % 2),
+                    [](double, double c) { return c < 36.0 ? 0.004 : 0.0; }));
     ASSERT_TRUE(closed);
     for (const auto& effect : closed->result.effects) named += effect.named ? 1 : 0;
   }

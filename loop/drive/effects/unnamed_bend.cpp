@@ -5,14 +5,14 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
-// An output's torque that is read otherwise from a load on: a sensor or an amplifier that saturates, a
-// stop that a lever meets. Both directions tell it from a loss.
+// An output's torque that is read otherwise from a load on: a sensor or an amplifier that
+// saturates, a stop that a lever meets. Both directions tell it from a loss.
 namespace trueflank::loop::drive_effects {
 
 namespace {
 
-/// The output's torque over what the largest load makes of it in the lossless drive. Backward it drives,
-/// and is read wrong itself: the input's torque says what it was.
+/// The output's torque over what the largest load makes of it in the lossless drive. Backward it
+/// drives, and is read wrong itself: the input's torque says what it was.
 double share_of_most(const DriveContext& context, const BenchPoint& p) {
   const double eta = context.efficiency(p);
   const double input_nm = p.forward ? context.load_nm(p) * eta : p.driven_nm / std::max(eta, 0.05);
@@ -51,7 +51,8 @@ DriveFamily unnamed_bend() {
                      }}};
   f.shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
-    if (!context.table.has(true) || !context.table.has(false) || context.table.levels[0] < kFewestLoads)
+    if (!context.table.has(true) || !context.table.has(false) ||
+        context.table.levels[0] < kFewestLoads)
       return shapes;
     for (const double place : {0.3, 0.45, 0.6, 0.7, 0.8, 0.9}) shapes.push_back({place});
     return shapes;

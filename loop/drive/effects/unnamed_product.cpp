@@ -2,9 +2,9 @@
 #include "trueflank/loop/drive/effects/columns.h"
 #include "trueflank/loop/drive/effects/registry.h"
 
-// A loss in proportion to torque and speed together: flanks or bearings that rub more the faster they
-// turn, a lubricant film that starves. The sloping forms over load and speed hold it in four columns
-// together only, and two of these look like a friction and a viscous drag.
+// A loss in proportion to torque and speed together: flanks or bearings that rub more the faster
+// they turn, a lubricant film that starves. The sloping forms over load and speed hold it in four
+// columns together only, and two of these look like a friction and a viscous drag.
 namespace trueflank::loop::drive_effects {
 
 DriveFamily unnamed_product() {
