@@ -67,10 +67,16 @@ class DriveReport {
     r.effects = describe_drive_effects({here, all, training, selection_.value_nm(), remainder,
                                         outcome.discovery.chosen, selection_.candidates(),
                                         selection_.exchangeable()});
-    hold_exchanged_effects(selection_, effects, r.effects);
+    const bool run_leaves_less = hold_exchanged_effects(selection_, effects, r.effects);
     list_observable(outcome, r);
     r.measure_next = runs_that_separate(selection_.table(), r.effects);
     judge(outcome, remainder, r);
+    if (run_leaves_less && r.verdict == Verdict::kExplained) {
+      r.verdict = Verdict::kPartlyExplained;
+      r.structure_left =
+          "a loss that follows the course of the run leaves less than one that follows the temperature, "
+          "which changed with it: the same set points again, cold and warm, would tell";
+    }
     if (r.verdict != Verdict::kPartlyExplained) say_what_neighbours_share(left, effects, r);
     done.before_nm.assign(selection_.value_nm().data(),
                           selection_.value_nm().data() + selection_.value_nm().size());
@@ -151,12 +157,14 @@ class DriveReport {
     });
     const double enough =
         course ? std::max(kBesideACourse, 3.5 / std::sqrt(static_cast<double>(left.size()))) : kMuch;
-    if (!(shared > enough)) return;
+    const auto [visits, by_visits] = shared_by_visits(left);
+    const bool rows = shared > enough;
+    if (!rows && !(by_visits > std::max(kMuch, 3.5 / std::sqrt(static_cast<double>(visits))))) return;
     const std::string text = printed(
-        "neighbouring rows share %.0f %% of what is left: errors that hang together, or something "
+        "neighbouring %s share %.0f %% of what is left: errors that hang together, or something "
         "slow that these "
         "columns do not hold (the same set points again, in another order, would tell)",
-        100.0 * shared);
+        rows ? "rows" : "set points", 100.0 * (rows ? shared : by_visits));
     if (r.verdict == Verdict::kExplained) {
       r.verdict = Verdict::kPartlyExplained;
       r.structure_left = text;
@@ -177,6 +185,30 @@ class DriveReport {
     }
     return std::max(correlation_of_visits(alike, set_point),
                     correlation_of_visits(opposite, set_point));
+  }
+
+  /// The same of whole dwells: where every set point was visited once, the rows of a dwell have their common
+  /// error in the set point's mean.
+  [[nodiscard]] std::pair<int, double> shared_by_visits(const Eigen::VectorXd& left) const {
+    constexpr int kFewestVisits = 48;
+    const auto& points = selection_.table().points;
+    const std::vector<int> set_point = set_points_of(points), visit = visits_of(points, set_point);
+    const int visits = visit.empty() ? 0 : visit.back() + 1;
+    if (visits < kFewestVisits || 2 * static_cast<std::size_t>(visits) > points.size())
+      return {visits, 0.0};
+    Eigen::VectorXd alike = Eigen::VectorXd::Zero(visits), count = alike;
+    std::vector<int> of_visit(static_cast<std::size_t>(visits));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      alike[visit[i]] += left[static_cast<Eigen::Index>(i)] / points[i].sigma_nm;
+      count[visit[i]] += 1.0;
+      of_visit[static_cast<std::size_t>(visit[i])] = set_point[i];
+    }
+    alike = alike.cwiseQuotient(count.cwiseSqrt()).eval();
+    Eigen::VectorXd opposite = alike;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!points[i].forward) opposite[visit[i]] = -alike[visit[i]];
+    return {visits, std::max(correlation_of_visits(alike, of_visit),
+                             correlation_of_visits(opposite, of_visit))};
   }
 
   void judge_impossible(LoopResult& r) const {

@@ -140,6 +140,9 @@ struct DriveFamily : EffectFacts {
   bool is_loss = true;                  ///< takes power: never fitted to data that gain power
   /// What a loss follows: effects that follow the same are kin; empty: none of load, speed and warmth.
   std::string follows = {};
+  /// True of a loss that follows the course of the run alone: a drive that warms up meanwhile does nearly
+  /// the same.
+  bool follows_the_run = false;
   bool differs_by_direction = false;    ///< a loss that does what a sensor does: data that gain power show the sensor
   bool bends_over_load = false;         ///< as a bent sensor does: told from that by the other direction alone
   bool hides_in_gains = false;          ///< a loss that data with gained power can neither show nor exclude
@@ -155,6 +158,8 @@ struct DriveFamily : EffectFacts {
   std::function<bool(const DriveModel&, double coefficient)> plausible = {};
   /// What moves the place about which the model is linear.
   std::function<void(DriveState&, const DriveShape&, double coefficient)> into_state = {};
+  /// Over which quantity alone it has a course: load, speed or temperature (0, 1, 2); empty: none.
+  std::function<double(const DriveShape&)> over = {};
   /// Waves per turn of the input; empty: it is none.
   std::function<double(const DriveShape&)> order = {};
   /// The shape of a wave that the spectrum proposes, the directions opposite or not; empty: it takes none.

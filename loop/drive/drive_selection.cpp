@@ -57,7 +57,10 @@ DriveOutcome DriveSelection::choose() {
     outcome = settle();
   }
   for (int waves = 0; waves < 4 && propose_wave(outcome); ++waves) outcome = settle();
+  sharpen_courses(outcome);
   if (!outcome.effects.empty()) outcome = simplest_that_is_enough(std::move(outcome));
+  sharpen_courses(outcome);
+  follow_the_run(outcome);
   drop_what_is_nothing(outcome);
   veto(outcome);
   return outcome;
@@ -81,7 +84,7 @@ DriveOutcome DriveSelection::losses_beside_gains(DriveOutcome sensors) {
   all.square = square_of(all);
   const bool reads_wrong =
       std::any_of(all.effects.begin(), all.effects.end(),
-                  [](const DriveEffect& e) { return e.family->named && !e.family->is_loss; });
+                  [](const DriveEffect& e) { return !e.family->is_loss; });
   if (reads_wrong && earns_its_figures(all, sensors) && !leaves_structure(all)) return all;
   losses_beside_gains_ = false;
   std::tie(candidates_, banned_, exchangeable_, state_, vetoed_) = kept;
@@ -117,9 +120,25 @@ DriveOutcome DriveSelection::outcome_of(const DiscoveryResult& chosen) const {
   const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
   outcome.fold_errors = fit.fold_errors();
   outcome.square = fit.residual_square();
+  outcome.shared = shared_inside_units(fit);
   outcome.rows = static_cast<double>(std::count_if(
       table_.points.begin(), table_.points.end(), [](const BenchPoint& p) { return p.fold != 0; }));
   return outcome;
+}
+
+double DriveSelection::shared_inside_units(const DriveFit& fit) const {
+  const Eigen::VectorXd left = value_ - fit.explained_nm();
+  std::map<int, double> sum;
+  double square = 0.0, of_units = 0.0;
+  for (std::size_t i = 0; i < table_.points.size(); ++i) {
+    const BenchPoint& p = table_.points[i];
+    if (p.fold == 0) continue;
+    const double size = left[static_cast<Eigen::Index>(i)] / p.sigma_nm;
+    sum[p.unit] += size;
+    square += size * size;
+  }
+  for (const auto& [unit, of_unit] : sum) of_units += of_unit * of_unit;
+  return std::max(1.0, of_units / std::max(square, 1e-300));
 }
 
 DriveOutcome DriveSelection::settle() {

@@ -21,6 +21,8 @@ struct DriveOutcome {
   Eigen::VectorXd fold_errors;
   double square = 0.0,
          rows = 1.0;  ///< of what it leaves of the training rows, in their noise's units
+  /// Times as much as independent rows that the sums over units scatter: errors inside a unit hang together.
+  double shared = 1.0;
   [[nodiscard]] int size() const {
     int size = 0;
     for (const DriveEffect& effect : effects) {
@@ -104,6 +106,7 @@ class DriveSelection {
   [[nodiscard]] Discovery select();
   /// The same with its shapes refined.
   [[nodiscard]] DriveOutcome outcome_of(const DiscoveryResult& chosen) const;
+  [[nodiscard]] double shared_inside_units(const DriveFit& fit) const;
   /// Selection until shapes, friction and scale stand still and no effect has the wrong sign.
   DriveOutcome settle();
   bool put_shapes_on_the_grid(const DriveOutcome& outcome);
@@ -139,6 +142,14 @@ class DriveSelection {
   DriveOutcome settled(std::vector<bool> banned);
   /// The state of an outcome that was settled about another one.
   void settle_state(const DriveOutcome& outcome);
+  /// A polynomial over one quantity only imitates a step or a hump over it: where one of these, of fewer
+  /// figures, leaves no more, it takes its place. The engine asks the folds, of which what stands in a short
+  /// part of the run fills few.
+  void sharpen_courses(DriveOutcome& outcome);
+  /// What follows the temperature may follow the run in which the drive grew warm: where that leaves surely
+  /// less, it takes its place.
+  void follow_the_run(DriveOutcome& outcome);
+  void settle_after_exchange(DriveOutcome& outcome);
   /// Of several effects those that are nothing once all shapes are free: they only mended another's
   /// shape.
   void drop_what_is_nothing(DriveOutcome& outcome);

@@ -19,12 +19,15 @@ bool is_tie(const Eigen::VectorXd& loss) {
 }
 
 /// True where the one predicts as well as the other, or leaves no more than chance takes off by a
-/// figure more.
+/// figure more. What stands in a short part of the run fills so few folds that these say nothing: what
+/// it leaves more must not be sure either.
 bool predicts_as_well(const DriveOutcome& one, const DriveOutcome& other) {
-  constexpr double kAFigure = 6.6, kNoFigure = 4.0;  // chi-square
-  if (is_tie(one.fold_errors - other.fold_errors)) return true;
+  constexpr double kAFigure = 6.6, kNoFigure = 4.0, kSure = 25.0;  // chi-square
   const double noise = other.square / std::max(1.0, other.rows - other.size());
   const int figures = other.size() - one.size();
+  const double sure = kSure + kAFigure * std::max(0, figures);
+  if (one.square - other.square > noise * other.shared * sure) return false;
+  if (is_tie(one.fold_errors - other.fold_errors)) return true;
   return one.square - other.square < noise * (figures > 0 ? kAFigure * figures : kNoFigure);
 }
 
@@ -143,6 +146,82 @@ DriveOutcome DriveSelection::settled(std::vector<bool> banned) {
 
 void DriveSelection::settle_state(const DriveOutcome& outcome) {
   for (int round = 0; round < 6 && move_state(outcome); ++round) {
+  }
+}
+
+void DriveSelection::sharpen_courses(DriveOutcome& outcome) {
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    const DriveEffect course = outcome.effects[e];
+    if (!course.family->over || course.columns() == 1) continue;
+    const double over = course.family->over(course.shape);
+    const auto square_with = [&](const DriveEffect& effect, std::vector<DriveEffect>& effects,
+                                 bool refined) {
+      effects = outcome.effects;
+      effects[e] = effect;
+      if (refined) refine_drive_shapes(context(), value_, FitRows::kTraining, effects);
+      const DriveContext here = context();
+      return DriveFit(here, value_, effects, FitRows::kTraining).residual_square();
+    };
+    // Of each kind the likeliest on the grid.
+    std::map<const DriveFamily*, std::pair<double, std::size_t>> likeliest;
+    std::vector<DriveEffect> effects;
+    for (std::size_t g = 0; g < candidates_.size(); ++g) {
+      const DriveEffect& other = candidates_[g];
+      if (banned_[g] || !other.family->over || other.columns() != 1 ||
+          other.family->over(other.shape) != over)
+        continue;
+      const double square = square_with(other, effects, false);
+      const auto [at, is_new] = likeliest.try_emplace(other.family, square, g);
+      if (!is_new && square < at->second.first) at->second = {square, g};
+    }
+    double least = square_with(course, effects, false);
+    const double of_course = least;
+    std::vector<DriveEffect> sharp;
+    for (const auto& [family, at] : likeliest) {
+      const double square = square_with(candidates_[at.second], effects, true);
+      if (square >= least) continue;
+      least = square;
+      sharp = effects;
+      outcome.discovery.chosen[e].group = static_cast<int>(at.second);
+    }
+    if (!(least < of_course)) continue;
+    outcome.effects = sharp;
+    settle_after_exchange(outcome);
+  }
+}
+
+void DriveSelection::settle_after_exchange(DriveOutcome& outcome) {
+  settle_state(outcome);
+  const DriveContext here = context();
+  const DriveFit fit(here, value_, outcome.effects, FitRows::kTraining);
+  outcome.fold_errors = fit.fold_errors();
+  outcome.square = fit.residual_square();
+  outcome.shared = shared_inside_units(fit);
+}
+
+void DriveSelection::follow_the_run(DriveOutcome& outcome) {
+  constexpr double kSure = 25.0;  // chi-square
+  for (std::size_t e = 0; e < outcome.effects.size(); ++e) {
+    if (outcome.effects[e].family->follows != "warmth") continue;
+    DriveOutcome best = outcome;
+    settle_after_exchange(best);
+    const double before = best.square;
+    for (std::size_t g = 0; g < candidates_.size(); ++g) {
+      if (banned_[g] || !candidates_[g].family->follows_the_run) continue;
+      DriveOutcome other = outcome;
+      other.effects[e] = candidates_[g];
+      refine_drive_shapes(context(), value_, FitRows::kTraining, other.effects);
+      settle_after_exchange(other);
+      if (other.square >= best.square) continue;
+      // That the drive grew warm meanwhile stays a likely reason.
+      ChosenGroup& record = other.discovery.chosen[e];
+      record.confounded = {record.group};
+      record.group = static_cast<int>(g);
+      best = std::move(other);
+    }
+    const double noise = best.square / std::max(1.0, best.rows - best.size());
+    if (before - best.square > kSure * noise * best.shared) outcome = std::move(best);
+    settle_state(outcome);
   }
 }
 

@@ -26,7 +26,8 @@ class Exchange {
            std::vector<FoundEffect>& found)
       : selection_(selection), effects_(effects), found_(found) {}
 
-  void run() {
+  /// True where what follows the run leaves surely less than what follows the temperature.
+  bool run() {
     const DriveState state = selection_.state();
     const double own = square_of(effects_);
     double rows = 0.0;
@@ -40,9 +41,38 @@ class Exchange {
         if (square_of(with) - own < kTie * noise && possible(with)) hold(with, e);
         selection_.move_state_to(state);
       }
+    return ask_the_run(own, rows);
   }
 
  private:
+  /// What follows the temperature may follow the run in which the drive grew warm: what explains as much
+  /// and follows the run has the name of a drag that changes over the file.
+  bool ask_the_run(double own, double rows) {
+    constexpr double kSure = 25.0;  // chi-square
+    const double free = std::max(1.0, rows - static_cast<double>(effects_.size()));
+    bool surely_less = false;
+    const DriveState state = selection_.state();
+    const auto named = std::find_if(drive_library().begin(), drive_library().end(),
+                                    [](const DriveFamily& f) { return f.named && f.follows_the_run; });
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      FoundEffect* as_told = told(effects_[e]);
+      if (as_told == nullptr || effects_[e].family->follows != "warmth") continue;
+      bool as_well = false;
+      for (const DriveEffect& other : selection_.candidates()) {
+        if (!other.family->follows_the_run) continue;
+        std::vector<DriveEffect> with = effects_;
+        with[e] = other;
+        settle(with);
+        const double square = square_of(with);
+        as_well = as_well || square - own < kTie * own / free;
+        surely_less = surely_less || own - square > kSure * square / free;
+        selection_.move_state_to(state);
+      }
+      if (as_well && named != drive_library().end()) cannot_be_told_from(*as_told, named->id);
+    }
+    return surely_less;
+  }
+
   [[nodiscard]] FoundEffect* told(const DriveEffect& effect) {
     const auto at = std::find_if(found_.begin(), found_.end(), [&](const FoundEffect& f) {
       return f.named && f.id == effect.family->id && f.side == effect.family->side;
@@ -193,9 +223,9 @@ class Exchange {
 
 }  // namespace
 
-void hold_exchanged_effects(DriveSelection& selection, const std::vector<DriveEffect>& effects,
+bool hold_exchanged_effects(DriveSelection& selection, const std::vector<DriveEffect>& effects,
                             std::vector<FoundEffect>& found) {
-  if (!effects.empty()) Exchange(selection, effects, found).run();
+  return !effects.empty() && Exchange(selection, effects, found).run();
 }
 
 }  // namespace trueflank::loop

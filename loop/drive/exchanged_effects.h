@@ -13,7 +13,8 @@ namespace trueflank::loop {
 /// of the output's; a scale or a friction that differs between the directions): either may be the
 /// truth, and the others' figures differ more than their errors. The other set must leave no more
 /// than chance (chi-square 4) and have possible signs. The selection's state is as before.
-void hold_exchanged_effects(DriveSelection& selection, const std::vector<DriveEffect>& effects,
+/// True where what follows the run leaves surely less than an effect that follows the temperature.
+[[nodiscard]] bool hold_exchanged_effects(DriveSelection& selection, const std::vector<DriveEffect>& effects,
                             std::vector<FoundEffect>& found);
 
 }  // namespace trueflank::loop

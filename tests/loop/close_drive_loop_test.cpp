@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/loop/sample_bench.h"
 #include "trueflank/report/drive_html.h"
 
@@ -310,6 +312,96 @@ TEST(DriveLoop, AnOilThatWasChangedIsAJumpAtItsRowAndNoDrift) {
   ASSERT_FALSE(closed->result.effects.empty());
   EXPECT_NE(told(closed->result).find("jumps in the course of the run at line"), std::string::npos)
       << told(closed->result);
+}
+
+// A friction and a viscous drag imitate it together.
+TEST(DriveLoop, ALossThatGrowsWithTorqueAndSpeedTogetherHasNoName) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    BenchPlan plan;
+    plan.seed = seed;
+    const auto closed =
+        close_hidden(losing([](auto& m) { return 0.006 * m.load_share * m.rpm / 3000.0; }), plan);
+    ASSERT_TRUE(closed);
+    for (const auto& effect : closed->result.effects)
+      EXPECT_FALSE(effect.named) << loop::loop_text(closed->result);
+    EXPECT_THAT(told(closed->result), testing::HasSubstr("in proportion to the load times the speed"));
+  }
+}
+
+TEST(DriveLoop, ASensorThatSaturatesIsToldByTheLoadFromWhichItBends) {
+  HiddenDrive drive;
+  drive.output_reading = [](double nm, const BenchMoment&) {
+    return nm - 0.35 * std::max(0.0, nm - 15.0);
+  };
+  const auto closed = close_hidden(drive, {});
+  ASSERT_TRUE(closed);
+  EXPECT_THAT(told(closed->result),
+              testing::HasSubstr("as the output's torque that is read otherwise from a load"));
+  EXPECT_LT(closed->result.after.rms, 1.2 * 0.05 / std::sqrt(2.0)) << told(closed->result);
+}
+
+/// A drag over a run in which the drive grows warm, every set point once in a dwell of some rows.
+loop::BenchData warming_run(const loop::DriveModel& model, std::uint64_t seed, int dwell,
+                            const std::function<double(double taken, double celsius)>& drag_nm) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<std::array<double, 3>> set_points;
+  for (const double load : {0.1, 0.2, 0.4, 0.6, 0.8, 1.0})
+    for (const double rpm : {60.0, 150.0, 300.0, 600.0, 1000.0, 1500.0, 2000.0, 2500.0})
+      for (const double forward : {1.0, 0.0}) set_points.push_back({load, rpm, forward});
+  std::shuffle(set_points.begin(), set_points.end(), random);
+  const loop::DriveEfficiency eta = model.at(model.friction);
+  constexpr double kSigma = 0.001;
+  loop::BenchData data;
+  data.files = {"run.csv"};
+  const double rows = static_cast<double>(dwell) * static_cast<double>(set_points.size());
+  for (const auto& [load, rpm, forward] : set_points)
+    for (int i = 0; i < dwell; ++i) {
+      const double taken = static_cast<double>(data.rows.size()) / rows;
+      loop::BenchRow row;
+      row.forward = forward > 0.5;
+      row.speed_rpm = rpm;
+      row.temperature_c = 22.0 + 38.0 * (1.0 - std::exp(-taken / 0.35)) +
+                          4.0 * std::sin(10.0 * M_PI * taken);
+      const double lost = drag_nm(taken, row.temperature_c);
+      if (row.forward) {
+        row.input_nm = load;
+        row.output_nm = model.ratio * (eta.forward * (load - lost) + kSigma * normal(random));
+      } else {
+        row.output_nm = load * model.ratio;
+        row.input_nm = eta.backward * load - lost + kSigma * normal(random);
+      }
+      row.line = static_cast<int>(data.rows.size()) + 2;
+      data.rows.push_back(row);
+    }
+  return data;
+}
+
+TEST(DriveLoop, ARunInIsNotTakenForWarmth) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto closed = loop::close_drive_loop(
+        bench_model(), warming_run(bench_model(), seed, 4, [](double t, double) { return 0.006 * std::exp(-t / 0.2); }));
+    ASSERT_TRUE(closed);
+    const loop::LoopResult& r = closed->result;
+    EXPECT_FALSE(r.effects.empty());
+    for (const auto& effect : r.effects)
+      EXPECT_TRUE(!effect.named || testing::Value(effect.confounded_with, testing::Contains("drag_drift")))
+          << loop::loop_text(r);
+    EXPECT_TRUE(r.verdict != Verdict::kExplained || r.after.rms < 1.15 * r.noise) << told(r);
+  }
+}
+
+TEST(DriveLoop, AStepOverTheTemperatureEarlyInTheRunIsNoThinning) {
+  int named = 0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    const auto closed = loop::close_drive_loop(
+        bench_model(),
+        warming_run(bench_model(), seed, 2 + static_cast<int>(seed % 2),
+                    [](double, double c) { return c < 36.0 ? 0.004 : 0.0; }));
+    ASSERT_TRUE(closed);
+    for (const auto& effect : closed->result.effects) named += effect.named ? 1 : 0;
+  }
+  EXPECT_EQ(named, 0);
 }
 
 // Jumps and parts of the run imitate it and leave its rest.

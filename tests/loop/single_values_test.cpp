@@ -155,6 +155,25 @@ TEST(SingleValues, AToothFarBeyondLongTailsIsOneEffect) {
   EXPECT_EQ(result.effects[0].id, "single_tooth") << list(result);
 }
 
+// Wild values are those of one flank; two of one tooth that agree are the tooth.
+TEST(SingleValues, AToothThatBothFlanksShowIsNamedBesideTraces) {
+  const MadeGear gear = spur(52);
+  int named = 0, others = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    InspectionOptions options;
+    options.points = 30;
+    options.noise_um = 1.6;
+    options.seed = seed;
+    loop::InspectionData data = inspection_of(gear, {}, options);
+    for (loop::InspectionRow& row : data.rows)
+      if (row.tooth == 9) row.deviation_um -= 4.6 * options.noise_um;
+    for (const auto& effect : close(gear, data).effects)
+      (effect.id == "single_tooth" ? named : others) += 1;
+  }
+  EXPECT_GE(named, 6);
+  EXPECT_LE(others, 1);
+}
+
 // Neighbours of few teeth differ by the wave itself: taken for noise it would weigh the index down.
 TEST(SingleValues, AWaveOfAnIndexOfFewTeethIsNoNoiseBesideTraces) {
   const MadeGear gear = helical(12, 13.0);

@@ -12,6 +12,7 @@ DriveFamily drag_drift() {
   f.correction = "run the drive in and warm before measuring; log temperature_c";
   f.parameters = {"drift_nm"};
   f.preference = 4;
+  f.follows_the_run = true;
   f.shapes = where_rows_follow_each_other;
   f.evaluate = [](const DriveContext& context, const BenchPoint& p, const DriveShape&, double* c) {
     c[0] = -context.lever(p) * p.taken;

@@ -40,6 +40,9 @@ const std::vector<DriveFamily>& drive_library() {
         unnamed_drift(),
         unnamed_spell(),
         unnamed_wander(),
+        unnamed_product(),
+        unnamed_settling(),
+        unnamed_bend(),
     };
     for (DriveFamily& family : all) {
       family.shape_values.resize(family.shape_names.size());

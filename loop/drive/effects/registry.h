@@ -48,6 +48,9 @@ namespace trueflank::loop::drive_effects {
 [[nodiscard]] DriveFamily unnamed_drift();
 [[nodiscard]] DriveFamily unnamed_spell();
 [[nodiscard]] DriveFamily unnamed_wander();
+[[nodiscard]] DriveFamily unnamed_product();
+[[nodiscard]] DriveFamily unnamed_settling();
+[[nodiscard]] DriveFamily unnamed_bend();
 /// @}
 
 }  // namespace trueflank::loop::drive_effects

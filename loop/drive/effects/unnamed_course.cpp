@@ -22,6 +22,7 @@ DriveFamily unnamed_course() {
   f.shape_names = {"over", "levels"};
   f.preference = 7;
   f.columns = degrees_of;
+  f.over = first_value;
   f.shapes = [](const DriveContext& context) {
     std::vector<DriveShape> shapes;
     for (int over = 0; over < 3; ++over)

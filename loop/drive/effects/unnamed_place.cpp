@@ -18,6 +18,7 @@ DriveFamily at_a_place(bool hump) {
   DriveFamily f = without_a_name();
   f.parameters = {"amount_nm"};
   f.shape_names = {"over", "place"};
+  f.over = first_value;
   f.shape_values = {{},
                     {.continuous = true,
                      .is_place = true,

@@ -255,15 +255,64 @@ bool PartLoop::adopt_from_single_values(const PartLoop& alone, std::vector<Effec
 
 namespace {
 
-/// How likely the tails of the teeth's own scores reach as far as one of them does by chance.
+/// How likely one value is as far out as this one, whose like are `others`: by their tail, or among them.
+double chance_of_value(double size, const std::vector<double>& others) {
+  const auto n = static_cast<double>(others.size());
+  const double beyond = gap_beyond_tail_p_value(size, others);
+  if (beyond < 1.0) return beyond / n;
+  const auto further = std::count_if(others.begin(), others.end(), [&](double o) { return o >= size; });
+  return std::min(1.0, (1.0 + static_cast<double>(further)) / (n + 1.0));
+}
+
+/// Correlation of the two values of a tooth.
+double correlation_of_pairs(const std::vector<std::vector<double>>& pairs) {
+  double a = 0.0, b = 0.0, n = 0.0, product = 0.0, square_a = 0.0, square_b = 0.0;
+  for (const auto& pair : pairs) {
+    a += pair[0];
+    b += pair[1];
+    n += 1.0;
+  }
+  for (const auto& pair : pairs) {
+    product += (pair[0] - a / n) * (pair[1] - b / n);
+    square_a += (pair[0] - a / n) * (pair[0] - a / n);
+    square_b += (pair[1] - b / n) * (pair[1] - b / n);
+  }
+  return product / std::sqrt(std::max(square_a * square_b, 1e-300));
+}
+
+/// How likely both values of a tooth, one of each flank, stand out by chance together: a wild value is
+/// that of one flank, long tails or not. 1 where the flanks of other teeth share their errors, or where a
+/// tooth has not two values.
+double chance_of_both_flanks(const std::vector<double>& own_um,
+                             const std::vector<std::vector<double>>& others_um) {
+  constexpr double kShared = 0.3, kTests = 2.0;
+  constexpr std::size_t kFewestTeeth = 12;
+  const auto is_pair = [](const std::vector<double>& values) { return values.size() == 2; };
+  if (!is_pair(own_um) || others_um.size() < kFewestTeeth ||
+      !std::all_of(others_um.begin(), others_um.end(), is_pair) ||
+      std::abs(correlation_of_pairs(others_um)) > kShared)
+    return 1.0;
+  std::vector<double> sizes;
+  for (const auto& pair : others_um)
+    for (const double um : pair) sizes.push_back(std::abs(um));
+  const double way = own_um[0] + own_um[1] > 0.0 ? 1.0 : -1.0;
+  double chance = kTests * static_cast<double>(others_um.size() + 1);
+  for (const double um : own_um) chance *= chance_of_value(way * um, sizes);
+  return std::min(1.0, chance);
+}
+
+/// How likely the tails of the teeth's own scores, or those of their values, reach as far as one tooth
+/// does by chance.
 double chance_of_tooth(const Observations& table, const Effect& tooth,
                        const FlankGeometry& geometry, const std::vector<float>& row_um) {
-  std::vector<double> sizes;
+  std::vector<double> sizes, own_um;
+  std::vector<std::vector<double>> others_um;
   double own = 0.0;
   Effect each = tooth;
   for (int k = 1; k <= geometry.teeth(); ++k) {
     each.shape[0] = k;
     double product = 0.0, square = 0.0, column = 0.0;
+    std::vector<double> of_tooth_um;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const Observation& row = table.rows[i];
       if (!is_one_a_tooth(row)) continue;
@@ -274,32 +323,39 @@ double chance_of_tooth(const Observations& table, const Effect& tooth,
       }
       product += of_row * row_um[i];
       square += of_row * of_row;
+      if (of_row != 0.0) of_tooth_um.push_back(std::copysign(1.0, of_row) * row_um[i]);
     }
     if (!(square > 0.0)) continue;
     const double size = std::abs(product) / std::sqrt(square);
-    if (k == static_cast<int>(tooth.shape[0]))
+    if (k == static_cast<int>(tooth.shape[0])) {
       own = size;
-    else
+      own_um = std::move(of_tooth_um);
+    } else {
       sizes.push_back(size);
+      others_um.push_back(std::move(of_tooth_um));
+    }
   }
-  return gap_beyond_tail_p_value(own, std::move(sizes));
+  return std::min(gap_beyond_tail_p_value(own, std::move(sizes)),
+                  chance_of_both_flanks(own_um, others_um));
 }
 
-/// The size of one tooth's single values, if nothing but they shows its height; NaN otherwise.
-double height_of_single_values(const Observations& table, const Effect& tooth,
-                               const FlankGeometry& geometry, const std::vector<float>& row_um) {
-  double most = 0.0, column = 0.0;
+/// The sizes of one tooth's single values, if nothing but they shows its height; empty otherwise.
+std::vector<double> heights_of_single_values(const Observations& table, const Effect& tooth,
+                                             const FlankGeometry& geometry,
+                                             const std::vector<float>& row_um) {
+  std::vector<double> heights;
+  double column = 0.0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Observation& row = table.rows[i];
     if (row.kind == ObservationKind::kSize) continue;
     tooth.evaluate(geometry, table.place(row), &column);
     if (column == 0.0) continue;
     if (is_one_a_tooth(row))
-      most = std::max(most, std::abs(static_cast<double>(row_um[i])));
+      heights.push_back(std::abs(static_cast<double>(row_um[i])));
     else if (row.trace < 0)
-      return kNaN;
+      return {};
   }
-  return most;
+  return heights;
 }
 
 }  // namespace
@@ -316,8 +372,9 @@ void PartLoop::drop_teeth_within_the_tails() {
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(e));
     const auto left_um = PointFit(geometry_, table_, patches_, without).residuals_um();
     const std::vector<float>& after_um = *left_um;
-    const double height = height_of_single_values(table_, effects_[e], geometry_, after_um);
-    if (!(height > 0.0)) continue;
+    const std::vector<double> heights =
+        heights_of_single_values(table_, effects_[e], geometry_, after_um);
+    if (heights.empty()) continue;
     if (chance_of_tooth(table_, effects_[e], geometry_, after_um) > kByChance) {
       remove_effect(e);
       continue;
@@ -329,13 +386,21 @@ void PartLoop::drop_teeth_within_the_tails() {
             .push_back(std::abs(static_cast<double>(after_um[i])));
     const double usual_along = robust_sigma(along), usual_single = robust_sigma(single);
     if (!(usual_along > 0.0) || !(usual_single > 0.0)) continue;
-    const double out = height / usual_single * usual_along;
-    const auto further = static_cast<double>(
-        std::count_if(along.begin(), along.end(), [&](double um) { return um >= out; }));
-    // None is as far out: no trace says that such errors occur.
-    if (further * static_cast<double>(single.size()) >
-        kByChance * static_cast<double>(along.size()))
-      remove_effect(e);
+    const auto share_further = [&](double height) {
+      const double out = height / usual_single * usual_along;
+      return static_cast<double>(std::count_if(along.begin(), along.end(),
+                                               [&](double um) { return um >= out; })) /
+             static_cast<double>(along.size());
+    };
+    // Of one wild value, and of two that are wild on one tooth. None is as far out: no trace says that
+    // such errors occur.
+    const bool pair = heights.size() == 2;
+    double expected = static_cast<double>(single.size()) / (pair ? 2.0 : 1.0);
+    if (pair)
+      expected *= share_further(heights[0]) * share_further(heights[1]);
+    else
+      expected *= share_further(*std::max_element(heights.begin(), heights.end()));
+    if (expected > kByChance) remove_effect(e);
   }
 }
 
