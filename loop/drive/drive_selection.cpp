@@ -82,9 +82,18 @@ DriveOutcome DriveSelection::losses_beside_gains(DriveOutcome sensors) {
   vetoed_ = false;
   DriveOutcome all = choose();
   all.square = square_of(all);
-  const bool reads_wrong =
-      std::any_of(all.effects.begin(), all.effects.end(),
-                  [](const DriveEffect& e) { return !e.family->is_loss; });
+  // A reading that goes wrong without a name must be most of what sensors with names leave, and is
+  // reason enough for no loss that has a name.
+  constexpr double kMostOfIt = 0.25;
+  bool reads_wrong = false, reads_oddly = false, has_loss = false;
+  for (const DriveEffect& e : all.effects) {
+    if (e.family->is_loss)
+      has_loss = has_loss || e.family->named;
+    else
+      (e.family->named ? reads_wrong : reads_oddly) = true;
+  }
+  reads_wrong =
+      reads_wrong || (reads_oddly && !has_loss && all.square < kMostOfIt * sensors.square);
   if (reads_wrong && earns_its_figures(all, sensors) && !leaves_structure(all)) return all;
   losses_beside_gains_ = false;
   std::tie(candidates_, banned_, exchangeable_, state_, vetoed_) = kept;
