@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
+#include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
 namespace {
@@ -200,6 +202,33 @@ class LoudPlaceSearch {
 LoudPlaces loud_places(const std::vector<FlankPart>& parts) {
   if (parts.empty()) return {};
   return LoudPlaceSearch(parts).run();
+}
+
+std::string LouderPlace::words() const {
+  const char* const side = flank == FlankChoice::kLeft    ? "left "
+                           : flank == FlankChoice::kRight ? "right "
+                                                          : "";
+  if (tooth > 0) return printed("on the %sflank of tooth %d", side, tooth);
+  return printed("on all %sflanks between %s of %.4g and %.4g mm", side,
+                 over_face ? "heights" : "diameters", low_mm, high_mm);
+}
+
+void Patches::add_louder(const LouderPlace& place) {
+  for (LouderPlace& other : louder) {
+    const bool same = place.tooth == 0 && other.tooth == 0 && other.source == place.source &&
+                      other.flank != place.flank && other.flank != FlankChoice::kBoth &&
+                      other.over_face == place.over_face && other.low_mm < place.high_mm &&
+                      place.low_mm < other.high_mm;
+    if (!same) continue;
+    other.flank = FlankChoice::kBoth;
+    other.low_mm = std::min(other.low_mm, place.low_mm);
+    other.high_mm = std::max(other.high_mm, place.high_mm);
+    other.share = std::max(other.share, place.share);
+    other.times = std::sqrt(other.times * place.times);
+    other.p_value = std::min(other.p_value, place.p_value);
+    return;
+  }
+  louder.push_back(place);
 }
 
 }  // namespace trueflank::loop

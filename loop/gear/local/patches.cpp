@@ -10,7 +10,6 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -508,7 +507,6 @@ class PatchMaker {
       add_louder(place, result_.patches[members.front()].source);
   }
 
-  /// The same place on both sides is one.
   void add_louder(const LoudPlace& place, int source) {
     const bool flank = place.of == LoudPlace::Of::kFlank;
     LouderPlace told{.source = source,
@@ -526,21 +524,8 @@ class PatchMaker {
       std::tie(told.low_mm, told.high_mm) = std::minmax(low, high);
       told.share = told.over_face ? (told.high_mm - told.low_mm) / geometry_.face_width_mm()
                                   : (place.last + 1.0 - place.first) / kProfileParts;
-      for (LouderPlace& other : result_.louder) {
-        const bool same = other.source == source && other.tooth == 0 && other.flank != told.flank &&
-                          other.flank != FlankChoice::kBoth && other.over_face == told.over_face &&
-                          other.low_mm < told.high_mm && told.low_mm < other.high_mm;
-        if (!same) continue;
-        other.flank = FlankChoice::kBoth;
-        other.low_mm = std::min(other.low_mm, told.low_mm);
-        other.high_mm = std::max(other.high_mm, told.high_mm);
-        other.share = std::max(other.share, told.share);
-        other.times = std::sqrt(other.times * told.times);
-        other.p_value = std::min(other.p_value, told.p_value);
-        return;
-      }
     }
-    result_.louder.push_back(told);
+    result_.add_louder(told);
   }
   [[nodiscard]] double low_of_face_part(int part) const {
     const double b = geometry_.face_width_mm();
@@ -606,15 +591,6 @@ class PatchMaker {
 };
 
 }  // namespace
-
-std::string LouderPlace::words() const {
-  const char* const side = flank == FlankChoice::kLeft    ? "left "
-                           : flank == FlankChoice::kRight ? "right "
-                                                          : "";
-  if (tooth > 0) return printed("on the %sflank of tooth %d", side, tooth);
-  return printed("on all %sflanks between %s of %.4g and %.4g mm", side,
-                 over_face ? "heights" : "diameters", low_mm, high_mm);
-}
 
 Patches make_patches(const FlankGeometry& geometry, const Observations& table) {
   return PatchMaker(geometry, table).make();

@@ -59,6 +59,8 @@ struct Patches {
   std::vector<int> patch_of_row;
   int units = 0;
   std::vector<LouderPlace> louder;  ///< of scans
+  /// The same place on both sides is one.
+  void add_louder(const LouderPlace& place);
 
   std::vector<std::pair<std::size_t, double>> left_out;  ///< patches, and the weight they had
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Waves around the gear, single teeth and levels that some teeth side by side say as well.
+// Some teeth side by side: what waves around the gear, single teeth and levels are made of.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/part/part_loop.h"
@@ -130,6 +131,123 @@ bool PartLoop::tell_as_sector() {
         return true;
   }
   return false;
+}
+
+namespace {
+
+/// A run of effects on neighbouring teeth: which, the first tooth, how many teeth it spans.
+struct RunOfTeeth {
+  std::vector<std::size_t> effects;
+  int first = 0, count = 0;
+};
+
+/// The longest run with at most one tooth left out in a row. Effects by their tooth, in order.
+RunOfTeeth longest_run(const std::vector<std::pair<int, std::size_t>>& teeth, int z) {
+  RunOfTeeth best;
+  for (std::size_t from = 0; from < teeth.size(); ++from) {
+    RunOfTeeth run{{teeth[from].second}, teeth[from].first, 1};
+    for (std::size_t i = 1; i < teeth.size(); ++i) {
+      const auto& [tooth, effect] = teeth[(from + i) % teeth.size()];
+      const int count = (tooth - run.first + z) % z + 1;
+      if (count - run.count > 2) break;
+      run.count = count;
+      run.effects.push_back(effect);
+    }
+    if (run.effects.size() > best.effects.size()) best = std::move(run);
+  }
+  return best;
+}
+
+}  // namespace
+
+/// The swelling or sector that says best what some single teeth say, if it leaves little of it.
+std::optional<Effect> PartLoop::form_of_teeth(const std::vector<Effect>& rest, FlankChoice flank,
+                                              int first, int count) const {
+  constexpr double kNearly = 0.1;
+  std::vector<Effect> tried{
+      {find_family("unnamed_sector"), flank, {double(first), double(count), 0.0, 0.0, 0.0}}};
+  for (double middle = -1.0; middle <= 1.0; middle += 0.5)
+    for (double half = 0.3; half < 1.0; half *= 1.3)
+      tried.push_back({find_family("unnamed_dent"),
+                       flank,
+                       {first + 0.5 * (count - 1) + middle, half * count, 0.0, 0.0}});
+  std::vector<Effect> with = rest;
+  with.emplace_back();
+  std::size_t best = 0;
+  double least = 1e300;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    with.back() = tried[i];
+    const double left = PointFit(geometry_, table_, patches_, with).residual_square();
+    if (left >= least) continue;
+    least = left;
+    best = i;
+  }
+  const double all = fit_of(effects_)->residual_square();
+  if (least > all + kNearly * (fit_of(rest)->residual_square() - all)) return {};
+  return tried[best];
+}
+
+/// Teeth side by side that stand out to one side are one swelling, hollow or sector, and none of
+/// them a single tooth.
+void PartLoop::tell_teeth_side_by_side() {
+  constexpr std::size_t kFewest = 3;
+  for (std::size_t one = options_.given.size(); one < effects_.size(); ++one) {
+    if (!effects_[one].family->local) continue;
+    const auto fit = fit_of(effects_);
+    const auto height = [&](std::size_t e) {
+      return fit->coefficients()[fit->first_column(static_cast<int>(e))];
+    };
+    std::vector<std::pair<int, std::size_t>> teeth;
+    for (std::size_t e = one; e < effects_.size(); ++e)
+      if (effects_[e].family == effects_[one].family && effects_[e].flank == effects_[one].flank &&
+          height(e) * height(one) > 0.0)
+        teeth.emplace_back(static_cast<int>(effects_[e].shape[0]), e);
+    std::sort(teeth.begin(), teeth.end());
+    RunOfTeeth run = longest_run(teeth, geometry_.teeth());
+    if (run.effects.size() < kFewest) continue;
+    std::sort(run.effects.rbegin(), run.effects.rend());
+    std::vector<Effect> rest = effects_;
+    for (const std::size_t e : run.effects)
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
+    const std::optional<Effect> form =
+        form_of_teeth(rest, effects_[one].flank, run.first, run.count);
+    if (!form) {
+      for (const std::size_t e : run.effects)
+        if (const EffectFamily* height_of_tooth = form_instead(e))
+          effects_[e].family = height_of_tooth;
+      continue;
+    }
+    ChosenGroup record;
+    record.group = -1;
+    record.p_value = discovery_.chosen[one].p_value;
+    for (const std::size_t e : run.effects) {
+      record.p_value = std::min(record.p_value, discovery_.chosen[e].p_value);
+      remove_effect(e);
+    }
+    effects_.push_back(*form);
+    discovery_.chosen.push_back(record);
+    one = options_.given.size();
+  }
+  tell_teeth_beside_dents();
+}
+
+/// Beside a dent or swelling of a few teeth, or a tooth that stands aside, a single tooth is what
+/// these leave.
+void PartLoop::tell_teeth_beside_dents() {
+  constexpr double kBeside = 1.5;  // teeth
+  const int z = geometry_.teeth();
+  const EffectFamily *dent = find_family("unnamed_dent"),
+                     *aside = find_family("unnamed_tooth_aside");
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr || !effects_[e].family->local) continue;
+    const bool beside = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
+      if (other.family != dent && other.family != aside) return false;
+      const double half = other.family == dent ? other.shape[1] : 0.0;
+      return std::abs(std::remainder(other.shape[0] - effects_[e].shape[0], z)) < kBeside + half;
+    });
+    if (beside) effects_[e].family = form;
+  }
 }
 
 }  // namespace trueflank::loop
