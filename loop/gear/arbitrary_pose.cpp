@@ -35,12 +35,16 @@ bool hangs_on_pose(const FlankGeometry& geometry, const PointFit& fit,
     }
     return sum;
   };
+  const bool knows_its_end = std::any_of(
+      fit.effects().begin(), fit.effects().end(),
+      [](const Effect& effect) { return effect.family->named && effect.family->tells_its_end; });
   double most = 0.0, differs = 0.0;
   for (int u = 0; u < kOfGrid; ++u)
     for (int v = 0; v < kOfGrid; ++v)
       for (const int side : {1, -1}) {
         const double first = value(1, side, u, v);
-        differs = std::max(differs, std::abs(first - value(1, -side, u, kOfGrid - 1 - v)));
+        if (!knows_its_end)
+          differs = std::max(differs, std::abs(first - value(1, -side, u, kOfGrid - 1 - v)));
         for (int tooth = 1; tooth <= geometry.teeth(); ++tooth) {
           const double other = value(tooth, side, u, v);
           most = std::max(most, std::abs(other));

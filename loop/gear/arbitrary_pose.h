@@ -13,7 +13,7 @@ namespace trueflank::loop {
 
 /// True where these effects of a fit, taken together, would be another correction with another
 /// tooth for the first or the other end up: they differ from tooth to tooth, or between a flank and
-/// the other one seen from the other end.
+/// the other one seen from the other end, if no effect of the fit says which end is up.
 [[nodiscard]] bool hangs_on_pose(const FlankGeometry& geometry, const PointFit& fit,
                                  const std::vector<int>& effects);
 

@@ -204,5 +204,22 @@ TEST(AnyPose, WhatHangsOnItIsNotCorrected) {
   }
 }
 
+TEST(AnyPose, AFootSaysWhichEndIsUp) {
+  const MadeGear gear = spur(30);
+  const auto foot = [](auto&, const FlankSpot& s, auto&) {
+    return 40.0 * std::exp(-0.5 * (s.v + 1.0) * 10.0 / 0.6) + 3.0 * s.v;
+  };
+  ScanOptions options = scanned(16000, 0.8, 3);
+  options.any_pose = true;
+  const auto result = close(gear, scan_of(gear, {grown(foot)}, options), false);
+  for (const auto& effect : result.effects)
+    if (find(result, "elephant_foot") != nullptr) {
+      EXPECT_EQ(effect.not_corrected, "") << list(result);
+    } else {
+      EXPECT_NE(effect.not_corrected, "") << list(result);
+    }
+  EXPECT_FALSE(result.effects.empty());
+}
+
 }  // namespace
 }  // namespace trueflank::test

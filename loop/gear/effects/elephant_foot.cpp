@@ -13,6 +13,7 @@ EffectFamily elephant_foot() {
   EffectFamily f;
   f.id = "elephant_foot";
   f.description = "the teeth bulge out towards the lower face";
+  f.tells_its_end = true;
   f.form_word = "bulge_at_lower_face";
   f.causes = {{kOnPlate, "first layers pressed against the plate or overheated"}};
   f.correction = "set first layer height and temperature or elephant foot compensation; draw in the foot";
