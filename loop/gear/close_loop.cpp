@@ -79,7 +79,7 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
       random_error(geometry, loop.table(), loop.patches(), left_um, loop.what_is_left());
   result.noise = noise.um;
   result.notes = loop.table().notes;
-  for (const LouderPlace& place : loop.patches().louder)
+  for (const LouderPlace& place : still_louder(geometry, loop.table(), loop.patches(), left_um))
     result.notes.push_back(
         printed("%s, points of the scan scatter %.2g times as much as elsewhere: "
                 "what they show counts for less",

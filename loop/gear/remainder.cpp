@@ -449,7 +449,7 @@ class RemainderSearch {
 
   void tell_rough_places() {
     ++looks_;
-    for (const LouderPlace& place : patches_.louder)
+    for (const LouderPlace& place : still_louder(geometry_, table_, patches_, row_um_))
       if (place.is_rough())
         add_text(place.p_value,
                  printed("the surface is rougher %s: its points scatter %.2g times as much as "

@@ -137,6 +137,19 @@ TEST(LoudPlaces, OfAScanThatAreFarLouderAreARoughSurface) {
   EXPECT_FALSE(has_name(result)) << list(result);
 }
 
+TEST(LoudPlaces, AStepWithinAPatchIsNoScatter) {
+  const MadeGear gear = spur(29);
+  const auto step = [](auto&, const FlankSpot& s, auto&) { return s.v > 0.12 ? 12.0 : 0.0; };
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const auto result =
+        close(gear, scan_of(gear, {grown(step)}, scanned(9000, 0.6, seed)), seed > 1);
+    EXPECT_EQ(result.structure_left.find("rougher"), std::string::npos) << list(result);
+    EXPECT_TRUE(std::none_of(result.notes.begin(), result.notes.end(), [](const auto& note) {
+      return note.find("scatter") != std::string::npos;
+    })) << list(result);
+  }
+}
+
 TEST(LoudPlaces, OneOfTwoSetsOfCoursesMayBeLouder) {
   // Three traces of either flank: too few to tell how windows of a set scatter.
   int alarms = 0;

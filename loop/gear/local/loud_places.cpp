@@ -231,4 +231,31 @@ void Patches::add_louder(const LouderPlace& place) {
   louder.push_back(place);
 }
 
+std::vector<LouderPlace> still_louder(const FlankGeometry& geometry, const Observations& table,
+                                      const Patches& patches, const std::vector<float>& row_um) {
+  constexpr double kTold = 2.0;
+  std::vector<LouderPlace> result;
+  for (LouderPlace place : patches.louder) {
+    std::vector<float> inside, outside;
+    for (std::size_t i = 0; i < row_um.size(); ++i) {
+      const int patch = patches.patch_of_row[i];
+      if (patch < 0) continue;
+      const Patches::Patch& of_row = patches.patches[static_cast<std::size_t>(patch)];
+      if (of_row.kind != ObservationKind::kScanFlank || of_row.source != place.source) continue;
+      const Place& at = table.place(table.rows[i]);
+      const bool left = (at.side > 0) == (geometry.sense() > 0.0);
+      if (place.flank != FlankChoice::kBoth && left != (place.flank == FlankChoice::kLeft))
+        continue;
+      const double mm = place.over_face ? at.z_mm : 2.0 * at.radius_mm;
+      const bool is_inside =
+          place.tooth > 0 ? at.tooth == place.tooth : mm >= place.low_mm && mm <= place.high_mm;
+      (is_inside ? inside : outside).push_back(row_um[i]);
+    }
+    const double usual = robust_sigma(std::move(outside));
+    place.times = usual > 0.0 ? robust_sigma(std::move(inside)) / usual : 0.0;
+    if (place.times >= kTold) result.push_back(place);
+  }
+  return result;
+}
+
 }  // namespace trueflank::loop

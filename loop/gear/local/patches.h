@@ -82,6 +82,14 @@ struct Patches {
   }
 };
 
+/// The louder places of scans whose values still scatter twice as much, or more, beside what was
+/// found (`row_um`: what is left of every row), with that factor: a step within a patch is no
+/// scatter.
+[[nodiscard]] std::vector<LouderPlace> still_louder(const FlankGeometry& geometry,
+                                                    const Observations& table,
+                                                    const Patches& patches,
+                                                    const std::vector<float>& row_um);
+
 /// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and
 /// one of five height bands, so that every tooth and every height is also seen; traces, index and
 /// radial values by whole teeth, or by whole traces where fewer than five teeth were measured.
