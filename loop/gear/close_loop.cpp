@@ -8,6 +8,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/iso_1328.h"
+#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part_frame.h"

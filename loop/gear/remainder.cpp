@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/remainder.h"
 
 #include <algorithm>

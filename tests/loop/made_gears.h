@@ -88,6 +88,16 @@ inline ScanOptions scanned(int points, double noise_um, unsigned seed) {
   options.seed = seed;
   return options;
 }
+/// Profile and helix traces of these teeth, without an index.
+inline InspectionOptions traced(std::vector<int> teeth, double noise_um, unsigned seed) {
+  InspectionOptions options;
+  options.teeth = std::move(teeth);
+  options.points = 120;
+  options.noise_um = noise_um;
+  options.index = false;
+  options.seed = seed;
+  return options;
+}
 /// The effects in one line, for messages of failing tests.
 inline std::string list(const loop::LoopResult& result) {
   std::string text = to_text(result.verdict);

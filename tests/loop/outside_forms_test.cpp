@@ -13,15 +13,6 @@
 namespace trueflank::test {
 namespace {
 
-InspectionOptions traced_teeth(std::vector<int> teeth, double noise_um, unsigned seed) {
-  InspectionOptions options;
-  options.teeth = std::move(teeth);
-  options.points = 100;
-  options.noise_um = noise_um;
-  options.seed = seed;
-  return options;
-}
-
 bool tells(const loop::LoopResult& result, const std::string& words) {
   return list(result).find(words) != std::string::npos;
 }
@@ -66,13 +57,16 @@ TEST(HalvesTurned, AreOneStepToOppositeSides) {
   };
   const auto crowned = [](auto&, const FlankSpot& s, auto&) { return -12.0 * s.v * s.v; };
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const auto traces =
-        close(gear, inspection_of(gear, {grown(turned)},
-                                  traced_teeth({1, 5, 9, 13, 17, 21, 25, 28}, 1.2, seed)));
+    const auto traces = close(
+        gear,
+        inspection_of(gear, {grown(turned)}, traced({1, 5, 9, 13, 17, 21, 25, 28}, 1.2, seed)));
     const auto scan = close(
         gear, scan_of(gear, {grown(turned), grown(crowned)}, scanned(9000, 1.5, seed)), seed > 1);
     for (const auto* result : {&traces, &scan}) {
-      EXPECT_TRUE(tells(*result, "a step over the face at a height of 4")) << list(*result);
+      const std::string text = list(*result), words = "a step over the face at a height of ";
+      ASSERT_NE(text.find(words), std::string::npos) << text;
+      // (values of a trace stand 0.08 mm apart)
+      EXPECT_NEAR(std::stod(text.substr(text.find(words) + words.size())), 4.0, 0.08) << text;
       EXPECT_TRUE(tells(*result, ", opposite on the two flanks")) << list(*result);
       EXPECT_EQ(result->effects.size(), result == &scan ? 2U : 1U) << list(*result);
     }
@@ -158,10 +152,9 @@ TEST(NamesThatMayBeNothing, AreNotTold) {
     return -17.0 * beyond * beyond;
   };
   for (unsigned seed = 1; seed <= 12; ++seed) {
-    InspectionOptions options = traced_teeth({1, 11, 21, 31, 41, 51}, 2.3, seed);
+    InspectionOptions options = traced({1, 11, 21, 31, 41, 51}, 2.3, seed);
     options.points = 63;
     options.correlation = 0.56;
-    options.index = false;
     const auto result = close(gear, inspection_of(gear, {grown(rounded)}, options));
     for (const auto& effect : result.effects)
       if (effect.named && effect.parameters.size() == 1) {

@@ -12,16 +12,6 @@
 namespace trueflank::test {
 namespace {
 
-InspectionOptions traced(std::vector<int> teeth, double noise_um, unsigned seed) {
-  InspectionOptions options;
-  options.teeth = std::move(teeth);
-  options.points = 120;
-  options.noise_um = noise_um;
-  options.index = false;
-  options.seed = seed;
-  return options;
-}
-
 TEST(BellMouth, AtBothEndsIsNoCrowning) {
   const MadeGear gear = spur(31);
   const auto bell = [](auto&, const FlankSpot& s, auto&) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -17,9 +16,6 @@ namespace trueflank::loop {
 namespace {
 
 constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
-
-/// Where neighbours stand side by side.
-enum class Line : std::uint8_t { kOverProfile, kOverFace };
 
 class LoudPlaceSearch {
  public:
@@ -96,10 +92,9 @@ class LoudPlaceSearch {
   template <class MemberOf>
   [[nodiscard]] std::vector<double> factors_of(std::size_t side, LoudPlace::Of of,
                                                std::size_t members, const MemberOf& member_of) {
-    const Line line = of == LoudPlace::Of::kProfile ? Line::kOverFace : Line::kOverProfile;
     constexpr double kWorth = 1.3;
     std::vector<std::vector<double>> differences(members);
-    const bool over_face = line == Line::kOverFace;
+    const bool over_face = of == LoudPlace::Of::kProfile;  // where neighbours stand side by side
     const std::size_t lines = over_face ? profiles_ : faces_,
                       places = over_face ? faces_ : profiles_;
     for (std::size_t tooth = 0; tooth < teeth_; ++tooth)
@@ -111,7 +106,7 @@ class LoudPlaceSearch {
           if (i != kNoPart && common_known_[i]) parts.push_back(i);
         }
         for (std::size_t k = 1; k + 1 < parts.size(); ++k)
-          if (const auto off = off_its_neighbours(parts[k - 1], parts[k], parts[k + 1], line))
+          if (const auto off = off_its_neighbours(parts[k - 1], parts[k], parts[k + 1], over_face))
             differences[member_of(parts_[parts[k]])].push_back(*off);
       }
     std::vector<double> scatters, values;
@@ -164,10 +159,10 @@ class LoudPlaceSearch {
   /// How far a part lies off the straight line between two others, in standard errors as they are
   /// known so far.
   [[nodiscard]] std::optional<double> off_its_neighbours(std::size_t before, std::size_t at,
-                                                         std::size_t after, Line line) const {
+                                                         std::size_t after, bool over_face) const {
     constexpr double kFarthest = 6.0;
     const auto along_line = [&](std::size_t i) {
-      return static_cast<double>(line == Line::kOverFace ? parts_[i].face : parts_[i].profile);
+      return static_cast<double>(over_face ? parts_[i].face : parts_[i].profile);
     };
     const double reach = along_line(after) - along_line(before);
     if (reach > kFarthest) return {};
@@ -213,7 +208,7 @@ std::string LouderPlace::words() const {
                  over_face ? "heights" : "diameters", low_mm, high_mm);
 }
 
-void Patches::add_louder(const LouderPlace& place) {
+void add_louder(std::vector<LouderPlace>& louder, const LouderPlace& place) {
   for (LouderPlace& other : louder) {
     const bool same = place.tooth == 0 && other.tooth == 0 && other.source == place.source &&
                       other.flank != place.flank && other.flank != FlankChoice::kBoth &&

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/observations.h"
 
 // A scanner sees some places worse than others: edges, the depth of a gap, a shining flank.
 namespace trueflank::loop {
@@ -37,5 +41,38 @@ struct LoudPlaces {
 /// flanks of the side have in common: a form of the surface is no error. All are 1 where they
 /// differ hardly more than chance makes them.
 [[nodiscard]] LoudPlaces loud_places(const std::vector<FlankPart>& parts);
+
+/// A place of a scan at which the random error is at least twice the usual one of its flanks.
+struct LouderPlace {
+  int source = 0;
+  FlankChoice flank = FlankChoice::kBoth;
+  int tooth = 0;  ///< 0: all teeth, between two diameters or two heights
+  bool over_face = false;
+  double low_mm = 0.0, high_mm = 0.0;
+  double share = 0.0;  ///< of the profile or the face
+  double times = 1.0, p_value = 1.0;
+
+  /// A scanner sees edges, or a flank, two or three times worse; a wide part of all flanks that
+  /// scatters as much, or more than that anywhere, is the surface.
+  [[nodiscard]] bool is_rough() const {
+    constexpr double kWide = 0.14, kRough = 4.0, kRoughWhereWide = 2.5;
+    return times >= (share >= kWide ? kRoughWhereWide : kRough);
+  }
+  /// "on the left flanks between diameters of 40 and 41.2 mm".
+  [[nodiscard]] std::string words() const;
+};
+
+/// Adds a place; the same one on both sides is one.
+void add_louder(std::vector<LouderPlace>& louder, const LouderPlace& place);
+
+struct Patches;
+
+/// The louder places of scans whose values still scatter twice as much, or more, beside what was
+/// found (`row_um`: what is left of every row), with that factor: a step within a patch is no
+/// scatter.
+[[nodiscard]] std::vector<LouderPlace> still_louder(const FlankGeometry& geometry,
+                                                    const Observations& table,
+                                                    const Patches& patches,
+                                                    const std::vector<float>& row_um);
 
 }  // namespace trueflank::loop

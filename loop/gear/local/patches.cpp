@@ -504,10 +504,10 @@ class PatchMaker {
     for (std::size_t k = 0; k < members.size(); ++k)
       result_.patches[members[k]].loud = loud.factors[k];
     for (const LoudPlace& place : loud.places)
-      add_louder(place, result_.patches[members.front()].source);
+      tell_louder(place, result_.patches[members.front()].source);
   }
 
-  void add_louder(const LoudPlace& place, int source) {
+  void tell_louder(const LoudPlace& place, int source) {
     const bool flank = place.of == LoudPlace::Of::kFlank;
     LouderPlace told{.source = source,
                      .flank = (place.side > 0) == (geometry_.sense() > 0.0) ? FlankChoice::kLeft
@@ -525,7 +525,7 @@ class PatchMaker {
       told.share = told.over_face ? (told.high_mm - told.low_mm) / geometry_.face_width_mm()
                                   : (place.last + 1.0 - place.first) / kProfileParts;
     }
-    result_.add_louder(told);
+    add_louder(result_.louder, told);
   }
   [[nodiscard]] double low_of_face_part(int part) const {
     const double b = geometry_.face_width_mm();

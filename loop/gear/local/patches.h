@@ -2,38 +2,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "trueflank/loop/discovery/discovery.h"
 #include "trueflank/loop/gear/effect.h"
+#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/observations.h"
 
 namespace trueflank::loop {
 
 /// Folds of the cross-validation, and the one of tips, roots and sizes.
 inline constexpr int kFolds = 8, kAnchorFold = kFolds + 1;
-
-/// A place of a scan at which the random error is at least twice the usual one of its flanks.
-struct LouderPlace {
-  int source = 0;
-  FlankChoice flank = FlankChoice::kBoth;
-  int tooth = 0;  ///< 0: all teeth, between two diameters or two heights
-  bool over_face = false;
-  double low_mm = 0.0, high_mm = 0.0;
-  double share = 0.0;  ///< of the profile or the face
-  double times = 1.0, p_value = 1.0;
-
-  /// A scanner sees edges, or a flank, two or three times worse; a wide part of all flanks that
-  /// scatters as much, or more than that anywhere, is the surface.
-  [[nodiscard]] bool is_rough() const {
-    constexpr double kWide = 0.14, kRough = 4.0, kRoughWhereWide = 2.5;
-    return times >= (share >= kWide ? kRoughWhereWide : kRough);
-  }
-  /// "on the left flanks between diameters of 40 and 41.2 mm".
-  [[nodiscard]] std::string words() const;
-};
 
 struct WeightedPlace {
   Place place;
@@ -59,8 +39,6 @@ struct Patches {
   std::vector<int> patch_of_row;
   int units = 0;
   std::vector<LouderPlace> louder;  ///< of scans
-  /// The same place on both sides is one.
-  void add_louder(const LouderPlace& place);
 
   std::vector<std::pair<std::size_t, double>> left_out;  ///< patches, and the weight they had
 
@@ -81,14 +59,6 @@ struct Patches {
     }
   }
 };
-
-/// The louder places of scans whose values still scatter twice as much, or more, beside what was
-/// found (`row_um`: what is left of every row), with that factor: a step within a patch is no
-/// scatter.
-[[nodiscard]] std::vector<LouderPlace> still_louder(const FlankGeometry& geometry,
-                                                    const Observations& table,
-                                                    const Patches& patches,
-                                                    const std::vector<float>& row_um);
 
 /// Folds: 0 is the locked hold-out, about a fifth. A scan is held out in patches of one tooth and
 /// one of five height bands, so that every tooth and every height is also seen; traces, index and
