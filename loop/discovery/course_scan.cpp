@@ -135,7 +135,7 @@ class CourseScan {
       count_ = static_cast<double>(asked.size());
       // Two kinds of question, localised and wavelike, share the level.
       keep(step_, 2.0 * (count_ + (two ? 1.0 : 0.0)) * forms_);
-      for (CourseFinding* f : {&kink_, &band_}) keep(*f, 2.0 * count_ * forms_);
+      for (const Best* best : {&kink_, &band_}) keep(*best, 2.0 * count_ * forms_);
       keep(wave_, 2.0 * count_ * frequencies_);
     }
     look_for_own_waves();
@@ -144,6 +144,16 @@ class CourseScan {
   }
 
  private:
+  /// The best of a kind, and where that stands in one set alone the best of what all have in common:
+  /// a line that rises in one set and falls in the other hides in these.
+  struct Best {
+    CourseFinding of_all, in_common;
+    double t = 0.0, t_in_common = 0.0;
+  };
+  void keep(const Best& best, double tests) {
+    keep(best.of_all, tests);
+    if (best.of_all.set >= 0 && is_beyond_doubt(best.in_common.p_value)) keep(best.in_common, tests);
+  }
   void keep(CourseFinding finding, double tests) {
     if (!(tests > 0.0)) return;
     finding.p_value *= tests;
@@ -282,37 +292,47 @@ class CourseScan {
   /// `scale`: variance of the mean over that of one course.
   void judge(const CourseForm& form, int set, double scale, const VectorXd& mean,
              const VectorXd& variance) {
-    CourseFinding& best = form.kind == CourseKind::kStep   ? step_
-                          : form.kind == CourseKind::kKink ? kink_
-                                                           : band_;
+    Best& best = form.kind == CourseKind::kStep   ? step_
+                 : form.kind == CourseKind::kKink ? kink_
+                                                  : band_;
     const double score = form.values.dot(mean);
     const double t = std::abs(score / std::sqrt(form.powers.dot(variance)));
     const double square = score * score / form.square / scale;
     // The p-value falls with t: most forms are told from the best one without it.
-    double& best_t = form.kind == CourseKind::kStep   ? step_t_
-                     : form.kind == CourseKind::kKink ? kink_t_
-                                                      : band_t_;
-    if (is_beyond_doubt(best.p_value) ? square <= best.square : t < best_t * (1.0 - 1e-9)) return;
+    const auto is_worth_asking = [&](const CourseFinding& than, double than_t) {
+      return is_beyond_doubt(than.p_value) ? square > than.square : t >= than_t * (1.0 - 1e-9);
+    };
+    const bool ask_all = is_worth_asking(best.of_all, best.t),
+               ask_common = set < 0 && is_worth_asking(best.in_common, best.t_in_common);
+    if (!ask_all && !ask_common) return;
     const double p = student_two_sided(t, degrees_);
-    if (!is_better(p, square, best.p_value, best.square)) return;
+    const auto take = [&](CourseFinding& than, double& than_t) {
+      if (!is_better(p, square, than.p_value, than.square)) return;
+      than = finding_of(form, set, p, square, score, mean);
+      than_t = t;
+    };
+    if (ask_all) take(best.of_all, best.t);
+    if (ask_common) take(best.in_common, best.t_in_common);
+  }
+  [[nodiscard]] CourseFinding finding_of(const CourseForm& form, int set, double p, double square,
+                                         double score, const VectorXd& mean) const {
     const double m = static_cast<double>(m_);
-    best = {.kind = form.kind,
-            .p_value = p,
-            .set = set,
-            .at = form.at / m,
-            .width = form.width / m,
-            .square = square,
-            .amount = score / form.square};
-    if (form.kind == CourseKind::kKink) {
-      // The form is beside the straight line: of that the mean has a slope of its own.
-      const VectorXd line = VectorXd::LinSpaced(m_, -1.0, 1.0);
-      const double bend = best.amount / (1.0 - best.at);
-      const VectorXd straight = mean - best.amount * form.values;
-      const double common = 2.0 * line.dot(straight) / line.squaredNorm();
-      best.before = common - bend * form.line_slope;
-      best.beyond = best.before + bend;
-    }
-    best_t = t;
+    CourseFinding found{.kind = form.kind,
+                        .p_value = p,
+                        .set = set,
+                        .at = form.at / m,
+                        .width = form.width / m,
+                        .square = square,
+                        .amount = score / form.square};
+    if (form.kind != CourseKind::kKink) return found;
+    // The form is beside the straight line: of that the mean has a slope of its own.
+    const VectorXd line = VectorXd::LinSpaced(m_, -1.0, 1.0);
+    const double bend = found.amount / (1.0 - found.at);
+    const VectorXd straight = mean - found.amount * form.values;
+    const double common = 2.0 * line.dot(straight) / line.squaredNorm();
+    found.before = common - bend * form.line_slope;
+    found.beyond = found.before + bend;
+    return found;
   }
 
   void look_for_common_wave(const Common& one, const VectorXd& variance) {
@@ -565,8 +585,9 @@ class CourseScan {
   VectorXd spectrum_;
   double excess_ = 0.0;  ///< kurtosis of single values
   double degrees_ = 0.0, courses_ = 0.0, count_ = 0.0, forms_ = 0.0, frequencies_ = 0.0;
-  double step_t_ = 0.0, kink_t_ = 0.0, band_t_ = 0.0;  ///< of the best
-  CourseFinding step_{CourseKind::kStep}, kink_{CourseKind::kKink}, band_{CourseKind::kBand}, wave_{CourseKind::kWave};
+  Best step_{{CourseKind::kStep}, {CourseKind::kStep}}, kink_{{CourseKind::kKink}, {CourseKind::kKink}},
+      band_{{CourseKind::kBand}, {CourseKind::kBand}};
+  CourseFinding wave_{CourseKind::kWave};
   std::vector<CourseFinding> found_;
 };
 
