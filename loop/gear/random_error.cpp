@@ -123,10 +123,26 @@ Pieces pieces_of(std::vector<Whole>& wholes) {
   return pieces;
 }
 
-/// Variance of traces over the same wavelengths; some may be measured worse than others.
-Variance variance_of_traces(std::vector<Whole>& wholes, double lost) {
+/// Takes a line and a bow off a course.
+void take_trend_off(Eigen::VectorXd& course) {
+  const Eigen::Index n = course.size();
+  Eigen::MatrixXd forms(n, 3);
+  forms.col(0).setOnes();
+  forms.col(1).setLinSpaced(-1.0, 1.0);
+  forms.col(2) = forms.col(1).cwiseAbs2();
+  forms.col(2).array() -= forms.col(2).mean();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    course -= forms.col(k).dot(course) / forms.col(k).squaredNorm() * forms.col(k);
+}
+
+/// Variance of traces over the same wavelengths; some may be measured worse than others. Where
+/// they have trends of their own, what errors have of these is taken from the wavelengths beside.
+Variance variance_of_traces(std::vector<Whole>& wholes, double lost, bool own_trends) {
   constexpr int kBeside = 2;
-  const Pieces pieces = pieces_of(wholes);
+  constexpr std::size_t kOfTrends = 2;
+  Pieces pieces = pieces_of(wholes);
+  if (own_trends)
+    for (Eigen::VectorXd& piece : pieces.courses) take_trend_off(piece);
   if (pieces.courses.empty()) return {};
   std::vector<double> scatters;
   Eigen::Index shortest = pieces.courses.front().size();
@@ -151,6 +167,10 @@ Variance variance_of_traces(std::vector<Whole>& wholes, double lost) {
       }
     level.push_back(median(squares) / kMedianOfSquare);
   }
+  if (own_trends && level.size() > 2 * kOfTrends)
+    std::fill_n(
+        level.begin(), kOfTrends,
+        median(std::vector<double>(level.begin() + kOfTrends, level.begin() + 2 * kOfTrends + 1)));
   return of_louder(lost * sum_without_lines(level) / (n - 1), loud, pieces.values, pieces.held_out);
 }
 
@@ -213,11 +233,11 @@ Variance variance_of_scan(const std::array<ScannedSide, 2>& sides, const Gathere
   return variance;
 }
 
-Variance variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
+Variance variance_of(ObservationKind kind, Gathered& data, const WhatIsLeft& left) {
   const double plain = data.squares / data.count;
   if (kind == ObservationKind::kIndex || kind == ObservationKind::kRadial) {
     const double around = 0.5 * (variance_around(data.around[0]) + variance_around(data.around[1]));
-    return data.even(nothing_left || !(around > 0.0) ? plain : std::min(plain, around));
+    return data.even(left.nothing || !(around > 0.0) ? plain : std::min(plain, around));
   }
   std::array<std::vector<Whole*>, 2> of_flank;
   for (auto& [key, whole] : data.wholes)
@@ -236,7 +256,8 @@ Variance variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
                                                           : take_common_off(flank, 1, places);
     std::vector<Whole> wholes;
     for (Whole* whole : flank) wholes.push_back(std::move(*whole));
-    const Variance variance = variance_of_traces(wholes, lost);
+    const bool own_trends = kind == ObservationKind::kProfile ? left.own_profiles : left.own_leads;
+    const Variance variance = variance_of_traces(wholes, lost, own_trends);
     if (!(variance.all > 0.0)) return data.even(plain);
     sum.add(variance, count);
   }
@@ -247,14 +268,14 @@ Variance variance_of(ObservationKind kind, Gathered& data, bool nothing_left) {
 /// little. What was added is most of the spread, so the rest is known badly: where nothing was found
 /// and what is left is no more than three errors above, that is it.
 Variance variance_of_readings(const Class& of, Gathered& data, const ReadingSteps& steps,
-                              bool nothing_left) {
+                              const WhatIsLeft& left) {
   constexpr double kErrors = 3.0, kToldByMedian = 0.37;
   const double plain = data.squares / data.count, added = steps.wide_variance(of.kind, of.source);
-  if (!(added > 0.0)) return variance_of(of.kind, data, nothing_left);
+  if (!(added > 0.0)) return variance_of(of.kind, data, left);
   const double error = kErrors * std::sqrt(2.0 / (kToldByMedian * data.count));
   data.squares += data.count * added;
-  const double spread = variance_of(of.kind, data, nothing_left).all;
-  if (!(spread > added) || (nothing_left && plain < spread * (1.0 + error) - added))
+  const double spread = variance_of(of.kind, data, left).all;
+  if (!(spread > added) || (left.nothing && plain < spread * (1.0 + error) - added))
     return data.even(plain);
   return data.even(spread - added);
 }
@@ -311,9 +332,9 @@ std::map<ObservationKind, KindError> errors_of_kinds(const FlankGeometry& geomet
     error.square += data.squares;
     const Variance variance =
         key.kind == ObservationKind::kScanFlank
-            ? variance_of_scan(scanned_sides(geometry, table, patches, row_um, key.source, left), data,
-                               left.nothing)
-            : variance_of_readings(key, data, steps, left.nothing);
+            ? variance_of_scan(scanned_sides(geometry, table, patches, row_um, key.source, left),
+                               data, left.nothing)
+            : variance_of_readings(key, data, steps, left);
     error.random_square += data.count * variance.all;
     error.held_out_count += data.held_out;
     error.held_out_random_square += data.held_out * variance.held_out;

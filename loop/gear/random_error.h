@@ -11,7 +11,8 @@ namespace trueflank::loop {
 /// What is known of the values beside their random error.
 struct WhatIsLeft {
   bool nothing = false;  ///< no structure was found: scans and single values are taken as they are
-  /// Flanks of scans have courses of their own, over the profile or over the face.
+  /// Flanks have courses of their own, over the profile or over the face: any in scans, a line or a
+  /// bow in traces.
   bool own_profiles = false, own_leads = false;
 };
 

@@ -13,7 +13,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/loudness.h"
-#include "trueflank/loop/discovery/rough_zone.h"
+#include "trueflank/loop/discovery/trend_scan.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
@@ -21,6 +21,7 @@
 #include "trueflank/loop/gear/local/reading_steps.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
+#include "trueflank/loop/gear/local/rough_flanks.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/table/rows_by_class.h"
 
@@ -58,11 +59,7 @@ class RemainderSearch {
     for (RemainderFinding& finding : found_)
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
-    for (RemainderFinding& finding :
-         look_around_gear(geometry_, moments_, [this](const ToothSector&sector, double p_value) {
-           return dent_in_place_of(sector, p_value);
-         }))
-      found_.push_back(std::move(finding));
+    look_around();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return is_better(a.p_value, a.square, b.p_value, b.square);
@@ -283,6 +280,35 @@ class RemainderSearch {
     return found;
   }
 
+  /// A trend of every trace's own that the teeth share out in a way that is told is not told twice.
+  void look_around() {
+    const std::vector<RemainderFinding> around =
+        look_around_gear(geometry_, moments_, [this](const ToothSector& sector, double p_value) {
+          return dent_in_place_of(sector, p_value);
+        });
+    std::erase_if(found_, [&](const RemainderFinding& own) {
+      return own.own != OwnCourse::kNone && table_.points_mm.empty() &&
+             std::any_of(around.begin(), around.end(), [&](const RemainderFinding& told) {
+               return told.own == own.own && told.p_value <= kRemainderLevel;
+             });
+    });
+    found_.insert(found_.end(), around.begin(), around.end());
+  }
+
+  /// Traces that lean or bend each by itself: flanks that differ, or a probe that drifts.
+  void look_for_own_trend(const CourseKey& key, const CourseSets& all) {
+    ++looks_;
+    const std::optional<OwnTrend> trend = own_trend(all.sets);
+    if (!trend) return;
+    add_text(
+        trend->p_value,
+        printed("the traces over the %s %s each by itself, with a standard deviation of %.3g "
+                "um: flanks that differ, or a drift while they were measured",
+                key.face ? "face" : "profile", trend->degree == 1 ? "lean" : "bend", trend->spread),
+        trend->spread);
+    found_.back().own = key.face ? OwnCourse::kLead : OwnCourse::kProfile;
+  }
+
   void look_along(const CourseKey& key, const Courses& courses) {
     const bool scan = key.kind == ObservationKind::kScanFlank;
     const int places = courses.places(scan);
@@ -291,6 +317,7 @@ class RemainderSearch {
     const CourseSets all = sets_of(courses, places);
     if (all.sets.empty()) return;
     looks_ += 3;  // in common, waves of their own, spots
+    if (!scan) look_for_own_trend(key, all);
     const RoughFlanks rough = scan ? RoughFlanks{} : rough_flanks_of(key, courses);
     for (const CourseFinding& found : findings_along(key, all, places)) {
       if (found.kind == CourseFinding::Kind::kSpot) {
@@ -310,38 +337,11 @@ class RemainderSearch {
     }
   }
 
-  /// A part of the traces of both sides (-1) or of one in which the surface, or the probe on it, is
-  /// rougher. Without a length: there is none.
-  struct RoughFlanks {
-    int side = -1;
-    RoughZone zone;
-  };
-
-  /// The surest one, told as a finding.
+  /// Told as a finding.
   RoughFlanks rough_flanks_of(const CourseKey& key, const Courses& courses) {
-    std::array<std::vector<std::vector<ValueAlong>>, 2> of_side;
-    for (std::size_t side = 0; side < of_side.size(); ++side)
-      for (const auto& [course, samples] : courses.of_flank[side]) {
-        std::vector<ValueAlong>& trace = of_side[side].emplace_back();
-        for (const RemainderSample& sample : samples)
-          trace.push_back({(sample.at - courses.low) / (courses.high - courses.low), sample.um});
-        std::stable_sort(trace.begin(), trace.end(),
-                         [](const auto& a, const auto& b) { return a.at < b.at; });
-      }
     ++looks_;
-    std::vector<std::vector<ValueAlong>> both = of_side[0];
-    both.insert(both.end(), of_side[1].begin(), of_side[1].end());
-    RoughFlanks surest;
-    int asked = 0;
-    for (const int side : {-1, 0, 1}) {
-      const auto& traces = side < 0 ? both : of_side[static_cast<std::size_t>(side)];
-      if (traces.empty() || (side >= 0 && traces.size() == both.size())) continue;
-      ++asked;
-      const std::optional<RoughZone> zone = rough_zone(traces);
-      if (zone && zone->p_value < surest.zone.p_value) surest = {side, *zone};
-    }
-    RoughZone& zone = surest.zone;
-    zone.p_value = std::min(1.0, asked * zone.p_value);
+    RoughFlanks surest = rough_flanks(courses);
+    const RoughZone& zone = surest.zone;
     // As it will be judged with all others: spots in a zone that is not told are told themselves.
     const auto most_looks = static_cast<double>(4 * courses_.size() + 4);
     if (zone.p_value > kRemainderLevel / most_looks) return {};

@@ -54,6 +54,11 @@ class AroundSearch {
     return what == MomentsOf::kScan || what == MomentsOf::kOthers;
   }
 
+  /// What differs from tooth to tooth: a course over the profile or over the face.
+  static OwnCourse own_course(int form) {
+    return form == 0 ? OwnCourse::kNone : form % 2 == 1 ? OwnCourse::kProfile : OwnCourse::kLead;
+  }
+
   /// What one kind of record shows of a tooth by itself.
   static std::vector<int> own_forms(MomentsOf what) {
     switch (what) {
@@ -84,10 +89,12 @@ class AroundSearch {
             (right.array() - right.mean()).matrix().dot((left.array() - left.mean()).matrix()) <
             0.0;
         const Eigen::VectorXd common = 0.5 * (left + (opposite ? -1.0 : 1.0) * right);
-        if (add_slow_wave(common, teeth, form, opposite, looks)) continue;
-        const double spread = std::sqrt((common.array() - common.mean()).square().mean());
-        add_text(p_value, words_of_own(form, key.first, opposite, spread),
-                 (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
+        if (!add_slow_wave(common, teeth, form, opposite, looks)) {
+          const double spread = std::sqrt((common.array() - common.mean()).square().mean());
+          add_text(p_value, words_of_own(form, key.first, opposite, spread),
+                   (form == 1 || form == 2 ? 2.0 : 1.0) * spread);
+        }
+        found_.back().own = own_course(form);
       }
   }
 
@@ -251,8 +258,9 @@ class AroundSearch {
     if (found.series < 0) return;
     found.p_value = std::min(1.0, found.p_value * records);
     if (found.p_value > kRemainderLevel) return;
-    add_ring(found, teeth, what[static_cast<std::size_t>(found.series)],
-             key.first == MomentsOf::kScan);
+    const Series& series_found = what[static_cast<std::size_t>(found.series)];
+    add_ring(found, teeth, series_found, key.first == MomentsOf::kScan);
+    if (key.first != MomentsOf::kScan) found_.back().own = own_course(series_found.form);
   }
 
   void add_ring(const RingFinding& found, const std::vector<int>& teeth, const Series& series,

@@ -9,7 +9,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr std::size_t kFewest = 8;
+constexpr std::size_t kFewestValues = 8;
 
 /// Length of trace a point stands for.
 double share_of(const std::vector<TracePoint>& trace, std::size_t i) {
@@ -76,7 +76,7 @@ TraceFigures evaluate_trace(const std::vector<TracePoint>& trace, const Evaluati
   std::vector<TracePoint> inside;
   for (const TracePoint& p : trace)
     if (p.at_mm >= range.from_mm && p.at_mm <= range.to_mm) inside.push_back(p);
-  if (inside.size() < kFewest) return {};
+  if (inside.size() < kFewestValues) return {};
   const double middle = 0.5 * (range.from_mm + range.to_mm), half = 0.5 * (range.to_mm - range.from_mm);
   const Eigen::VectorXd line = polynomial(inside, middle, half, 1);
   const Eigen::VectorXd curve = polynomial(inside, middle, half, 2);

@@ -114,6 +114,7 @@ class PartLoop {
   void drop_what_mends_a_shape();
   void drop_doubtful_names();
   void join_flanks();
+  void tell_two_names_as_one();
   void tell_parts_of_a_form();
   [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
   void tell_parts_beside_forms();

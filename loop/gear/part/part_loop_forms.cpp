@@ -267,6 +267,7 @@ void PartLoop::tell_parts_of_a_form() {
   tell_what_teeth_do_not_share();
   name_terms_beside_forms();
   name_forms_beside_names();
+  tell_two_names_as_one();
 }
 
 /// What was told before (of other data) stays as it is.

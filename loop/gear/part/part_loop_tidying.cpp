@@ -164,6 +164,78 @@ void PartLoop::join_flanks() {
     }
 }
 
+namespace {
+
+/// What an effect does on both flanks of a tooth, on a grid over them.
+Eigen::VectorXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr int kOfGrid = 7;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  Eigen::VectorXd field(2 * kOfGrid * kOfGrid);
+  Eigen::Index at = 0;
+  for (const int side : {1, -1})
+    for (int i = 0; i < kOfGrid; ++i)
+      for (int k = 0; k < kOfGrid; ++k, ++at)
+        effect.evaluate(geometry,
+                        geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
+                                          (k + 0.5) / kOfGrid * geometry.face_width_mm()),
+                        &field[at]);
+  return field;
+}
+
+/// True for one column that is the same on every tooth.
+bool is_name_of_all_teeth(const Effect& effect) {
+  return effect.family->named && !effect.family->local && effect.columns() == 1 &&
+         effect.order() == 0.0;
+}
+
+bool is_in_the_span(const Eigen::VectorXd& of, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  constexpr double kAlike = 1e-3;
+  const Eigen::VectorXd from_a = b - b.dot(a) / a.squaredNorm() * a;
+  if (!(from_a.norm() > kAlike * b.norm())) return false;
+  const Eigen::VectorXd left =
+      of - of.dot(a) / a.squaredNorm() * a - of.dot(from_a) / from_a.squaredNorm() * from_a;
+  return left.norm() < kAlike * of.norm();
+}
+
+}  // namespace
+
+/// Two names that together do what a third one does alone: equal slopes of all flanks and one of
+/// the left flanks are opposite slopes.
+void PartLoop::tell_two_names_as_one() {
+  constexpr double kNothing = 9.0;  // chi-square
+  const auto one_in_place_of = [&](std::size_t a, std::size_t b) {
+    const Eigen::VectorXd of_a = over_a_tooth(geometry_, effects_[a]),
+                          of_b = over_a_tooth(geometry_, effects_[b]);
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Effect& third = candidates_[c];
+      if (unseen_[c] || !is_name_of_all_teeth(third) || !third.shape.empty() ||
+          !is_in_the_span(over_a_tooth(geometry_, third), of_a, of_b))
+        continue;
+      std::vector<Effect> with = effects_;
+      with[a] = third;
+      with.erase(with.begin() + static_cast<std::ptrdiff_t>(b));
+      const auto fit = fit_of(with);
+      if (fit->residual_square() > fit_of(effects_)->residual_square() + kNothing ||
+          !is_possible(geometry_, *fit, static_cast<int>(a)))
+        continue;
+      ChosenGroup record;
+      record.group = -1;
+      record.p_value = std::min(discovery_.chosen[a].p_value, discovery_.chosen[b].p_value);
+      remove_effect(b);
+      effects_[a] = third;
+      discovery_.chosen[a] = record;
+      std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t a = first_told_here(); a < effects_.size(); ++a)
+    for (std::size_t b = a + 1; b < effects_.size(); ++b)
+      if (is_name_of_all_teeth(effects_[a]) && is_name_of_all_teeth(effects_[b]) &&
+          effects_[a].shape.empty() && effects_[b].shape.empty() && one_in_place_of(a, b))
+        b = a;
+}
+
 /// Forms that were found first may stand where fewer names say the same, or where the hold-out took
 /// all of them back: all is chosen once more from names alone.
 void PartLoop::prefer_names() {
