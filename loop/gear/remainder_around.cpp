@@ -227,23 +227,25 @@ class AroundSearch {
     const auto n = static_cast<Eigen::Index>(teeth.size());
     std::vector<Series> what;
     Eigen::MatrixXd series(n, 0);
-    for (int form = 0; form < static_cast<int>(ToothMoments::kForms); ++form)
-      for (const bool opposite : {false, true}) {
-        if (opposite && side >= 0) continue;
-        const Series one{form, opposite, flank_choice(geometry_, side)};
-        Eigen::VectorXd values(n);
-        bool known = true;
-        for (Eigen::Index i = 0; i < n && known; ++i) {
-          const auto value = value_of(of_teeth, teeth[static_cast<std::size_t>(i)], side, one);
-          known = value.has_value();
-          if (known) values[i] = *value;
-        }
-        if (!known) continue;
-        series.conservativeResize(Eigen::NoChange, series.cols() + 1);
-        series.col(series.cols() - 1) = values;
-        what.push_back(one);
+    const auto add_series = [&](const Series& one, int of_side) {
+      Eigen::VectorXd values(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const auto value = value_of(of_teeth, teeth[static_cast<std::size_t>(i)], of_side, one);
+        if (!value) return;
+        values[i] = *value;
       }
+      series.conservativeResize(Eigen::NoChange, series.cols() + 1);
+      series.col(series.cols() - 1) = values;
+      what.push_back(one);
+    };
+    for (int form = 0; form < static_cast<int>(ToothMoments::kForms); ++form)
+      for (const bool opposite : {false, true})
+        if (!opposite || side < 0) add_series({form, opposite, flank_choice(geometry_, side)}, side);
     if (what.empty()) return;
+    // Then those of one of both flanks: what differs there alone stands in either of the others.
+    const Eigen::Index of_both = series.cols();
+    for (int form = 0; side < 0 && form < static_cast<int>(ToothMoments::kForms); ++form)
+      for (const int own : {0, 1}) add_series({form, false, flank_choice(geometry_, own)}, own);
     if (const auto moved =
             side < 0 && has_heights(key.first) ? moved_sector(geometry_, of_teeth) : std::nullopt) {
       found_.push_back(finding_of("unnamed_moved_sector", FlankChoice::kBoth,
@@ -254,7 +256,11 @@ class AroundSearch {
     std::vector<int> place = teeth;
     for (int& at : place) --at;
     const auto records = static_cast<double>(moments_.size());
-    RingFinding found = scan_ring(series, place, geometry_.teeth(), kRemainderLevel / records);
+    const double level = kRemainderLevel / records;
+    RingFinding found = scan_ring(series, place, geometry_.teeth(), level);
+    // Waves of one flank are told as those of both.
+    if (found.series >= of_both && found.kind == RingFinding::Kind::kWave)
+      found = scan_ring(series.leftCols(of_both), place, geometry_.teeth(), level);
     if (found.series < 0) return;
     found.p_value = std::min(1.0, found.p_value * records);
     if (found.p_value > kRemainderLevel) return;

@@ -387,15 +387,29 @@ EffectFamily unnamed_marks() {
   return f;
 }
 
+namespace {
+
+/// A course of a degree without a height of its own.
+double course_of_degree(double degree, double x) {
+  return degree == 0.0 ? 1.0 : degree == 2.0 ? x * x - 1.0 / 3.0 : std::pow(x, degree);
+}
+/// Degrees over profile and face and the flanks, from the k-th shape value on.
+double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                     std::size_t k) {
+  return (shape[k + 2] != 0.0 ? p.side : 1) *
+         course_of_degree(shape[k], g.profile_coordinate(p.roll_mm)) *
+         course_of_degree(shape[k + 1], g.face_coordinate(p.z_mm));
+}
+
+}  // namespace
+
 EffectFamily unnamed_sector() {
   EffectFamily f = described("unnamed_sector", {"first_tooth", "teeth", "profile_degree",
                                                 "face_degree", "opposite_flanks"});
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    c[0] = in_sector(g, p.tooth, shape) * (shape[4] != 0.0 ? p.side : 1) *
-           (shape[2] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[2]) : 1.0) *
-           (shape[3] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[3]) : 1.0);
+    c[0] = in_sector(g, p.tooth, shape) * form_of_tooth(g, p, shape, 2);
   };
   f.term_keys = {{"first_tooth"},
                  {"teeth"},
@@ -430,9 +444,7 @@ EffectFamily unnamed_alternation() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * (shape[2] != 0.0 ? p.side : 1) *
-           (shape[0] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[0]) : 1.0) *
-           (shape[1] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[1]) : 1.0);
+    c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * form_of_tooth(g, p, shape, 0);
   };
   f.term_keys = {
       {"profile_degree"}, {"face_degree"}, {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
@@ -445,13 +457,6 @@ EffectFamily unnamed_alternation() {
 
 namespace {
 
-/// Degrees over profile and face and the flanks, from the k-th shape value on.
-double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& shape,
-                     std::size_t k) {
-  return (shape[k + 2] != 0.0 ? p.side : 1) *
-         (shape[k] != 0.0 ? std::pow(g.profile_coordinate(p.roll_mm), shape[k]) : 1.0) *
-         (shape[k + 1] != 0.0 ? std::pow(g.face_coordinate(p.z_mm), shape[k + 1]) : 1.0);
-}
 std::string what_of_tooth(const EffectShape& shape, std::size_t k) {
   return std::string(shape[k] > 0.0       ? "the form of the profile"
                      : shape[k + 1] > 0.0 ? "the form of the face"

@@ -85,6 +85,7 @@ class PartLoop {
   void select();
   void finish_choice();
   void nominate();
+  void add_candidate(Effect effect);
   [[nodiscard]] bool is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const;
   [[nodiscard]] std::optional<Effect> name_like(const RemainderFinding& finding,
                                                 const std::vector<Effect>& beside) const;

@@ -34,6 +34,23 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
   return *findings;
 }
 
+namespace {
+
+/// The same around the gear without a course over the flanks; empty: it has none, or stays the same
+/// around the gear.
+std::optional<Effect> height_of(const Effect& effect) {
+  const std::vector<std::string>& names = effect.family->shape_names;
+  const auto first = std::find(names.begin(), names.end(), "profile_degree");
+  if (first == names.end() || first == names.begin() || effect.order() > 0.0) return {};
+  const auto k = static_cast<std::size_t>(first - names.begin());
+  if (effect.shape[k] == 0.0 && effect.shape[k + 1] == 0.0) return {};
+  Effect height = effect;
+  height.shape[k] = height.shape[k + 1] = 0.0;
+  return height;
+}
+
+}  // namespace
+
 /// Waves over the generating rotation that the candidates do not have are taken up at once: beside
 /// the candidates alone many others imitate them. Forms that the data as they are show, so that a
 /// sector or a step stands beside the waves that would otherwise imitate it: candidates like all
@@ -62,10 +79,18 @@ void PartLoop::nominate() {
       put_on_the_grid(*name);
       continue;
     }
-    candidates_.push_back(*finding.effect);
-    banned_.push_back(false);
-    unseen_.push_back(false);
+    add_candidate(*finding.effect);
+    // What forms teeth otherwise may lift them, too.
+    if (const std::optional<Effect> height = height_of(*finding.effect);
+        height && !table_->points_mm.empty())
+      add_candidate(*height);
   }
+}
+
+void PartLoop::add_candidate(Effect effect) {
+  candidates_.push_back(std::move(effect));
+  banned_.push_back(false);
+  unseen_.push_back(false);
 }
 
 /// A shape that was found takes the place of the nearest of its kind: between two of the grid it would
