@@ -416,9 +416,22 @@ void PartLoop::tell_waves_of_a_form() {
     if (is_wave_around(effect) && !needs.along_profile && !needs.along_face)
       waves.push_back({e, effect.order(), fit->effect_size_um(static_cast<int>(e))});
   }
+  // A wave without a name of as many that runs along the flanks, too, and is larger.
+  const auto is_part_of_a_form = [&](const Wave& wave) {
+    return effects_[wave.effect].family->doubt_share > 0.0 &&
+           std::any_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
+             return form.is_term() && form.order() == wave.order && wave.order > 1.0 &&
+                    form.needs().along_face &&
+                    fit->effect_size_um(static_cast<int>(&form - effects_.data())) > wave.size_um;
+           });
+  };
   for (const Wave& wave : waves) {
     const EffectFamily* form = form_instead(wave.effect);
     if (form == nullptr) continue;
+    if (is_part_of_a_form(wave)) {
+      effects_[wave.effect].family = form;
+      continue;
+    }
     std::set<double> orders;
     double others_um = 0.0;
     bool one_kind = true;

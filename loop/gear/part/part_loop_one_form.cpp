@@ -422,7 +422,8 @@ void PartLoop::tell_as_one_form() {
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector() || tell_as_corner() || tell_as_dish_of_all_flanks()) return true;
+    if (tell_as_sector() || tell_as_drift() || tell_as_corner() || tell_as_dish_of_all_flanks())
+      return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
       std::vector<std::size_t> all_over;

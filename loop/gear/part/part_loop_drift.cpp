@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rises evenly once around: what waves around the gear are made of.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/remainder_around.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// A course over the flanks: degrees over profile and face.
+struct Course {
+  double profile = 0.0, face = 0.0;
+};
+
+bool has_course(const Effect& effect, std::size_t k, const Course& course) {
+  return effect.shape[k] == course.profile && effect.shape[k + 1] == course.face;
+}
+
+/// A wave around the gear of the course, or where that is none one that has a name.
+bool is_wave_of(const Effect& effect, const Course& course) {
+  if (!(effect.order() > 0.0) || effect.family->tells_order_along_profile ||
+      effect.family->displacement_mm)
+    return false;
+  if (effect.family == find_family("unnamed")) return has_course(effect, 0, course);
+  const NeedsToBeSeen needs = effect.needs();
+  return course.profile == 0.0 && course.face == 0.0 && effect.family->doubt_share > 0.0 &&
+         !needs.along_profile && !needs.along_face;
+}
+
+bool is_ramp_of(const Effect& effect, const Course& course) {
+  return effect.family == find_family("unnamed_ramp") && has_course(effect, 1, course);
+}
+
+/// Where a ramp begins that follows these values best, the best few first.
+std::vector<int> likeliest_beginnings(const Eigen::VectorXd& values) {
+  constexpr std::size_t kFew = 3;
+  const Eigen::Index z = values.size();
+  const Eigen::VectorXd about_mean = values.array() - values.mean();
+  std::vector<std::pair<double, int>> products;
+  for (Eigen::Index first = 0; first < z; ++first) {
+    double product = 0.0;
+    for (Eigen::Index k = 0; k < z; ++k)
+      product += about_mean[(first + k) % z] * static_cast<double>(k);
+    products.emplace_back(-std::abs(product), static_cast<int>(first) + 1);
+  }
+  std::sort(products.begin(), products.end());
+  std::vector<int> best;
+  for (const auto& [product, first] : products)
+    if (best.size() < kFew) best.push_back(first);
+  return best;
+}
+
+}  // namespace
+
+/// The ramps that follow best what these effects say together of every tooth; of one flank, or of
+/// both.
+std::vector<std::vector<Effect>> PartLoop::ramps_in_place_of(const std::vector<std::size_t>& these,
+                                                             double profile, double face) {
+  constexpr double kNearTheEnd = 0.9;
+  const auto fit = fit_of(effects_);
+  const double low = geometry_.root_form_roll_mm(), high = geometry_.tip_form_roll_mm();
+  const double roll =
+      0.5 * (low + high) + (profile != 0.0 ? kNearTheEnd * 0.5 * (high - low) : 0.0);
+  const double z_mm = 0.5 * (1.0 + (face != 0.0 ? kNearTheEnd : 0.0)) * geometry_.face_width_mm();
+  std::array<Eigen::VectorXd, 2> of_side;  // right, left
+  for (const std::size_t side : {0U, 1U}) {
+    of_side[side] = Eigen::VectorXd::Zero(geometry_.teeth());
+    for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth) {
+      const Place place = geometry_.on_flank(tooth, side == 0 ? -1 : 1, roll, z_mm);
+      for (const std::size_t e : these) {
+        std::array<double, 2> columns{};
+        effects_[e].evaluate(geometry_, place, columns.data());
+        for (int k = 0; k < effects_[e].columns(); ++k)
+          of_side[side][tooth - 1] +=
+              columns[static_cast<std::size_t>(k)] *
+              fit->coefficients()[fit->first_column(static_cast<int>(e)) + k];
+      }
+    }
+  }
+  const auto ramps = [&](FlankChoice flank, double opposite, const Eigen::VectorXd& values) {
+    std::vector<Effect> forms;
+    for (const int first : likeliest_beginnings(values))
+      forms.push_back(
+          {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
+    return forms;
+  };
+  const FlankChoice right = flank_choice(geometry_, 0), left = flank_choice(geometry_, 1);
+  return {ramps(FlankChoice::kBoth, 0.0, of_side[1] + of_side[0]),
+          ramps(FlankChoice::kBoth, 1.0, of_side[1] - of_side[0]), ramps(left, 0.0, of_side[1]),
+          ramps(right, 0.0, of_side[0])};
+}
+
+/// A drift beside larger effects, or on one flank, is not seen before waves of several orders, and
+/// odd teeth where it begins anew, have taken it up: together they are tried against it.
+bool PartLoop::tell_as_drift() {
+  for (const Course& course :
+       {Course{}, Course{1.0, 0.0}, Course{0.0, 1.0}, Course{2.0, 0.0}, Course{0.0, 2.0}}) {
+    std::vector<std::size_t> waves, teeth;
+    std::set<double> orders;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+      const bool ramp = is_ramp_of(effects_[e], course);
+      if (ramp || is_wave_of(effects_[e], course)) {
+        waves.push_back(e);
+        orders.insert(ramp ? 0.0 : effects_[e].order());
+      } else if (effects_[e].family->local && effects_[e].columns() == 1) {
+        teeth.push_back(e);
+      }
+    }
+    if (orders.size() < 2) continue;
+    const std::vector<std::vector<Effect>> forms =
+        ramps_in_place_of(waves, course.profile, course.face);
+    for (const bool with_teeth : {true, false}) {
+      if (with_teeth && teeth.empty()) continue;
+      std::vector<std::size_t> these = waves;
+      if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
+      std::sort(these.begin(), these.end());
+      for (const std::vector<Effect>& ramps : forms)
+        if (put_one_form_for(these, ramps)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace trueflank::loop
