@@ -41,6 +41,8 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_corner(),
         unnamed_band(),
         unnamed_waviness(),
+        unnamed_waves_from(),
+        unnamed_waves_dying(),
         unnamed_marks(),
         unnamed_sector(),
         unnamed_bow(),

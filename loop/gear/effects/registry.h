@@ -59,6 +59,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_corner();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_waviness();
+[[nodiscard]] EffectFamily unnamed_waves_from();
+[[nodiscard]] EffectFamily unnamed_waves_dying();
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
@@ -70,5 +72,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_spot();
 /// @}
+
+/// Waves of about a length that do not run over the whole flank alike, to start from.
+[[nodiscard]] std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face,
+                                                 FlankChoice flank, double wavelength_mm);
 
 }  // namespace trueflank::loop::gear_effects

@@ -136,6 +136,8 @@ class PartLoop {
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
+  [[nodiscard]] bool tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
+                                            FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
   [[nodiscard]] bool tell_as_corner();
   [[nodiscard]] bool tell_as_bow();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -254,6 +255,25 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   return true;
 }
 
+/// Waves that grow towards an end, or begin at a place, are waves of several lengths and forms that
+/// bend them.
+bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
+                                      FlankChoice flank) {
+  std::vector<std::size_t> forms;
+  double wavelength_mm = 0.0, most_um = 0.0;
+  for (const std::size_t e : all) {
+    if (!effects_[e].is_term() || !effects_[e].family->form_word.empty()) continue;
+    forms.push_back(e);
+    const double um = fit_of(effects_)->effect_size_um(static_cast<int>(e));
+    if (effects_[e].family != find_family("unnamed_waviness") || um < most_um) continue;
+    most_um = um;
+    wavelength_mm = effects_[e].shape[1];
+  }
+  return forms.size() > 1 && most_um > 0.0 &&
+         put_one_form_for(forms,
+                          gear_effects::parts_of_waves(geometry_, face, flank, wavelength_mm));
+}
+
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
 bool PartLoop::tell_as_wave_over_profile(const std::vector<std::size_t>& over_profile,
                                          FlankChoice flank) {
@@ -448,6 +468,7 @@ void PartLoop::tell_as_one_form() {
         return true;
       for (const int face : {0, 1}) {
         const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];
+        if (tell_as_part_of_a_wave(all, face, flank)) return true;
         std::vector<std::vector<std::size_t>> sets;
         if (all.size() > 2) sets.push_back(all);
         for (std::size_t a = 0; a < all.size(); ++a)

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effect.h"
+
+// Forms without a name that run over the profile (0) or the face (1), the first of their shape
+// values: places, ends and words of these.
+namespace trueflank::loop::gear_effects {
+
+/// Roll length or height of a place [mm], as the form runs over the profile (0) or the face (1).
+[[nodiscard]] inline double along(double face, const Place& place) {
+  return face != 0.0 ? place.z_mm : place.roll_mm;
+}
+/// Where a form stands [mm] in the same measure; over the profile a form's place is a diameter.
+[[nodiscard]] inline double stands_at(const FlankGeometry& g, double face, double place_mm) {
+  return face != 0.0 ? place_mm : g.roll_at_radius_mm(0.5 * place_mm);
+}
+[[nodiscard]] inline std::string at_place(double face, double place_mm) {
+  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
+                     : printed("at a diameter of %.5g mm", place_mm);
+}
+[[nodiscard]] inline std::string over(double face) {
+  return face != 0.0 ? "over the face" : "over the profile";
+}
+
+[[nodiscard]] inline double range_mm(const FlankGeometry& g, double face) {
+  return face != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm() - g.root_form_roll_mm();
+}
+
+/// The place of a form along the flank moved a little to either side.
+[[nodiscard]] inline std::vector<EffectShape> places_beside(const FlankGeometry& g,
+                                                            const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  const double range = range_mm(g, shape[0]), at = stands_at(g, shape[0], shape[1]);
+  for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})
+    for (const double sign : {-1.0, 1.0}) {
+      const double moved = at + sign * share * range;
+      EffectShape beside = shape;
+      beside[1] = shape[0] != 0.0 ? moved : 2.0 * g.on_flank(1, 1, moved, 0.0).radius_mm;
+      shapes.push_back(std::move(beside));
+    }
+  return shapes;
+}
+
+/// The end [mm] of roll or height: the lower one or the root's (-1), the upper one or the tip's
+/// (1).
+[[nodiscard]] inline double end_mm(const FlankGeometry& g, double face, double end) {
+  if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
+  return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
+}
+[[nodiscard]] inline std::string towards(double face, double end) {
+  if (end == 0.0) return " to both sides";
+  if (face != 0.0) return end > 0.0 ? " towards the upper end" : " towards the lower end";
+  return end > 0.0 ? " towards the tip" : " towards the root";
+}
+
+inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
+[[nodiscard]] inline TermKey number(const std::string& name) {
+  return {name, TermKey::Kind::kNumber};
+}
+
+[[nodiscard]] inline NeedsToBeSeen needs_of_direction(const EffectShape& shape) {
+  return {.along_profile = shape[0] == 0.0, .along_face = shape[0] != 0.0};
+}
+
+}  // namespace trueflank::loop::gear_effects

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cmath>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+// Waves of one length that do not run over the whole flank alike. Told in place of waves of several
+// lengths and of forms that follow them together (part_loop_one_form.cpp), and no candidates of
+// their own.
+namespace trueflank::loop::gear_effects {
+namespace {
+
+constexpr double kLow = -1.0, kHigh = 1.0;
+constexpr std::array kTimes{0.8, 0.93, 0.98, 1.02, 1.07, 1.25};
+
+/// Cosine and sine of waves over the flank, times how large they are at a place.
+template <class Size>
+EffectFamily waves_of_size(const std::string& id, const std::string& third, Size size) {
+  EffectFamily f = described(id, {"along", "wavelength_mm", third, "towards"});
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [size](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const double here = p.surface == Surface::kFlank ? size(g, p, shape) : 0.0;
+    const double angle = kTwoPi * along(shape[0], p) / shape[1];
+    c[0] = here * std::cos(angle);
+    c[1] = here * std::sin(angle);
+  };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.needs = needs_of_direction;
+  f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
+  f.term_keys = {kAlong, number("wavelength_mm"), number(third), {"towards"}};
+  return f;
+}
+
+std::vector<EffectShape> lengths_beside(const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  for (const double times : {0.97, 0.99, 0.997, 1.003, 1.01, 1.03}) {
+    shapes.push_back(shape);
+    shapes.back()[1] *= times;
+  }
+  return shapes;
+}
+
+std::string waves(const EffectShape& shape) {
+  return "the same on every tooth, waves " + over(shape[0]) + printed(", %.3g mm long", shape[1]) +
+         (shape[0] != 0.0 ? "" : " (of roll length)");
+}
+
+}  // namespace
+
+/// From a place on towards an end; they begin within a quarter of a wave.
+EffectFamily unnamed_waves_from() {
+  EffectFamily f = waves_of_size(
+      "unnamed_waves_from", "place_mm",
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        constexpr double kEdge = 1.0 / 16.0;
+        const double at = stands_at(g, shape[0], shape[2]), end = end_mm(g, shape[0], shape[3]);
+        const double beyond = (along(shape[0], p) - at) * (end > at ? 1.0 : -1.0);
+        return 1.0 / (1.0 + std::exp(-beyond / (kEdge * shape[1])));
+      });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = lengths_beside(shape);
+    for (const EffectShape& moved : places_beside(g, {shape[0], shape[2]}))
+      shapes.push_back({shape[0], shape[1], moved[1], shape[3]});
+    return shapes;
+  };
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return waves(shape) + ", from a place " + at_place(shape[0], shape[2]) + " on" +
+           towards(shape[0], shape[3]);
+  };
+  return f;
+}
+
+/// Largest at an end, and dying away from it.
+EffectFamily unnamed_waves_dying() {
+  EffectFamily f = waves_of_size(
+      "unnamed_waves_dying", "dies_within_mm",
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        return std::exp(-std::abs(along(shape[0], p) - end_mm(g, shape[0], shape[3])) / shape[2]);
+      });
+  f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = lengths_beside(shape);
+    for (const double times : kTimes) {
+      shapes.push_back(shape);
+      shapes.back()[2] *= times;
+    }
+    return shapes;
+  };
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return waves(shape) + ", that grow" + towards(shape[0], shape[3]) +
+           printed(" and die away from it within %.2g mm", shape[2]);
+  };
+  return f;
+}
+
+std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, FlankChoice flank,
+                                   double wavelength_mm) {
+  const double low = end_mm(geometry, face, kLow), range = end_mm(geometry, face, kHigh) - low;
+  std::vector<Effect> parts;
+  for (const double times : {0.96, 1.0, 1.04})
+    for (const double end : {kLow, kHigh}) {
+      for (const double share : {0.15, 0.3, 0.45, 0.6, 0.75}) {
+        const double at = low + share * range;
+        parts.push_back(
+            {find_family("unnamed_waves_from"),
+             flank,
+             {face, times * wavelength_mm,
+              face != 0.0 ? at : 2.0 * geometry.on_flank(1, 1, at, 0.0).radius_mm, end}});
+      }
+      for (const double within : {0.15, 0.3, 0.6, 1.2})
+        parts.push_back({find_family("unnamed_waves_dying"),
+                         flank,
+                         {face, times * wavelength_mm, within * std::abs(range), end}});
+    }
+  return parts;
+}
+
+}  // namespace trueflank::loop::gear_effects
