@@ -211,7 +211,7 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 const std::vector<Effect>& forms,
                                 const std::vector<Effect>& beside) {
-  constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
+  constexpr double kClearly = 9.0, kBesideAForm = 3.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
@@ -239,7 +239,12 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
                            ? std::max(kClearly, kNearly * none)
                            : 0.0;
-  if (gain < kClearly - kValue * spared - doubt) return false;
+  // A name that needs a form without one beside it to follow the data is less sure itself.
+  const bool beside_a_form = std::any_of(own.begin(), own.end(), [](const Effect& e) {
+    return e.is_term() && e.family->form_word.empty();
+  });
+  const double clearly = beside_a_form ? kBesideAForm : kClearly;
+  if (gain < clearly - kValue * spared - doubt) return false;
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)
