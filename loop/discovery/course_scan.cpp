@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <utility>
 
 #include "trueflank/base/threads.h"
@@ -52,6 +53,9 @@ struct CourseForm {
   double square = 0.0;
   double line_slope = 0.0;  ///< kKink: what was taken off, a course of a slope's bend
   VectorXd powers;  ///< squares of its coefficients on the cosines
+  /// Steps and bands beside the straight line.
+  VectorXd beside_line, powers_beside_line;
+  double square_beside_line = 0.0;
 };
 
 /// What courses of so many rows are asked for; the same whatever they hold.
@@ -91,13 +95,19 @@ struct CourseForms {
   void add(CourseKind kind, double at, double width, VectorXd values) {
     values.array() -= values.mean();
     const double square = values.squaredNorm();
-    VectorXd powers = (basis * values).cwiseAbs2();
+    const VectorXd line = VectorXd::LinSpaced(values.size(), -1.0, 1.0);
+    VectorXd beside = values - values.dot(line) / line.squaredNorm() * line;
+    VectorXd powers = (basis * values).cwiseAbs2(), powers_beside = (basis * beside).cwiseAbs2();
+    const double square_beside = beside.squaredNorm();
     forms.push_back({.kind = kind,
                      .at = at,
                      .width = width,
                      .values = std::move(values),
                      .square = square,
-                     .powers = std::move(powers)});
+                     .powers = std::move(powers),
+                     .beside_line = std::move(beside),
+                     .powers_beside_line = std::move(powers_beside),
+                     .square_beside_line = square_beside});
   }
 };
 
@@ -132,10 +142,12 @@ class CourseScan {
       measure_waves(commons);
       for (const Common& one : commons) look_for_common(one);
       if (two) look_for_opposite_step();
+      look_beside_lines(commons, two);
       count_ = static_cast<double>(asked.size());
       // Two kinds of question, localised and wavelike, share the level.
       keep(step_, 2.0 * (count_ + (two ? 1.0 : 0.0)) * forms_);
       for (const Best* best : {&kink_, &band_}) keep(*best, 2.0 * count_ * forms_);
+      keep_beside_lines(2.0 * (count_ + (two ? 1.0 : 0.0)) * forms_);
       keep(wave_, 2.0 * count_ * frequencies_);
     }
     look_for_own_waves();
@@ -144,6 +156,11 @@ class CourseScan {
   }
 
  private:
+  /// Of the forms of a kind beside the straight line the one that takes out most.
+  struct Surest {
+    const CourseForm* form = nullptr;
+    double square = 0.0, score = 0.0, t = 0.0;
+  };
   /// The best of a kind, and where that stands in one set alone the best of what all have in common:
   /// a line that rises in one set and falls in the other hides in these.
   struct Best {
@@ -277,6 +294,52 @@ class CourseScan {
     for (const CourseForm& form : forms)
       judge(form, one.set, 1.0 / one.courses, one.mean, variance);
     look_for_common_wave(one, variance);
+  }
+
+  /// What stands beside a slope, of one set or of all: without the line it is where it is, with it it
+  /// would be sought elsewhere.
+  void look_beside_lines(const std::vector<Common>& commons, bool two) {
+    const auto look = [&](const VectorXd& mean, double courses, int set) {
+      const VectorXd variance = spectrum_ / courses;
+      for (const CourseForm& form : forms_of_rows(m_).forms) {
+        if (form.kind == CourseKind::kKink || (set == kHalfDifference && form.kind != CourseKind::kStep))
+          continue;
+        std::map<int, Surest>& surest =
+            form.kind == CourseKind::kStep ? steps_beside_ : bands_beside_;
+        Surest& best = surest[set];
+        const double score = form.beside_line.dot(mean);
+        const double square = score * score / form.square_beside_line * courses;
+        if (!(square > best.square)) continue;
+        best = {&form, square, score,
+                std::abs(score / std::sqrt(form.powers_beside_line.dot(variance)))};
+      }
+    };
+    for (const Common& one : commons) look(one.mean, one.courses, one.set);
+    if (two) look(0.5 * (mean_[0] - mean_[1]), common(kMean).courses, kHalfDifference);
+  }
+
+  void keep_beside_lines(double tests) {
+    const auto keep_at = [&](const Surest& of, int set) {
+      const double p = student_two_sided(of.t, degrees_), m = static_cast<double>(m_);
+      if (!is_beyond_doubt(p)) return;
+      keep({.kind = of.form->kind,
+            .p_value = p,
+            .set = set,
+            .at = of.form->at / m,
+            .width = of.form->width / m,
+            .square = of.square,
+            .amount = of.score / of.form->square_beside_line,
+            .beside_line = true},
+           tests);
+    };
+    for (const std::map<int, Surest>* kind : {&steps_beside_, &bands_beside_})
+      for (const auto& [set, of] : *kind) {
+        if (of.form == nullptr) continue;
+        if (set != kHalfDifference) keep_at(of, set);
+        // Where one set alone steps, half of it is in the difference.
+        for (const int own : {0, 1})
+          if (set == kHalfDifference) keep_at(of, own);
+      }
   }
 
   /// Halves that are turned against each other step up on one flank and down on the other.
@@ -588,6 +651,7 @@ class CourseScan {
   Best step_{{CourseKind::kStep}, {CourseKind::kStep}}, kink_{{CourseKind::kKink}, {CourseKind::kKink}},
       band_{{CourseKind::kBand}, {CourseKind::kBand}};
   CourseFinding wave_{CourseKind::kWave};
+  std::map<int, Surest> steps_beside_, bands_beside_;  ///< of every set, the mean and the difference
   std::vector<CourseFinding> found_;
 };
 

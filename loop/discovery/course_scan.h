@@ -27,6 +27,7 @@ struct CourseFinding {
   double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the
                         ///< wave, mean of the spot
   double before = 0.0, beyond = 0.0;  ///< kKink: slopes to either side
+  bool beside_line = false;  ///< steps and bands that were sought beside a straight line
 };
 
 /// Of two findings that are both beyond doubt the one that takes out more is the better

@@ -398,6 +398,7 @@ class RemainderSearch {
       case Kind::kStep:
         add_form("unnamed_step", flank, {face, at, found.set < -1 ? 1.0 : 0.0}, found.p_value,
                  found.amount, false, found.square);
+        found_.back().beside_line = found.beside_line;
         break;
       case Kind::kKink:
         add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value,
@@ -406,6 +407,7 @@ class RemainderSearch {
       case Kind::kBand:
         add_form("unnamed_band", flank, {face, at, width}, found.p_value, found.amount, false,
                  found.square);
+        found_.back().beside_line = found.beside_line;
         break;
       case Kind::kWave:
         add_form("unnamed_waviness", flank, {face, width}, found.p_value, found.amount, false,

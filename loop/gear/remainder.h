@@ -22,6 +22,7 @@ struct RemainderFinding {
       effect;  ///< the form as columns; empty: no form that comes back (phases of their own)
   bool local = false;  ///< stands on one tooth
   OwnCourse own = OwnCourse::kNone;
+  bool beside_line = false;  ///< along the flanks, sought beside a slope
 };
 
 /// Which values are looked at: what is to be learnt must not come from the hold-out; what stands on

@@ -69,6 +69,7 @@ void PartLoop::run() {
   const bool scan_for_more = !options_.joined && !options_.names_only && !is_rounding();
   if (scan_for_more) nominate();
   explain();
+  if (scan_for_more && begins_better()) return;
   constexpr int kRounds = 4, kMostBans = 6;
   for (int round = 0; scan_for_more && round < kRounds && take_up_remainder(); ++round) explain();
   if (scan_for_more && drop_idle_forms()) explain();
@@ -89,6 +90,7 @@ void PartLoop::run() {
   if (!scan_for_more) return;
   prefer_names();
   prefer_one_name_to_two();
+  take_other_start();
   drop_names_that_may_be_nothing();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;

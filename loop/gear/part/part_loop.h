@@ -33,6 +33,9 @@ class PartLoop {
     bool names_only = false;  ///< no forms without a name
     std::vector<const EffectFamily*> without = {};  ///< families that are not asked about
     int tables = 1;  ///< of how many this is one: the false alarm rate is shared among them
+    /// Forms to begin with, as if they had been found first; empty: the choice begins by itself, and
+    /// is made again from such ones where it ends in many pieces.
+    std::vector<RemainderFinding> start = {};
   };
   PartLoop(const FlankGeometry& geometry, SharedTable table, Options options);
   PartLoop(const PartLoop&) = delete;  ///< fits refer to its tables
@@ -170,6 +173,9 @@ class PartLoop {
   void doubt_names_below_what_is_left();
   void prefer_names();
   void prefer_one_name_to_two();
+  [[nodiscard]] double cost_of(const std::vector<Effect>& effects) const;
+  [[nodiscard]] bool begins_better();
+  void take_other_start();
   void drop_names_that_may_be_nothing();
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);
@@ -200,6 +206,9 @@ class PartLoop {
   bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
   std::vector<double> given_p_values_;
+  std::vector<RemainderFinding> nominated_;  ///< forms that the data as they are show
+  bool asked_for_starts_ = false;            ///< whether the choice was made again from them
+  std::unique_ptr<PartLoop> other_start_;    ///< the best of these choices
   /// Residuals and what was found in them, for one set of effects.
   struct Kept {
     bool valid = false;

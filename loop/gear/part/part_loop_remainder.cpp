@@ -57,6 +57,7 @@ std::optional<Effect> height_of(const Effect& effect) {
 /// others.
 void PartLoop::nominate() {
   constexpr int kMostWaves = 6;
+  for (const RemainderFinding& finding : options_.start) take_up(finding);
   for (int round = 0; round < kMostWaves; ++round) {
     const auto& findings = remainder_of(options_.given, RemainderOf::kTraining);
     const auto wave = std::find_if(findings.begin(), findings.end(), [](const auto& finding) {
@@ -75,11 +76,14 @@ void PartLoop::nominate() {
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
-    if (const std::optional<Effect> name = name_like(finding, options_.given)) {
+    // (what stands beside a slope is like a name only beside that)
+    if (const std::optional<Effect> name =
+            finding.beside_line ? std::nullopt : name_like(finding, options_.given)) {
       put_on_the_grid(*name);
       continue;
     }
     add_candidate(*finding.effect);
+    nominated_.push_back(finding);
     // What forms teeth otherwise may lift them, too.
     if (const std::optional<Effect> height = height_of(*finding.effect);
         height && !table_->points_mm.empty())

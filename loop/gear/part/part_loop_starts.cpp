@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Effects are chosen one by one: two that overlap may begin with a third that follows both a
+// little, and end in many pieces. Then the choice is made again from the forms that the data as
+// they are show.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Effects that run over the profile or over the face, a form without a name among them.
+bool is_in_pieces(const FlankGeometry& geometry, const std::vector<Effect>& effects) {
+  constexpr int kMany = 3;
+  for (const Runs runs : {Runs::kOverProfile, Runs::kOverFace}) {
+    int count = 0, forms = 0;
+    for (const Effect& effect : effects) {
+      if (effect.family->local || runs_of(geometry, effect) != runs) continue;
+      ++count;
+      forms += effect.is_term() ? 1 : 0;
+    }
+    if (count >= kMany && forms > 0) return true;
+  }
+  return false;
+}
+
+/// Forms that stand out beside a slope, the largest first.
+std::vector<RemainderFinding> starts_of(const std::vector<RemainderFinding>& nominated) {
+  constexpr std::size_t kMost = 3;
+  std::vector<RemainderFinding> starts;
+  for (const RemainderFinding& finding : nominated) {
+    const bool known = std::any_of(starts.begin(), starts.end(), [&](const auto& start) {
+      return *start.effect == *finding.effect;
+    });
+    if (finding.beside_line && !known) starts.push_back(finding);
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& a, const auto& b) { return a.square > b.square; });
+  if (starts.size() > kMost) starts.resize(kMost);
+  return starts;
+}
+
+}  // namespace
+
+/// What effects leave, and how many values they are told by (chi-square).
+double PartLoop::cost_of(const std::vector<Effect>& effects) const {
+  constexpr double kValue = 8.0;
+  return fit_of(effects)->residual_square() + kValue * values_of(effects, true);
+}
+
+/// Where the choice ends in pieces it is made again from other starts, and the best of these is
+/// kept. True where that is in no pieces, leaves nothing and costs less: it is taken over, whole.
+bool PartLoop::begins_better() {
+  if (!options_.start.empty() || asked_for_starts_ || !is_in_pieces(geometry_, effects_))
+    return false;
+  asked_for_starts_ = true;
+  for (const RemainderFinding& start : starts_of(nominated_)) {
+    Options options = options_;
+    options.given.resize(first_told_here());
+    options.start = {start};
+    SharedTable measured = table_;
+    if (measured->is_displaced) undo_displacement(geometry_, measured.own());
+    auto other = std::make_unique<PartLoop>(geometry_, std::move(measured), std::move(options));
+    other->run();
+    if (other->table_->is_displaced) continue;
+    const double cost = other->cost_of(other->effects_);
+    if (other_start_ && !(cost < other_start_->cost_of(other_start_->effects_))) continue;
+    other_start_ = std::move(other);
+    if (cost < cost_of(effects_) && !is_in_pieces(geometry_, other_start_->effects_) &&
+        !other_start_->structure_is_left()) {
+      remainder_ = other_start_->remainder_;
+      take_over(*other_start_);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The best of other starts where it costs clearly less than what the choice came to by itself.
+void PartLoop::take_other_start() {
+  constexpr double kClearly = 9.0;  // chi-square
+  if (begins_better() || !other_start_ || table_->is_displaced ||
+      !(other_start_->cost_of(other_start_->effects_) < cost_of(effects_) - kClearly))
+    return;
+  take_over(*other_start_);
+}
+
+}  // namespace trueflank::loop
