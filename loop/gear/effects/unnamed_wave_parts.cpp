@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
@@ -19,8 +22,8 @@ constexpr std::array kTimes{0.8, 0.93, 0.98, 1.02, 1.07, 1.25};
 
 /// Cosine and sine of waves over the flank, times how large they are at a place.
 template <class Size>
-EffectFamily waves_of_size(const std::string& id, const std::string& third, Size size) {
-  EffectFamily f = described(id, {"along", "wavelength_mm", third, "towards"});
+EffectFamily waves_of_size(const std::string& id, std::vector<std::string> shape_names, Size size) {
+  EffectFamily f = described(id, std::move(shape_names));
   f.columns = [](const EffectShape&) { return 2; };
   f.evaluate = [size](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const double here = p.surface == Surface::kFlank ? size(g, p, shape) : 0.0;
@@ -31,7 +34,6 @@ EffectFamily waves_of_size(const std::string& id, const std::string& third, Size
   f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = needs_of_direction;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
-  f.term_keys = {kAlong, number("wavelength_mm"), number(third), {"towards"}};
   return f;
 }
 
@@ -51,20 +53,26 @@ std::string waves(const EffectShape& shape) {
 
 }  // namespace
 
-/// From a place on towards an end; they begin within a quarter of a wave.
+/// From a place on towards an end, where they come up over some length.
 EffectFamily unnamed_waves_from() {
   EffectFamily f = waves_of_size(
-      "unnamed_waves_from", "place_mm",
+      "unnamed_waves_from", {"along", "wavelength_mm", "place_mm", "towards", "within_mm"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-        constexpr double kEdge = 1.0 / 16.0;
+        constexpr double kSteepness = 4.4;  // of a logistic curve from 0.1 to 0.9
         const double at = stands_at(g, shape[0], shape[2]), end = end_mm(g, shape[0], shape[3]);
         const double beyond = (along(shape[0], p) - at) * (end > at ? 1.0 : -1.0);
-        return 1.0 / (1.0 + std::exp(-beyond / (kEdge * shape[1])));
+        return 1.0 / (1.0 + std::exp(-kSteepness * beyond / shape[4]));
       });
+  f.term_keys = {
+      kAlong, number("wavelength_mm"), number("place_mm"), {"towards"}, number("within_mm")};
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = lengths_beside(shape);
     for (const EffectShape& moved : places_beside(g, {shape[0], shape[2]}))
-      shapes.push_back({shape[0], shape[1], moved[1], shape[3]});
+      shapes.push_back({shape[0], shape[1], moved[1], shape[3], shape[4]});
+    for (const double times : {0.4, 0.7, 1.4, 2.5})
+      if (const double within = times * shape[4];
+          within > 0.05 * shape[1] && within < 2.0 * shape[1])
+        shapes.push_back({shape[0], shape[1], shape[2], shape[3], within});
     return shapes;
   };
   f.words = [](const EffectShape& shape, FlankChoice) {
@@ -77,10 +85,11 @@ EffectFamily unnamed_waves_from() {
 /// Largest at an end, and dying away from it.
 EffectFamily unnamed_waves_dying() {
   EffectFamily f = waves_of_size(
-      "unnamed_waves_dying", "dies_within_mm",
+      "unnamed_waves_dying", {"along", "wavelength_mm", "dies_within_mm", "towards"},
       [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
         return std::exp(-std::abs(along(shape[0], p) - end_mm(g, shape[0], shape[3])) / shape[2]);
       });
+  f.term_keys = {kAlong, number("wavelength_mm"), number("dies_within_mm"), {"towards"}};
   f.nearby = [](const FlankGeometry&, const EffectShape& shape) {
     std::vector<EffectShape> shapes = lengths_beside(shape);
     for (const double times : kTimes) {
@@ -98,6 +107,7 @@ EffectFamily unnamed_waves_dying() {
 
 std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, FlankChoice flank,
                                    double wavelength_mm) {
+  constexpr double kComeUp = 0.3;
   const double low = end_mm(geometry, face, kLow), range = end_mm(geometry, face, kHigh) - low;
   std::vector<Effect> parts;
   for (const double times : {0.96, 1.0, 1.04})

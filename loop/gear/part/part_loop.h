@@ -139,6 +139,11 @@ class PartLoop {
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
+  [[nodiscard]] std::vector<Effect> with_best_form(std::vector<Effect> rest,
+                                                   const std::vector<Effect>& forms) const;
+  [[nodiscard]] std::optional<double> largest_wavelength_mm(
+      const std::vector<std::size_t>& of) const;
+  [[nodiscard]] std::optional<Effect> wave_of_pieces(int face, FlankChoice flank) const;
   [[nodiscard]] bool tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
                                             FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
-#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
@@ -169,11 +168,12 @@ std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   return forms;
 }
 
+}  // namespace
+
 /// The form that leaves least in place of the last effect, first among those of its family by
 /// trial, then beside the others.
-std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observations& table,
-                                   const Patches& patches, std::vector<Effect> rest,
-                                   const std::vector<Effect>& forms) {
+std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
+                                             const std::vector<Effect>& forms) const {
   const std::size_t at = rest.size();
   std::vector<Effect> best;
   double least = 1e300;
@@ -185,7 +185,7 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
     for (; next < forms.size() && forms[next].family == family; ++next)
       shapes.push_back(forms[next].shape);
     rest.back() = forms[first];
-    const TrialFit fit(geometry, table, patches, rest);
+    const TrialFit fit(geometry_, table_, patches_, rest);
     const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (trials[i].retained < kToldApart || !(trials[i].square < least)) continue;
@@ -197,13 +197,11 @@ std::vector<Effect> with_best_form(const FlankGeometry& geometry, const Observat
   }
   if (best.empty()) return best;
   if (best.back().family->shape_is_continuous)
-    refine_shapes(geometry, table, patches, best, at);
+    refine_shapes(geometry_, table_, patches_, best, at);
   else
-    refine_nearby(geometry, table, patches, best);
+    refine_nearby(geometry_, table_, patches_, best);
   return best;
 }
-
-}  // namespace
 
 /// True where one of the forms, and what is put beside it, stands for these effects: it needs no
 /// more values than they do, and leaves clearly less; for every value that it spares it may leave a
@@ -225,7 +223,7 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   std::vector<Effect> tried = forms;
   std::stable_sort(tried.begin(), tried.end(),
                    [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
-  const std::vector<Effect> with = with_best_form(geometry_, table_, patches_, rest, tried);
+  const std::vector<Effect> with = with_best_form(rest, tried);
   if (with.empty()) return false;
   if (with.back().family->named &&
       !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
@@ -258,25 +256,6 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
     discovery_.chosen.push_back(record);
   }
   return true;
-}
-
-/// Waves that grow towards an end, or begin at a place, are waves of several lengths and forms that
-/// bend them.
-bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
-                                      FlankChoice flank) {
-  std::vector<std::size_t> forms;
-  double wavelength_mm = 0.0, most_um = 0.0;
-  for (const std::size_t e : all) {
-    if (!effects_[e].is_term() || !effects_[e].family->form_word.empty()) continue;
-    forms.push_back(e);
-    const double um = fit_of(effects_)->effect_size_um(static_cast<int>(e));
-    if (effects_[e].family != find_family("unnamed_waviness") || um < most_um) continue;
-    most_um = um;
-    wavelength_mm = effects_[e].shape[1];
-  }
-  return forms.size() > 1 && most_um > 0.0 &&
-         put_one_form_for(forms,
-                          gear_effects::parts_of_waves(geometry_, face, flank, wavelength_mm));
 }
 
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.
@@ -540,7 +519,7 @@ void PartLoop::name_forms_beside_names() {
     if (names.empty()) continue;
     std::vector<Effect> rest = effects_;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<Effect> with = with_best_form(geometry_, table_, patches_, rest, names);
+    std::vector<Effect> with = with_best_form(rest, names);
     if (with.empty()) continue;
     // Where it stood: what was given stays in front.
     std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());

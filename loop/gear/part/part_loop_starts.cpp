@@ -3,16 +3,20 @@
 // little, and end in many pieces. Then the choice is made again from the forms that the data as
 // they are show.
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
 namespace {
+
+constexpr double kClearlyLess = 9.0;  // chi-square
 
 /// Effects that run over the profile or over the face, a form without a name among them.
 bool is_in_pieces(const FlankGeometry& geometry, const std::vector<Effect>& effects) {
@@ -59,7 +63,15 @@ bool PartLoop::begins_better() {
   if (!options_.start.empty() || asked_for_starts_ || !is_in_pieces(geometry_, effects_))
     return false;
   asked_for_starts_ = true;
-  for (const RemainderFinding& start : starts_of(nominated_)) {
+  std::vector<RemainderFinding> starts = starts_of(nominated_);
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+    for (const int face : {0, 1})
+      if (const std::optional<Effect> wave = wave_of_pieces(face, flank)) {
+        RemainderFinding start{.p_value = kRemainderLevel};
+        start.effect = *wave;
+        starts.insert(starts.begin(), std::move(start));
+      }
+  for (const RemainderFinding& start : starts) {
     Options options = options_;
     options.given.resize(first_told_here());
     options.start = {start};
@@ -77,15 +89,15 @@ bool PartLoop::begins_better() {
       take_over(*other_start_);
       return true;
     }
+    if (cost < cost_of(effects_) - kClearlyLess) return false;
   }
   return false;
 }
 
 /// The best of other starts where it costs clearly less than what the choice came to by itself.
 void PartLoop::take_other_start() {
-  constexpr double kClearly = 9.0;  // chi-square
   if (begins_better() || !other_start_ || table_->is_displaced ||
-      !(other_start_->cost_of(other_start_->effects_) < cost_of(effects_) - kClearly))
+      !(other_start_->cost_of(other_start_->effects_) < cost_of(effects_) - kClearlyLess))
     return;
   take_over(*other_start_);
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waves that grow towards an end, or begin at a place: waves of several lengths, and forms that
+// bend them, are told as these.
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+
+/// The length of the largest wave without a name among some effects; empty: there is none.
+std::optional<double> PartLoop::largest_wavelength_mm(const std::vector<std::size_t>& of) const {
+  std::optional<double> wavelength_mm;
+  double most_um = 0.0;
+  for (const std::size_t e : of) {
+    if (effects_[e].family != find_family("unnamed_waviness")) continue;
+    const double um = fit_of(effects_)->effect_size_um(static_cast<int>(e));
+    if (um < most_um) continue;
+    most_um = um;
+    wavelength_mm = effects_[e].shape[1];
+  }
+  return wavelength_mm;
+}
+
+bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
+                                      FlankChoice flank) {
+  std::vector<std::size_t> forms, bent;
+  for (const std::size_t e : all) {
+    if (!effects_[e].is_term() || !effects_[e].family->form_word.empty()) continue;
+    forms.push_back(e);
+    if (!is_straight(geometry_, effects_[e])) bent.push_back(e);
+  }
+  const std::optional<double> wavelength_mm = largest_wavelength_mm(forms);
+  if (!wavelength_mm) return false;
+  const std::vector<Effect> parts =
+      gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm);
+  return (forms.size() > 1 && put_one_form_for(forms, parts)) ||
+         (bent.size() > 1 && bent.size() < forms.size() && put_one_form_for(bent, parts));
+}
+
+/// The part of a wave that is most of what runs along one direction, beside a slope and what does
+/// not run there; empty where no wave does.
+std::optional<Effect> PartLoop::wave_of_pieces(int face, FlankChoice flank) const {
+  std::vector<std::size_t> along;
+  std::vector<Effect> others{
+      {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}}};
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Runs runs = runs_of(geometry_, effects_[e]);
+    if (runs == (face == 0 ? Runs::kOverProfile : Runs::kOverFace) && effects_[e].flank == flank)
+      along.push_back(e);
+    else if (!effects_[e].family->local)
+      others.push_back(effects_[e]);
+  }
+  const std::optional<double> wavelength_mm = largest_wavelength_mm(along);
+  if (along.size() < 3 || !wavelength_mm) return {};
+  const std::vector<Effect> with = with_best_form(
+      std::move(others), gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm));
+  return with.empty() ? std::nullopt : std::optional(with.back());
+}
+
+}  // namespace trueflank::loop
