@@ -22,7 +22,7 @@ NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observatio
 
 namespace {
 
-constexpr std::size_t kRowsOfColumns = 256;
+constexpr std::size_t kRowsOfColumns = 256, kRowsOfProblem = 2048;
 
 /// Effects of one family that stand beside each other, in the matrix too.
 struct EffectRun {
@@ -149,20 +149,25 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
       std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
         return patch.kind == ObservationKind::kIndex || patch.kind == ObservationKind::kRadial;
       });
-  Eigen::VectorXd pose(nuisance.count());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Patches::Patch& patch = patches.patches[static_cast<std::size_t>(i)];
-    problem.value[i] = patch.mean_um;
-    problem.weight[i] = patch.weight;
-    problem.unit.push_back(patch.unit);
-    problem.fold.push_back(patch.fold);
-    problem.zero.push_back(patch.zero);
-    problem.whole.push_back(single_values_only ? static_cast<int>(i) : patch.whole);
-    pose.setZero();
-    for (const WeightedPlace& place : patch.places)
-      nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
-    problem.nuisance.row(i) = pose.transpose();
-  }
+  for (std::vector<int>* numbers : {&problem.unit, &problem.fold, &problem.zero, &problem.whole})
+    numbers->resize(patches.patches.size());
+  for_each_run(patches.patches.size(), kRowsOfProblem, [&](std::size_t from, std::size_t to) {
+    Eigen::VectorXd pose(nuisance.count());
+    for (std::size_t at = from; at < to; ++at) {
+      const Patches::Patch& patch = patches.patches[at];
+      const auto i = static_cast<Eigen::Index>(at);
+      problem.value[i] = patch.mean_um;
+      problem.weight[i] = patch.weight;
+      problem.unit[at] = patch.unit;
+      problem.fold[at] = patch.fold;
+      problem.zero[at] = patch.zero;
+      problem.whole[at] = single_values_only ? static_cast<int>(i) : patch.whole;
+      pose.setZero();
+      for (const WeightedPlace& place : patch.places)
+        nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
+      problem.nuisance.row(i) = pose.transpose();
+    }
+  });
   set_candidates(geometry, patches, {}, effects, problem);
   return problem;
 }

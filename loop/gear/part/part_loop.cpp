@@ -37,9 +37,11 @@ void PartLoop::divide_into_patches() {
 void PartLoop::forget_fits() {
   fits_.clear();
   plain_fit_.reset();
+  names_ = {};
 }
 
 std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effects) const {
+  if (effects.empty() && !table_->is_displaced) return plain_fit();
   // (of a scan they take memory for every unit)
   const std::size_t most = table_->points_mm.empty() ? 6 : 3;
   auto found = std::find_if(fits_.begin(), fits_.end(),

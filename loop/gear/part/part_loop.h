@@ -203,6 +203,9 @@ class PartLoop {
   Kept kept_;
   mutable std::vector<std::shared_ptr<const PointFit>> fits_;  ///< the one asked for last first
   mutable std::shared_ptr<const PointFit> plain_fit_;
+  /// A form and the names it was compared with; while forms are compared one after the other.
+  mutable std::vector<Effect> names_of_;
+  mutable DiscoveryProblem names_;
   std::vector<FoundEffect> alone_;
   std::vector<RemainderFinding> remainder_;  ///< what no effect found took up
 };
