@@ -520,6 +520,7 @@ std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {
 }
 
 std::vector<float> PointFit::residuals_without_effects_um() const {
+  if (effects_.empty()) return *residuals_um();
   return residuals_with(solution(all_, columns_with(std::vector<bool>(effects_.size(), false))));
 }
 

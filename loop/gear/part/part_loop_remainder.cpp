@@ -28,7 +28,9 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
   if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
                                   kept_.effects.end(), same)) {
     kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
-    kept_.row_um = fit_of(effects)->residuals_um();
+    const auto fit = fit_of(effects);
+    kept_.row_um = fit->residuals_um();
+    if (fit == plain_fit_) plain_um_ = kept_.row_um;
   }
   auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
   if (!findings) {
@@ -70,7 +72,6 @@ void PartLoop::nominate() {
     banned_.push_back(false);
     unseen_.push_back(false);
   }
-  names_ = {};
 }
 
 /// A shape that was found takes the place of the nearest of its kind: between two of the grid it would
