@@ -17,8 +17,8 @@ namespace trueflank::loop {
 /// Standard deviation of normal values over the median of their sizes.
 inline constexpr double kSigmaOfMedianSize = 1.4826;
 
-/// As nth_smallest, of many values: two values of a sample bound where it lies, and only what lies between
-/// them is put in order. Nothing where the sample misleads.
+/// As nth_smallest, of many values: two values of a sample bound where it lies, and only what lies
+/// between them is put in order. Nothing where the sample misleads.
 template <class T>
 [[nodiscard]] std::optional<T> nth_within_bounds(const std::vector<T>& values, std::size_t n) {
   constexpr std::size_t kEvery = 16;

@@ -185,7 +185,8 @@ class PoseSearch {
     return normal.ldlt().solve(right);
   }
 
-  /// Infinite where it is certainly more than `most`: what comes to that is not looked at to the end.
+  /// Infinite where it is certainly more than `most`: what comes to that is not looked at to the
+  /// end.
   [[nodiscard]] double cost(const Pose& pose, const Points& points, double most = kInfinite) const {
     const double reach = 0.2 * geometry_.gear().normal_module_mm;
     double sum = 0.0;
@@ -249,9 +250,10 @@ class PoseSearch {
     return best->first;
   }
 
-  /// Tells the cost of every pose that is among the `best` cheapest, on all processors; others may get an
-  /// infinite one. Which of them do depends on the order of work, the cheapest do not.
-  void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points, std::size_t best) const {
+  /// Tells the cost of every pose that is among the `best` cheapest, on all processors; others may
+  /// get an infinite one. Which of them do depends on the order of work, the cheapest do not.
+  void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points,
+             std::size_t best) const {
     std::mutex mutex;
     std::vector<double> cheapest;  // the most expensive first
     for_each_piece(tried.size(), [&](std::size_t k) {
@@ -304,8 +306,8 @@ class PoseSearch {
     for (const Row& row : rows)
       if (!std::isnan(row.distance)) sizes.push_back(std::abs(row.distance));
     if (sizes.size() < 20) return Vector5::Zero();
-    // The lower triangle row by row, all that is asked for, and the right side: written out, so that the sums
-    // stay in registers.
+    // The lower triangle row by row, all that is asked for, and the right side: written out, so
+    // that the sums stay in registers.
     std::array<double, 20> sums{};
     in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
       std::array<double, 20> sum{};
@@ -313,8 +315,10 @@ class PoseSearch {
         if (std::isnan(row.distance)) continue;
         const double t = row.distance / width;
         const double w = (1.0 - t * t) * (1.0 - t * t);
-        const double g[5] = {row.gradient[0], row.gradient[1], row.gradient[2], row.gradient[3], row.gradient[4]};
-        const double d = -(w * row.distance), h[5] = {w * g[0], w * g[1], w * g[2], w * g[3], w * g[4]};
+        const double g[5] = {row.gradient[0], row.gradient[1], row.gradient[2], row.gradient[3],
+                             row.gradient[4]};
+        const double d = -(w * row.distance),
+                     h[5] = {w * g[0], w * g[1], w * g[2], w * g[3], w * g[4]};
         const double left[20] = {h[0], h[1], h[1], h[2], h[2], h[2], h[3], h[3], h[3], h[3],
                                  h[4], h[4], h[4], h[4], h[4], d,    d,    d,    d,    d};
         const double right[20] = {g[0], g[0], g[1], g[0], g[1], g[2], g[0], g[1], g[2], g[3],

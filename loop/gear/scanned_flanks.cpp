@@ -244,7 +244,8 @@ class ScannedFlanks {
   [[nodiscard]] Courses own_courses(const std::vector<Value>& values,
                                     const Eigen::VectorXd& plane) const {
     constexpr double kInAPart = 12.0, kFewestParts = 4.0, kMostParts = 24.0;
-    const double parts = std::min(kMostParts, std::floor(static_cast<double>(values.size()) / kInAPart));
+    const double parts =
+        std::min(kMostParts, std::floor(static_cast<double>(values.size()) / kInAPart));
     Courses own;
     if (parts < kFewestParts) return own;
     for (const bool face : {false, true}) {
@@ -268,7 +269,8 @@ class ScannedFlanks {
   }
 
   /// Of differences between values that stand in one small part of the flank.
-  [[nodiscard]] static double close_by(const std::vector<Value>& values, const Eigen::VectorXd& plane) {
+  [[nodiscard]] static double close_by(const std::vector<Value>& values,
+                                       const Eigen::VectorXd& plane) {
     constexpr double kInAPart = 3.0, kMostParts = 64.0;
     const double parts = std::clamp(
         std::floor(std::sqrt(static_cast<double>(values.size()) / kInAPart)), 1.0, kMostParts);

@@ -99,9 +99,10 @@ struct PointLines {
   int lines = 0;
 };
 
-/// A plain number at the beginning of a text, which is taken off: an optional minus, digits, and digits behind a
-/// point, so few that the whole number they make and the power of ten below it are exact. Then one division
-/// rounds as std::from_chars does. False where something else stands there.
+/// A plain number at the beginning of a text, which is taken off: an optional minus, digits, and
+/// digits behind a point, so few that the whole number they make and the power of ten below it are
+/// exact. Then one division rounds as std::from_chars does. False where something else stands
+/// there.
 bool take_plain_number(const char*& at, const char* end, double& value) {
   constexpr std::array<double, 16> kPowers{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                            1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
@@ -131,7 +132,8 @@ bool take_plain_number(const char*& at, const char* end, double& value) {
   return true;
 }
 
-/// A line of three plain numbers with blanks between them and nothing else; most are. False where it is not.
+/// A line of three plain numbers with blanks between them and nothing else; most are. False where
+/// it is not.
 bool read_plain_point(std::string_view line, std::array<double, 3>& point) {
   const char* at = line.data();
   const char* const end = at + line.size();

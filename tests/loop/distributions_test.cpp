@@ -159,7 +159,8 @@ void expect_as_sorted(const std::vector<double>& values) {
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t last = values.size() - 1;
-  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, last / 200, last / 3, last / 2, last - last / 200, last}) {
+  for (const std::size_t n :
+       {std::size_t{0}, std::size_t{1}, last / 200, last / 3, last / 2, last - last / 200, last}) {
     std::vector<double> asked = values;
     EXPECT_EQ(nth_smallest(asked, n), sorted[n]) << n << " of " << values.size();
   }

@@ -66,7 +66,8 @@ TEST(ReadPoints, NumbersAreThoseOfTheLibrary) {
 
 TEST(ReadPoints, LinesThatAreNoThreePlainNumbersAreReadAsBefore) {
   const std::string text =
-      "4\n# a comment\n1 2 3\n  +1.5 .5 5.\n\t1e1\t2 3 4 5\n12345678901234567890.5e-18 0 -0.0\n1 2\n1 2 x\n1 2e7 3\n";
+      "4\n# a comment\n1 2 3\n  +1.5 .5 5.\n\t1e1\t2 3 4 5\n12345678901234567890.5e-18 0 -0.0\n1 "
+      "2\n1 2 x\n1 2e7 3\n";
   std::vector<std::string> notes;
   const auto scan = loop::read_xyz("points.xyz", text, notes);
   ASSERT_TRUE(scan.has_value()) << scan.error().message;

@@ -45,7 +45,8 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
   solve();
 }
 
-/// Nuisance and effect columns of a row, the value last; of a scan's those of the first effects alone.
+/// Nuisance and effect columns of a row, the value last; of a scan's those of the first effects
+/// alone.
 void PointFit::features(std::size_t i, double* values, std::size_t effects) const {
   if (!kept_.empty()) {
     const auto width = static_cast<std::size_t>(columns_) + 1;
@@ -528,7 +529,8 @@ std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients)
   std::vector<float> left_um(table_.rows.size(), 0.0f);
   // Effects after the last one with an amount add nothing.
   std::size_t asked = effects_.size();
-  while (asked > 0 && coefficients.segment(first_column_[asked - 1], effects_[asked - 1].columns()).isZero(0.0))
+  while (asked > 0 &&
+         coefficients.segment(first_column_[asked - 1], effects_[asked - 1].columns()).isZero(0.0))
     --asked;
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
     RowPanel panel(*this, asked);

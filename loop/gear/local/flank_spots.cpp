@@ -153,8 +153,8 @@ class SpotSearch {
   /// What is beyond doubt is compared by what it takes out.
   static constexpr double kBeyondDoubt = 1e-8;
 
-  /// A size of a normal value, in standard deviations: smaller ones are certainly as likely as `p`, or more.
-  /// On a grid, and where rounding does not decide.
+  /// A size of a normal value, in standard deviations: smaller ones are certainly as likely as `p`,
+  /// or more. On a grid, and where rounding does not decide.
   static double size_as_likely(double p) {
     constexpr double kSteps = 32.0, kBeyondRounding = 1.0 + 1e-9;
     static const std::vector<double> likely = [] {

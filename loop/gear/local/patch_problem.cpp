@@ -102,17 +102,19 @@ struct CopiedColumns {
   int from = 0, to = 0, count = 0;
 };
 
-/// Takes out of `asked` what is known. Not of families whose effects are computed from each other: their last
-/// digits depend on which are asked together.
+/// Takes out of `asked` what is known. Not of families whose effects are computed from each other:
+/// their last digits depend on which are asked together.
 std::vector<CopiedColumns> take_known(const KnownColumns& known, const std::vector<Effect>& effects,
-                                      const std::vector<CandidateGroup>& groups, std::vector<std::size_t>& asked) {
+                                      const std::vector<CandidateGroup>& groups,
+                                      std::vector<std::size_t>& asked) {
   std::vector<CopiedColumns> copies;
   std::erase_if(asked, [&](std::size_t g) {
     if (effects[g].family->evaluate_together) return false;
     const auto found = std::find(known.effects.begin(), known.effects.end(), effects[g]);
     if (found == known.effects.end()) return false;
     const auto at = static_cast<std::size_t>(found - known.effects.begin());
-    const CopiedColumns copy{known.problem.groups[at].first_column, groups[g].first_column, groups[g].columns};
+    const CopiedColumns copy{known.problem.groups[at].first_column, groups[g].first_column,
+                             groups[g].columns};
     if (!copies.empty() && copies.back().from + copies.back().count == copy.from &&
         copies.back().to + copies.back().count == copy.to)
       copies.back().count += copy.count;
@@ -220,7 +222,8 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
   if (problem.kept)
     for (const std::size_t g : changed) problem.kept->forget(g);
   const std::vector<CopiedColumns> copies =
-      known != nullptr ? take_known(*known, effects, problem.groups, changed) : std::vector<CopiedColumns>();
+      known != nullptr ? take_known(*known, effects, problem.groups, changed)
+                       : std::vector<CopiedColumns>();
   // Patches do not ask each other: the same columns on any number of processors.
   const std::vector<EffectRun> runs = runs_of(geometry, effects, problem.groups, changed);
   if (runs.empty() && copies.empty()) return;
@@ -231,7 +234,8 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
       row.write(patches.patches[i], values);
       if (copies.empty()) continue;
       const float* const other = known->problem.candidates.row(static_cast<Eigen::Index>(i)).data();
-      for (const CopiedColumns& copy : copies) std::copy_n(other + copy.from, copy.count, values + copy.to);
+      for (const CopiedColumns& copy : copies)
+        std::copy_n(other + copy.from, copy.count, values + copy.to);
     }
   });
 }

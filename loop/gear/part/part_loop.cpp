@@ -133,7 +133,8 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
     const KnownColumns known{names_of_, names_};
-    problem_ = make_problem(geometry_, table_, patches_, candidates_, names_.groups.empty() ? nullptr : &known);
+    problem_ = make_problem(geometry_, table_, patches_, candidates_,
+                            names_.groups.empty() ? nullptr : &known);
     // (Of large scans, chosen for in a few rounds, what a point takes of memory counts.)
     constexpr std::size_t kMostPoints = 100'000;
     if (table_->points_mm.size() <= kMostPoints) problem_.kept = std::make_shared<KeptSums>();

@@ -122,8 +122,8 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
     weights[zero_of[i]] += weight;
     roots[i] = std::sqrt(weight);
   }
-  // Columns less their zeros, with the roots of the weights on. Neighbours together: their values stand
-  // beside each other in a row, and their sums do not wait for each other.
+  // Columns less their zeros, with the roots of the weights on. Neighbours together: their values
+  // stand beside each other in a row, and their sums do not wait for each other.
   constexpr std::size_t kAtOnce = 8;
   const auto centred = [&](std::size_t first, std::size_t count) {
     std::array<Eigen::VectorXd, kAtOnce> columns;
@@ -135,7 +135,8 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
     for (std::size_t i = 0; i < patches; ++i) {
       const float* const row = row_of(i);
       const double weight = problem.weight[static_cast<Eigen::Index>(i)];
-      for (std::size_t k = 0; k < count; ++k) sums[zero_of[i]][k] += weight * static_cast<double>(row[k]);
+      for (std::size_t k = 0; k < count; ++k)
+        sums[zero_of[i]][k] += weight * static_cast<double>(row[k]);
     }
     for (std::size_t zero = 0; zero < sums.size(); ++zero)
       for (double& sum : sums[zero]) sum /= weights[zero];
