@@ -56,7 +56,7 @@ STAGES = {
                  r"trueflank::loop::(BlockStatistics|ProjectedCandidates|StructureTest|CrossValidation|QuickErrors|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run|" +
                     BESIDE + r"trueflank::loop::(\(anonymous namespace\)::(CourseScan|RemainderSearch|Spectrum|SpotSearch)|likeliest_rotation_wave)",
-    "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
+    "moving points": r"trueflank::loop::linearise_at\((?!.*\{lambda)|" + BESIDE +
                      r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",
     "shifts of tooth sets": r"trueflank::optimise_set\(",
