@@ -37,7 +37,7 @@ ON_A_THREAD = r"std::__future_base::_Async_state_impl<std::thread::_Invoker<std:
 # Inclusive instructions of these functions, threads added up. What one stage calls of another counts in both.
 STAGES = {
     "check": r"trueflank::check_gearbox\(|" + ON_A_THREAD + r"trueflank::cure_text.*::_M_run",
-    "cure of corner contact": r"trueflank::.*corner_contact_cure|trueflank::.*cure_of_corner",
+    "cure of corner contact": r"trueflank::(shift_cure|tip_radius_cure_mm)\(",
     "meshing": r"trueflank::part_mesh\(",
     "measuring meshes": r"trueflank::measure_accuracy\(",
     "meshes turned through": r"trueflank::mesh_states\((?!.*\{lambda)|" + BESIDE + r"trueflank::mesh_states",
@@ -55,8 +55,8 @@ STAGES = {
     "discovery": r"trueflank::loop::Discovery::Discovery\(|trueflank::loop::Discovery::finished\(|" + BESIDE +
                  r"trueflank::loop::(BlockStatistics|ProjectedCandidates|StructureTest|CrossValidation|QuickErrors|agreement_of_wholes)",
     "what is left": r"trueflank::loop::look_at_remainder\(|" + ON_A_THREAD + r".*RemainderSearch::run.*::_M_run|" +
-                    BESIDE + r"trueflank::loop::(\(anonymous namespace\)::(CourseScan|RemainderSearch|Spectrum)|likeliest_rotation_wave)",
-    "moving points": r"trueflank::loop::linearise_at\(|" + BESIDE +
+                    BESIDE + r"trueflank::loop::(\(anonymous namespace\)::(CourseScan|RemainderSearch|Spectrum|SpotSearch)|likeliest_rotation_wave)",
+    "moving points": r"trueflank::loop::linearise_at\((?!.*\{lambda)|" + BESIDE +
                      r"trueflank::loop::\(anonymous namespace\)::largest_of_points<trueflank::loop::linearise_at",
     "fits to points": r"trueflank::loop::PointFit::sums_of\((?!.*\{lambda)",
     "shifts of tooth sets": r"trueflank::optimise_set\(",

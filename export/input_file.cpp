@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <list>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/export/atomic_file.h"
 
 namespace trueflank::io {
@@ -121,7 +122,10 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t mos
   if (*size > most_bytes) return fail(too_large(path, most_bytes, true));
   if (file.is_hollow()) return fail(hollow(path));
   // One byte more than the size: the read that finds the end needs no second round.
-  std::string content(*size + 1, '\0');
+  std::string content;
+  content.reserve(*size + 1);
+  ask_for_large_pages(content.data(), *size + 1);
+  content.resize(*size + 1);
   std::size_t filled = 0;
   while (const std::size_t got = file.read(content.data() + filled, content.size() - filled)) {
     filled += got;

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <mutex>
 #include <span>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/base/widest_registers.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
@@ -182,7 +185,9 @@ class PoseSearch {
     return normal.ldlt().solve(right);
   }
 
-  [[nodiscard]] double cost(const Pose& pose, const Points& points) const {
+  /// Infinite where it is certainly more than `most`: what comes to that is not looked at to the
+  /// end.
+  [[nodiscard]] double cost(const Pose& pose, const Points& points, double most = kInfinite) const {
     const double reach = 0.2 * geometry_.gear().normal_module_mm;
     double sum = 0.0;
     std::array<double, kPointsAtOnce> distances;
@@ -190,11 +195,12 @@ class PoseSearch {
       geometry_.nearest_distances_mm(moved, reach, distances.data());
       for (std::size_t k = 0; k < moved.size(); ++k)
         sum += std::isnan(distances[k]) ? reach : distances[k];
+      return !(sum > most);
     });
-    return sum;
+    return sum > most ? kInfinite : sum;
   }
 
-  /// `visit(first, moved)` for some points at a time, moved by a pose.
+  /// `visit(first, moved)` for some points at a time, moved by a pose; as long as it says so.
   template <class Visit>
   static void for_moved(const Pose& pose, const Points& points, std::size_t from, std::size_t to,
                         const Visit& visit) {
@@ -202,7 +208,7 @@ class PoseSearch {
     for (std::size_t first = from; first < to; first += kPointsAtOnce) {
       const std::size_t count = std::min(kPointsAtOnce, to - first);
       for (std::size_t k = 0; k < count; ++k) moved[k] = pose(points[first + k]);
-      visit(first, std::span<const Point>(moved.data(), count));
+      if (!visit(first, std::span<const Point>(moved.data(), count))) return;
     }
   }
 
@@ -225,15 +231,14 @@ class PoseSearch {
           tried.emplace_back(0.0, moved);
         }
     }
-    judge(tried, few_);
     // Few points tell most trials from the good ones, more of them the good ones from each other.
-    constexpr std::size_t kGood = 40;
+    constexpr std::size_t kGood = 40, kRefined = 4;
+    judge(tried, few_, kGood);
     const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
-    std::sort(tried.begin(), tried.end(), cheaper);
+    std::stable_sort(tried.begin(), tried.end(), cheaper);
     if (tried.size() > kGood) tried.resize(kGood);
-    judge(tried, coarse_);
-    std::sort(tried.begin(), tried.end(), cheaper);
-    constexpr std::size_t kRefined = 4;
+    judge(tried, coarse_, kRefined);
+    std::stable_sort(tried.begin(), tried.end(), cheaper);
     tried.resize(std::min(kRefined, tried.size()));
     for_each_piece(tried.size(), [&](std::size_t k) {
       auto& [value, trial] = tried[k];
@@ -245,11 +250,25 @@ class PoseSearch {
     return best->first;
   }
 
-  /// Tells the cost of every pose, on all processors.
-  void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points) const {
-    constexpr std::size_t kAtOnce = 8;
-    for_each_run(tried.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
-      for (std::size_t k = from; k < to; ++k) tried[k].first = cost(tried[k].second, points);
+  /// Tells the cost of every pose that is among the `best` cheapest, on all processors; others may
+  /// get an infinite one. Which of them do depends on the order of work, the cheapest do not.
+  void judge(std::vector<std::pair<double, Pose>>& tried, const Points& points,
+             std::size_t best) const {
+    std::mutex mutex;
+    std::vector<double> cheapest;  // the most expensive first
+    for_each_piece(tried.size(), [&](std::size_t k) {
+      double most = kInfinite;
+      {
+        const std::lock_guard lock(mutex);
+        if (cheapest.size() == best) most = cheapest.front();
+      }
+      tried[k].first = cost(tried[k].second, points, most);
+      const std::lock_guard lock(mutex);
+      cheapest.push_back(tried[k].first);
+      std::push_heap(cheapest.begin(), cheapest.end());
+      if (cheapest.size() <= best) return;
+      std::pop_heap(cheapest.begin(), cheapest.end());
+      cheapest.pop_back();
     });
   }
 
@@ -272,27 +291,47 @@ class PoseSearch {
   /// Step (dx, dy, rotation vector) of one Gauss-Newton round; the width is the reach, then follows.
   Vector5 newton_step(const Pose& pose, const Points& points, double& width) const {
     std::vector<Row> rows(points.size());
-    constexpr std::size_t kAtOnce = 4096;
+    constexpr std::size_t kAtOnce = 1536;
     for_each_run(points.size(), kAtOnce, [&](std::size_t from, std::size_t to) {
       std::array<PlacedPoint, kPointsAtOnce> placed;
       for_moved(pose, points, from, to, [&](std::size_t first, std::span<const Point> moved) {
         geometry_.nearest_flanks(moved, 0.03, placed.data());
         for (std::size_t k = 0; k < moved.size(); ++k)
           rows[first + k] = row_of(moved[k], placed[k], width);
+        return true;
       });
     });
-    std::erase_if(rows, [](const Row& row) { return std::isnan(row.distance); });
-    if (rows.size() < 20) return Vector5::Zero();
     std::vector<double> sizes;
     sizes.reserve(rows.size());
-    for (const Row& row : rows) sizes.push_back(std::abs(row.distance));
+    for (const Row& row : rows)
+      if (!std::isnan(row.distance)) sizes.push_back(std::abs(row.distance));
+    if (sizes.size() < 20) return Vector5::Zero();
+    // The lower triangle row by row, all that is asked for, and the right side: written out, so
+    // that the sums stay in registers.
+    std::array<double, 20> sums{};
+    in_widest_registers([&]() TRUEFLANK_ALWAYS_INLINE {
+      std::array<double, 20> sum{};
+      for (const Row& row : rows) {
+        if (std::isnan(row.distance)) continue;
+        const double t = row.distance / width;
+        const double w = (1.0 - t * t) * (1.0 - t * t);
+        const double g[5] = {row.gradient[0], row.gradient[1], row.gradient[2], row.gradient[3],
+                             row.gradient[4]};
+        const double d = -(w * row.distance),
+                     h[5] = {w * g[0], w * g[1], w * g[2], w * g[3], w * g[4]};
+        const double left[20] = {h[0], h[1], h[1], h[2], h[2], h[2], h[3], h[3], h[3], h[3],
+                                 h[4], h[4], h[4], h[4], h[4], d,    d,    d,    d,    d};
+        const double right[20] = {g[0], g[0], g[1], g[0], g[1], g[2], g[0], g[1], g[2], g[3],
+                                  g[0], g[1], g[2], g[3], g[4], g[0], g[1], g[2], g[3], g[4]};
+        for (std::size_t k = 0; k < 20; ++k) sum[k] += left[k] * right[k];
+      }
+      sums = sum;
+    });
     Matrix5 normal = Matrix5::Zero();
     Vector5 right = Vector5::Zero();
-    for (const Row& row : rows) {
-      const double t = row.distance / width;
-      const double w = (1.0 - t * t) * (1.0 - t * t);
-      normal += w * row.gradient * row.gradient.transpose();
-      right -= w * row.distance * row.gradient;
+    for (int i = 0, k = 0; i < 5; ++i) {
+      for (int j = 0; j <= i; ++j) normal(i, j) = sums[static_cast<std::size_t>(k++)];
+      right[i] = sums[static_cast<std::size_t>(15 + i)];
     }
     normal.diagonal() += Vector5::Constant(1e-9 * normal.trace());
     const double scale = kSigmaOfMedianSize * quantile(sizes, 0.5);
@@ -301,6 +340,7 @@ class PoseSearch {
   }
 
   static constexpr std::size_t kPointsAtOnce = 64;
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const FlankGeometry& geometry_;
   Points few_, coarse_, fine_;
 };

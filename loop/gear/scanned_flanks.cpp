@@ -72,7 +72,7 @@ class ScannedFlanks {
         counts(flanks.size()), held_out(flanks.size());
     for_each_piece(flanks.size(), [&](std::size_t k) {
       squares[k] = mean_square(flanks[k]);
-      const OfFlank own = of_flank(flanks[k], common);
+      const OfFlank own = of_flank(values_of(flanks[k], common));
       variances[k] = own.variance;
       scatters[k] = own.scatter;
       counts[k] = static_cast<double>(rows_.count(flanks[k]));
@@ -191,6 +191,20 @@ class ScannedFlanks {
     return sum / static_cast<double>(rows_.count(flank));
   }
 
+  /// A value of a flank less what all have in common there.
+  struct Value {
+    double u, v, um;
+  };
+  /// In order, and beside each other: they are asked several times.
+  [[nodiscard]] std::vector<Value> values_of(std::size_t flank, const Common& common) const {
+    std::vector<Value> values;
+    values.reserve(rows_.count(flank));
+    for_each(flank, [&](double u, double v, double um) {
+      values.push_back({u, v, um - common.um[cell_of(u, v)]});
+    });
+    return values;
+  }
+
   struct OfFlank {
     double variance = 0.0;
     double scatter = 0.0;  ///< of values that stand close by each other
@@ -199,15 +213,14 @@ class ScannedFlanks {
   static Forms forms_at(double u, double v) { return {1.0, u, v, u * u, u * v, v * v}; }
 
   /// Of what a bent and twisted plane leaves.
-  [[nodiscard]] OfFlank of_flank(std::size_t flank, const Common& common) const {
+  [[nodiscard]] OfFlank of_flank(const std::vector<Value>& values) const {
     using Matrix = Eigen::Matrix<double, kForms, kForms>;
     using Vector = Eigen::Matrix<double, kForms, 1>;
-    const auto n = static_cast<double>(rows_.count(flank));
+    const auto n = static_cast<double>(values.size());
     Matrix gram = Matrix::Zero();
     Vector right = Vector::Zero();
     double squares = 0.0;
-    for_each(flank, [&](double u, double v, double value) {
-      const double um = value - common.um[cell_of(u, v)];
+    for (const auto& [u, v, um] : values) {
       const Forms form = forms_at(u, v);
       for (int a = 0; a < kForms; ++a) {
         const double own = form[static_cast<std::size_t>(a)];
@@ -215,36 +228,37 @@ class ScannedFlanks {
         right[a] += um * own;
       }
       squares += um * um;
-    });
+    }
     gram.diagonal().array() += 1e-9 * n;
     const Eigen::VectorXd score = right;
     const Eigen::VectorXd plane = symmetric_solution(gram, score);
-    const Courses own = own_courses(flank, common, plane);
+    const Courses own = own_courses(values, plane);
     const double left = squares - score.dot(plane) - own.square;
-    return {std::max(0.0, left) / std::max(1.0, n - kForms - own.degrees), close_by(flank, common, plane)};
+    return {std::max(0.0, left) / std::max(1.0, n - kForms - own.degrees), close_by(values, plane)};
   }
 
   /// What the courses of its own take out of a flank beside the plane.
   struct Courses {
     double square = 0.0, degrees = 0.0;
   };
-  [[nodiscard]] Courses own_courses(std::size_t flank, const Common& common,
+  [[nodiscard]] Courses own_courses(const std::vector<Value>& values,
                                     const Eigen::VectorXd& plane) const {
     constexpr double kInAPart = 12.0, kFewestParts = 4.0, kMostParts = 24.0;
-    const double parts = std::min(kMostParts, std::floor(static_cast<double>(rows_.count(flank)) / kInAPart));
+    const double parts =
+        std::min(kMostParts, std::floor(static_cast<double>(values.size()) / kInAPart));
     Courses own;
     if (parts < kFewestParts) return own;
     for (const bool face : {false, true}) {
       if (!(face ? left_.own_leads : left_.own_profiles)) continue;
       std::vector<double> sum(static_cast<std::size_t>(parts)), count(sum);
-      for_each(flank, [&](double u, double v, double value) {
+      for (const auto& [u, v, value] : values) {
         const auto at = static_cast<std::size_t>(std::clamp(0.5 * ((face ? v : u) + 1.0) * parts, 0.0, parts - 1.0));
         const Forms form = forms_at(u, v);
-        double um = value - common.um[cell_of(u, v)];
+        double um = value;
         for (int k = 0; k < kForms; ++k) um -= plane[k] * form[static_cast<std::size_t>(k)];
         sum[at] += um;
         count[at] += 1.0;
-      });
+      }
       for (std::size_t at = 0; at < sum.size(); ++at)
         if (count[at] > 0.0) {
           own.square += sum[at] * sum[at] / count[at];
@@ -255,24 +269,24 @@ class ScannedFlanks {
   }
 
   /// Of differences between values that stand in one small part of the flank.
-  [[nodiscard]] double close_by(std::size_t flank, const Common& common,
-                                const Eigen::VectorXd& plane) const {
+  [[nodiscard]] static double close_by(const std::vector<Value>& values,
+                                       const Eigen::VectorXd& plane) {
     constexpr double kInAPart = 3.0, kMostParts = 64.0;
     const double parts = std::clamp(
-        std::floor(std::sqrt(static_cast<double>(rows_.count(flank)) / kInAPart)), 1.0, kMostParts);
+        std::floor(std::sqrt(static_cast<double>(values.size()) / kInAPart)), 1.0, kMostParts);
     const auto part_of = [&](double c) {
       return static_cast<std::size_t>(std::clamp(0.5 * (c + 1.0) * parts, 0.0, parts - 1.0));
     };
     constexpr double kEmpty = std::numeric_limits<double>::infinity();
     std::vector<double> last(static_cast<std::size_t>(parts * parts), kEmpty), steps;
-    for_each(flank, [&](double u, double v, double value) {
+    for (const auto& [u, v, value] : values) {
       const Forms form = forms_at(u, v);
-      double um = value - common.um[cell_of(u, v)];
+      double um = value;
       for (int k = 0; k < kForms; ++k) um -= plane[k] * form[static_cast<std::size_t>(k)];
       double& before = last[part_of(u) * static_cast<std::size_t>(parts) + part_of(v)];
       if (before != kEmpty) steps.push_back(um - before);
       before = um;
-    });
+    }
     return robust_sigma(std::move(steps));
   }
 

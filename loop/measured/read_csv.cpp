@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
+#include "trueflank/base/large_pages.h"
 #include "trueflank/base/threads.h"
 #include "trueflank/loop/measured/csv_rows.h"
 #include "trueflank/loop/measured/read_measurement.h"
@@ -96,14 +99,67 @@ struct PointLines {
   int lines = 0;
 };
 
+/// A plain number at the beginning of a text, which is taken off: an optional minus, digits, and
+/// digits behind a point, so few that the whole number they make and the power of ten below it are
+/// exact. Then one division rounds as std::from_chars does. False where something else stands
+/// there.
+bool take_plain_number(const char*& at, const char* end, double& value) {
+  constexpr std::array<double, 16> kPowers{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr int kMostDigits = 15;  // below 2^53
+  const char* next = at;
+  const bool negative = next != end && *next == '-';
+  if (negative) ++next;
+  std::int64_t whole = 0;
+  int digits = 0;
+  const auto take_digits = [&] {
+    const int before = digits;
+    for (; next != end && *next >= '0' && *next <= '9' && digits <= kMostDigits; ++next, ++digits)
+      whole = 10 * whole + (*next - '0');
+    return digits - before;
+  };
+  if (take_digits() == 0) return false;
+  int behind = 0;
+  if (next != end && *next == '.') {
+    ++next;
+    behind = take_digits();
+    if (behind == 0) return false;
+  }
+  if (digits > kMostDigits) return false;
+  const double size = static_cast<double>(whole) / kPowers[static_cast<std::size_t>(behind)];
+  value = negative ? -size : size;
+  at = next;
+  return true;
+}
+
+/// A line of three plain numbers with blanks between them and nothing else; most are. False where
+/// it is not.
+bool read_plain_point(std::string_view line, std::array<double, 3>& point) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  const auto is_blank = [&] { return at != end && (*at == ' ' || *at == '\t'); };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k > 0 && !is_blank()) return false;
+    while (is_blank()) ++at;
+    if (!take_plain_number(at, end, point[k])) return false;
+  }
+  while (is_blank()) ++at;
+  return at == end;
+}
+
 /// `begins`: these are the first of the file, where a count of points or a header may stand.
 PointLines read_point_lines(std::string_view text, bool begins) {
   PointLines read;
   read.points_mm.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
   std::vector<std::string_view> fields;
   while (!text.empty()) {
-    const std::string_view row = trimmed(next_line(text));
+    const std::string_view line = next_line(text);
     ++read.lines;
+    if (std::array<double, 3> plain{}; read_plain_point(line, plain) && is_measured_point(plain)) {
+      read.points_mm.push_back(plain);
+      continue;
+    }
+    const std::string_view row = trimmed(line);
     if (row.empty() || row.front() == '#' || row.starts_with("//")) continue;
     split_blanks(row, fields);
     const bool none = begins && read.points_mm.empty();
@@ -148,6 +204,7 @@ Result<ScanData> read_xyz(const std::string& file, std::string_view text,
   std::size_t points = 0;
   for (const PointLines& piece : pieces) points += piece.points_mm.size();
   scan.points_mm.reserve(points);
+  ask_for_large_pages(scan.points_mm.data(), points * sizeof scan.points_mm.front());
   int line = 0;
   for (PointLines& piece : pieces) {
     scan.points_mm.insert(scan.points_mm.end(), piece.points_mm.begin(), piece.points_mm.end());

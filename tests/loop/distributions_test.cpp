@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/order_statistics.h"
 
 namespace trueflank::loop {
 namespace {
@@ -150,6 +152,44 @@ TEST(Distributions, OneSizeFarBeyondTheOthersIsNone) {
   EXPECT_GT(gap_beyond_tail_p_value(3.2, others), 0.2);
   EXPECT_LT(gap_beyond_tail_p_value(15.0, others), 1e-4);
   EXPECT_EQ(gap_beyond_tail_p_value(15.0, {1.0, 2.0, 3.0}), 1.0);  // too few to say
+}
+
+/// Every place asked gives the value that sorting gives.
+void expect_as_sorted(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t last = values.size() - 1;
+  for (const std::size_t n :
+       {std::size_t{0}, std::size_t{1}, last / 200, last / 3, last / 2, last - last / 200, last}) {
+    std::vector<double> asked = values;
+    EXPECT_EQ(nth_smallest(asked, n), sorted[n]) << n << " of " << values.size();
+  }
+}
+
+TEST(OrderStatistics, OfManyValuesTheNthIsThatOfTheSortedOnes) {
+  std::mt19937_64 random(20261127);
+  std::normal_distribution<double> normal;
+  for (const std::size_t count : {4095U, 4096U, 5000U, 40000U}) {
+    std::vector<double> values(count);
+    for (double& value : values) value = normal(random);
+    expect_as_sorted(values);
+    for (double& value : values) value = std::round(2.0 * value);  // few levels
+    expect_as_sorted(values);
+    std::sort(values.begin(), values.end());
+    expect_as_sorted(values);
+    std::fill(values.begin(), values.end(), 1.0);
+    expect_as_sorted(values);
+  }
+}
+
+TEST(OrderStatistics, ASampleThatMisleadsDoesNotDecide) {
+  // every 16th value lies elsewhere
+  std::vector<double> values;
+  for (int i = 0; i < 20000; ++i) values.push_back(i % 16 == 0 ? 1e6 + i : i % 1000);
+  expect_as_sorted(values);
+  EXPECT_FALSE(nth_within_bounds(values, values.size() / 2).has_value());
+  for (double& value : values) value = -value;
+  expect_as_sorted(values);
 }
 
 }  // namespace

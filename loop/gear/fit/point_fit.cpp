@@ -45,8 +45,9 @@ PointFit::PointFit(const FlankGeometry& geometry, const Observations& table, con
   solve();
 }
 
-/// Nuisance and effect columns of a row, the value last.
-void PointFit::features(std::size_t i, double* values) const {
+/// Nuisance and effect columns of a row, the value last; of a scan's those of the first effects
+/// alone.
+void PointFit::features(std::size_t i, double* values, std::size_t effects) const {
   if (!kept_.empty()) {
     const auto width = static_cast<std::size_t>(columns_) + 1;
     std::copy_n(kept_.data() + i * width, width, values);
@@ -55,11 +56,11 @@ void PointFit::features(std::size_t i, double* values) const {
   const Observation& row = table_.rows[i];
   if (i < table_.points_mm.size()) {  // of a scan: one place, with a weight of 1
     if (!as_it_was(i)) {
-      features_at(table_.place(row), row, values);
+      features_at(table_.place(row), row, values, effects);
       values[columns_] = row.deviation_um;
       return;
     }
-    features_of(as_designed(geometry_, table_, i), row, values);
+    features_of(as_designed(geometry_, table_, i), row, values, effects);
     return;
   }
   std::fill_n(values, columns_ + 1, 0.0);
@@ -82,15 +83,16 @@ bool PointFit::as_it_was(std::size_t i) const {
          table_.rows[i].kind == ObservationKind::kScanFlank;
 }
 
-void PointFit::features_of(const PlacedPoint& placed, const Observation& row,
-                           double* values) const {
-  features_at(placed.place, row, values);
+void PointFit::features_of(const PlacedPoint& placed, const Observation& row, double* values,
+                           std::size_t effects) const {
+  features_at(placed.place, row, values, effects);
   values[columns_] = um_from_mm(placed.distance_mm);
 }
 
-void PointFit::features_at(const Place& place, const Observation& row, double* values) const {
+void PointFit::features_at(const Place& place, const Observation& row, double* values,
+                           std::size_t effects) const {
   nuisance_.set(place, row.kind, row.source, values);
-  for (std::size_t e = 0; e < effects_.size(); ++e)
+  for (std::size_t e = 0; e < effects; ++e)
     effects_[e].evaluate(geometry_, place, values + first_column_[e]);
 }
 
@@ -107,7 +109,7 @@ void PointFit::average_zeros() {
     if (trace < 0 || patches_.patch_of_row[i] < 0) continue;
     const auto& patch = patches_.patches[patches_.patch_of_row[i]];
     const double w = patch.weight / patch.count;
-    features(i, row.data());
+    features(i, row.data(), effects_.size());
     const int slot = 2 * trace + (patch.fold == 0 ? 1 : 0);
     zero_means_[slot] += w * row;
     weights[slot] += w;
@@ -258,9 +260,12 @@ struct PointFit::Sums {
 
 /// Nuisance and effect columns, the value last, of some rows at a time.
 struct PointFit::RowPanel {
-  explicit RowPanel(const PointFit& fit) : one(static_cast<std::size_t>(fit.columns_) + 1) {}
+  /// Of the first effects; the columns of the others are 0 in rows of scans.
+  RowPanel(const PointFit& fit, std::size_t first_effects)
+      : one(static_cast<std::size_t>(fit.columns_) + 1), effects(first_effects) {}
 
   std::vector<double> one;
+  std::size_t effects;
   std::vector<std::size_t> anew;  ///< rows whose places as designed are found together
   std::array<PlacedPoint, kPanel> placed;
 
@@ -274,9 +279,9 @@ struct PointFit::RowPanel {
     std::size_t next = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       if (next < anew.size() && anew[next] == rows[r])
-        fit.features_of(placed[next++], fit.table_.rows[rows[r]], one.data());
+        fit.features_of(placed[next++], fit.table_.rows[rows[r]], one.data(), effects);
       else
-        fit.features(rows[r], one.data());
+        fit.features(rows[r], one.data(), effects);
       visit(r, one.data());
     }
   }
@@ -300,7 +305,7 @@ PointFit::Sums PointFit::sums_of(const std::vector<PatchOfRow>& patches, std::si
   std::vector<std::optional<Gram>> learnt(patches_.units), other(patches_.units);
   PanelOfColumns turned;
   Gram plain_held(columns, turned, room), plain_other(columns, turned, room);
-  RowPanel panel(*this);
+  RowPanel panel(*this, effects_.size());
   std::vector<std::size_t> rows;
   Eigen::VectorXd apart(n);
   const auto add_row = [&](std::size_t r, const double* values) {
@@ -516,13 +521,19 @@ std::shared_ptr<const std::vector<float>> PointFit::residuals_um() const {
 }
 
 std::vector<float> PointFit::residuals_without_effects_um() const {
+  if (effects_.empty()) return *residuals_um();
   return residuals_with(solution(all_, columns_with(std::vector<bool>(effects_.size(), false))));
 }
 
 std::vector<float> PointFit::residuals_with(const Eigen::VectorXd& coefficients) const {
   std::vector<float> left_um(table_.rows.size(), 0.0f);
+  // Effects after the last one with an amount add nothing.
+  std::size_t asked = effects_.size();
+  while (asked > 0 &&
+         coefficients.segment(first_column_[asked - 1], effects_[asked - 1].columns()).isZero(0.0))
+    --asked;
   run_pieces(pieces_of(table_.rows.size()), [&](std::size_t, std::size_t begin, std::size_t end) {
-    RowPanel panel(*this);
+    RowPanel panel(*this, asked);
     std::vector<std::size_t> rows;
     const auto tell_row = [&](std::size_t r, const double* values) {
       if (const int trace = table_.rows[rows[r]].trace; trace >= 0)

@@ -76,9 +76,11 @@ class PointFit {
   void keep_features(Known known);
   [[nodiscard]] bool take_features(const Effect& effect, const std::vector<std::uint32_t>& rows,
                                    int first_column, Known known);
-  void features(std::size_t row, double* values) const;
-  void features_at(const Place& place, const Observation& row, double* values) const;
-  void features_of(const PlacedPoint& placed, const Observation& row, double* values) const;
+  void features(std::size_t row, double* values, std::size_t effects) const;
+  void features_at(const Place& place, const Observation& row, double* values,
+                   std::size_t effects) const;
+  void features_of(const PlacedPoint& placed, const Observation& row, double* values,
+                   std::size_t effects) const;
   [[nodiscard]] bool as_it_was(std::size_t row) const;
   [[nodiscard]] std::vector<float> residuals_with(const Eigen::VectorXd& coefficients) const;
   void average_zeros();

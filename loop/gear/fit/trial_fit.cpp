@@ -61,18 +61,21 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   columns_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), columns + 1);
   Eigen::MatrixXd own =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), nuisance.count() + 1);
-  std::vector<double> values(static_cast<std::size_t>(nuisance.count()) + 1);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Observation& row = table.rows[rows_[i].row];
-    std::fill(values.begin(), values.end(), 0.0);
-    for (std::uint32_t k = 0; k < row.places; ++k) {
-      const Place& place = table.places[row.first_place + k];
-      nuisance.add(place, row.kind, row.source, row.weight, values.data());
+  constexpr std::size_t kRowsOfWork = 4096;
+  for_each_run(rows_.size(), kRowsOfWork, [&](std::size_t from, std::size_t to) {
+    std::vector<double> values(static_cast<std::size_t>(nuisance.count()) + 1);
+    for (std::size_t i = from; i < to; ++i) {
+      const Observation& row = table.rows[rows_[i].row];
+      std::fill(values.begin(), values.end(), 0.0);
+      for (std::uint32_t k = 0; k < row.places; ++k) {
+        const Place& place = table.places[row.first_place + k];
+        nuisance.add(place, row.kind, row.source, row.weight, values.data());
+      }
+      values.back() = row.deviation_um;
+      for (std::size_t k = 0; k < values.size(); ++k)
+        own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = values[k];
     }
-    values.back() = row.deviation_um;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = values[k];
-  }
+  });
   centre(own);
   columns_.leftCols(nuisance.count()) = own.leftCols(nuisance.count());
   columns_.col(columns) = own.col(nuisance.count());

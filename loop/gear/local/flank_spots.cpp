@@ -107,13 +107,23 @@ class SpotSearch {
 
   std::vector<FlankSpot> run() {
     if (fields_.empty()) return {};
-    std::map<std::pair<int, int>, OfFlank> best;
+    const std::vector<Window> all = windows();
+    std::vector<Spread> spreads(all.size());
+    for_each_piece(all.size(), [&](std::size_t i) { spreads[i] = spread_of(all[i]); });
     double tests = 0.0;
-    for (const Window& window : windows()) tests += judge(window, best);
+    for (const Spread& spread : spreads) tests += spread.tests;
+    std::vector<const std::pair<const std::pair<int, int>, Field>*> flanks;
+    for (const auto& flank : fields_) flanks.push_back(&flank);
+    // Flanks do not ask each other: the same on any number of processors.
+    std::vector<OfFlank> best(flanks.size());
+    for_each_piece(flanks.size(), [&](std::size_t k) {
+      for (std::size_t i = 0; i < all.size(); ++i)
+        judge(all[i], spreads[i], flanks[k]->first, flanks[k]->second, best[k]);
+    });
     std::vector<FlankSpot> spots;
-    for (auto& [key, found] : best) {
+    for (const OfFlank& found : best) {
       const double p = tests * found.most_likely.p_value;
-      if (p >= 1.0) continue;
+      if (found.most_likely.p_value >= 1.0 || p >= 1.0) continue;
       spots.push_back(found.square > 0.0 ? found.fullest : found.most_likely);
       spots.back().p_value = p;
     }
@@ -131,7 +141,32 @@ class SpotSearch {
   struct OfFlank {
     FlankSpot most_likely, fullest;
     double square = 0.0;
+    double too_near = -1.0;  ///< a score of this size or less changes nothing
   };
+
+  /// Of all windows of a size: how their scores scatter on each side, and how many there are.
+  struct Spread {
+    std::array<double, 2> of_side{};
+    double tests = 0.0;
+  };
+
+  /// What is beyond doubt is compared by what it takes out.
+  static constexpr double kBeyondDoubt = 1e-8;
+
+  /// A size of a normal value, in standard deviations: smaller ones are certainly as likely as `p`,
+  /// or more. On a grid, and where rounding does not decide.
+  static double size_as_likely(double p) {
+    constexpr double kSteps = 32.0, kBeyondRounding = 1.0 + 1e-9;
+    static const std::vector<double> likely = [] {
+      std::vector<double> all;
+      do all.push_back(normal_two_sided(static_cast<double>(all.size()) / kSteps, 0.0));
+      while (all.back() > kBeyondDoubt);
+      return all;
+    }();
+    const auto end = std::partition_point(likely.begin(), likely.end(),
+                                          [&](double q) { return q >= kBeyondRounding * p; });
+    return static_cast<double>(end - likely.begin() - 1) / kSteps;
+  }
 
   /// A value as it would be where the random error is the usual one of its side.
   [[nodiscard]] float level_um(std::size_t row) const {
@@ -216,37 +251,49 @@ class SpotSearch {
            values[corner(u, v)];
   }
 
-  /// How many windows of this size there are.
-  double judge(const Window& window, std::map<std::pair<int, int>, OfFlank>& best) const {
-    const int du = window.profile > 0 ? window.profile : cells_,
-              dv = window.face > 0 ? window.face : cells_;
-    constexpr double kFewestInWindow = 4.0, kBeyondDoubt = 1e-8;
+  /// `visit(u, v, count, score)` for every window of a size on a flank that holds enough values.
+  template <class Visit>
+  void for_each_window(const Window& window, const Field& field, const Visit& visit) const {
+    constexpr double kFewestInWindow = 4.0;
+    const int du = cells_over_profile(window), dv = cells_over_face(window);
+    for (int u = 0; u + du <= cells_; ++u)
+      for (int v = 0; v + dv <= cells_; ++v) {
+        const double count = within(field.count, u, v, du, dv);
+        if (count >= kFewestInWindow)
+          visit(u, v, count, within(field.sum, u, v, du, dv) / std::sqrt(count) / field.loud);
+      }
+  }
+  [[nodiscard]] int cells_over_profile(const Window& window) const {
+    return window.profile > 0 ? window.profile : cells_;
+  }
+  [[nodiscard]] int cells_over_face(const Window& window) const {
+    return window.face > 0 ? window.face : cells_;
+  }
+
+  [[nodiscard]] Spread spread_of(const Window& window) const {
     std::array<std::vector<float>, 2> of_side;
-    const auto each = [&](auto visit) {
-      for (const auto& [key, field] : fields_)
-        for (int u = 0; u + du <= cells_; ++u)
-          for (int v = 0; v + dv <= cells_; ++v) {
-            const double count = within(field.count, u, v, du, dv);
-            if (count >= kFewestInWindow)
-              visit(key, field, u, v, count,
-                    within(field.sum, u, v, du, dv) / std::sqrt(count) / field.loud);
-          }
-    };
-    each([&](const auto& key, auto&, int, int, double, double score) {
-      of_side[side_index(key.second)].push_back(static_cast<float>(score));
-    });
+    for (const auto& [key, field] : fields_) {
+      std::vector<float>& scores = of_side[side_index(key.second)];
+      for_each_window(window, field, [&](int, int, double, double score) {
+        scores.push_back(static_cast<float>(score));
+      });
+    }
     const auto tests = static_cast<double>(of_side[0].size() + of_side[1].size());
-    const std::array<double, 2> spreads{robust_sigma(std::move(of_side[0])),
-                                        robust_sigma(std::move(of_side[1]))};
+    return {{robust_sigma(std::move(of_side[0])), robust_sigma(std::move(of_side[1]))}, tests};
+  }
+
+  void judge(const Window& window, const Spread& spreads, const std::pair<int, int>& key,
+             const Field& field, OfFlank& found) const {
+    const std::size_t side = side_index(key.second);
+    const double spread = spreads.of_side[side];
+    if (!(spread > 0.0)) return;
+    const int du = cells_over_profile(window), dv = cells_over_face(window);
     const double mm_u = (geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm()) / cells_;
     const double mm_v = geometry_.face_width_mm() / cells_;
-    each([&](const auto& key, const Field& field, int u, int v, double count, double score) {
-      const double spread = spreads[side_index(key.second)];
-      if (!(spread > 0.0)) return;
-      const std::size_t side = side_index(key.second);
+    for_each_window(window, field, [&](int u, int v, double count, double score) {
+      if (std::abs(score / spread) <= found.too_near) return;
       const double normal = normal_two_sided(score / spread, excess_[side] / count);
       const double p = std::max(normal, least_chance(score / spread, degrees_[side], normal));
-      OfFlank& found = best[key];
       const double sum = within(field.plain, u, v, du, dv), square = sum * sum / count;
       const bool fuller = p < kBeyondDoubt && square > found.square;
       if (!(p < found.most_likely.p_value) && !fuller) return;
@@ -258,12 +305,14 @@ class SpotSearch {
                            window.profile > 0 ? 0.5 * du * mm_u : 0.0,
                            window.face > 0 ? 0.5 * dv * mm_v : 0.0,
                            sum / count};
-      if (p < found.most_likely.p_value) found.most_likely = spot;
+      if (p < found.most_likely.p_value) {
+        found.most_likely = spot;
+        found.too_near = size_as_likely(std::max(p, kBeyondDoubt));
+      }
       if (!fuller) return;
       found.fullest = spot;
       found.square = square;
     });
-    return tests;
   }
 
   const FlankGeometry& geometry_;

@@ -22,7 +22,7 @@ NuisanceColumns::NuisanceColumns(const FlankGeometry& geometry, const Observatio
 
 namespace {
 
-constexpr std::size_t kRowsOfColumns = 256;
+constexpr std::size_t kRowsOfColumns = 256, kRowsOfProblem = 2048;
 
 /// Effects of one family that stand beside each other, in the matrix too.
 struct EffectRun {
@@ -97,6 +97,34 @@ class RowOfPatch {
   std::vector<double> one_, sum_;
 };
 
+/// Neighbouring columns that another problem has.
+struct CopiedColumns {
+  int from = 0, to = 0, count = 0;
+};
+
+/// Takes out of `asked` what is known. Not of families whose effects are computed from each other:
+/// their last digits depend on which are asked together.
+std::vector<CopiedColumns> take_known(const KnownColumns& known, const std::vector<Effect>& effects,
+                                      const std::vector<CandidateGroup>& groups,
+                                      std::vector<std::size_t>& asked) {
+  std::vector<CopiedColumns> copies;
+  std::erase_if(asked, [&](std::size_t g) {
+    if (effects[g].family->evaluate_together) return false;
+    const auto found = std::find(known.effects.begin(), known.effects.end(), effects[g]);
+    if (found == known.effects.end()) return false;
+    const auto at = static_cast<std::size_t>(found - known.effects.begin());
+    const CopiedColumns copy{known.problem.groups[at].first_column, groups[g].first_column,
+                             groups[g].columns};
+    if (!copies.empty() && copies.back().from + copies.back().count == copy.from &&
+        copies.back().to + copies.back().count == copy.to)
+      copies.back().count += copy.count;
+    else
+      copies.push_back(copy);
+    return true;
+  });
+  return copies;
+}
+
 /// Groups of the effects, in order.
 std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<Effect>& effects) {
   const bool traces_only =
@@ -134,7 +162,8 @@ std::vector<CandidateGroup> groups_of(const Patches& patches, const std::vector<
 }  // namespace
 
 DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations& table,
-                              const Patches& patches, const std::vector<Effect>& effects) {
+                              const Patches& patches, const std::vector<Effect>& effects,
+                              const KnownColumns* known) {
   const NuisanceColumns nuisance(geometry, table);
   DiscoveryProblem problem;
   const auto n = static_cast<Eigen::Index>(patches.patches.size());
@@ -149,27 +178,32 @@ DiscoveryProblem make_problem(const FlankGeometry& geometry, const Observations&
       std::all_of(patches.patches.begin(), patches.patches.end(), [](const auto& patch) {
         return patch.kind == ObservationKind::kIndex || patch.kind == ObservationKind::kRadial;
       });
-  Eigen::VectorXd pose(nuisance.count());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Patches::Patch& patch = patches.patches[static_cast<std::size_t>(i)];
-    problem.value[i] = patch.mean_um;
-    problem.weight[i] = patch.weight;
-    problem.unit.push_back(patch.unit);
-    problem.fold.push_back(patch.fold);
-    problem.zero.push_back(patch.zero);
-    problem.whole.push_back(single_values_only ? static_cast<int>(i) : patch.whole);
-    pose.setZero();
-    for (const WeightedPlace& place : patch.places)
-      nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
-    problem.nuisance.row(i) = pose.transpose();
-  }
-  set_candidates(geometry, patches, {}, effects, problem);
+  for (std::vector<int>* numbers : {&problem.unit, &problem.fold, &problem.zero, &problem.whole})
+    numbers->resize(patches.patches.size());
+  for_each_run(patches.patches.size(), kRowsOfProblem, [&](std::size_t from, std::size_t to) {
+    Eigen::VectorXd pose(nuisance.count());
+    for (std::size_t at = from; at < to; ++at) {
+      const Patches::Patch& patch = patches.patches[at];
+      const auto i = static_cast<Eigen::Index>(at);
+      problem.value[i] = patch.mean_um;
+      problem.weight[i] = patch.weight;
+      problem.unit[at] = patch.unit;
+      problem.fold[at] = patch.fold;
+      problem.zero[at] = patch.zero;
+      problem.whole[at] = single_values_only ? static_cast<int>(i) : patch.whole;
+      pose.setZero();
+      for (const WeightedPlace& place : patch.places)
+        nuisance.add(place.place, patch.kind, patch.source, place.weight, pose.data());
+      problem.nuisance.row(i) = pose.transpose();
+    }
+  });
+  set_candidates(geometry, patches, {}, effects, problem, known);
   return problem;
 }
 
 void set_candidates(const FlankGeometry& geometry, const Patches& patches,
                     const std::vector<Effect>& before, const std::vector<Effect>& effects,
-                    DiscoveryProblem& problem) {
+                    DiscoveryProblem& problem, const KnownColumns* known) {
   const std::vector<CandidateGroup> stood = std::move(problem.groups);
   problem.groups = groups_of(patches, effects);
   const auto n = static_cast<Eigen::Index>(patches.patches.size());
@@ -187,13 +221,22 @@ void set_candidates(const FlankGeometry& geometry, const Patches& patches,
       changed.push_back(g);
   if (problem.kept)
     for (const std::size_t g : changed) problem.kept->forget(g);
+  const std::vector<CopiedColumns> copies =
+      known != nullptr ? take_known(*known, effects, problem.groups, changed)
+                       : std::vector<CopiedColumns>();
   // Patches do not ask each other: the same columns on any number of processors.
   const std::vector<EffectRun> runs = runs_of(geometry, effects, problem.groups, changed);
-  if (runs.empty()) return;
+  if (runs.empty() && copies.empty()) return;
   for_each_run(patches.patches.size(), kRowsOfColumns, [&](std::size_t from, std::size_t to) {
     RowOfPatch row(geometry, runs);
-    for (std::size_t i = from; i < to; ++i)
-      row.write(patches.patches[i], problem.candidates.row(static_cast<Eigen::Index>(i)).data());
+    for (std::size_t i = from; i < to; ++i) {
+      float* const values = problem.candidates.row(static_cast<Eigen::Index>(i)).data();
+      row.write(patches.patches[i], values);
+      if (copies.empty()) continue;
+      const float* const other = known->problem.candidates.row(static_cast<Eigen::Index>(i)).data();
+      for (const CopiedColumns& copy : copies)
+        std::copy_n(other + copy.from, copy.count, values + copy.to);
+    }
   });
 }
 

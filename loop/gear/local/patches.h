@@ -114,14 +114,21 @@ class NuisanceColumns {
   int count_ = 0;
 };
 
-/// The discovery problem of a table: one row a patch.
+/// Effects whose columns of the same patches are at hand.
+struct KnownColumns {
+  const std::vector<Effect>& effects;
+  const DiscoveryProblem& problem;
+};
+
+/// The discovery problem of a table: one row a patch. Columns that are known are copied.
 [[nodiscard]] DiscoveryProblem make_problem(const FlankGeometry& geometry,
                                             const Observations& table, const Patches& patches,
-                                            const std::vector<Effect>& effects);
+                                            const std::vector<Effect>& effects,
+                                            const KnownColumns* known = nullptr);
 /// Other candidates for a problem of the same patches; those that stand where they stood before are
 /// kept, and so are sums over them (DiscoveryProblem::kept).
 void set_candidates(const FlankGeometry& geometry, const Patches& patches,
                     const std::vector<Effect>& before, const std::vector<Effect>& effects,
-                    DiscoveryProblem& problem);
+                    DiscoveryProblem& problem, const KnownColumns* known = nullptr);
 
 }  // namespace trueflank::loop

@@ -37,9 +37,12 @@ void PartLoop::divide_into_patches() {
 void PartLoop::forget_fits() {
   fits_.clear();
   plain_fit_.reset();
+  plain_um_.reset();
+  names_ = {};
 }
 
 std::shared_ptr<const PointFit> PartLoop::fit_of(const std::vector<Effect>& effects) const {
+  if (effects.empty() && !table_->is_displaced) return plain_fit();
   // (of a scan they take memory for every unit)
   const std::size_t most = table_->points_mm.empty() ? 6 : 3;
   auto found = std::find_if(fits_.begin(), fits_.end(),
@@ -131,7 +134,9 @@ void add_nuisance(DiscoveryProblem& problem, const DiscoveryProblem& fitted) {
 /// Columns of candidates that stayed as they were are kept.
 DiscoveryProblem& PartLoop::candidates_problem() {
   if (problem_.groups.empty()) {
-    problem_ = make_problem(geometry_, table_, patches_, candidates_);
+    const KnownColumns known{names_of_, names_};
+    problem_ = make_problem(geometry_, table_, patches_, candidates_,
+                            names_.groups.empty() ? nullptr : &known);
     // (Of large scans, chosen for in a few rounds, what a point takes of memory counts.)
     constexpr std::size_t kMostPoints = 100'000;
     if (table_->points_mm.size() <= kMostPoints) problem_.kept = std::make_shared<KeptSums>();
@@ -140,6 +145,7 @@ DiscoveryProblem& PartLoop::candidates_problem() {
     for (std::size_t i = 0; i < patches_.patches.size(); ++i)
       problem_.weight[static_cast<Eigen::Index>(i)] = patches_.patches[i].weight;
   }
+  names_ = {};
   problem_of_ = candidates_;
   return problem_;
 }

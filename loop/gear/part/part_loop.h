@@ -224,6 +224,11 @@ class PartLoop {
   Kept kept_;
   mutable std::vector<std::shared_ptr<const PointFit>> fits_;  ///< the one asked for last first
   mutable std::shared_ptr<const PointFit> plain_fit_;
+  std::shared_ptr<const std::vector<float>> plain_um_;  ///< what it leaves, where it was looked at
+  /// A form and the names it was compared with; while forms are compared one after the other, and
+  /// until the columns of candidates are made.
+  mutable std::vector<Effect> names_of_;
+  mutable DiscoveryProblem names_;
   std::vector<FoundEffect> alone_;
   std::vector<RemainderFinding> remainder_;  ///< what no effect found took up
 };

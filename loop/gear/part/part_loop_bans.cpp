@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
+#include "trueflank/base/threads.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -33,27 +35,50 @@ struct Range {
     least = std::min(least, value);
     most = std::max(most, value);
   }
+  void take_in(const Range& range) {
+    least = std::min(least, range.least);
+    most = std::max(most, range.most);
+  }
 };
 
 Seen seen_in(const FlankGeometry& geometry, const Observations& table, const Patches& patches) {
   // A product of both coordinates shows where flanks were scanned, or traced at several heights or
   // diameters.
   constexpr double kSeveral = 0.2;
+  struct OfRows {
+    Seen seen;
+    Range height_mm, diameters, heights;
+  };
+  constexpr std::size_t kRowsOfWork = 65536;
+  std::vector<OfRows> parts((table.rows.size() + kRowsOfWork - 1) / kRowsOfWork);
+  for_each_run(table.rows.size(), kRowsOfWork, [&](std::size_t from, std::size_t to) {
+    OfRows& part = parts[from / kRowsOfWork];
+    for (std::size_t i = from; i < to; ++i) {
+      const Observation& row = table.rows[i];
+      const bool scan = row.kind == ObservationKind::kScanFlank;
+      const bool helix = row.kind == ObservationKind::kHelix,
+                 profile = row.kind == ObservationKind::kProfile;
+      part.seen.whole_ring = part.seen.whole_ring || row.kind == ObservationKind::kIndex ||
+                             row.kind == ObservationKind::kRadial;
+      part.seen.scanned = part.seen.scanned || scan;
+      part.seen.along_profile = part.seen.along_profile || scan || profile;
+      part.seen.along_face = part.seen.along_face || scan || helix;
+      const Place& place = table.place(row);
+      part.height_mm.take_in(place.z_mm);
+      if (helix) part.diameters.take_in(geometry.profile_coordinate(place.roll_mm));
+      if (profile) part.heights.take_in(geometry.face_coordinate(place.z_mm));
+    }
+  });
   Seen seen;
   Range height_mm, diameters, heights;
-  for (const Observation& row : table.rows) {
-    seen.whole_ring = seen.whole_ring || row.kind == ObservationKind::kIndex ||
-                      row.kind == ObservationKind::kRadial;
-    const bool scan = row.kind == ObservationKind::kScanFlank;
-    const bool helix = row.kind == ObservationKind::kHelix,
-               profile = row.kind == ObservationKind::kProfile;
-    seen.scanned = seen.scanned || scan;
-    seen.along_profile = seen.along_profile || scan || profile;
-    seen.along_face = seen.along_face || scan || helix;
-    const Place& place = table.place(row);
-    height_mm.take_in(place.z_mm);
-    if (helix) diameters.take_in(geometry.profile_coordinate(place.roll_mm));
-    if (profile) heights.take_in(geometry.face_coordinate(place.z_mm));
+  for (const OfRows& part : parts) {
+    seen.whole_ring = seen.whole_ring || part.seen.whole_ring;
+    seen.scanned = seen.scanned || part.seen.scanned;
+    seen.along_profile = seen.along_profile || part.seen.along_profile;
+    seen.along_face = seen.along_face || part.seen.along_face;
+    height_mm.take_in(part.height_mm);
+    diameters.take_in(part.diameters);
+    heights.take_in(part.heights);
   }
   const double lowest = std::min(1.0, geometry.face_coordinate(height_mm.least));
   const double highest = std::max(-1.0, geometry.face_coordinate(height_mm.most));

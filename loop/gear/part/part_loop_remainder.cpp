@@ -3,6 +3,7 @@
 // effects.
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -27,10 +28,15 @@ const std::vector<RemainderFinding>& PartLoop::remainder_of(const std::vector<Ef
   if (!kept_.valid || !std::equal(effects.begin(), effects.end(), kept_.effects.begin(),
                                   kept_.effects.end(), same)) {
     kept_ = {.valid = true, .effects = effects, .row_um = {}, .findings = {}};
-    kept_.row_um = fit_of(effects)->residuals_um();
+    const auto fit = fit_of(effects);
+    kept_.row_um = fit->residuals_um();
+    if (fit == plain_fit_) plain_um_ = kept_.row_um;
   }
   auto& findings = kept_.findings[which == RemainderOf::kAll ? 1 : 0];
-  if (!findings) findings = look_at_remainder(geometry_, table_, patches_, *kept_.row_um, which);
+  if (!findings) {
+    names_ = {};  // both would take memory at once
+    findings = look_at_remainder(geometry_, table_, patches_, *kept_.row_um, which);
+  }
   return *findings;
 }
 
@@ -127,40 +133,64 @@ std::vector<Effect> PartLoop::names_alike(const Effect& form) const {
       effects.push_back(candidates_[g]);
       group.push_back(g);
     }
-  const DiscoveryProblem problem = make_problem(geometry_, table_, patches_, effects);
+  // Columns of names that were compared with another form are at hand.
+  if (names_.groups.empty())
+    names_ = make_problem(geometry_, table_, patches_, effects);
+  else
+    set_candidates(geometry_, patches_, names_of_, effects, names_);
+  names_of_ = std::move(effects);
+  const DiscoveryProblem& problem = names_;
   const auto patches = static_cast<std::size_t>(problem.candidates.rows());
   std::map<int, std::size_t> numbers;
   std::vector<std::size_t> zero_of(patches);
   for (std::size_t i = 0; i < patches; ++i)
     zero_of[i] = numbers.try_emplace(problem.zero[i], numbers.size()).first->second;
-  // A column less its zeros, with the roots of the weights on.
-  const auto centred = [&](Eigen::Index k) {
-    Eigen::VectorXd column = problem.candidates.col(k).cast<double>();
-    std::vector<double> sums(numbers.size(), 0.0), weights(numbers.size(), 0.0);
+  std::vector<double> weights(numbers.size(), 0.0), roots(patches);
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double weight = problem.weight[static_cast<Eigen::Index>(i)];
+    weights[zero_of[i]] += weight;
+    roots[i] = std::sqrt(weight);
+  }
+  // Columns less their zeros, with the roots of the weights on. Neighbours together: their values
+  // stand beside each other in a row, and their sums do not wait for each other.
+  constexpr std::size_t kAtOnce = 8;
+  const auto centred = [&](std::size_t first, std::size_t count) {
+    std::array<Eigen::VectorXd, kAtOnce> columns;
+    std::vector<std::array<double, kAtOnce>> sums(numbers.size());
+    for (std::size_t k = 0; k < count; ++k) columns[k].resize(static_cast<Eigen::Index>(patches));
+    const auto row_of = [&](std::size_t i) {
+      return problem.candidates.row(static_cast<Eigen::Index>(i)).data() + first;
+    };
     for (std::size_t i = 0; i < patches; ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      sums[zero_of[i]] += problem.weight[at] * column[at];
-      weights[zero_of[i]] += problem.weight[at];
+      const float* const row = row_of(i);
+      const double weight = problem.weight[static_cast<Eigen::Index>(i)];
+      for (std::size_t k = 0; k < count; ++k)
+        sums[zero_of[i]][k] += weight * static_cast<double>(row[k]);
     }
+    for (std::size_t zero = 0; zero < sums.size(); ++zero)
+      for (double& sum : sums[zero]) sum /= weights[zero];
     for (std::size_t i = 0; i < patches; ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      column[at] -= sums[zero_of[i]] / weights[zero_of[i]];
-      column[at] *= std::sqrt(problem.weight[at]);
+      const float* const row = row_of(i);
+      for (std::size_t k = 0; k < count; ++k)
+        columns[k][static_cast<Eigen::Index>(i)] =
+            (static_cast<double>(row[k]) - sums[zero_of[i]][k]) * roots[i];
     }
-    return column;
+    return columns;
   };
   const auto own_columns = static_cast<std::size_t>(form.columns());
-  std::vector<Eigen::VectorXd> own(own_columns);
-  for (std::size_t k = 0; k < own.size(); ++k) own[k] = centred(static_cast<Eigen::Index>(k));
+  const auto own = centred(0, own_columns);
   // Names do not ask each other: the same on any number of processors.
-  std::vector<double> alike(effects.size(), 1.0);
-  for_each_piece(effects.size(), [&](std::size_t effect) {
-    for (std::size_t k = 0; effect > 0 && k < own.size(); ++k) {
-      const Eigen::VectorXd other = centred(static_cast<Eigen::Index>(effect * own_columns + k));
-      const double both = own[k].norm() * other.norm();
-      alike[effect] =
-          std::min(alike[effect], both > 0.0 ? std::abs(own[k].dot(other)) / both : 0.0);
-    }
+  std::vector<double> alike(names_of_.size(), 1.0);
+  const std::size_t names_at_once = kAtOnce / own_columns;
+  for_each_run(names_of_.size(), names_at_once, [&](std::size_t from, std::size_t to) {
+    const auto others = centred(from * own_columns, (to - from) * own_columns);
+    for (std::size_t effect = std::max<std::size_t>(from, 1); effect < to; ++effect)
+      for (std::size_t k = 0; k < own_columns; ++k) {
+        const Eigen::VectorXd& other = others[(effect - from) * own_columns + k];
+        const double both = own[k].norm() * other.norm();
+        alike[effect] =
+            std::min(alike[effect], both > 0.0 ? std::abs(own[k].dot(other)) / both : 0.0);
+      }
   });
   // Of shapes that are refined the nearest stands for all.
   std::vector<Effect> names;
@@ -208,9 +238,9 @@ std::optional<Effect> PartLoop::name_like(const RemainderFinding& finding,
     with.push_back(name);
     if (name.family->shape_is_continuous)
       refine_shapes(geometry_, table_, patches_, with, beside.size());
-    const PointFit fit(geometry_, table_, patches_, with);
-    if (fit.residual_square() > form + std::max(kNothing, kNearly * (none - form))) continue;
-    if (is_possible(geometry_, fit, static_cast<int>(with.size()) - 1)) return with.back();
+    const auto fit = fit_of(with);
+    if (fit->residual_square() > form + std::max(kNothing, kNearly * (none - form))) continue;
+    if (is_possible(geometry_, *fit, static_cast<int>(with.size()) - 1)) return with.back();
   }
   return {};
 }
@@ -262,6 +292,7 @@ bool PartLoop::take_up_remainder() {
   while (taken < kAtOnce && take_first(RemainderOf::kTraining, false)) ++taken;
   // What stands on one tooth cannot be learnt from others: from all the data.
   while (taken < kAtOnce && take_first(RemainderOf::kAll, true)) ++taken;
+  names_ = {};
   return taken > 0;
 }
 
