@@ -101,8 +101,10 @@ function(trueflank_library folder)
   endif()
 endfunction()
 
-# Compiles a target of the release with -O1, and with headers precompiled that way.
+# Compiles a target of the release with -O1, and with headers precompiled that way. Programs, too, as code of a library:
+# g++ takes no precompiled header that was made without -fPIE for code with it, and says so by a warning alone.
 function(trueflank_glue target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-fPIC>)
   target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_glue)
 endfunction()

@@ -35,7 +35,8 @@ function(trueflank_test name)
     ${arg_LIBRARIES} trueflank::kinds trueflank_test_support trueflank_options GTest::gtest_main)
   target_compile_options(${target} PRIVATE -Wno-conversion)
   if(arg_OPTIMISED)
-    target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_optimised_test)
+    target_compile_options(${target} PRIVATE -fPIC)  # as its precompiled headers
+    target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_library)
   else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_precompile_headers(${target} REUSE_FROM trueflank_precompiled_test)
@@ -87,7 +88,11 @@ function(trueflank_script_test name)
     COMMAND ${TRUEFLANK_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${arg_SCRIPT} ${arg_ARGUMENTS})
   set(output ${PROJECT_BINARY_DIR}/test_output/${name})
   file(MAKE_DIRECTORY ${output})
+  # The C library keeps freed memory: NumPy's large arrays get new pages for each result otherwise, a third of the time
+  # of some scripts (docs/decisions/0470). The program says so itself.
   set(environment
+    MALLOC_MMAP_THRESHOLD_=1073741824
+    MALLOC_TRIM_THRESHOLD_=1073741824
     TRUEFLANK_SOURCE_DIR=${PROJECT_SOURCE_DIR}
     TRUEFLANK_BINARY_DIR=${PROJECT_BINARY_DIR}
     TRUEFLANK_TEST_OUTPUT=${output})

@@ -4,7 +4,8 @@
 // tests do:
 //   FAILING_CALL=write:17    the 17th call fails, those before and after succeed
 //   FAILING_CALL=write:17+   all from the 17th on
-//   FAILING_CALL_COUNT=FILE  the number of calls is written there when the program ends
+//   FAILING_CALL_COUNT=FILE  the number of calls of each kind is written there when the program
+//   ends
 // Calls before main() are not counted. Kinds: malloc write rename open close thread.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -32,7 +33,7 @@ enum Kind { kMalloc, kWrite, kRename, kOpen, kClose, kThread, kNone };
 constexpr const char* kNames[] = {"malloc", "write", "rename", "open", "close", "thread"};
 
 std::atomic<bool> g_counting{false};
-std::atomic<long> g_calls{0};
+std::atomic<long> g_calls[kNone];
 Kind g_kind = kNone;
 long g_first = 0;
 bool g_all_after = false;
@@ -51,20 +52,24 @@ void read_wish() {
 }
 
 bool fails(Kind kind) {
-  if (kind != g_kind || !g_counting.load(std::memory_order_relaxed)) return false;
-  const long call = ++g_calls;
-  return call == g_first || (g_all_after && call > g_first);
+  // where none is to fail, all are counted
+  if ((kind != g_kind && g_kind != kNone) || !g_counting.load(std::memory_order_relaxed))
+    return false;
+  const long call = ++g_calls[kind];
+  return kind == g_kind && (call == g_first || (g_all_after && call > g_first));
 }
 
 void tell_count() {
   g_counting = false;
   const char* file = std::getenv("FAILING_CALL_COUNT");
   if (file == nullptr) return;
-  char text[32];
-  const int size = std::snprintf(text, sizeof text, "%ld\n", g_calls.load());
   const auto descriptor =
       static_cast<int>(syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_TRUNC, 0600));
-  syscall(SYS_write, descriptor, text, static_cast<std::size_t>(size));
+  for (int k = 0; k < kNone; ++k) {
+    char text[64];
+    const int size = std::snprintf(text, sizeof text, "%s %ld\n", kNames[k], g_calls[k].load());
+    syscall(SYS_write, descriptor, text, static_cast<std::size_t>(size));
+  }
   syscall(SYS_close, descriptor);
 }
 

@@ -90,17 +90,24 @@ def chosen_places(name, calls):
     return [n for n in places(calls, most) if n not in tried_before]
 
 
-def try_command(name, arguments, kind):
-    """`arguments` is a function of the folder that the command writes to."""
+def run_calmly(name, arguments):
+    """Exit code and files of a run in which nothing fails, and how many calls of each kind it made."""
     whole = OUTPUT / f"{name}_whole"
     whole.mkdir(parents=True)
-    count = OUTPUT / f"{name}_{kind}.count"
-    calm = run(arguments(whole), f"{kind}:0", count)
+    count = OUTPUT / f"{name}.count"
+    calm = run(arguments(whole), count=count)
     assert calm.returncode in (0, 1), (name, calm.stderr)
+    calls = {kind: int(number) for kind, number in (line.split() for line in count.read_text().splitlines())}
     expected = files_of(whole)
-    calls = int(count.read_text())
+    shutil.rmtree(whole)
+    return calm.returncode, expected, calls
+
+
+def try_command(name, arguments, kind, calm):
+    """`arguments` is a function of the folder that the command writes to; `calm` is what a run did in which nothing fails."""
+    code, expected, calls = calm
     tried = 0
-    for place in chosen_places(name, calls):
+    for place in chosen_places(name, calls[kind]):
         for failing in (f"{kind}:{place}", f"{kind}:{place}+"):
             folder = OUTPUT / f"{name}_failing"
             shutil.rmtree(folder, ignore_errors=True)
@@ -108,7 +115,7 @@ def try_command(name, arguments, kind):
             done = run(arguments(folder), failing)
             told = (name, failing, done.returncode, done.stderr[-300:])
             found = files_of(folder)
-            assert done.returncode in (3, calm.returncode), told
+            assert done.returncode in (3, code), told
             assert not [p for p in found if p.name.endswith(".tmp")], (told, list(found))
             for path, content in found.items():
                 assert path.name.endswith(".journal") or content == expected.get(path), (told, path)
@@ -118,10 +125,9 @@ def try_command(name, arguments, kind):
             else:
                 assert set(found) == set(expected), (told, set(expected) - set(found))
             if kind == "thread":
-                assert done.returncode == calm.returncode, told
+                assert done.returncode == code, told
             tried += 1
-    shutil.rmtree(whole)
-    return calls, tried
+    return tried
 
 
 def main():
@@ -165,10 +171,10 @@ def main():
         commands["certified"] = lambda d: ["search", OUTPUT / "certified.toml", "-o", d, "--threads", 2]
         commands["wished"] = lambda d: ["new", d / "mine", "--kind", "pair", "--ratio", 8]
     for name in COMMANDS or commands:
-        arguments = commands[name]
+        calm = run_calmly(name, commands[name])
         for kind in kinds.get(name, ("thread", "rename", "open", "close", "write", "malloc")):
-            calls, tried = try_command(name, arguments, kind)
-            print(f"{name}: {kind} fails at {tried} places of {calls} calls", flush=True)
+            tried = try_command(name, commands[name], kind, calm)
+            print(f"{name}: {kind} fails at {tried} places of {calm[2][kind]} calls", flush=True)
 
 
 if __name__ == "__main__":
