@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <utility>
 
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
+#include "trueflank/loop/discovery/course_forms.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -33,93 +33,6 @@ constexpr Index kLongest = 2;  // less than so many on the course
 constexpr double kClip = 3.5;
 
 bool is_beyond_doubt(double p_value) { return p_value < 1e-8; }
-
-/// Orthonormal cosines over the rows: errors that hang together are nearly independent in them.
-MatrixXd cosines(Index m) {
-  MatrixXd c(m, m);
-  for (Index k = 0; k < m; ++k)
-    for (Index i = 0; i < m; ++i)
-      c(k, i) = std::sqrt((k == 0 ? 1.0 : 2.0) / static_cast<double>(m)) *
-                std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
-                         static_cast<double>(m));
-  return c;
-}
-
-/// A step, band or kink along a course, about its mean; a kink beside the straight line.
-struct CourseForm {
-  CourseKind kind = CourseKind::kStep;
-  double at = 0.0, width = 0.0;  ///< [rows]
-  VectorXd values;
-  double square = 0.0;
-  double line_slope = 0.0;  ///< kKink: what was taken off, a course of a slope's bend
-  VectorXd powers;  ///< squares of its coefficients on the cosines
-  /// Steps and bands beside the straight line.
-  VectorXd beside_line, powers_beside_line;
-  double square_beside_line = 0.0;
-};
-
-/// What courses of so many rows are asked for; the same whatever they hold.
-struct CourseForms {
-  explicit CourseForms(Index m) : basis(cosines(m)) {
-    for (Index i = 2; i <= m - 2; ++i) {
-      VectorXd step = VectorXd::Zero(m);
-      step.tail(m - i).setOnes();
-      add(CourseKind::kStep, static_cast<double>(i), 0.0, std::move(step));
-    }
-    const VectorXd line = VectorXd::LinSpaced(m, -1.0, 1.0);
-    for (Index i = std::max<Index>(3, m / 16); i <= m - std::max<Index>(3, m / 16); ++i) {
-      VectorXd kink = VectorXd::Zero(m);
-      for (Index k = i; k < m; ++k)
-        kink[k] = (static_cast<double>(k - i) + 0.5) / static_cast<double>(m - i);
-      kink.array() -= kink.mean();
-      const double slope = kink.dot(line) / line.squaredNorm();
-      kink -= slope * line;
-      add(CourseKind::kKink, static_cast<double>(i), 0.0, std::move(kink));
-      forms.back().line_slope =
-          2.0 * slope * (1.0 - static_cast<double>(i) / static_cast<double>(m));
-    }
-    for (double width = 1.2; width < 0.25 * static_cast<double>(m); width *= 1.6)
-      for (double at = 0.5; at < static_cast<double>(m); at += std::max(0.5, 0.4 * width)) {
-        VectorXd band(m);
-        for (Index i = 0; i < m; ++i) {
-          const double off = (static_cast<double>(i) + 0.5 - at) / width;
-          band[i] = std::exp(-off * off);
-        }
-        add(CourseKind::kBand, at, width, std::move(band));
-      }
-  }
-  MatrixXd basis;
-  std::vector<CourseForm> forms;
-
- private:
-  void add(CourseKind kind, double at, double width, VectorXd values) {
-    values.array() -= values.mean();
-    const double square = values.squaredNorm();
-    const VectorXd line = VectorXd::LinSpaced(values.size(), -1.0, 1.0);
-    VectorXd beside = values - values.dot(line) / line.squaredNorm() * line;
-    VectorXd powers = (basis * values).cwiseAbs2(), powers_beside = (basis * beside).cwiseAbs2();
-    const double square_beside = beside.squaredNorm();
-    forms.push_back({.kind = kind,
-                     .at = at,
-                     .width = width,
-                     .values = std::move(values),
-                     .square = square,
-                     .powers = std::move(powers),
-                     .beside_line = std::move(beside),
-                     .powers_beside_line = std::move(powers_beside),
-                     .square_beside_line = square_beside});
-  }
-};
-
-/// A loop asks a few times for the same two numbers of rows: those asked for last are at hand.
-const CourseForms& forms_of_rows(Index m) {
-  constexpr std::size_t kMostKept = 2;
-  thread_local std::deque<CourseForms> kept;
-  for (const CourseForms& known : kept)
-    if (known.basis.rows() == m) return known;
-  if (kept.size() == kMostKept) kept.pop_front();
-  return kept.emplace_back(m);
-}
 
 class CourseScan {
  public:
