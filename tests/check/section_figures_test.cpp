@@ -169,7 +169,11 @@ TEST(OverlapFigures, AShorterTipAlsoMakesUpForWhatModificationsCost) {
   EXPECT_LT(cured_um(), 1.0);
   gear(design, "pinion").modifications.profile_slope_um = 60.0;
   EXPECT_LT(cured_um(), 60.0);
+  gear(design, "pinion").modifications.profile_slope_um = 0.0;
+  gear(design, "wheel").modifications.profile_slope_um = 60.0;  // of the tip that is in the way
+  EXPECT_LT(cured_um(), 60.0);
 }
+
 
 TEST(MeshSection, IsThatOfTheGearsWhereTheyStand) {
   GearboxDesign design = pair_design(23, 37, false, 0.1);
