@@ -178,7 +178,6 @@ TEST(OverlapFigures, AShorterTipAlsoMakesUpForWhatModificationsCost) {
   EXPECT_LT(cured_um(), 60.0);
 }
 
-
 TEST(CornerContactFigures, OnlyWhereItWarnsDoFlanksStillCarry) {
   int warned = 0, failed = 0;
   for (double tip = 29.0; tip < 31.0; tip += 0.04) {  // of an internal pair that is in its own way

@@ -42,7 +42,8 @@ TEST(Tolerance, ThicknessAndCentreDistanceEatTheBacklashAsTheTextbookSays) {
 }
 
 TEST(Tolerance, AClassGivesTheRunoutAndThePitchThatAreNotGivenThemselves) {
-  const GearTrain train = laid_out(pair_design(30, 30, false, 0.1));  // equal gears: one table for both
+  const GearTrain train =
+      laid_out(pair_design(30, 30, false, 0.1));  // equal gears: one table for both
   const TrainGear& gear = train.gears[0];
   const FlankTolerances standard =
       flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), 7).value();
@@ -71,7 +72,8 @@ TEST(Tolerance, TheBacklashAskedForIsWhatBacklashAndTwiceTheClearanceLack) {
                                              .jam_share = 0.5}},
                                  .jam_share = 0.5,
                                  .sets = 100};
-    EXPECT_NEAR(told(check_tolerance(train, result)[0].cure, "backlash_mm of at least "), asked_mm, 1e-3);
+    EXPECT_NEAR(told(check_tolerance(train, result)[0].cure, "backlash_mm of at least "), asked_mm,
+                1e-3);
   }
 }
 

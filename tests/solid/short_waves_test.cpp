@@ -91,7 +91,8 @@ class Waved {
     const double roll = roll_mm(std::hypot(p[0], p[1])), xi = roll / base_mm();
     const double half = base_half_angle_rad(profile_.gear()) - (xi - std::atan(xi));
     const double pitch = kTwoPi / kTeeth;
-    const double angle = std::remainder(std::atan2(p[1], p[0]) - wave_(roll, p[2]) / base_mm(), pitch);
+    const double angle =
+        std::remainder(std::atan2(p[1], p[0]) - wave_(roll, p[2]) / base_mm(), pitch);
     return std::abs(std::abs(angle) - half) * base_mm();
   }
 
@@ -106,7 +107,8 @@ class Waved {
 TEST(ShortWaves, ThatAreWholeOverEveryRowAreSeen) {
   constexpr double kTolerance_mm = 2e-3;
   for (const double waves : {4.0, 16.0}) {
-    const Waved gear(Wave{.amplitude_mm = 3e-3, .over_face = kTwoPi * waves, .along_roll = 0.0, .phase = 0.0});
+    const Waved gear(
+        Wave{.amplitude_mm = 3e-3, .over_face = kTwoPi * waves, .along_roll = 0.0, .phase = 0.0});
     const MeasuredMesh made = measured_part_mesh(gear.part(), {.tolerance_mm = kTolerance_mm});
     EXPECT_LE(made.accuracy_mm, kTolerance_mm) << waves;
     EXPECT_LE(gear.worst_of_flanks_mm(made.part.mesh), kTolerance_mm) << waves;
@@ -116,13 +118,15 @@ TEST(ShortWaves, ThatAreWholeOverEveryRowAreSeen) {
 /// Roll lengths at which a flank without a wave has columns, ascending.
 std::vector<double> rolls_of_columns(double tolerance_mm) {
   const Waved still([](double, double) { return 0.0; });
-  const ToothingGrid grid(std::get<ToothedOutline>(still.part().slabs.front().outer), {0.0, kFace_mm},
-                          tolerance_mm, GridKind::kRows);
+  const ToothingGrid grid(std::get<ToothedOutline>(still.part().slabs.front().outer),
+                          {0.0, kFace_mm}, tolerance_mm, GridKind::kRows);
   std::vector<double> rolls;
   for (const auto& p : grid.row(0.0))
     if (still.off_flank_mm(p) < 1e-9) rolls.push_back(still.roll_mm(std::hypot(p[0], p[1])));
   std::sort(rolls.begin(), rolls.end());
-  rolls.erase(std::unique(rolls.begin(), rolls.end(), [](double a, double b) { return b - a < 1e-9; }), rolls.end());
+  rolls.erase(
+      std::unique(rolls.begin(), rolls.end(), [](double a, double b) { return b - a < 1e-9; }),
+      rolls.end());
   return rolls;
 }
 
