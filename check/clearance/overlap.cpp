@@ -13,11 +13,42 @@
 namespace trueflank {
 namespace {
 
-/// Whose tip it is that goes too deep: the piece nearer to its own tip circle; of equals that of gear 2.
+/// Whose tip it is that goes too deep: the piece nearer to its own tip circle; of equals that of
+/// gear 2.
 bool tip_is_of_gear1(const GearPair& pair, const MeshPlace& place) {
   const double depth1 = std::abs(place.radius1_mm - pair.profile1->tip_radius_mm());
   const double depth2 = std::abs(place.radius2_mm - pair.profile2->tip_radius_mm());
   return depth1 < depth2;
+}
+
+/// Unmodified teeth that clear by what modifications cost.
+CureMargin margin_beyond(double cost_mm) {
+  const double less_mm = tolerance::kTouch_mm - cost_mm;
+  return {
+      .exact = [less_mm](const GearPair& changed) { return sweep_clearance_mm(changed) + less_mm; },
+      .quick = [less_mm](const GearPair& changed) { return tips_clear(changed, -less_mm); }};
+}
+
+/// A slope reaches its amount at the tip, so a shorter tooth has it nearer to its root: what
+/// modifications cost is asked again where the cured tip would be.
+double cost_at_cured_tip_mm(const GearTrain& train, const TrainMesh& mesh, bool of_gear1,
+                            double cost_mm) {
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto radius = tip_radius_cure_mm(train.pair(mesh), of_gear1, margin_beyond(cost_mm));
+    if (!radius) break;
+    GearboxDesign design = train.design;
+    design.gears[static_cast<std::size_t>(of_gear1 ? mesh.gear1 : mesh.gear2)].tip_diameter_mm =
+        2.0 * *radius;
+    const auto cured = lay_out(design);
+    if (!cured) break;
+    const TrainMesh& same = cured->meshes[static_cast<std::size_t>(&mesh - train.meshes.data())];
+    const double there =
+        sweep_clearance_mm(cured->pair(same)) - modified_clearance_mm(*cured, same);
+    if (there <= cost_mm) break;
+    cost_mm = there;
+  }
+  return cost_mm;
 }
 
 std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshClearance& centred) {
@@ -34,16 +65,10 @@ std::string cure_of(const GearTrain& train, const TrainMesh& mesh, const MeshCle
     return "teeth thinned by " +
            um_text(-backlash * reference_radius_mm(pair.gear1()) / pitch_radius1_mm(pair)) +
            " on the reference circle (both gears together), or shifts that fit the centre distance";
-  const double cost = std::max(0.0, unmodified - centred.clearance_mm);  // of the modifications
-  const double less_mm = tolerance::kTouch_mm - cost;
-  return cure_text(
-      train, mesh, tip_is_of_gear1(pair, centred.place),
-      {.exact =
-           [less_mm](const GearPair& changed) { return sweep_clearance_mm(changed) + less_mm; },
-       .quick =
-           [less_mm](const GearPair& changed) {
-             return tips_clear(changed, -less_mm);
-           }});
+  const bool of_gear1 = tip_is_of_gear1(pair, centred.place);
+  double cost = std::max(0.0, unmodified - centred.clearance_mm);
+  if (is_modified(train, mesh)) cost = cost_at_cured_tip_mm(train, mesh, of_gear1, cost);
+  return cure_text(train, mesh, of_gear1, margin_beyond(cost));
 }
 
 /// Flanks part by half of the backlash, seen along their normal; a root that is nearer needs

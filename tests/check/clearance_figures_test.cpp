@@ -331,6 +331,29 @@ TEST(ToothCrossing, IsToldWhereCornersOfOneLieInTheMaterialOfTheOther) {
   EXPECT_GT(apart, 15);
 }
 
+TEST(ExactVerdict, ChordsAreAnEighthOfTheClearanceWithinBoundsOfTheModule) {
+  for (const double module_mm : {1.0, 3.0}) {
+    GearboxDesign design = pair_design(17, 28, false, 0.2 * module_mm);
+    design.module_mm = module_mm;
+    const GearTrain train = laid_out(design);
+    const auto chord_error_mm = [&](double modules) {
+      MeshClearance result;
+      result.clearance_mm = modules * module_mm;
+      add_exact_verdict(train.pair(train.meshes[0]), result);
+      return result.chord_error_mm / module_mm;
+    };
+    // of both polygons together
+    EXPECT_LE(chord_error_mm(0.0), 2.0 * 2e-5);
+    EXPECT_GE(chord_error_mm(0.0), 0.2 * 2e-5);
+    for (const double clearance : {-0.016, 0.016}) {
+      EXPECT_LE(chord_error_mm(clearance), 0.25 * 0.016);
+      EXPECT_GE(chord_error_mm(clearance), 0.025 * 0.016);
+    }
+    EXPECT_LE(chord_error_mm(1.0), 2.0 * 5e-3);
+    EXPECT_GE(chord_error_mm(1.0), 0.2 * 5e-3);
+  }
+}
+
 /// To three digits, without a sign of zero.
 std::string figure(double value) {
   if (std::isnan(value)) return "none";

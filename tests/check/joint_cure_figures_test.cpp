@@ -296,6 +296,32 @@ TEST(JointCureFigures, StagesThatFailAreCuredOneAfterTheOtherAndOthersLeftAlone)
   EXPECT_EQ(cured({"sun1", "sun2"}, soon), "sun1.tip_diameter_mm sun2.tip_diameter_mm not ended");
 }
 
+TEST(JointCureFigures, LayersThatOverlapAreSetApartAndTheirGapIsTheOneThingChanged) {
+  GearboxDesign design = paper_design();
+  design.tips = TipCircles::kClear;
+  const JointCureOptions soon{.most_designs = 30, .most_turned = 30, .farther = false};
+  ASSERT_FALSE(joint_cure(laid_out(design), soon).changed);
+  design.layer_gap_mm = -0.5;
+  const JointCure cure = joint_cure(laid_out(design), soon);
+  EXPECT_TRUE(cure.cured());
+  EXPECT_EQ(keys_of(design, cure.design), "gearbox.layer_gap_mm ");
+  EXPECT_GT(cure.design.layer_gap_mm, 0.0);
+  EXPECT_LE(cure.design.layer_gap_mm, 0.2 * design.module_mm);
+}
+
+TEST(JointCureFigures, WhatFailsTogetherInEveryDesignTriedIsToldTogether) {
+  // seven planets stand in each other, and tips that reach too short leave the teeth too early
+  GearboxDesign design = simple_design(12, 30, 72, 7);
+  design.tips = TipCircles::kClear;
+  const JointCureOptions soon{.most_designs = 1, .most_turned = 1, .farther = false};
+  EXPECT_EQ(joint_cure(laid_out(design), soon).conflict,
+            "nothing near this design clears planet_spacing");
+  design.rack.addendum = 0.45;
+  design.rack.dedendum = 0.75;
+  EXPECT_EQ(joint_cure(laid_out(design), soon).conflict,
+            "contact_ratio and planet_spacing fail together in every design near this one");
+}
+
 TEST(JointCureFigures, TheSearchIsOverOnceItsDesignsOrTurnsAreSpent) {
   GearboxDesign design = pair_design(12, 60, false, 0.1);
   design.gears[0].shift = design.gears[1].shift = 0.0;

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
 
 #include "tests/check/check_designs.h"
+#include "tests/check/modified_designs.h"
 #include "tests/support/draw.h"
 #include "trueflank/base/tolerance.h"
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/clearance/clearance_field.h"
 #include "trueflank/check/clearance/modified_clearance.h"
+#include "trueflank/check/contact_judgement.h"
 #include "trueflank/check/mesh_clearance.h"
 #include "trueflank/train/mesh_face.h"
 
@@ -169,6 +173,55 @@ TEST(OverlapFigures, AShorterTipAlsoMakesUpForWhatModificationsCost) {
   EXPECT_LT(cured_um(), 1.0);
   gear(design, "pinion").modifications.profile_slope_um = 60.0;
   EXPECT_LT(cured_um(), 60.0);
+  gear(design, "pinion").modifications.profile_slope_um = 0.0;
+  gear(design, "wheel").modifications.profile_slope_um = 60.0;  // of the tip that is in the way
+  EXPECT_LT(cured_um(), 60.0);
+}
+
+TEST(CornerContactFigures, OnlyWhereItWarnsDoFlanksStillCarry) {
+  int warned = 0, failed = 0;
+  for (double tip = 29.0; tip < 31.0; tip += 0.04) {  // of an internal pair that is in its own way
+    GearboxDesign design = pair_design(25, 31, true, 0.05);
+    design.gears[0].shift = design.gears[1].shift = 0.0;
+    gear(design, "wheel").tip_diameter_mm = tip;
+    const auto train = lay_out(design);
+    if (!train) continue;
+    const Finding f = only(check_gearbox(*train), "corner_contact");
+    EXPECT_EQ(f.message.find("still carry") != std::string::npos, f.status == CheckStatus::kWarn)
+        << tip << ": " << f.message;
+    warned += f.status == CheckStatus::kWarn;
+    failed += f.status == CheckStatus::kFail;
+  }
+  EXPECT_GT(warned, 0);
+  EXPECT_GT(failed, 0);
+}
+
+TEST(ContactJudge, TheTipOfModifiedTeethThatIsInTheWayIsThatOfThePlaceThatDecides) {
+  int centred_alone = 0, driving_alone = 0;
+  for (unsigned seed = 1; seed < 60 && (centred_alone == 0 || driving_alone == 0); ++seed) {
+    std::optional<GearTrain> train;
+    try {
+      train = random_modified_pair(seed);
+    } catch (const std::exception&) {
+      continue;
+    }
+    const TrainMesh& mesh = train->meshes[0];
+    const GearPair pair = train->pair(mesh);
+    const MeshState state = modified_state(*train, mesh);
+    const auto of_gear1 = [&](const MeshPlace& place) {
+      return std::abs(place.radius1_mm - pair.profile1->tip_radius_mm()) <
+             std::abs(place.radius2_mm - pair.profile2->tip_radius_mm());
+    };
+    if (of_gear1(state.centred.place) == of_gear1(state.driving.place)) continue;
+    ContactJudge judge;
+    const bool overlap = state.centred.clearance_mm < -tolerance::kTouch_mm;
+    EXPECT_EQ(judge.clearances(*train, mesh).tip_of_gear1,
+              of_gear1(overlap ? state.centred.place : state.driving.place))
+        << seed;
+    ++(overlap ? centred_alone : driving_alone);
+  }
+  EXPECT_GT(centred_alone, 0);
+  EXPECT_GT(driving_alone, 0);
 }
 
 TEST(MeshSection, IsThatOfTheGearsWhereTheyStand) {

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/check/check_designs.h"
 #include "trueflank/check/clearance/clearance_field.h"
 #include "trueflank/check/mesh_clearance.h"
+#include "trueflank/geometry/flank_tolerance.h"
 
 namespace trueflank::test {
 namespace {
@@ -37,6 +39,42 @@ TEST(Tolerance, ThicknessAndCentreDistanceEatTheBacklashAsTheTextbookSays) {
   EXPECT_NEAR(near.meshes[0].smallest_backlash_mm, 0.1 - 2.0 * 0.02 * std::tan(kPi / 9.0), 2e-4);
   const ToleranceResult wobble = analysed(train, {.runout_um = 20, .sets = 100});
   EXPECT_NEAR(wobble.meshes[0].smallest_backlash_mm, near.meshes[0].smallest_backlash_mm, 1e-9);
+}
+
+TEST(Tolerance, AClassGivesTheRunoutAndThePitchThatAreNotGivenThemselves) {
+  const GearTrain train =
+      laid_out(pair_design(30, 30, false, 0.1));  // equal gears: one table for both
+  const TrainGear& gear = train.gears[0];
+  const FlankTolerances standard =
+      flank_tolerances(tolerance_size(gear.profile.gear(), gear.face_width_mm), 7).value();
+  const auto figures = [&](ToleranceOptions options) {
+    options.sets = 2000;
+    const MeshTolerance mesh = analysed(train, options).meshes[0];
+    return std::array{mesh.smallest_backlash_mm, mesh.smallest_clearance_mm, mesh.jam_share};
+  };
+  const double runout = standard.runout_um, pitch = standard.single_pitch_um;
+  ASSERT_GT(figures({.runout_um = runout})[0],
+            figures({.runout_um = runout, .pitch_um = pitch})[0] + 1e-3);
+  EXPECT_EQ(figures({.tolerance_class = 7}), figures({.runout_um = runout, .pitch_um = pitch}));
+  EXPECT_EQ(figures({.pitch_um = 30.0, .tolerance_class = 7}),
+            figures({.runout_um = runout, .pitch_um = 30.0}));
+  EXPECT_EQ(figures({.runout_um = 60.0, .tolerance_class = 7}),
+            figures({.runout_um = 60.0, .pitch_um = pitch}));
+}
+
+TEST(Tolerance, TheBacklashAskedForIsWhatBacklashAndTwiceTheClearanceLack) {
+  const GearTrain train = laid_out(pair_design(25, 40, false, 0.1));
+  for (const auto& [backlash_mm, clearance_mm, asked_mm] :
+       {std::array{0.05, -0.03, 0.16}, {-0.05, -0.02, 0.15}, {-0.05, -0.03, 0.16}}) {
+    const ToleranceResult result{.meshes = {{.nominal_backlash_mm = 0.1,
+                                             .smallest_backlash_mm = backlash_mm,
+                                             .smallest_clearance_mm = clearance_mm,
+                                             .jam_share = 0.5}},
+                                 .jam_share = 0.5,
+                                 .sets = 100};
+    EXPECT_NEAR(told(check_tolerance(train, result)[0].cure, "backlash_mm of at least "), asked_mm,
+                1e-3);
+  }
 }
 
 TEST(Tolerance, ShareThatJamsIsTheNormalDistributionsTail) {
