@@ -31,12 +31,14 @@ namespace trueflank::loop::gear_effects {
   return face != 0.0 ? g.face_width_mm() : g.tip_form_roll_mm() - g.root_form_roll_mm();
 }
 
-/// The place of a form along the flank moved a little to either side.
+/// The place of a form along the flank moved to either side by shares of the flank.
 [[nodiscard]] inline std::vector<EffectShape> places_beside(const FlankGeometry& g,
-                                                            const EffectShape& shape) {
+                                                            const EffectShape& shape,
+                                                            const std::vector<double>& shares = {
+                                                                0.05, 0.02, 0.01, 0.005, 0.002}) {
   std::vector<EffectShape> shapes;
   const double range = range_mm(g, shape[0]), at = stands_at(g, shape[0], shape[1]);
-  for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})
+  for (const double share : shares)
     for (const double sign : {-1.0, 1.0}) {
       const double moved = at + sign * share * range;
       EffectShape beside = shape;

@@ -97,7 +97,10 @@ EffectFamily unnamed_step() {
                     const double beyond = shape[2] != 0.0 ? p.side : 1.0;
                     return along(shape[0], p) > stands_at(g, shape[0], shape[1]) ? beyond : 0.0;
                   });
-  f.nearby = places_beside;
+  // (few values tell where a form bends, any beside a step on which side of it they stand)
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    return places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
+  };
   f.term_keys = {kAlong,
                  number("place_mm"),
                  {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};

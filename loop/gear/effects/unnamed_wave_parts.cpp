@@ -107,18 +107,18 @@ EffectFamily unnamed_waves_dying() {
 
 std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face, FlankChoice flank,
                                    double wavelength_mm) {
-  constexpr double kComeUp = 0.3;
+  constexpr double kComeUp = 0.3;  // of a wave
   const double low = end_mm(geometry, face, kLow), range = end_mm(geometry, face, kHigh) - low;
   std::vector<Effect> parts;
   for (const double times : {0.96, 1.0, 1.04})
     for (const double end : {kLow, kHigh}) {
       for (const double share : {0.15, 0.3, 0.45, 0.6, 0.75}) {
         const double at = low + share * range;
-        parts.push_back(
-            {find_family("unnamed_waves_from"),
-             flank,
-             {face, times * wavelength_mm,
-              face != 0.0 ? at : 2.0 * geometry.on_flank(1, 1, at, 0.0).radius_mm, end}});
+        parts.push_back({find_family("unnamed_waves_from"),
+                         flank,
+                         {face, times * wavelength_mm,
+                          face != 0.0 ? at : 2.0 * geometry.on_flank(1, 1, at, 0.0).radius_mm, end,
+                          kComeUp * wavelength_mm}});
       }
       for (const double within : {0.15, 0.3, 0.6, 1.2})
         parts.push_back({find_family("unnamed_waves_dying"),

@@ -119,6 +119,9 @@ class PartLoop {
   void drop_doubtful_names();
   void join_flanks();
   void tell_two_names_as_one();
+  void tell_teeth_of_one_flank();
+  void tell_bows_with_a_level();
+  void drop_echoes_of_forms();
   void tell_parts_of_a_form();
   [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
   void tell_parts_beside_forms();

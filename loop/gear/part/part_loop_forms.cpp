@@ -218,8 +218,8 @@ double comb_um(const PointFit& fit) {
 }  // namespace
 
 /// Along most of every flank that a name runs over, the forms without a name are flat (a step, a
-/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside rises that
-/// have no part of its course: a bell mouth at both ends has no slope.
+/// kink or a bulge stands elsewhere): there the name stands by itself. So it does beside rises and
+/// bulges that have no part of its course: a bell mouth at both ends has no slope.
 bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   constexpr double kFlat = 0.1, kMost = 0.5, kNoPart = 0.2;
   bool runs = false;
@@ -230,7 +230,8 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
     const bool rises_alone = std::all_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
       const NeedsToBeSeen needs = form.needs();
       return !is_common_form(form) || !(face ? needs.along_face : needs.along_profile) ||
-             form.family == find_family("unnamed_rise");
+             form.family == find_family("unnamed_rise") ||
+             form.family == find_family("unnamed_band");
     });
     for (const int flank : {0, 1}) {
       const auto own = course.segment(flank * kPlaces, kPlaces);
@@ -252,6 +253,8 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
 
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
+  drop_echoes_of_forms();
+  tell_bows_with_a_level();
   tell_as_one_form();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();
@@ -268,6 +271,7 @@ void PartLoop::tell_parts_of_a_form() {
   name_terms_beside_forms();
   name_forms_beside_names();
   tell_two_names_as_one();
+  tell_teeth_of_one_flank();
 }
 
 /// What was told before (of other data) stays as it is.

@@ -209,7 +209,7 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 const std::vector<Effect>& forms,
                                 const std::vector<Effect>& beside) {
-  constexpr double kClearly = 9.0, kBesideAForm = 3.0, kValue = 6.0;  // chi-square
+  constexpr double kClearly = 9.0, kBesideAForm = 0.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)

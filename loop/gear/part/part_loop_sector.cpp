@@ -11,7 +11,7 @@
 namespace trueflank::loop {
 namespace {
 
-constexpr int kFewestWavesOfSector = 3;
+constexpr int kFewestWavesOfSector = 2;
 
 /// A wave around the gear that is alike all over the flanks.
 bool is_wave_of_teeth(const Effect& e) {

@@ -11,6 +11,7 @@
 #include "trueflank/loop/gear/fit/trial_fit.h"
 #include "trueflank/loop/gear/paired_sums.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
 #include "trueflank/loop/gear/random_error.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -234,6 +235,92 @@ void PartLoop::tell_two_names_as_one() {
       if (is_name_of_all_teeth(effects_[a]) && is_name_of_all_teeth(effects_[b]) &&
           effects_[a].shape.empty() && effects_[b].shape.empty() && one_in_place_of(a, b))
         b = a;
+}
+
+/// A bow without a height of its own beside a bow with a name, which has one, are that bow and a
+/// height.
+void PartLoop::tell_bows_with_a_level() {
+  constexpr double kNothing = 1.0;  // chi-square
+  const Effect level{find_family("unnamed"), FlankChoice::kBoth, {0.0, 0.0, 0.0, 0.0}};
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect term = effects_[e];
+    if (term.family != level.family || term.columns() != 1 || term.shape[3] != 0.0 ||
+        term.shape[0] + term.shape[1] != 2.0 || term.shape[0] == 1.0)
+      continue;
+    const bool named = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& name) {
+      return is_name_of_all_teeth(name) && name.shape.empty() && name.flank == term.flank &&
+             run_alike(geometry_, name, term);
+    });
+    if (!named || std::find(effects_.begin(), effects_.end(), level) != effects_.end()) continue;
+    std::vector<Effect> with = effects_;
+    with[e] = level;
+    const auto fit = fit_of(with);
+    if (!(fit->retained(fit->first_column(static_cast<int>(e))) >= kToldApart) ||
+        fit->residual_square() > fit_of(effects_)->residual_square() + kNothing)
+      continue;
+    std::swap(effects_, with);
+    std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
+  }
+}
+
+/// A form at the place of a far larger one of its kind is what the place of that leaves.
+void PartLoop::drop_echoes_of_forms() {
+  constexpr double kSmall = 0.1, kNear = 0.01, kLittle = 49.0;  // chi-square: seven errors
+  const auto place = [&](const Effect& e) {
+    return e.shape[0] != 0.0
+               ? e.shape[1] / geometry_.face_width_mm()
+               : geometry_.roll_at_radius_mm(0.5 * e.shape[1]) /
+                     std::abs(geometry_.tip_form_roll_mm() - geometry_.root_form_roll_mm());
+  };
+  for (std::size_t e = effects_.size(); e-- > first_told_here();) {
+    const Effect& small = effects_[e];
+    const std::vector<std::string>& names = small.family->shape_names;
+    if (!small.is_term() || names.size() < 2 || names[0] != "along" || names[1] != "place_mm")
+      continue;
+    const auto fit = fit_of(effects_);
+    for (std::size_t f = 0; f < effects_.size(); ++f) {
+      const Effect& large = effects_[f];
+      if (f == e || large.family != small.family || large.shape[0] != small.shape[0] ||
+          std::abs(place(large) - place(small)) > kNear ||
+          fit->effect_size_um(static_cast<int>(e)) >
+              kSmall * fit->effect_size_um(static_cast<int>(f)))
+        continue;
+      std::vector<bool> with(effects_.size(), true);
+      with[e] = false;
+      if (fit->residual_square(with) - fit->residual_square() > kLittle) continue;
+      remove_effect(e);
+      break;
+    }
+  }
+}
+
+/// A tooth that stands out on both flanks, and aside by as much, stands out on one.
+void PartLoop::tell_teeth_of_one_flank() {
+  constexpr double kNothing = 9.0;  // chi-square
+  const auto one_flank_of = [&](std::size_t aside, std::size_t out) {
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+      std::vector<Effect> with = effects_;
+      with[aside] = {find_family("unnamed_flank"), flank, {effects_[aside].shape[0]}};
+      with.erase(with.begin() + static_cast<std::ptrdiff_t>(out));
+      if (fit_of(with)->residual_square() > fit_of(effects_)->residual_square() + kNothing)
+        continue;
+      effects_[aside] = with[aside < out ? aside : aside - 1];
+      std::copy_n(effects_.begin(), options_.given.size(), options_.given.begin());
+      remove_effect(out);
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t a = first_told_here(); a < effects_.size(); ++a) {
+    if (effects_[a].family != find_family("unnamed_tooth_aside")) continue;
+    for (std::size_t b = first_told_here(); b < effects_.size(); ++b)
+      if (effects_[b].family->local && !effects_[b].family->flank_only &&
+          effects_[b].shape.size() == 1 && effects_[b].shape[0] == effects_[a].shape[0] &&
+          one_flank_of(a, b)) {
+        a = b < a ? a - 1 : a;
+        break;
+      }
+  }
 }
 
 /// Forms that were found first may stand where fewer names say the same, or where the hold-out took
