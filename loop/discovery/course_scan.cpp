@@ -209,13 +209,20 @@ class CourseScan {
     look_for_common_wave(one, variance);
   }
 
+  /// Of a band: there it is a kink or a rise.
+  [[nodiscard]] bool reaches_an_end(const CourseForm& form) const {
+    return form.kind == CourseKind::kBand &&
+           (form.at < form.width || form.at + form.width > static_cast<double>(m_));
+  }
+
   /// What stands beside a slope, of one set or of all: without the line it is where it is, with it it
   /// would be sought elsewhere.
   void look_beside_lines(const std::vector<Common>& commons, bool two) {
     const auto look = [&](const VectorXd& mean, double courses, int set) {
       const VectorXd variance = spectrum_ / courses;
       for (const CourseForm& form : forms_of_rows(m_).forms) {
-        if (form.kind == CourseKind::kKink || (set == kHalfDifference && form.kind != CourseKind::kStep))
+        if (form.kind == CourseKind::kKink || reaches_an_end(form) ||
+            (set == kHalfDifference && form.kind != CourseKind::kStep))
           continue;
         std::map<int, Surest>& surest =
             form.kind == CourseKind::kStep ? steps_beside_ : bands_beside_;

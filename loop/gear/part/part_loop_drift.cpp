@@ -37,17 +37,22 @@ bool is_ramp_of(const Effect& effect, const Course& course) {
   return effect.family == find_family("unnamed_ramp") && has_course(effect, 1, course);
 }
 
-/// Where a ramp begins that follows these values best, the best few first.
+/// Where a ramp begins that follows these values best, the best few first; none where none follows
+/// most of them.
 std::vector<int> likeliest_beginnings(const Eigen::VectorXd& values) {
   constexpr std::size_t kFew = 3;
+  constexpr double kMost = 0.6;  // of their squares: a ramp's first wave alone
   const Eigen::Index z = values.size();
   const Eigen::VectorXd about_mean = values.array() - values.mean();
+  Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(z, 0.0, static_cast<double>(z - 1));
+  ramp.array() -= ramp.mean();
+  const double squares = ramp.squaredNorm() * about_mean.squaredNorm();
   std::vector<std::pair<double, int>> products;
   for (Eigen::Index first = 0; first < z; ++first) {
     double product = 0.0;
-    for (Eigen::Index k = 0; k < z; ++k)
-      product += about_mean[(first + k) % z] * static_cast<double>(k);
-    products.emplace_back(-std::abs(product), static_cast<int>(first) + 1);
+    for (Eigen::Index k = 0; k < z; ++k) product += about_mean[(first + k) % z] * ramp[k];
+    if (product * product > kMost * squares)
+      products.emplace_back(-std::abs(product), static_cast<int>(first) + 1);
   }
   std::sort(products.begin(), products.end());
   std::vector<int> best;
@@ -121,7 +126,7 @@ bool PartLoop::tell_as_drift() {
       if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
       std::sort(these.begin(), these.end());
       for (const std::vector<Effect>& ramps : forms)
-        if (put_one_form_for(these, ramps)) return true;
+        if (!ramps.empty() && put_one_form_for(these, ramps)) return true;
     }
   }
   return false;
