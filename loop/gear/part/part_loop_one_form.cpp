@@ -237,10 +237,16 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
                            ? std::max(kClearly, kNearly * none)
                            : 0.0;
-  // A name that needs a form without one beside it to follow the data is less sure itself.
-  const bool beside_a_form = std::any_of(own.begin(), own.end(), [](const Effect& e) {
-    return e.is_term() && e.family->form_word.empty();
-  });
+  // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
+  // itself.
+  const Effect& one = with.back();
+  const bool at_both_ends = (one.family == find_family("unnamed_rise") ||
+                             one.family == find_family("unnamed_bend")) &&
+                            one.shape[2] == 0.0;
+  const bool beside_a_form =
+      at_both_ends && std::any_of(own.begin(), own.end(), [](const Effect& e) {
+        return e.is_term() && e.family->form_word.empty();
+      });
   const double clearly = beside_a_form ? kBesideAForm : kClearly;
   if (gain < clearly - kValue * spared - doubt) return false;
   ChosenGroup record;
