@@ -214,7 +214,7 @@ class PartLoop {
   bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
   std::vector<double> given_p_values_;
-  std::vector<RemainderFinding> nominated_;  ///< forms that the data as they are show
+  std::vector<RemainderFinding> nominated_;  ///< forms that the data show beside a slope
   bool asked_for_starts_ = false;            ///< whether the choice was made again from them
   std::unique_ptr<PartLoop> other_start_;    ///< the best of these choices
   /// Residuals and what was found in them, for one set of effects.

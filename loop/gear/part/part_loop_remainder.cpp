@@ -82,14 +82,17 @@ void PartLoop::nominate() {
   for (const RemainderFinding& finding : remainder_of(options_.given, RemainderOf::kTraining)) {
     if (!finding.effect || finding.local || !finding.effect->family->shapes(geometry_).empty())
       continue;
-    // (what stands beside a slope is like a name only beside that)
-    if (const std::optional<Effect> name =
-            finding.beside_line ? std::nullopt : name_like(finding, options_.given)) {
+    // What stands beside a slope is no candidate beside all others, which it would hide as often:
+    // it is where the choice begins anew, should it end in pieces.
+    if (finding.beside_line) {
+      nominated_.push_back(finding);
+      continue;
+    }
+    if (const std::optional<Effect> name = name_like(finding, options_.given)) {
       put_on_the_grid(*name);
       continue;
     }
     add_candidate(*finding.effect);
-    nominated_.push_back(finding);
     // What forms teeth otherwise may lift them, too.
     if (const std::optional<Effect> height = height_of(*finding.effect);
         height && !table_->points_mm.empty())
