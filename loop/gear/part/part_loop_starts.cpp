@@ -89,7 +89,8 @@ bool PartLoop::begins_better() {
       take_over(*other_start_);
       return true;
     }
-    if (cost < cost_of(effects_) - kClearlyLess) return false;
+    if (cost < cost_of(effects_) - kClearlyLess && !is_in_pieces(geometry_, other_start_->effects_))
+      return false;
   }
   return false;
 }
