@@ -71,6 +71,9 @@ bool PartLoop::begins_better() {
         start.effect = *wave;
         starts.insert(starts.begin(), std::move(start));
       }
+  // Each takes as long as the first choice: of real parts, in pieces whatever one begins with, few.
+  constexpr std::size_t kMostStarts = 2;
+  if (starts.size() > kMostStarts) starts.resize(kMostStarts);
   for (const RemainderFinding& start : starts) {
     Options options = options_;
     options.given.resize(first_told_here());
