@@ -60,7 +60,9 @@ double PartLoop::cost_of(const std::vector<Effect>& effects) const {
 /// Where the choice ends in pieces it is made again from other starts, and the best of these is
 /// kept. True where that is in no pieces, leaves nothing and costs less: it is taken over, whole.
 bool PartLoop::begins_better() {
-  if (!options_.start.empty() || asked_for_starts_ || !is_in_pieces(geometry_, effects_))
+  // Traces of real gears are in pieces whatever one begins with.
+  if (table_->points_mm.empty() || !options_.start.empty() || asked_for_starts_ ||
+      !is_in_pieces(geometry_, effects_))
     return false;
   asked_for_starts_ = true;
   std::vector<RemainderFinding> starts = starts_of(nominated_);
