@@ -255,10 +255,13 @@ class CourseScan {
     for (const std::map<int, Surest>* kind : {&steps_beside_, &bands_beside_})
       for (const auto& [set, of] : *kind) {
         if (of.form == nullptr) continue;
-        if (set != kHalfDifference) keep_at(of, set);
+        if (set != kHalfDifference) {
+          keep_at(of, set);
+          continue;
+        }
         // Where one set alone steps, half of it is in the difference.
-        for (const int own : {0, 1})
-          if (set == kHalfDifference) keep_at(of, own);
+        keep_at(of, 0);
+        keep_at(of, 1);
       }
   }
 

@@ -84,6 +84,7 @@ class PartLoop {
   void ban_what_cannot_be_seen();
   void ban_given();
   [[nodiscard]] bool is_rounding() const;
+  [[nodiscard]] bool explains_more();
   void explain();
   void select();
   void finish_choice();
@@ -146,7 +147,7 @@ class PartLoop {
                                                    const std::vector<Effect>& forms) const;
   [[nodiscard]] std::optional<double> largest_wavelength_mm(
       const std::vector<std::size_t>& of) const;
-  [[nodiscard]] std::optional<Effect> wave_of_pieces(int face, FlankChoice flank) const;
+  [[nodiscard]] std::optional<RemainderFinding> wave_of_pieces(int face, FlankChoice flank) const;
   [[nodiscard]] bool tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
                                             FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
@@ -182,6 +183,7 @@ class PartLoop {
   void prefer_names();
   void prefer_one_name_to_two();
   [[nodiscard]] double cost_of(const std::vector<Effect>& effects) const;
+  [[nodiscard]] std::vector<RemainderFinding> other_starts() const;
   [[nodiscard]] bool begins_better();
   void take_other_start();
   void drop_names_that_may_be_nothing();
@@ -214,7 +216,7 @@ class PartLoop {
   bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt
   std::vector<double> given_p_values_;
-  std::vector<RemainderFinding> nominated_;  ///< forms that the data show beside a slope
+  std::vector<RemainderFinding> beside_slopes_;  ///< forms that the data show beside a slope
   bool asked_for_starts_ = false;            ///< whether the choice was made again from them
   std::unique_ptr<PartLoop> other_start_;    ///< the best of these choices
   /// Residuals and what was found in them, for one set of effects.

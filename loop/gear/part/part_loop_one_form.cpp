@@ -17,41 +17,22 @@ namespace trueflank::loop {
 
 namespace {
 
-/// Short waves have a cosine and a sine.
-constexpr int kMostColumns = 2;
-using Columns = Eigen::Matrix<double, kMostColumns, 1>;
-
 /// True where effects are larger, each by itself, than they are together.
 bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
                      const std::vector<std::size_t>& these) {
-  constexpr int kOfGrid = 9;
   constexpr double kUndo = 1.5;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto size = static_cast<Eigen::Index>(2 * kOfGrid * kOfGrid);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd sum;
   double squares = 0.0;
   for (const std::size_t e : these) {
     const Effect& effect = fit.effects()[e];
-    Columns b = Columns::Zero();
-    b.head(effect.columns()) =
+    Eigen::VectorXd own =
+        over_a_tooth(geometry, effect) *
         fit.coefficients().segment(fit.first_column(static_cast<int>(e)), effect.columns());
-    Eigen::VectorXd own(size);
-    Eigen::Index at = 0;
-    for (const int side : {1, -1})
-      for (int i = 0; i < kOfGrid; ++i)
-        for (int k = 0; k < kOfGrid; ++k, ++at) {
-          Columns values = Columns::Zero();
-          effect.evaluate(geometry,
-                          geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
-                                            (k + 0.5) / kOfGrid * geometry.face_width_mm()),
-                          values.data());
-          own[at] = b.dot(values);
-        }
-    for (const Eigen::Index flank : {0, 1})
-      own.segment(flank * size / 2, size / 2).array() -=
-          own.segment(flank * size / 2, size / 2).mean();
+    const Eigen::Index flank = own.size() / 2;
+    for (const Eigen::Index first : {Eigen::Index{0}, flank})
+      own.segment(first, flank).array() -= own.segment(first, flank).mean();
     squares += own.squaredNorm();
-    sum += own;
+    sum = sum.size() == 0 ? own : Eigen::VectorXd(sum + own);
   }
   return squares > kUndo * sum.squaredNorm();
 }

@@ -85,7 +85,7 @@ void PartLoop::nominate() {
     // What stands beside a slope is no candidate beside all others, which it would hide as often:
     // it is where the choice begins anew, should it end in pieces.
     if (finding.beside_line) {
-      nominated_.push_back(finding);
+      beside_slopes_.push_back(finding);
       continue;
     }
     if (const std::optional<Effect> name = name_like(finding, options_.given)) {

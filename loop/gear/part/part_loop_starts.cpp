@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
 namespace {
@@ -33,28 +33,32 @@ bool is_in_pieces(const FlankGeometry& geometry, const std::vector<Effect>& effe
   return false;
 }
 
-/// Forms that stand out beside a slope, the largest first.
-std::vector<RemainderFinding> starts_of(const std::vector<RemainderFinding>& nominated) {
-  constexpr std::size_t kMost = 3;
-  std::vector<RemainderFinding> starts;
-  for (const RemainderFinding& finding : nominated) {
-    const bool known = std::any_of(starts.begin(), starts.end(), [&](const auto& start) {
-      return *start.effect == *finding.effect;
-    });
-    if (finding.beside_line && !known) starts.push_back(finding);
-  }
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const auto& a, const auto& b) { return a.square > b.square; });
-  if (starts.size() > kMost) starts.resize(kMost);
-  return starts;
-}
-
 }  // namespace
 
 /// What effects leave, and how many values they are told by (chi-square).
 double PartLoop::cost_of(const std::vector<Effect>& effects) const {
   constexpr double kValue = 8.0;
   return fit_of(effects)->residual_square() + kValue * values_of(effects, true);
+}
+
+/// The wave that is most of the pieces, then what stands out beside a slope, the largest first.
+/// Each takes as long as the first choice: few.
+std::vector<RemainderFinding> PartLoop::other_starts() const {
+  constexpr std::size_t kMost = 2;
+  std::vector<RemainderFinding> starts;
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+    for (const int face : {0, 1})
+      if (std::optional<RemainderFinding> wave = wave_of_pieces(face, flank))
+        starts.push_back(std::move(*wave));
+  std::vector<RemainderFinding> beside = beside_slopes_;
+  std::stable_sort(beside.begin(), beside.end(),
+                   [](const auto& a, const auto& b) { return a.square > b.square; });
+  for (const RemainderFinding& finding : beside)
+    if (std::none_of(starts.begin(), starts.end(),
+                     [&](const auto& start) { return *start.effect == *finding.effect; }))
+      starts.push_back(finding);
+  if (starts.size() > kMost) starts.resize(kMost);
+  return starts;
 }
 
 /// Where the choice ends in pieces it is made again from other starts, and the best of these is
@@ -65,17 +69,10 @@ bool PartLoop::begins_better() {
       !is_in_pieces(geometry_, effects_))
     return false;
   asked_for_starts_ = true;
-  std::vector<RemainderFinding> starts = starts_of(nominated_);
-  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
-    for (const int face : {0, 1})
-      if (const std::optional<Effect> wave = wave_of_pieces(face, flank)) {
-        RemainderFinding start{.p_value = kRemainderLevel};
-        start.effect = *wave;
-        starts.insert(starts.begin(), std::move(start));
-      }
-  // Each takes as long as the first choice: of real parts, in pieces whatever one begins with, few.
-  constexpr std::size_t kMostStarts = 2;
-  if (starts.size() > kMostStarts) starts.resize(kMostStarts);
+  const std::vector<RemainderFinding> starts = other_starts();
+  const double own_cost = cost_of(effects_);
+  double least = kNaN;
+  problem_ = {};  // each choice has columns of its own, a fifth of the memory of a large scan
   for (const RemainderFinding& start : starts) {
     Options options = options_;
     options.given.resize(first_told_here());
@@ -84,18 +81,20 @@ bool PartLoop::begins_better() {
     if (measured->is_displaced) undo_displacement(geometry_, measured.own());
     auto other = std::make_unique<PartLoop>(geometry_, std::move(measured), std::move(options));
     other->run();
-    if (other->table_->is_displaced) continue;
     const double cost = other->cost_of(other->effects_);
-    if (other_start_ && !(cost < other_start_->cost_of(other_start_->effects_))) continue;
+    if (other->table_->is_displaced || cost >= least) continue;
+    least = cost;
     other_start_ = std::move(other);
-    if (cost < cost_of(effects_) && !is_in_pieces(geometry_, other_start_->effects_) &&
-        !other_start_->structure_is_left()) {
-      remainder_ = other_start_->remainder_;
-      take_over(*other_start_);
-      return true;
+    if (cost >= own_cost || is_in_pieces(geometry_, other_start_->effects_)) continue;
+    if (other_start_->structure_is_left()) {
+      if (cost < own_cost - kClearlyLess) return false;
+      continue;
     }
-    if (cost < cost_of(effects_) - kClearlyLess && !is_in_pieces(geometry_, other_start_->effects_))
-      return false;
+    remainder_ = std::move(other_start_->remainder_);
+    alone_ = std::move(other_start_->alone_);
+    take_over(*other_start_);
+    other_start_.reset();
+    return true;
   }
   return false;
 }
@@ -105,7 +104,9 @@ void PartLoop::take_other_start() {
   if (begins_better() || !other_start_ || table_->is_displaced ||
       !(other_start_->cost_of(other_start_->effects_) < cost_of(effects_) - kClearlyLess))
     return;
+  alone_ = std::move(other_start_->alone_);
   take_over(*other_start_);
+  other_start_.reset();
 }
 
 }  // namespace trueflank::loop

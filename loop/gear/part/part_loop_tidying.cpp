@@ -167,22 +167,6 @@ void PartLoop::join_flanks() {
 
 namespace {
 
-/// What an effect does on both flanks of a tooth, on a grid over them.
-Eigen::VectorXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect) {
-  constexpr int kOfGrid = 7;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  Eigen::VectorXd field(2 * kOfGrid * kOfGrid);
-  Eigen::Index at = 0;
-  for (const int side : {1, -1})
-    for (int i = 0; i < kOfGrid; ++i)
-      for (int k = 0; k < kOfGrid; ++k, ++at)
-        effect.evaluate(geometry,
-                        geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
-                                          (k + 0.5) / kOfGrid * geometry.face_width_mm()),
-                        &field[at]);
-  return field;
-}
-
 /// True for one column that is the same on every tooth.
 bool is_name_of_all_teeth(const Effect& effect) {
   return effect.family->named && !effect.family->local && effect.columns() == 1 &&
@@ -440,7 +424,7 @@ void PartLoop::take_over(PartLoop& other) {
   neighbours_ = std::move(other.neighbours_);
   vetoed_ = other.vetoed_;
   denied_spot_ = other.denied_spot_;
-  given_p_values_.clear();
+  given_p_values_ = std::move(other.given_p_values_);
   problem_ = {};
   kept_.valid = false;
   forget_fits();

@@ -44,7 +44,7 @@ bool PartLoop::tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int f
 
 /// The part of a wave that is most of what runs along one direction, beside a slope and what does
 /// not run there; empty where no wave does.
-std::optional<Effect> PartLoop::wave_of_pieces(int face, FlankChoice flank) const {
+std::optional<RemainderFinding> PartLoop::wave_of_pieces(int face, FlankChoice flank) const {
   std::vector<std::size_t> along;
   std::vector<Effect> others{
       {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}}};
@@ -59,7 +59,12 @@ std::optional<Effect> PartLoop::wave_of_pieces(int face, FlankChoice flank) cons
   if (along.size() < 3 || !wavelength_mm) return {};
   const std::vector<Effect> with = with_best_form(
       std::move(others), gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm));
-  return with.empty() ? std::nullopt : std::optional(with.back());
+  if (with.empty()) return {};
+  RemainderFinding wave;
+  wave.effect = with.back();
+  for (const std::size_t e : along)
+    wave.p_value = std::min(wave.p_value, discovery_.chosen[e].p_value);
+  return wave;
 }
 
 }  // namespace trueflank::loop

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/part/runs_along.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace trueflank::loop {
 
@@ -43,6 +43,25 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
   if (apart > nothing) return Runs::kOtherwise;
   if (profile > nothing && face > nothing) return Runs::kOverBoth;
   return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
+}
+
+Eigen::MatrixXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect) {
+  constexpr int kOfGrid = 9;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  Eigen::MatrixXd field(2 * kOfGrid * kOfGrid, effect.columns());
+  std::vector<double> values(static_cast<std::size_t>(effect.columns()));
+  Eigen::Index at = 0;
+  for (const int side : {1, -1})
+    for (int i = 0; i < kOfGrid; ++i)
+      for (int k = 0; k < kOfGrid; ++k, ++at) {
+        effect.evaluate(geometry,
+                        geometry.on_flank(1, side, low + (i + 0.5) / kOfGrid * (high - low),
+                                          (k + 0.5) / kOfGrid * geometry.face_width_mm()),
+                        values.data());
+        for (Eigen::Index c = 0; c < field.cols(); ++c)
+          field(at, c) = values[static_cast<std::size_t>(c)];
+      }
+  return field;
 }
 
 bool is_straight(const FlankGeometry& geometry, const Effect& effect) {

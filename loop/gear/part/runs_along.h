@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+
 #include "trueflank/loop/gear/effect.h"
 
 // How effects that are the same on every tooth run along the flanks.
@@ -11,6 +13,10 @@ namespace trueflank::loop {
 enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
 
 [[nodiscard]] Runs runs_of(const FlankGeometry& geometry, const Effect& effect);
+
+/// What an effect does on both flanks of the first tooth: a column for each of its own, a row for
+/// each place of an even grid, the flank with side 1 first.
+[[nodiscard]] Eigen::MatrixXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect);
 
 /// A slope over the profile or the face, and no more.
 [[nodiscard]] bool is_straight(const FlankGeometry& geometry, const Effect& effect);
