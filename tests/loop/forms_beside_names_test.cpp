@@ -124,6 +124,54 @@ TEST(CombOfOneFlank, IsToldOfThatFlank) {
   EXPECT_FALSE(tells(result, "every other tooth differs, opposite")) << list(result);
 }
 
+TEST(GapThatIsDeeper, IsOneFlankOfEitherTooth) {
+  const MadeGear gear = spur(40);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    const bool in_gap = (s.tooth == 20 && s.side > 0) || (s.tooth == 21 && s.side < 0);
+    return (in_gap ? -40.0 : 0.0) + 13.0 * s.side * s.v;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(6000, 5.0, 3)), true);
+  EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
+  EXPECT_TRUE(tells(result, "flank of tooth 20 stands out")) << list(result);
+  EXPECT_TRUE(tells(result, "flank of tooth 21 stands out")) << list(result);
+  EXPECT_FALSE(tells(result, "aside")) << list(result);
+}
+
+TEST(LobesOfOneEnd, AreAPartOfTheirFormAndNoCause) {
+  const MadeGear gear = helical(40, 12.0);
+  const auto pressed = [&](auto&, const FlankSpot& s, auto&) {
+    const double theta = 2.0 * kPi * (s.tooth - 1) / gear.teeth;
+    return 7.0 * std::exp(-2.0 * (s.v + 1.0)) * std::cos(3.0 * theta - 0.4);
+  };
+  std::vector<int> teeth;
+  for (int tooth = 1; tooth <= 40; ++tooth) teeth.push_back(tooth);
+  InspectionOptions options = traced(teeth, 0.4, 2);
+  options.index = true;
+  const auto result = close(gear, inspection_of(gear, {grown(pressed)}, options));
+  EXPECT_TRUE(tells(result, "3 times per turn")) << list(result);
+  EXPECT_EQ(find(result, "lobing"), nullptr) << list(result);
+}
+
+TEST(BulgeOfOneFlank, LeavesATaperItsName) {
+  const MadeGear gear = spur(37);
+  const auto made = [](auto&, const FlankSpot& s, auto&) {
+    return (s.side > 0 ? 6.0 * std::pow(std::cos(0.5 * kPi * s.v), 3) : 0.0) + 3.5 * s.v;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(14000, 1.7, 3)), true);
+  EXPECT_NEAR(size_of(result, "taper", "slope_um"), 7.0, 0.5) << list(result);
+}
+
+TEST(SectorOfFewTeeth, IsOneBesideARelief) {
+  const MadeGear gear = spur(21);
+  const auto made = [&](auto&, const FlankSpot& s, auto&) {
+    const double off = std::max(0.0, s.u - 0.1) / 0.9;
+    return ((s.tooth - 2 + gear.teeth) % gear.teeth < 4 ? 10.0 : 0.0) - 20.0 * off * off;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(6000, 3.0, 2)), true);
+  EXPECT_TRUE(tells(result, "a sector of 4 teeth from tooth 2 on")) << list(result);
+  EXPECT_NE(find(result, "tip_relief"), nullptr) << list(result);
+}
+
 TEST(WavesThatGrow, AreOneForm) {
   const MadeGear gear = spur(29);
   const auto grows = [&](auto&, const FlankSpot& s, auto&) {
