@@ -74,8 +74,7 @@ void PartLoop::run() {
   explain();
   if (scan_for_more && begins_better()) return;
   constexpr int kRounds = 4, kMostBans = 6;
-  for (int round = 0; scan_for_more && round < kRounds && explains_more(); ++round) {
-  }
+  if (scan_for_more) explain_what_is_left();
   if (scan_for_more && drop_idle_forms()) explain();
   for (int round = 0; scan_for_more && round < kRounds && drop_doubtful_orders(); ++round) explain();
   for (int round = 0; scan_for_more && round < kMostBans && ban_what_forms_explain(); ++round)
@@ -102,33 +101,40 @@ void PartLoop::run() {
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
 }
 
-/// Takes up what is left and chooses anew. Beside many forms the choice may come to less than
-/// before: then (of traces: scans may have moved) it stays as it was. True where something new is
-/// told.
-bool PartLoop::explains_more() {
+/// Takes up what is left and chooses anew, some rounds. Beside many forms a choice may come to
+/// less than one before it, and the next to more: the best is kept (of traces: scans may have
+/// moved).
+void PartLoop::explain_what_is_left() {
   struct Chosen {
     std::vector<Effect> effects, candidates, given;
     std::vector<double> given_p_values;
     DiscoveryResult discovery;
     std::vector<bool> banned, unseen;
   };
+  constexpr int kRounds = 4;
   const bool keep = table_->points_mm.empty();
-  const double left = fit_of(effects_)->residual_square();
-  Chosen before;
-  if (keep)
-    before = {effects_, candidates_, options_.given, given_p_values_, discovery_, banned_, unseen_};
-  if (!take_up_remainder()) return false;
-  explain();
-  if (!keep || fit_of(effects_)->residual_square() <= left) return true;
-  effects_ = std::move(before.effects);
-  candidates_ = std::move(before.candidates);
-  options_.given = std::move(before.given);
-  given_p_values_ = std::move(before.given_p_values);
-  discovery_ = std::move(before.discovery);
-  banned_ = std::move(before.banned);
-  unseen_ = std::move(before.unseen);
+  Chosen best;
+  double least = kNaN;
+  const auto keep_if_best = [&] {
+    const double cost = cost_of(effects_);
+    if (cost > least) return;
+    least = cost;
+    best = {effects_, candidates_, options_.given, given_p_values_, discovery_, banned_, unseen_};
+  };
+  if (keep) keep_if_best();
+  for (int round = 0; round < kRounds && take_up_remainder(); ++round) {
+    explain();
+    if (keep) keep_if_best();
+  }
+  if (!keep || cost_of(effects_) <= least) return;
+  effects_ = std::move(best.effects);
+  candidates_ = std::move(best.candidates);
+  options_.given = std::move(best.given);
+  given_p_values_ = std::move(best.given_p_values);
+  discovery_ = std::move(best.discovery);
+  banned_ = std::move(best.banned);
+  unseen_ = std::move(best.unseen);
   leave_out_across_steps();
-  return false;
 }
 
 void PartLoop::explain() {

@@ -84,7 +84,7 @@ class PartLoop {
   void ban_what_cannot_be_seen();
   void ban_given();
   [[nodiscard]] bool is_rounding() const;
-  [[nodiscard]] bool explains_more();
+  void explain_what_is_left();
   void explain();
   void select();
   void finish_choice();
