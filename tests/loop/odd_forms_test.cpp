@@ -38,6 +38,31 @@ TEST(OddForms, AToolThatWearsFromToothToToothIsADriftWithoutAName) {
   }
 }
 
+TEST(OddForms, AMachineThatWarmsUpDriftsAndLevelsOff) {
+  const MadeGear gear = spur(40);
+  const auto warming = [](auto&, const FlankSpot& s, auto&) {
+    return s.side * -12.0 * std::expm1(-(s.tooth - 1.0) / 9.0);
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(warming)}, sheet_of_all(seed)));
+    EXPECT_EQ(named(result), nullptr) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_NE(result.effects[0].description.find("drifts and levels off"), std::string::npos)
+        << list(result);
+  }
+}
+
+TEST(OddForms, ADriftThatGrowsMoreAndMoreIsOneForm) {
+  const MadeGear gear = spur(31);
+  const auto growing = [&](auto&, const FlankSpot& s, auto&) {
+    return 15.0 * std::exp((s.tooth - gear.teeth) / 7.0);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(growing)}, scanned(9000, 1.5, 3)), true);
+  EXPECT_EQ(named(result), nullptr) << list(result);
+  EXPECT_NE(list(result).find("drifts more and more"), std::string::npos) << list(result);
+  EXPECT_EQ(list(result).find("per turn"), std::string::npos) << list(result);
+}
+
 TEST(OddForms, AToolThatIsDressedAgainAndAgainIsADriftAndNoPitchWave) {
   // The last drift is cut short where the gear ends.
   const MadeGear gear = spur(38);

@@ -49,6 +49,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_moved_sector(),
         unnamed_alternation(),
         unnamed_ramp(),
+        unnamed_levelling(),
         unnamed_saw(),
         unnamed_comb(),
         unnamed_dent(),

@@ -67,6 +67,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
+[[nodiscard]] EffectFamily unnamed_levelling();
 [[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_dent();

@@ -156,8 +156,8 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
                                                         bool opposite);
   [[nodiscard]] bool tell_as_sector();
-  [[nodiscard]] std::vector<std::vector<Effect>> ramps_in_place_of(
-      const std::vector<std::size_t>& these, double profile, double face);
+  [[nodiscard]] std::vector<std::vector<Effect>> drifts_in_place_of(
+      const std::vector<std::size_t>& these, double profile, double face, bool evenly);
   [[nodiscard]] bool tell_as_drift();
   void drop_idle_beside_one_form();
   void turn_kinks_beside_slopes();

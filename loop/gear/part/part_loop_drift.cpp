@@ -33,40 +33,75 @@ bool is_wave_of(const Effect& effect, const Course& course) {
          !needs.along_profile && !needs.along_face;
 }
 
-bool is_ramp_of(const Effect& effect, const Course& course) {
-  return effect.family == find_family("unnamed_ramp") && has_course(effect, 1, course);
+/// Some neighbours that stand out or aside are the beginning of what levels off.
+bool is_sector_of(const Effect& effect, const Course& course) {
+  return (effect.family == find_family("unnamed_sector") && has_course(effect, 2, course)) ||
+         (effect.family == find_family("unnamed_moved_sector") && course.profile == 0.0 &&
+          course.face == 0.0);
 }
 
-/// Where a ramp begins that follows these values best, the best few first; none where none follows
-/// most of them.
-std::vector<int> likeliest_beginnings(const Eigen::VectorXd& values) {
+bool is_ramp_of(const Effect& effect, const Course& course) {
+  return (effect.family == find_family("unnamed_ramp") ||
+          effect.family == find_family("unnamed_levelling")) &&
+         has_course(effect, 1, course);
+}
+
+/// How a drift goes on: evenly, or most of it within some teeth of its beginning or end.
+struct Pace {
+  bool grows = false;
+  double within_teeth = 0.0;  ///< 0: evenly
+};
+
+/// Where drifts of a pace begin that follow these values best, the best few first; none where none
+/// follows most of them.
+std::vector<std::pair<double, int>> likeliest_beginnings(const Eigen::VectorXd& values,
+                                                         const Pace& pace) {
   constexpr std::size_t kFew = 3;
   constexpr double kMost = 0.6;  // of their squares: a ramp's first wave alone
   const Eigen::Index z = values.size();
   const Eigen::VectorXd about_mean = values.array() - values.mean();
-  Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(z, 0.0, static_cast<double>(z - 1));
-  ramp.array() -= ramp.mean();
-  const double squares = ramp.squaredNorm() * about_mean.squaredNorm();
+  Eigen::VectorXd drift = Eigen::VectorXd::LinSpaced(z, 0.0, static_cast<double>(z - 1));
+  if (pace.within_teeth > 0.0) drift = (-drift / pace.within_teeth).array().exp();
+  if (pace.grows) drift.reverseInPlace();
+  drift.array() -= drift.mean();
+  const double squares = drift.squaredNorm() * about_mean.squaredNorm();
   std::vector<std::pair<double, int>> products;
   for (Eigen::Index first = 0; first < z; ++first) {
     double product = 0.0;
-    for (Eigen::Index k = 0; k < z; ++k) product += about_mean[(first + k) % z] * ramp[k];
+    for (Eigen::Index k = 0; k < z; ++k) product += about_mean[(first + k) % z] * drift[k];
     if (product * product > kMost * squares)
-      products.emplace_back(-std::abs(product), static_cast<int>(first) + 1);
+      products.emplace_back(-product * product / squares, static_cast<int>(first) + 1);
   }
   std::sort(products.begin(), products.end());
-  std::vector<int> best;
-  for (const auto& [product, first] : products)
-    if (best.size() < kFew) best.push_back(first);
+  if (products.size() > kFew) products.resize(kFew);
+  return products;
+}
+
+/// Drifts that are no even ramp and follow these values best, the best few first.
+std::vector<std::pair<Pace, int>> likeliest_uneven(const Eigen::VectorXd& values) {
+  constexpr std::size_t kFew = 4;
+  std::vector<std::pair<std::pair<double, int>, Pace>> found;
+  for (const double share : {0.06, 0.12, 0.25, 0.5})
+    for (const bool grows : {false, true}) {
+      const Pace pace{grows, share * static_cast<double>(values.size())};
+      for (const std::pair<double, int>& one : likeliest_beginnings(values, pace))
+        found.emplace_back(one, pace);
+    }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (found.size() > kFew) found.resize(kFew);
+  std::vector<std::pair<Pace, int>> best;
+  for (const auto& [at, pace] : found) best.emplace_back(pace, at.second);
   return best;
 }
 
 }  // namespace
 
-/// The ramps that follow best what these effects say together of every tooth; of one flank, or of
+/// The drifts that follow best what these effects say together of every tooth; of one flank, or of
 /// both.
-std::vector<std::vector<Effect>> PartLoop::ramps_in_place_of(const std::vector<std::size_t>& these,
-                                                             double profile, double face) {
+std::vector<std::vector<Effect>> PartLoop::drifts_in_place_of(const std::vector<std::size_t>& these,
+                                                              double profile, double face,
+                                                              bool evenly) {
   constexpr double kNearTheEnd = 0.9;
   const auto fit = fit_of(effects_);
   const double low = geometry_.root_form_roll_mm(), high = geometry_.tip_form_roll_mm();
@@ -88,17 +123,24 @@ std::vector<std::vector<Effect>> PartLoop::ramps_in_place_of(const std::vector<s
       }
     }
   }
-  const auto ramps = [&](FlankChoice flank, double opposite, const Eigen::VectorXd& values) {
+  const auto drifts = [&](FlankChoice flank, double opposite, const Eigen::VectorXd& values) {
     std::vector<Effect> forms;
-    for (const int first : likeliest_beginnings(values))
-      forms.push_back(
-          {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
+    if (evenly)
+      for (const auto& [square, first] : likeliest_beginnings(values, {}))
+        forms.push_back(
+            {find_family("unnamed_ramp"), flank, {double(first), profile, face, opposite}});
+    else
+      for (const auto& [pace, first] : likeliest_uneven(values))
+        forms.push_back(
+            {find_family("unnamed_levelling"),
+             flank,
+             {double(first), profile, face, opposite, pace.grows ? 1.0 : 0.0, pace.within_teeth}});
     return forms;
   };
   const FlankChoice right = flank_choice(geometry_, 0), left = flank_choice(geometry_, 1);
-  return {ramps(FlankChoice::kBoth, 0.0, of_side[1] + of_side[0]),
-          ramps(FlankChoice::kBoth, 1.0, of_side[1] - of_side[0]), ramps(left, 0.0, of_side[1]),
-          ramps(right, 0.0, of_side[0])};
+  return {drifts(FlankChoice::kBoth, 0.0, of_side[1] + of_side[0]),
+          drifts(FlankChoice::kBoth, 1.0, of_side[1] - of_side[0]), drifts(left, 0.0, of_side[1]),
+          drifts(right, 0.0, of_side[0])};
 }
 
 /// A drift beside larger effects, or on one flank, is not seen before waves of several orders, and
@@ -109,24 +151,26 @@ bool PartLoop::tell_as_drift() {
     std::vector<std::size_t> waves, teeth;
     std::set<double> orders;
     for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-      const bool ramp = is_ramp_of(effects_[e], course);
-      if (ramp || is_wave_of(effects_[e], course)) {
+      const bool ramp = is_ramp_of(effects_[e], course), sector = is_sector_of(effects_[e], course);
+      if (ramp || sector || is_wave_of(effects_[e], course)) {
         waves.push_back(e);
-        orders.insert(ramp ? 0.0 : effects_[e].order());
+        orders.insert(ramp ? 0.0 : sector ? -1.0 : effects_[e].order());
       } else if (effects_[e].family->local && effects_[e].columns() == 1) {
         teeth.push_back(e);
       }
     }
     if (orders.size() < 2) continue;
-    const std::vector<std::vector<Effect>> forms =
-        ramps_in_place_of(waves, course.profile, course.face);
-    for (const bool with_teeth : {true, false}) {
-      if (with_teeth && teeth.empty()) continue;
-      std::vector<std::size_t> these = waves;
-      if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
-      std::sort(these.begin(), these.end());
-      for (const std::vector<Effect>& ramps : forms)
-        if (!ramps.empty() && put_one_form_for(these, ramps)) return true;
+    for (const bool evenly : {true, false}) {
+      const std::vector<std::vector<Effect>> forms =
+          drifts_in_place_of(waves, course.profile, course.face, evenly);
+      for (const bool with_teeth : {true, false}) {
+        if (with_teeth && teeth.empty()) continue;
+        std::vector<std::size_t> these = waves;
+        if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
+        std::sort(these.begin(), these.end());
+        for (const std::vector<Effect>& drifts : forms)
+          if (!drifts.empty() && put_one_form_for(these, drifts)) return true;
+      }
     }
   }
   return false;

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forms that go from tooth to tooth: sectors, every other tooth, drifts, combs.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
+#include "trueflank/loop/gear/effects/registry.h"
+
+namespace trueflank::loop::gear_effects {
+namespace {
+
+/// 1 on teeth of the sector.
+double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
+  const int z = g.teeth(), from = static_cast<int>(shape[0]);
+  return ((tooth - from) % z + z) % z < static_cast<int>(shape[1]) ? 1.0 : 0.0;
+}
+
+/// A course of a degree without a height of its own.
+double course_of_degree(double degree, double x) {
+  return degree == 0.0 ? 1.0 : degree == 2.0 ? x * x - 1.0 / 3.0 : std::pow(x, degree);
+}
+/// Degrees over profile and face and the flanks, from the k-th shape value on.
+double form_of_tooth(const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                     std::size_t k) {
+  return (shape[k + 2] != 0.0 ? p.side : 1) *
+         course_of_degree(shape[k], g.profile_coordinate(p.roll_mm)) *
+         course_of_degree(shape[k + 1], g.face_coordinate(p.z_mm));
+}
+
+}  // namespace
+
+EffectFamily unnamed_sector() {
+  EffectFamily f = described("unnamed_sector", {"first_tooth", "teeth", "profile_degree",
+                                                "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    c[0] = in_sector(g, p.tooth, shape) * form_of_tooth(g, p, shape, 2);
+  };
+  f.term_keys = {{"first_tooth"},
+                 {"teeth"},
+                 {"profile_degree"},
+                 {"face_degree"},
+                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double first : {-2.0, -1.0, 0.0, 1.0, 2.0})
+      for (const double last : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+        EffectShape beside = shape;
+        beside[0] = std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0;
+        beside[1] = shape[1] + last - first;
+        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth())
+          shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    const std::string form = shape[2] > 0.0   ? "another form of the profile"
+                             : shape[3] > 0.0 ? "another form of the face"
+                                              : "another height";
+    return "a sector of " + printed("%.0f teeth from tooth %.0f on has ", shape[1], shape[0]) +
+           form + " than the rest" + (shape[4] != 0.0 ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
+EffectFamily unnamed_alternation() {
+  EffectFamily f =
+      described("unnamed_alternation", {"profile_degree", "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * form_of_tooth(g, p, shape, 0);
+  };
+  f.term_keys = {
+      {"profile_degree"}, {"face_degree"}, {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return std::string("every other tooth differs") +
+           (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
+namespace {
+
+std::string what_of_tooth(const EffectShape& shape, std::size_t k) {
+  return std::string(shape[k] > 0.0       ? "the form of the profile"
+                     : shape[k + 1] > 0.0 ? "the form of the face"
+                                          : "the height") +
+         (shape[k + 2] != 0.0 ? ", opposite on the two flanks" : "");
+}
+const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
+
+/// Teeth from one on, once around.
+double teeth_since(const FlankGeometry& g, int tooth, int from) {
+  const int z = g.teeth();
+  return ((tooth - from) % z + z) % z;
+}
+
+/// What begins at its first tooth begins some teeth before or after.
+std::vector<EffectShape> begun_beside(const FlankGeometry& g, const EffectShape& shape) {
+  std::vector<EffectShape> shapes;
+  for (const double off : {-2.0, -1.0, 1.0, 2.0}) {
+    shapes.push_back(shape);
+    shapes.back()[0] = std::fmod(shape[0] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+  }
+  return shapes;
+}
+
+}  // namespace
+
+EffectFamily unnamed_ramp() {
+  EffectFamily f = described("unnamed_ramp",
+                             {"first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.is_drift = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double along = teeth_since(g, p.tooth, static_cast<int>(shape[0])) / g.teeth();
+    c[0] = (along - 0.5) * form_of_tooth(g, p, shape, 1);
+  };
+  f.nearby = begun_beside;
+  f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
+           " drifts evenly and begins anew: a tool that wears, or a machine that warms up";
+  };
+  return f;
+}
+
+EffectFamily unnamed_levelling() {
+  EffectFamily f = described("unnamed_levelling", {"first_tooth", "profile_degree", "face_degree",
+                                                   "opposite_flanks", "grows", "within_teeth"});
+  f.is_drift = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double z = g.teeth(), within = shape[5];
+    double since = teeth_since(g, p.tooth, static_cast<int>(shape[0]));
+    if (shape[4] != 0.0) since = z - 1.0 - since;
+    // Of the whole rise, about its mean over the teeth.
+    const double whole = -std::expm1(-z / within);
+    const double mean = 1.0 + whole / (z * std::expm1(-1.0 / within));
+    const double part = -std::expm1(-since / within) - mean;
+    c[0] = (shape[4] != 0.0 ? -part : part) / whole * form_of_tooth(g, p, shape, 1);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = begun_beside(g, shape);
+    for (const double times : {0.7, 0.87, 1.15, 1.43}) {
+      EffectShape beside = shape;
+      beside[5] = std::clamp(times * shape[5], 1.0, 2.0 * g.teeth());
+      if (beside != shape) shapes.push_back(std::move(beside));
+    }
+    return shapes;
+  };
+  f.term_keys = {{"first_tooth"},
+                 {"profile_degree"},
+                 {"face_degree"},
+                 kFlanks,
+                 {"course", TermKey::Kind::kWord, {"levels_off", "grows"}},
+                 number("within_teeth")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
+           (shape[4] != 0.0
+                ? printed(" drifts more and more, most of it in the last %.2g teeth", shape[5])
+                : printed(" drifts and levels off, most of it in the first %.2g teeth", shape[5])) +
+           ", and begins anew: a machine that warms up, or a tool that wears";
+  };
+  return f;
+}
+
+EffectFamily unnamed_saw() {
+  EffectFamily f = described("unnamed_saw", {"restarts_every", "first_tooth", "profile_degree",
+                                             "face_degree", "opposite_flanks"});
+  f.is_drift = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const int z = g.teeth(), every = static_cast<int>(shape[0]), from = static_cast<int>(shape[1]);
+    const int since = ((p.tooth - from) % z + z) % z % every;
+    c[0] = (static_cast<double>(since) / every - 0.5) * form_of_tooth(g, p, shape, 2);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double longer : {-1.0, 0.0, 1.0})
+      for (const double off : {-1.0, 0.0, 1.0}) {
+        EffectShape beside = shape;
+        beside[0] += longer;
+        beside[1] = std::fmod(shape[1] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+        if (beside != shape && beside[0] >= 4.0 && 2.0 * beside[0] <= g.teeth())
+          shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.term_keys = {{"restarts_every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on ", shape[1]) + what_of_tooth(shape, 2) +
+           printed(
+               " drifts evenly and begins anew every %.0f teeth: a tool that wears and is dressed "
+               "or set again",
+               shape[0]);
+  };
+  return f;
+}
+
+EffectFamily unnamed_comb() {
+  EffectFamily f = described(
+      "unnamed_comb", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const int every = static_cast<int>(shape[0]), first = static_cast<int>(shape[1]);
+    const bool stands_out = p.surface == Surface::kFlank && (p.tooth - first) % every == 0;
+    c[0] = stands_out ? form_of_tooth(g, p, shape, 2) : 0.0;
+  };
+  f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("one tooth in %.0f, from tooth %.0f on, differs in ", shape[0], shape[1]) +
+           what_of_tooth(shape, 2) + ": a cutter of so many teeth or starts";
+  };
+  return f;
+}
+
+}  // namespace trueflank::loop::gear_effects
