@@ -144,7 +144,8 @@ class PartLoop {
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
   [[nodiscard]] std::vector<Effect> with_best_form(std::vector<Effect> rest,
-                                                   const std::vector<Effect>& forms) const;
+                                                   const std::vector<Effect>& forms,
+                                                   double most = 1e300) const;
   [[nodiscard]] std::optional<double> largest_wavelength_mm(
       const std::vector<std::size_t>& of) const;
   [[nodiscard]] std::optional<RemainderFinding> wave_of_pieces(int face, FlankChoice flank) const;
