@@ -57,6 +57,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_rise();
 [[nodiscard]] EffectFamily unnamed_dish();
 [[nodiscard]] EffectFamily unnamed_corner();
+[[nodiscard]] EffectFamily unnamed_product();
 [[nodiscard]] EffectFamily unnamed_band();
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_waves_from();
@@ -64,16 +65,21 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
+[[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();
 [[nodiscard]] EffectFamily unnamed_levelling();
+[[nodiscard]] EffectFamily unnamed_drift_aside();
+[[nodiscard]] EffectFamily unnamed_broken_wave();
 [[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_dent();
 [[nodiscard]] EffectFamily unnamed_spot();
 /// @}
 
+/// All of unnamed_product, to choose from.
+[[nodiscard]] std::vector<Effect> products(FlankChoice flank);
 /// Waves of about a length that do not run over the whole flank alike, to start from.
 [[nodiscard]] std::vector<Effect> parts_of_waves(const FlankGeometry& geometry, double face,
                                                  FlankChoice flank, double wavelength_mm);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
@@ -169,6 +170,62 @@ EffectFamily unnamed_levelling() {
                 ? printed(" drifts more and more, most of it in the last %.2g teeth", shape[5])
                 : printed(" drifts and levels off, most of it in the first %.2g teeth", shape[5])) +
            ", and begins anew: a machine that warms up, or a tool that wears";
+  };
+  return f;
+}
+
+EffectFamily unnamed_drift_aside() {
+  EffectFamily f = described("unnamed_drift_aside", {"first_tooth"});
+  f.is_drift = true;
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const double since = teeth_since(g, p.tooth, static_cast<int>(shape[0]));
+    two_directions(g, p, since / g.teeth() - 0.5, c);
+  };
+  f.nearby = begun_beside;
+  f.term_keys = {{"first_tooth"}};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed(
+        "from tooth %.0f on, once around, the teeth drift aside evenly, in one direction, and "
+        "begin anew: part or probe moved while it was made or measured",
+        shape[0]);
+  };
+  return f;
+}
+
+EffectFamily unnamed_broken_wave() {
+  EffectFamily f =
+      described("unnamed_broken_wave", {"periods_per_turn", "first_tooth", "opposite_flanks"});
+  f.is_drift = true;
+  f.columns = [](const EffectShape&) { return 2; };
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = c[1] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double since = teeth_since(g, p.tooth, static_cast<int>(shape[1]));
+    const double angle = kTwoPi * shape[0] * since / g.teeth();
+    const double size = shape[2] != 0.0 ? p.side : 1;
+    c[0] = size * std::cos(angle);
+    c[1] = size * std::sin(angle);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    for (const double longer : {-0.1, -0.03, 0.0, 0.03, 0.1})
+      for (const double off : {-1.0, 0.0, 1.0}) {
+        EffectShape beside = shape;
+        beside[0] += longer;
+        beside[1] = std::fmod(shape[1] - 1.0 + off + g.teeth(), g.teeth()) + 1.0;
+        if (beside != shape && beside[0] > 0.2) shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.term_keys = {number("periods_per_turn"), {"first_tooth"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return printed("from tooth %.0f on, once around, the teeth stand ", shape[1]) +
+           (shape[2] != 0.0 ? "ahead and behind" : "high and low") +
+           printed(
+               " in a wave of %.3g periods a turn, which does not close: a cutter that runs "
+               "out and takes no whole number of teeth a turn",
+               shape[0]);
   };
   return f;
 }

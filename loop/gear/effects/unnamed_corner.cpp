@@ -24,7 +24,7 @@ double of_corner(const FlankGeometry& g, const Place& p, const EffectShape& shap
 }  // namespace
 
 /// Teeth that carry at one corner wear there. Told in place of slopes, twists and waves that follow
-/// it (part_loop_one_form.cpp), and no candidate of its own.
+/// it (part_loop_crossed.cpp), and no candidate of its own.
 EffectFamily unnamed_corner() {
   EffectFamily f =
       described("unnamed_corner", {"at_tip", "at_upper_end", "profile_mm", "face_mm", "power"});
@@ -32,6 +32,7 @@ EffectFamily unnamed_corner() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = p.surface == Surface::kFlank ? of_corner(g, p, shape) : 0.0;
   };
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
   f.needs = [](const EffectShape&) {
     return NeedsToBeSeen{.along_profile = true, .along_face = true};
   };

@@ -152,7 +152,14 @@ class PartLoop {
   [[nodiscard]] bool tell_as_part_of_a_wave(const std::vector<std::size_t>& all, int face,
                                             FlankChoice flank);
   [[nodiscard]] bool tell_as_dish_of_all_flanks();
+  [[nodiscard]] std::vector<std::vector<std::size_t>> crossed_sets(int fewest_values) const;
   [[nodiscard]] bool tell_as_corner();
+  [[nodiscard]] bool tell_as_product();
+  [[nodiscard]] bool tell_as_field();
+  [[nodiscard]] bool tell_as_alternating_wave();
+  [[nodiscard]] bool tell_as_drift_aside();
+  void tell_ghosts_of_teeth();
+  void tell_levels_of_bowed_waves();
   [[nodiscard]] bool tell_as_bow();
   [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
                                                         bool opposite);

@@ -143,6 +143,42 @@ std::vector<std::vector<Effect>> PartLoop::drifts_in_place_of(const std::vector<
           drifts(right, 0.0, of_side[0])};
 }
 
+/// Teeth that drift aside as one body, and a wave that does not close, are drifts, sectors, waves
+/// and odd teeth together.
+bool PartLoop::tell_as_drift_aside() {
+  const Course level;
+  std::vector<std::size_t> these, kept;
+  bool begins = false;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const bool odd = is_ramp_of(effect, level) || is_sector_of(effect, level) ||
+                     (effect.family == find_family("unnamed_saw") && has_course(effect, 2, level));
+    const bool tooth = effect.family->local && effect.columns() == 1;
+    begins = begins || odd || tooth;
+    if (odd || tooth || is_wave_of(effect, level)) these.push_back(e);
+    if (effect.family->displacement_mm && effect.order() == 1.0 && effect.columns() == 2)
+      kept.push_back(e);
+  }
+  if (!begins || these.size() < 2) return false;
+  std::vector<Effect> forms, aside;
+  for (int first = 1; first <= geometry_.teeth(); ++first) {
+    aside.push_back({find_family("unnamed_drift_aside"), FlankChoice::kBoth, {double(first)}});
+    for (const double opposite : {0.0, 1.0})
+      for (const double periods : {0.5, 1.5, 2.5, 3.5})
+        forms.push_back({find_family("unnamed_broken_wave"),
+                         FlankChoice::kBoth,
+                         {periods, double(first), opposite}});
+  }
+  forms.insert(forms.end(), aside.begin(), aside.end());
+  if (put_one_form_for(these, forms)) return true;
+  // What lies off the axis moves with it.
+  these.insert(these.end(), kept.begin(), kept.end());
+  std::sort(these.begin(), these.end());
+  for (const std::size_t e : kept)
+    if (put_one_form_for(these, aside, {effects_[e]})) return true;
+  return false;
+}
+
 /// A drift beside larger effects, or on one flank, is not seen before waves of several orders, and
 /// odd teeth where it begins anew, have taken it up: together they are tried against it.
 bool PartLoop::tell_as_drift() {

@@ -263,6 +263,8 @@ void PartLoop::tell_parts_of_a_form() {
   tell_parts_in_the_mean_of_waves();
   tell_imitations();
   tell_waves_of_a_form();
+  tell_levels_of_bowed_waves();
+  tell_ghosts_of_teeth();
   tell_what_waves_leave();
   tell_level_of_forms();
   tell_means_across_flanks();

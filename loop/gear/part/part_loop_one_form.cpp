@@ -134,21 +134,6 @@ std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank) {
   return forms;
 }
 
-std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
-  const double profile_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()),
-               face_mm = geometry.face_width_mm();
-  std::vector<Effect> forms;
-  for (const double tip : {0.0, 1.0})
-    for (const double upper : {0.0, 1.0})
-      for (const double over_profile : {0.35, 0.6, 1.0})
-        for (const double over_face : {0.35, 0.6, 1.0})
-          for (const double power : {1.2, 1.8})
-            forms.push_back({find_family("unnamed_corner"),
-                             flank,
-                             {tip, upper, over_profile * profile_mm, over_face * face_mm, power}});
-  return forms;
-}
-
 }  // namespace
 
 /// The form that leaves least in place of the last effect, first among those of its family by
@@ -300,37 +285,6 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
   return false;
 }
 
-/// A corner of the flanks of one side, or of both, for all that is the same on every tooth: slopes
-/// of both flanks, alike and opposite, are one of one side. A name may stand beside it.
-bool PartLoop::tell_as_corner() {
-  constexpr int kValuesOfCorner = 5;
-  std::vector<std::size_t> all, names;
-  std::vector<Effect> own;
-  bool crossed = false;
-  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-    const Runs runs = runs_of(geometry_, effects_[e]);
-    if (runs == Runs::kOtherwise) continue;
-    all.push_back(e);
-    own.push_back(effects_[e]);
-    if (effects_[e].family->named) names.push_back(e);
-    crossed = crossed || runs == Runs::kOverBoth;
-  }
-  if (!crossed || values_of(own, true) <= kValuesOfCorner) return false;
-  std::vector<std::vector<std::size_t>> sets{all};
-  for (const std::size_t kept : names) {
-    sets.push_back(all);
-    std::erase(sets.back(), kept);
-  }
-  if (names.size() > 1) {
-    sets.push_back(all);
-    for (const std::size_t kept : names) std::erase(sets.back(), kept);
-  }
-  for (const std::vector<std::size_t>& these : sets)
-    for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
-      if (!these.empty() && put_one_form_for(these, corners(geometry_, flank))) return true;
-  return false;
-}
-
 /// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
 /// either side, and levels, were what it is made of.
 bool PartLoop::tell_as_dish_of_all_flanks() {
@@ -420,7 +374,9 @@ void PartLoop::tell_as_one_form() {
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector() || tell_as_drift() || tell_as_corner() || tell_as_dish_of_all_flanks())
+    if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() || tell_as_field() ||
+        tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
+        tell_as_alternating_wave())
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names and waves around the gear that are parts of one thing: of a field in the plane, of waves
+// over the profile that change sign, of bows that come and go once around.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+constexpr double kMiddle = 0.5, kEnd = 1.0;  // of profile and face
+
+/// What an effect does in the middle of the profile at a height of every tooth's flanks.
+Eigen::VectorXd around(const FlankGeometry& geometry, const PointFit& fit, std::size_t e,
+                       double height) {
+  const Effect& effect = fit.effects()[e];
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  Eigen::VectorXd values(2 * geometry.teeth()), columns(effect.columns());
+  const auto b =
+      fit.coefficients().segment(fit.first_column(static_cast<int>(e)), effect.columns());
+  for (int tooth = 1; tooth <= geometry.teeth(); ++tooth)
+    for (const int side : {0, 1}) {
+      const Place place = geometry.on_flank(tooth, side == 0 ? 1 : -1, low + kMiddle * (high - low),
+                                            height * geometry.face_width_mm());
+      effect.evaluate(geometry, place, columns.data());
+      values[2 * (tooth - 1) + side] = columns.dot(b);
+    }
+  return values;
+}
+
+/// True for a wave of the teeth of such an order that runs neither over profile nor face.
+bool is_level_of_order(const Effect& effect, double order) {
+  const NeedsToBeSeen needs = effect.needs();
+  return effect.order() == order && effect.columns() == 2 && !needs.along_profile &&
+         !needs.along_face;
+}
+
+}  // namespace
+
+/// Shifts by the square of the place are an eccentricity and waves of orders 1 and 3, of radius and
+/// pitch: together they are tried against such a field, beside the eccentricity or without it.
+bool PartLoop::tell_as_field() {
+  std::vector<std::size_t> all;
+  std::set<double> orders;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const double order = effect.order();
+    if (effect.flank != FlankChoice::kBoth || effect.needs().along_face ||
+        !(order == 1.0 || order == 3.0) || effect.columns() != 2 ||
+        effect.family->tells_order_along_profile)
+      continue;
+    all.push_back(e);
+    orders.insert(order);
+  }
+  if (all.size() < 3 || orders.size() < 2) return false;
+  std::vector<Effect> fields;
+  for (const double own_power : {2.0, 1.0, 0.0})
+    fields.push_back({find_family("unnamed_field"), FlankChoice::kBoth, {own_power}});
+  for (const std::size_t kept : all)
+    if (effects_[kept].family->displacement_mm) {
+      std::vector<std::size_t> rest = all;
+      std::erase(rest, kept);
+      if (put_one_form_for(all, fields) || put_one_form_for(rest, fields)) return true;
+    }
+  return put_one_form_for(all, fields);
+}
+
+/// A wave over the profile whose sign changes from tooth to tooth (a cutter of two starts) is every
+/// other tooth's forms and orders that are half a multiple of the teeth.
+bool PartLoop::tell_as_alternating_wave() {
+  const int z = geometry_.teeth();
+  if (z % 2 != 0) return false;
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    std::vector<std::size_t> these;
+    bool alternates = false, bends = false;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+      const Effect& effect = effects_[e];
+      const bool alternation = effect.family == find_family("unnamed_alternation");
+      const bool order = effect.family->tells_order_along_profile &&
+                         std::remainder(effect.order(), z) != 0.0 &&
+                         std::remainder(2.0 * effect.order(), z) == 0.0;
+      if (!(alternation || order) || (flank != FlankChoice::kBoth && effect.flank != flank))
+        continue;
+      these.push_back(e);
+      alternates = alternates || alternation;
+      bends = bends || order || effect.shape[0] > 0.0;
+    }
+    if (!alternates || !bends || these.size() < 2) continue;
+    std::vector<Effect> waves;
+    for (double over_profile = 0.5; over_profile < 6.0; over_profile += 0.1)
+      waves.push_back({find_family("unnamed_marks"), flank, {over_profile, 0.0, 0.5 * z}});
+    if (put_one_form_for(these, waves)) return true;
+  }
+  return false;
+}
+
+/// Orders that are a half or a third of the teeth's multiples, beside teeth that differ by turns,
+/// and orders near a multiple that are a slower wave's over the profile: no machine's.
+void PartLoop::tell_ghosts_of_teeth() {
+  const double z = geometry_.teeth();
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!effects_[e].family->tells_order_along_profile) continue;
+    const EffectFamily* form = form_instead(e);
+    if (form == nullptr) continue;
+    const double order = effects_[e].order(), off = std::abs(std::remainder(order, z));
+    const bool part = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
+      const bool turns = other.family == find_family("unnamed_alternation") ||
+                         other.family == find_family("unnamed_comb") ||
+                         (other.family == find_family("unnamed_marks") && other.shape[2] != 0.0);
+      if (turns)
+        return off > 0.0 &&
+               (std::remainder(2.0 * order, z) == 0.0 || std::remainder(3.0 * order, z) == 0.0);
+      return other.is_term() && !other.family->tells_order_along_profile && off > 0.0 &&
+             other.order() == off && other.needs().along_profile;
+    });
+    if (part) effects_[e].family = form;
+  }
+}
+
+/// A bow over the face that comes and goes around the gear and is none in the middle of the face
+/// has a level of its own there, which is no wave of the pitch or the radius.
+void PartLoop::tell_levels_of_bowed_waves() {
+  constexpr double kLeast = 0.2, kMost = 0.8;  // of a bow v^2 - 1/3: a half
+  constexpr double kInStep = 0.85;
+  if (effects_.empty()) return;
+  const auto fit = fit_of(effects_);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const EffectFamily* form = form_instead(e);
+    const Effect& wave = effects_[e];
+    if (form == nullptr || wave.family->displacement_mm || !(wave.order() > 0.0) ||
+        !is_level_of_order(wave, wave.order()))
+      continue;
+    const Eigen::VectorXd level = around(geometry_, *fit, e, kMiddle);
+    for (std::size_t b = 0; b < effects_.size(); ++b) {
+      const Effect& bow = effects_[b];
+      if (!bow.is_term() || bow.order() != wave.order() || bow.columns() != 2 ||
+          !bow.needs().along_face || bow.needs().along_profile)
+        continue;
+      const Eigen::VectorXd middle = around(geometry_, *fit, b, kMiddle),
+                            end = around(geometry_, *fit, b, kEnd);
+      // (an end of a bow's polynomial is twice as high as its middle is low)
+      const double share = level.norm() / end.norm();
+      if (middle.dot(end) < 0.0 && share > kLeast && share < kMost &&
+          level.dot(end) > kInStep * level.norm() * end.norm()) {
+        effects_[e].family = form;
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace trueflank::loop
