@@ -41,6 +41,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_corner(),
         unnamed_product(),
         unnamed_band(),
+        unnamed_strip(),
         unnamed_waviness(),
         unnamed_waves_from(),
         unnamed_waves_dying(),

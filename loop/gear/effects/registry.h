@@ -59,6 +59,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_corner();
 [[nodiscard]] EffectFamily unnamed_product();
 [[nodiscard]] EffectFamily unnamed_band();
+[[nodiscard]] EffectFamily unnamed_strip();
 [[nodiscard]] EffectFamily unnamed_waviness();
 [[nodiscard]] EffectFamily unnamed_waves_from();
 [[nodiscard]] EffectFamily unnamed_waves_dying();

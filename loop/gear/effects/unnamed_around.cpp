@@ -140,14 +140,11 @@ EffectFamily unnamed_levelling() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double z = g.teeth(), within = shape[5];
     double since = teeth_since(g, p.tooth, static_cast<int>(shape[0]));
-    if (shape[4] != 0.0) since = z - 1.0 - since;
-    // Of the whole rise, about its mean over the teeth.
-    const double whole = -std::expm1(-z / within);
-    const double mean = 1.0 + whole / (z * std::expm1(-1.0 / within));
-    const double part = -std::expm1(-since / within) - mean;
-    c[0] = (shape[4] != 0.0 ? -part : part) / whole * form_of_tooth(g, p, shape, 1);
+    if (shape[4] != 0.0) since = g.teeth() - 1.0 - since;
+    // What levels off rises to nothing, what grows rises from it.
+    const double sign = shape[4] != 0.0 ? 1.0 : -1.0;
+    c[0] = sign * std::exp(-since / shape[5]) * form_of_tooth(g, p, shape, 1);
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes = begun_beside(g, shape);

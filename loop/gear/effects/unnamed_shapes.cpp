@@ -68,6 +68,31 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
   return f;
 }
 
+/// The same, of opposite signs on the two flanks where a fourth shape value is not 0.
+EffectFamily on_either_flank(EffectFamily f) {
+  constexpr std::size_t kOpposite = 3;
+  const auto opposite = [](const EffectShape& shape) {
+    return shape.size() > kOpposite && shape[kOpposite] != 0.0;
+  };
+  f.shape_names.emplace_back("opposite_flanks");
+  f.term_keys.push_back({"flanks", TermKey::Kind::kWord, {"equal", "opposite"}});
+  f.evaluate = [evaluate = f.evaluate, opposite](const FlankGeometry& g, const Place& p,
+                                                 const EffectShape& shape, double* c) {
+    evaluate(g, p, shape, c);
+    if (p.side < 0 && opposite(shape)) c[0] = -c[0];
+  };
+  f.nearby = [nearby = f.nearby](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes = nearby(g, shape);
+    for (EffectShape& beside : shapes)
+      for (std::size_t k = beside.size(); k < shape.size(); ++k) beside.push_back(shape[k]);
+    return shapes;
+  };
+  f.words = [words = f.words, opposite](const EffectShape& shape, FlankChoice flank) {
+    return words(shape, flank) + (opposite(shape) ? ", opposite on the two flanks" : "");
+  };
+  return f;
+}
+
 double bell(double off, double width) { return std::exp(-off * off / (width * width)); }
 
 /// Flat at its place and nothing beyond twice the width: of a burr, which ends.
@@ -133,7 +158,7 @@ EffectFamily unnamed_kink() {
            at_place(shape[0], shape[1]) + ", straight on in another direction" +
            towards(shape[0], shape[2]);
   };
-  return f;
+  return on_either_flank(std::move(f));
 }
 
 /// Flat to its place, and from there on a parabola: 1 at the end it bends towards. Towards both
@@ -174,7 +199,7 @@ EffectFamily unnamed_bend() {
            at_place(shape[0], shape[1]) + ", and curved from there on" +
            (shape[2] == 0.0 ? ", and as far from the other end" : towards(shape[0], shape[2]));
   };
-  return f;
+  return on_either_flank(std::move(f));
 }
 
 /// 1 at an end, and dying away from it; the same at both ends (0).
@@ -206,7 +231,7 @@ EffectFamily unnamed_rise() {
            (shape[2] == 0.0 ? " towards both ends" : towards(shape[0], shape[2])) +
            printed(", within %.2g mm", shape[1]) + (shape[0] != 0.0 ? "" : " of roll length");
   };
-  return f;
+  return on_either_flank(std::move(f));
 }
 
 /// A hollow or swelling that ends over the profile and over the face.
@@ -267,7 +292,46 @@ EffectFamily unnamed_band() {
     return "the same on every tooth, a groove or ridge " + over(shape[0]) + " " +
            at_place(shape[0], shape[1]) + printed(", %.2g mm to either side", shape[2]);
   };
-  return f;
+  return on_either_flank(std::move(f));
+}
+
+/// 1 between two places, with steep sides.
+EffectFamily unnamed_strip() {
+  EffectFamily f = along_flank(
+      "unnamed_strip", {"along", "from_mm", "to_mm"},
+      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+        const double at = along(shape[0], p);
+        return at > stands_at(g, shape[0], shape[1]) && at <= stands_at(g, shape[0], shape[2])
+                   ? 1.0
+                   : 0.0;
+      });
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const double range = range_mm(g, shape[0]);
+    const auto moved = [&](double place_mm, double share) {
+      const double at = stands_at(g, shape[0], place_mm) + share * range;
+      return shape[0] != 0.0 ? at : 2.0 * g.on_flank(1, 1, at, 0.0).radius_mm;
+    };
+    for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})
+      for (const double sign : {-1.0, 1.0}) {
+        EffectShape lower = shape, upper = shape;
+        lower[1] = moved(shape[1], sign * share);
+        upper[2] = moved(shape[2], sign * share);
+        for (EffectShape& beside : {std::ref(lower), std::ref(upper)})
+          if (stands_at(g, beside[0], beside[1]) < stands_at(g, beside[0], beside[2]))
+            shapes.push_back(beside);
+      }
+    return shapes;
+  };
+  f.term_keys = {kAlong, number("from_mm"), number("to_mm")};
+  f.words = [](const EffectShape& shape, FlankChoice) {
+    return "the same on every tooth, a strip " + over(shape[0]) + " " +
+           (shape[0] != 0.0
+                ? printed("between heights of %.3g and %.3g mm", shape[1], shape[2])
+                : printed("between diameters of %.5g and %.5g mm", shape[1], shape[2])) +
+           " stands out or is worn, with steep sides";
+  };
+  return on_either_flank(std::move(f));
 }
 
 EffectFamily unnamed_waviness() {

@@ -155,6 +155,7 @@ class PartLoop {
   [[nodiscard]] std::vector<std::vector<std::size_t>> crossed_sets(int fewest_values) const;
   [[nodiscard]] bool tell_as_corner();
   [[nodiscard]] bool tell_as_product();
+  [[nodiscard]] bool tell_as_form_of_other_flanks(int face);
   [[nodiscard]] bool tell_as_field();
   [[nodiscard]] bool tell_as_alternating_wave();
   [[nodiscard]] bool tell_as_drift_aside();

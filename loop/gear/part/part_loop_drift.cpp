@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/remainder_around.h"
 
 namespace trueflank::loop {
@@ -31,6 +32,22 @@ bool is_wave_of(const Effect& effect, const Course& course) {
   const NeedsToBeSeen needs = effect.needs();
   return course.profile == 0.0 && course.face == 0.0 && effect.family->doubt_share > 0.0 &&
          !needs.along_profile && !needs.along_face;
+}
+
+/// The same on every tooth and of that course: the mean of what drifts to nothing.
+bool is_level_of(const FlankGeometry& geometry, const Effect& effect, const Course& course) {
+  constexpr double kAlike = 0.99;
+  if (effect.columns() != 1 || effect.order() != 0.0 || effect.family->local ||
+      runs_of(geometry, effect, Flanks::kOfEither) == Runs::kOtherwise)
+    return false;
+  const Eigen::VectorXd own = over_a_tooth(geometry, effect).col(0);
+  for (const double opposite : {0.0, 1.0}) {
+    const Effect form{
+        find_family("unnamed"), effect.flank, {course.profile, course.face, 0.0, opposite}};
+    const Eigen::VectorXd level = over_a_tooth(geometry, form).col(0);
+    if (std::abs(own.dot(level)) > kAlike * own.norm() * level.norm()) return true;
+  }
+  return false;
 }
 
 /// Some neighbours that stand out or aside are the beginning of what levels off.
@@ -184,29 +201,38 @@ bool PartLoop::tell_as_drift_aside() {
 bool PartLoop::tell_as_drift() {
   for (const Course& course :
        {Course{}, Course{1.0, 0.0}, Course{0.0, 1.0}, Course{2.0, 0.0}, Course{0.0, 2.0}}) {
-    std::vector<std::size_t> waves, teeth;
+    std::vector<std::size_t> waves, teeth, levels;
     std::set<double> orders;
+    bool drifts = false;
     for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
       const bool ramp = is_ramp_of(effects_[e], course), sector = is_sector_of(effects_[e], course);
       if (ramp || sector || is_wave_of(effects_[e], course)) {
         waves.push_back(e);
         orders.insert(ramp ? 0.0 : sector ? -1.0 : effects_[e].order());
+        drifts = drifts || ramp;
       } else if (effects_[e].family->local && effects_[e].columns() == 1) {
         teeth.push_back(e);
+      } else if (is_level_of(geometry_, effects_[e], course)) {
+        levels.push_back(e);
       }
     }
-    if (orders.size() < 2) continue;
+    const bool several = orders.size() > 1;
+    if (!several && !(drifts && !levels.empty())) continue;
     for (const bool evenly : {true, false}) {
+      if (evenly && !several) continue;
       const std::vector<std::vector<Effect>> forms =
           drifts_in_place_of(waves, course.profile, course.face, evenly);
-      for (const bool with_teeth : {true, false}) {
-        if (with_teeth && teeth.empty()) continue;
-        std::vector<std::size_t> these = waves;
-        if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
-        std::sort(these.begin(), these.end());
-        for (const std::vector<Effect>& drifts : forms)
-          if (!drifts.empty() && put_one_form_for(these, drifts)) return true;
-      }
+      for (const bool with_teeth : {true, false})
+        for (const bool with_levels : {true, false}) {
+          if ((with_teeth && teeth.empty()) || (with_levels && (evenly || levels.empty())))
+            continue;
+          std::vector<std::size_t> these = waves;
+          if (with_teeth) these.insert(these.end(), teeth.begin(), teeth.end());
+          if (with_levels) these.insert(these.end(), levels.begin(), levels.end());
+          std::sort(these.begin(), these.end());
+          for (const std::vector<Effect>& drifts_of : forms)
+            if (!drifts_of.empty() && put_one_form_for(these, drifts_of)) return true;
+        }
     }
   }
   return false;

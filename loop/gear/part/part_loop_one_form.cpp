@@ -49,6 +49,22 @@ std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double fac
   return forms;
 }
 
+/// Strips between two places, to start from.
+std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  constexpr int kParts = 12;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto at = [&](int part) {
+    const double share = static_cast<double>(part) / kParts;
+    return face != 0.0 ? share * geometry.face_width_mm()
+                       : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+  };
+  std::vector<Effect> forms;
+  for (int from = 1; from < kParts; ++from)
+    for (int to = from + 1; to < kParts; ++to)
+      forms.push_back({find_family("unnamed_strip"), flank, {face, at(from), at(to)}});
+  return forms;
+}
+
 /// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
 /// an end, and bands where several effects may be one.
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
@@ -74,6 +90,8 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
       for (const double width : {0.1, 0.2, 0.35})
         forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
   }
+  if (bands)
+    for (Effect& strip : strips(geometry, face, flank)) forms.push_back(std::move(strip));
   return forms;
 }
 
@@ -108,7 +126,7 @@ std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, Flank
       face != 0.0 ? geometry.face_width_mm()
                   : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
   std::vector<Effect> waves;
-  for (const double lengths : {0.7, 0.85, 1.0, 1.2, 1.45})
+  for (const double lengths : {0.3, 0.36, 0.43, 0.5, 0.59, 0.7, 0.85, 1.0, 1.2, 1.45})
     waves.push_back({find_family("unnamed_waviness"), flank, {face, lengths * range_mm}});
   return waves;
 }
@@ -285,6 +303,55 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
   return false;
 }
 
+/// A form of one flank, or of both in opposite directions, along the profile (0) or the face (1),
+/// for what runs that way on any flank: slopes that turn the section and bows of either flank were
+/// what it is made of. Or waves of one length on either flank, each in a phase of its own.
+bool PartLoop::tell_as_form_of_other_flanks(int face) {
+  constexpr int kFewestValues = 3, kValuesOfWaves = 6;
+  const Runs runs = face == 0 ? Runs::kOverProfile : Runs::kOverFace;
+  std::vector<std::size_t> all, levels;
+  bool one_flank = false, both = false;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Runs own = runs_of(geometry_, effects_[e], Flanks::kOfEither);
+    const bool on_one = effects_[e].flank != FlankChoice::kBoth;
+    if (own == Runs::kNowhere) levels.push_back(e);
+    if (own != runs) continue;
+    all.push_back(e);
+    one_flank = one_flank || on_one;
+    both = both || (!on_one && runs_of(geometry_, effects_[e]) == Runs::kOtherwise);
+  }
+  std::vector<Effect> own;
+  for (const std::size_t e : all) own.push_back(effects_[e]);
+  if (all.size() < 2 || !(one_flank || both) || values_of(own, true) < kFewestValues) return false;
+  std::vector<std::vector<std::size_t>> sets{all};
+  if (!levels.empty()) {
+    sets.insert(sets.begin(), all);
+    sets.front().insert(sets.front().end(), levels.begin(), levels.end());
+    std::sort(sets.front().begin(), sets.front().end());
+  }
+  for (const std::size_t e : all)
+    if (effects_[e].family->named && all.size() > 2) {
+      sets.push_back(all);
+      std::erase(sets.back(), e);
+    }
+  std::vector<Effect> opposite;
+  for (Effect form : forms_along(geometry_, face, FlankChoice::kBoth, true)) {
+    form.shape.push_back(1.0);
+    opposite.push_back(std::move(form));
+  }
+  for (const std::vector<std::size_t>& these : sets) {
+    if (put_one_form_for(these, opposite)) return true;
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+      if (one_flank && put_one_form_for(these, forms_along(geometry_, face, flank, true)))
+        return true;
+  }
+  if (values_of(own, true) <= kValuesOfWaves) return false;
+  for (const Effect& right : long_waves(geometry_, face, FlankChoice::kRight))
+    if (put_one_form_for(all, {{right.family, FlankChoice::kLeft, right.shape}}, {right}))
+      return true;
+  return false;
+}
+
 /// A hollow of every flank, for all that is the same on every tooth: waves across the flanks of
 /// either side, and levels, were what it is made of.
 bool PartLoop::tell_as_dish_of_all_flanks() {
@@ -380,14 +447,15 @@ void PartLoop::tell_as_one_form() {
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
       std::array<std::vector<std::size_t>, 2> along;  // profile, face
-      std::vector<std::size_t> all_over;
+      std::vector<std::size_t> all_over, with_waves;
       for (std::size_t e = told; e < effects_.size(); ++e) {
         if (effects_[e].flank != flank) continue;
         const Runs runs = runs_of(geometry_, effects_[e]);
         if (runs == Runs::kOverProfile) along[0].push_back(e);
         if (runs == Runs::kOverFace) along[1].push_back(e);
-        if (runs != Runs::kOtherwise && runs != Runs::kNowhere && effects_[e].columns() == 1)
-          all_over.push_back(e);
+        if (runs == Runs::kOtherwise || runs == Runs::kNowhere) continue;
+        with_waves.push_back(e);
+        if (effects_[e].columns() == 1) all_over.push_back(e);
       }
       const auto whole = [&](std::size_t e) { return effects_[e].columns() == 1; };
       const std::array<std::ptrdiff_t, 2> straight{
@@ -399,6 +467,10 @@ void PartLoop::tell_as_one_form() {
       constexpr int kValuesOfDish = 5;
       if (crossed && values(all_over) >= kValuesOfDish &&
           put_one_form_for(all_over, dishes(geometry_, flank)))
+        return true;
+      // (waves across the flank are crossed by themselves)
+      if (with_waves.size() > all_over.size() && values(with_waves) >= kValuesOfDish &&
+          put_one_form_for(with_waves, dishes(geometry_, flank)))
         return true;
       for (const int face : {0, 1}) {
         const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];
@@ -416,6 +488,8 @@ void PartLoop::tell_as_one_form() {
         if (tell_as_form_beside_slope(all, face, flank)) return true;
       }
     }
+    for (const int face : {0, 1})
+      if (tell_as_form_of_other_flanks(face)) return true;
     return tell_as_bow();
   };
   constexpr int kMost = 6;

@@ -7,7 +7,7 @@
 
 namespace trueflank::loop {
 
-Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
+Runs runs_of(const FlankGeometry& geometry, const Effect& effect, Flanks flanks) {
   constexpr int kMostColumns = 2;  // short waves have a cosine and a sine
   using Columns = Eigen::Matrix<double, kMostColumns, 1>;
   constexpr int kOfGrid = 9;
@@ -33,7 +33,7 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect) {
         size = std::max(size, here.cwiseAbs().maxCoeff());
         profile = std::max(profile, off(here, at(1, side, 0.5 / kOfGrid, v)));
         face = std::max(face, off(here, at(1, side, u, 0.5 / kOfGrid)));
-        if (effect.flank == FlankChoice::kBoth)
+        if (effect.flank == FlankChoice::kBoth && flanks == Flanks::kAlike)
           apart = std::max(apart, off(here, at(1, -side, u, v)));
       }
   for (int tooth = 2; tooth <= geometry.teeth(); ++tooth)

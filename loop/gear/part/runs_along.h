@@ -12,7 +12,11 @@ namespace trueflank::loop {
 /// kOtherwise: it is not alike there, comes in waves around the gear, or has more than two columns.
 enum class Runs { kNowhere, kOverProfile, kOverFace, kOverBoth, kOtherwise };
 
-[[nodiscard]] Runs runs_of(const FlankGeometry& geometry, const Effect& effect);
+/// Alike on both flanks, or (kOfEither) of either flank by itself: it may be opposite on the other.
+enum class Flanks { kAlike, kOfEither };
+
+[[nodiscard]] Runs runs_of(const FlankGeometry& geometry, const Effect& effect,
+                           Flanks flanks = Flanks::kAlike);
 
 /// What an effect does on both flanks of the first tooth: a column for each of its own, a row for
 /// each place of an even grid, the flank with side 1 first.
