@@ -38,6 +38,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_bend(),
         unnamed_rise(),
         unnamed_dish(),
+        unnamed_patch(),
         unnamed_corner(),
         unnamed_product(),
         unnamed_band(),

@@ -56,6 +56,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_bend();
 [[nodiscard]] EffectFamily unnamed_rise();
 [[nodiscard]] EffectFamily unnamed_dish();
+[[nodiscard]] EffectFamily unnamed_patch();
 [[nodiscard]] EffectFamily unnamed_corner();
 [[nodiscard]] EffectFamily unnamed_product();
 [[nodiscard]] EffectFamily unnamed_band();

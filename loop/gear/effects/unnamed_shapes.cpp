@@ -68,11 +68,10 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
   return f;
 }
 
-/// The same, of opposite signs on the two flanks where a fourth shape value is not 0.
+/// The same, of opposite signs on the two flanks where one more shape value is not 0.
 EffectFamily on_either_flank(EffectFamily f) {
-  constexpr std::size_t kOpposite = 3;
-  const auto opposite = [](const EffectShape& shape) {
-    return shape.size() > kOpposite && shape[kOpposite] != 0.0;
+  const auto opposite = [own = f.shape_names.size()](const EffectShape& shape) {
+    return shape.size() > own && shape[own] != 0.0;
   };
   f.shape_names.emplace_back("opposite_flanks");
   f.term_keys.push_back({"flanks", TermKey::Kind::kWord, {"equal", "opposite"}});
@@ -234,15 +233,21 @@ EffectFamily unnamed_rise() {
   return on_either_flank(std::move(f));
 }
 
-/// A hollow or swelling that ends over the profile and over the face.
-EffectFamily unnamed_dish() {
-  EffectFamily f =
-      described("unnamed_dish", {"diameter_mm", "height_mm", "half_profile_mm", "half_mm"});
+namespace {
+
+/// A hollow or swelling about a place of the flank, a function of how far off it is over profile
+/// and face, in half lengths.
+template <class Function>
+EffectFamily about_a_place(const std::string& id, Function function, const std::string& how) {
+  EffectFamily f = described(id, {"diameter_mm", "height_mm", "half_profile_mm", "half_mm"});
   f.one_flank_too = true;
-  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    c[0] = p.surface == Surface::kFlank ? bell(p.roll_mm - stands_at(g, 0.0, shape[0]), shape[2]) *
-                                              bell(p.z_mm - shape[1], shape[3])
-                                        : 0.0;
+  f.same_on_every_tooth = [](const EffectShape&) { return true; };
+  f.evaluate = [function](const FlankGeometry& g, const Place& p, const EffectShape& shape,
+                          double* c) {
+    c[0] = p.surface == Surface::kFlank
+               ? function((p.roll_mm - stands_at(g, 0.0, shape[0])) / shape[2],
+                          (p.z_mm - shape[1]) / shape[3])
+               : 0.0;
   };
   f.needs = [](const EffectShape&) {
     return NeedsToBeSeen{.along_profile = true, .along_face = true};
@@ -266,13 +271,38 @@ EffectFamily unnamed_dish() {
   };
   f.term_keys = {number("diameter_mm"), number("height_mm"), number("half_profile_mm"),
                  number("half_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [how](const EffectShape& shape, FlankChoice) {
     return printed(
-        "the same on every tooth, a hollow or swelling of the flank at a diameter of %.5g mm and "
-        "a height of %.3g mm, %.2g mm of roll length and %.2g mm of the face to either side",
-        shape[0], shape[1], shape[2], shape[3]);
+               "the same on every tooth, a hollow or swelling of the flank at a diameter of %.5g "
+               "mm "
+               "and a height of %.3g mm, %.2g mm of roll length and %.2g mm of the face to either "
+               "side",
+               shape[0], shape[1], shape[2], shape[3]) +
+           how;
   };
   return f;
+}
+
+}  // namespace
+
+/// Ends over the profile and over the face by itself.
+EffectFamily unnamed_dish() {
+  return about_a_place(
+      "unnamed_dish",
+      [](double profile, double face) {
+        return std::exp(-profile * profile) * std::exp(-face * face);
+      },
+      "");
+}
+
+/// A cap with an edge: what a ball or a drum lays open.
+EffectFamily unnamed_patch() {
+  return about_a_place(
+      "unnamed_patch",
+      [](double profile, double face) {
+        return std::max(0.0, 1.0 - profile * profile - face * face);
+      },
+      ", with an edge there");
 }
 
 EffectFamily unnamed_band() {
@@ -295,41 +325,52 @@ EffectFamily unnamed_band() {
   return on_either_flank(std::move(f));
 }
 
-/// 1 between two places, with steep sides.
+/// 1 between two places, with sides over a length.
 EffectFamily unnamed_strip() {
-  EffectFamily f = along_flank(
-      "unnamed_strip", {"along", "from_mm", "to_mm"},
-      [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
-        const double at = along(shape[0], p);
-        return at > stands_at(g, shape[0], shape[1]) && at <= stands_at(g, shape[0], shape[2])
-                   ? 1.0
-                   : 0.0;
-      });
+  EffectFamily f =
+      along_flank("unnamed_strip", {"along", "from_mm", "to_mm", "side_mm"},
+                  [](const FlankGeometry& g, const Place& p, const EffectShape& shape) {
+                    const double at = along(shape[0], p);
+                    const auto beyond = [&](double place_mm) {
+                      return (at - stands_at(g, shape[0], place_mm)) / shape[3];
+                    };
+                    return 1.0 / ((1.0 + std::exp(-4.0 * beyond(shape[1]))) *
+                                  (1.0 + std::exp(4.0 * beyond(shape[2]))));
+                  });
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
-    const double range = range_mm(g, shape[0]);
+    const double range = std::abs(range_mm(g, shape[0]));
     const auto moved = [&](double place_mm, double share) {
       const double at = stands_at(g, shape[0], place_mm) + share * range;
       return shape[0] != 0.0 ? at : 2.0 * g.on_flank(1, 1, at, 0.0).radius_mm;
     };
+    const auto add = [&](EffectShape beside) {
+      if (stands_at(g, beside[0], beside[1]) < stands_at(g, beside[0], beside[2]))
+        shapes.push_back(std::move(beside));
+    };
     for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})
-      for (const double sign : {-1.0, 1.0}) {
-        EffectShape lower = shape, upper = shape;
-        lower[1] = moved(shape[1], sign * share);
-        upper[2] = moved(shape[2], sign * share);
-        for (EffectShape& beside : {std::ref(lower), std::ref(upper)})
-          if (stands_at(g, beside[0], beside[1]) < stands_at(g, beside[0], beside[2]))
-            shapes.push_back(beside);
-      }
+      for (const double sign : {-1.0, 1.0})
+        for (const std::size_t k : {1U, 2U}) {
+          EffectShape beside = shape;
+          beside[k] = moved(shape[k], sign * share);
+          add(std::move(beside));
+        }
+    constexpr double kSteepest = 0.005, kFlattest = 0.25;  // of the range
+    for (const double times : {0.5, 0.7, 0.87, 1.15, 1.43, 2.0}) {
+      EffectShape beside = shape;
+      beside[3] = std::clamp(times * shape[3], kSteepest * range, kFlattest * range);
+      if (beside != shape) add(std::move(beside));
+    }
     return shapes;
   };
-  f.term_keys = {kAlong, number("from_mm"), number("to_mm")};
+  f.term_keys = {kAlong, number("from_mm"), number("to_mm"), number("side_mm")};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return "the same on every tooth, a strip " + over(shape[0]) + " " +
            (shape[0] != 0.0
                 ? printed("between heights of %.3g and %.3g mm", shape[1], shape[2])
                 : printed("between diameters of %.5g and %.5g mm", shape[1], shape[2])) +
-           " stands out or is worn, with steep sides";
+           printed(" stands out or is worn, with sides of %.2g mm", shape[3]) +
+           (shape[0] != 0.0 ? "" : " of roll length");
   };
   return on_either_flank(std::move(f));
 }

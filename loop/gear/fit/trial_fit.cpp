@@ -39,7 +39,8 @@ void TriedColumns::keep(const Effect& effect, const Eigen::MatrixXd& columns) {
 }
 
 TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-                   std::vector<Effect> effects, std::size_t stride, TriedColumns* tried)
+                   std::vector<Effect> effects, std::size_t stride, TriedColumns* tried,
+                   FlankCells cells)
     : geometry_(geometry), table_(table), effects_(std::move(effects)), tried_(tried) {
   trace_weight_.assign(static_cast<std::size_t>(table.traces), 0.0);
   for (std::size_t i = 0; i < table.rows.size(); i += stride) {
@@ -51,7 +52,7 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
     rows_.push_back({static_cast<std::uint32_t>(i), trace, std::sqrt(weight)});
     if (trace >= 0) trace_weight_[static_cast<std::size_t>(trace)] += weight;
   }
-  find_alike();
+  find_alike(cells);
   const NuisanceColumns nuisance(geometry, table);
   Eigen::Index columns = nuisance.count();
   for (const Effect& effect : effects_) {
@@ -82,7 +83,7 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   std::vector<std::size_t> all(effects_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   put_columns(all);
-  if (alike_) {
+  if (has_exact_kinds()) {
     gram_ = Eigen::MatrixXd::Zero(columns + 1, columns + 1);
     gram_(columns, columns) = columns_.col(columns).squaredNorm();
     // (nuisance columns are of scans, whose rows are not alike)
@@ -93,11 +94,13 @@ TrialFit::TrialFit(const FlankGeometry& geometry, const Observations& table, con
   solve();
 }
 
-/// Of tables without scans, where it is worth it.
-void TrialFit::find_alike() {
+/// Where it is worth it: of traces, and of scans in cells.
+void TrialFit::find_alike(FlankCells cells) {
   constexpr std::size_t kFewestOfAKind = 4;
-  if (!table_.points_mm.empty()) return;
-  AlikeRows alike = alike_rows(table_, row_numbers_);
+  const bool scan = !table_.points_mm.empty();
+  if (scan && cells.profile == 0) return;
+  AlikeRows alike = scan ? rows_of_cells(geometry_, table_, row_numbers_, cells)
+                         : alike_rows(table_, row_numbers_);
   if (alike.first.size() * kFewestOfAKind > rows_.size()) return;
   kind_weight_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(alike.first.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -106,7 +109,7 @@ void TrialFit::find_alike() {
   // Where kinds are few, their products less zeros are one matrix.
   constexpr std::size_t kWorthIt = 8;
   const std::size_t kinds = alike_->first.size();
-  if (kinds * kinds > kWorthIt * rows_.size()) return;
+  if (scan || kinds * kinds > kWorthIt * rows_.size()) return;
   const Eigen::Index n = kind_weight_.size();
   Eigen::MatrixXd of_traces = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(trace_weight_.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -170,7 +173,10 @@ TrialFit::Columns TrialFit::short_columns_of(const Effect& effect) const {
 }
 
 Eigen::MatrixXd TrialFit::columns_of(const Effect& effect) const {
-  return full(short_columns_of(effect));
+  if (has_exact_kinds()) return full(short_columns_of(effect));
+  Eigen::MatrixXd columns = values_at(effect, row_numbers_);
+  centre(columns);
+  return columns;
 }
 
 /// Means over every trace of columns of kinds of rows: a row a trace.
@@ -318,7 +324,7 @@ void TrialFit::sum_over_kinds(Eigen::Index first, Eigen::Index count) {
 void TrialFit::put_products(const std::vector<std::size_t>& effects) {
   for (const std::size_t e : effects) {
     const Eigen::Index first = first_column_[e], count = effects_[e].columns();
-    if (is_of_kinds(effects_[e]))
+    if (has_exact_kinds() && is_of_kinds(effects_[e]))
       gram_.middleCols(first, count) =
           products_with_all({values_at(effects_[e], alike_->first), true});
     else
@@ -371,9 +377,10 @@ void TrialFit::set_shapes(const std::vector<Effect>& effects) {
 
 Eigen::VectorXd TrialFit::joint_coefficients(const std::vector<Change>& more) const {
   const Eigen::Index n = gram_.rows() - 1, m = static_cast<Eigen::Index>(more.size());
-  Columns columns{{}, std::all_of(more.begin(), more.end(), [&](const Change& change) {
-                    return is_of_kinds(change.from) && is_of_kinds(change.to);
-                  })};
+  Columns columns{
+      {}, has_exact_kinds() && std::all_of(more.begin(), more.end(), [&](const Change& change) {
+            return is_of_kinds(change.from) && is_of_kinds(change.to);
+          })};
   columns.values.resize(columns.of_kinds ? kind_weight_.size() : columns_.rows(), m);
   for_each_piece(more.size(), [&](std::size_t i) {
     const Change& change = more[i];

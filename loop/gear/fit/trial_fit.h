@@ -33,13 +33,15 @@ class TriedColumns {
 /// stay as they are, and their products, are kept. Of a fit only the residual square and the
 /// coefficients are known; no errors. With a stride only every n-th value is used.
 ///
-/// On traces most shapes that are tried are the same on every tooth. Their columns are one value for each kind
-/// of rows that differ by the tooth alone, and their products with what stands follow from sums of that over
-/// these rows.
+/// On traces most shapes that are tried are the same on every tooth. Their columns are one value
+/// for each kind of rows that differ by the tooth alone, and their products with what stands follow
+/// from sums of that over these rows. Of a scan that is done where cells are given, for shapes that
+/// are tried alone (rows_of_cells).
 class TrialFit {
  public:
   TrialFit(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
-           std::vector<Effect> effects, std::size_t stride = 1, TriedColumns* tried = nullptr);
+           std::vector<Effect> effects, std::size_t stride = 1, TriedColumns* tried = nullptr,
+           FlankCells cells = {});
 
   struct Trial {
     double square = 0.0;    ///< weighted residual square
@@ -81,8 +83,9 @@ class TrialFit {
   };
   /// Normal equations of all but one effect.
   struct Others;
-  void find_alike();
+  void find_alike(FlankCells cells);
   [[nodiscard]] bool is_of_kinds(const Effect& effect) const;
+  [[nodiscard]] bool has_exact_kinds() const { return alike_ && table_.points_mm.empty(); }
   [[nodiscard]] Eigen::MatrixXd values_at(const Effect& effect,
                                           const std::vector<std::uint32_t>& rows) const;
   [[nodiscard]] Columns short_columns_of(const Effect& effect) const;

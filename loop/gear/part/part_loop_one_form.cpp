@@ -52,6 +52,7 @@ std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double fac
 /// Strips between two places, to start from.
 std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoice flank) {
   constexpr int kParts = 12;
+  constexpr double kSides = 0.03;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const auto at = [&](int part) {
     const double share = static_cast<double>(part) / kParts;
@@ -61,7 +62,10 @@ std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoi
   std::vector<Effect> forms;
   for (int from = 1; from < kParts; ++from)
     for (int to = from + 1; to < kParts; ++to)
-      forms.push_back({find_family("unnamed_strip"), flank, {face, at(from), at(to)}});
+      forms.push_back({find_family("unnamed_strip"),
+                       flank,
+                       {face, at(from), at(to),
+                        kSides * std::abs(face != 0.0 ? geometry.face_width_mm() : high - low)}});
   return forms;
 }
 
@@ -141,15 +145,29 @@ std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank) {
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const double face_mm = geometry.face_width_mm();
   std::vector<Effect> forms;
-  for (const double u : {0.25, 0.5, 0.75})
-    for (const double v : {0.25, 0.5, 0.75})
+  for (const double u : {0.2, 0.35, 0.5, 0.65, 0.8})
+    for (const double v : {0.2, 0.35, 0.5, 0.65, 0.8})
       for (const double wide : {0.2, 0.4})
         for (const double long_ : {0.2, 0.4})
-          forms.push_back({find_family("unnamed_dish"),
-                           flank,
-                           {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
-                            v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
+          for (const char* family : {"unnamed_dish", "unnamed_patch"})
+            forms.push_back({find_family(family),
+                             flank,
+                             {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
+                              v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
   return forms;
+}
+
+/// Cells in which forms like the last of these are tried in scans: small over what they run along.
+FlankCells cells_for(const FlankGeometry& geometry, const std::vector<Effect>& effects) {
+  constexpr int kAlong = 600, kBoth = 32;
+  const Effect& form = effects.back();
+  if (!form.is_term() || form.columns() != 1 || !form.family->same_on_every_tooth ||
+      !form.family->same_on_every_tooth(form.shape))
+    return {};
+  const Runs runs = runs_of(geometry, form, Flanks::kOfEither);
+  if (runs == Runs::kOverProfile) return {kAlong, 1};
+  if (runs == Runs::kOverFace) return {1, kAlong};
+  return {kBoth, kBoth};
 }
 
 }  // namespace
@@ -170,7 +188,7 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
     for (; next < forms.size() && forms[next].family == family; ++next)
       shapes.push_back(forms[next].shape);
     rest.back() = forms[first];
-    const TrialFit fit(geometry_, table_, patches_, rest);
+    const TrialFit fit(geometry_, table_, patches_, rest, 1, nullptr, cells_for(geometry_, rest));
     const std::vector<TrialFit::Trial> trials = fit.with_shapes(at, shapes, 1e300);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (trials[i].retained < kToldApart || !(trials[i].square < least)) continue;
@@ -210,7 +228,7 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                    [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
   // Places and widths are sought where the best on the grid takes out most of what these effects
   // do: the share of those that come to stand for them was 0.79 and more.
-  constexpr double kOnTheGrid = 0.6;
+  constexpr double kOnTheGrid = 0.5;
   const double now = fit_of(effects_)->residual_square();
   const double none = fit_of(others)->residual_square() - now;
   const double most =
@@ -238,8 +256,15 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
       at_both_ends && std::any_of(own.begin(), own.end(), [](const Effect& e) {
         return e.is_term() && e.family->form_word.empty();
       });
-  const double clearly = beside_a_form ? kBesideAForm : kClearly;
-  if (gain < clearly - kValue * spared - doubt) return false;
+  // Several forms without a name prove nothing against one that says the same with fewer values.
+  const bool nameless =
+      own.size() > 1 && spared > 0 && !with.back().family->named &&
+      std::none_of(own.begin(), own.end(), [](const Effect& e) { return e.family->named; });
+  const double clearly = beside_a_form || nameless ? kBesideAForm : kClearly;
+  const double asked = clearly - kValue * spared;
+  if (gain <
+      (nameless ? std::max(asked, std::min(0.0, kClearly - kValue * spared)) : asked) - doubt)
+    return false;
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)
