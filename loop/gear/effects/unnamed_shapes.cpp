@@ -344,8 +344,16 @@ EffectFamily unnamed_strip() {
       const double at = stands_at(g, shape[0], place_mm) + share * range;
       return shape[0] != 0.0 ? at : 2.0 * g.on_flank(1, 1, at, 0.0).radius_mm;
     };
+    // (one that reaches an end is a step)
+    constexpr double kEnds = 0.06;
+    const double low = end_mm(g, shape[0], -1.0), high = end_mm(g, shape[0], 1.0);
+    const auto share_of = [&](double place_mm) {
+      return (stands_at(g, shape[0], place_mm) - low) / (high - low);
+    };
     const auto add = [&](EffectShape beside) {
-      if (stands_at(g, beside[0], beside[1]) < stands_at(g, beside[0], beside[2]))
+      const auto [first, last] = std::minmax({share_of(beside[1]), share_of(beside[2])});
+      if (first > kEnds && last < 1.0 - kEnds &&
+          stands_at(g, beside[0], beside[1]) < stands_at(g, beside[0], beside[2]))
         shapes.push_back(std::move(beside));
     };
     for (const double share : {0.05, 0.02, 0.01, 0.005, 0.002})

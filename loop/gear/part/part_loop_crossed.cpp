@@ -6,30 +6,11 @@
 #include <vector>
 
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 
 namespace trueflank::loop {
-
-namespace {
-
-/// Corners to start from.
-std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
-  const double profile_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()),
-               face_mm = geometry.face_width_mm();
-  std::vector<Effect> forms;
-  for (const double tip : {0.0, 1.0})
-    for (const double upper : {0.0, 1.0})
-      for (const double over_profile : {0.35, 0.6, 1.0})
-        for (const double over_face : {0.35, 0.6, 1.0})
-          for (const double power : {1.2, 1.8})
-            forms.push_back({find_family("unnamed_corner"),
-                             flank,
-                             {tip, upper, over_profile * profile_mm, over_face * face_mm, power}});
-  return forms;
-}
-
-}  // namespace
 
 /// All that is the same on every tooth, and that less each name, and less all names; empty where
 /// nothing of it runs over profile and face at once, or it has fewer values.

@@ -8,6 +8,7 @@
 
 #include "trueflank/base/units.h"
 #include "trueflank/loop/gear/fit/trial_fit.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -35,126 +36,6 @@ bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
     sum = sum.size() == 0 ? own : Eigen::VectorXd(sum + own);
   }
   return squares > kUndo * sum.squaredNorm();
-}
-
-/// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
-std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
-                                       FlankChoice flank) {
-  const double range_mm =
-      face != 0.0 ? geometry.face_width_mm()
-                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
-  std::vector<Effect> forms;
-  for (const double within : {0.05, 0.1, 0.15})
-    forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, 0.0}});
-  return forms;
-}
-
-/// Strips between two places, to start from.
-std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoice flank) {
-  constexpr int kParts = 12;
-  constexpr double kSides = 0.03;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const auto at = [&](int part) {
-    const double share = static_cast<double>(part) / kParts;
-    return face != 0.0 ? share * geometry.face_width_mm()
-                       : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
-  };
-  std::vector<Effect> forms;
-  for (int from = 1; from < kParts; ++from)
-    for (int to = from + 1; to < kParts; ++to)
-      forms.push_back({find_family("unnamed_strip"),
-                       flank,
-                       {face, at(from), at(to),
-                        kSides * std::abs(face != 0.0 ? geometry.face_width_mm() : high - low)}});
-  return forms;
-}
-
-/// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
-/// an end, and bands where several effects may be one.
-std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
-                                bool bands) {
-  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
-  std::vector<Effect> forms;
-  for (const double within : {0.05, 0.1, 0.2, 0.4})
-    for (const double end : {-1.0, 1.0})
-      forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, end}});
-  for (Effect& form : rises_at_both_ends(geometry, face, flank)) forms.push_back(std::move(form));
-  for (double share = kFirst; share < 1.0 - 0.5 * kStep; share += kStep) {
-    const double at =
-        face != 0.0 ? share * geometry.face_width_mm()
-                    : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
-    for (const double end : {-1.0, 1.0})
-      for (const char* family : {"unnamed_kink", "unnamed_bend"})
-        forms.push_back({find_family(family), flank, {face, at, end}});
-    if (share > kNearBothEnds)
-      forms.push_back({find_family("unnamed_bend"), flank, {face, at, 0.0}});
-    if (bands)
-      for (const double width : {0.1, 0.2, 0.35})
-        forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
-  }
-  if (bands)
-    for (Effect& strip : strips(geometry, face, flank)) forms.push_back(std::move(strip));
-  return forms;
-}
-
-/// Waves over the profile, the same on every tooth, about as long as those of an order around the
-/// gear.
-std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, FlankChoice flank) {
-  std::vector<Effect> waves;
-  for (double times = 0.6; times < 1.6; times += 0.04)
-    waves.push_back({find_family("unnamed_waviness"),
-                     flank,
-                     {0.0, times * kTwoPi * geometry.base_radius_mm() / order}});
-  return waves;
-}
-
-/// Names of these effects that have a place or a width: one alone at its best shape may say it all.
-std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
-                                      const std::vector<Effect>& effects) {
-  std::vector<Effect> names;
-  for (const Effect& effect : effects) {
-    const EffectFamily& family = *effect.family;
-    if (!family.named || !family.shape_is_continuous || family.shape_is_step) continue;
-    names.push_back(effect);
-    for (const EffectShape& shape : family.shapes(geometry))
-      names.push_back({&family, effect.flank, shape});
-  }
-  return names;
-}
-
-/// One wave over about the whole length: an S.
-std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, FlankChoice flank) {
-  const double range_mm =
-      face != 0.0 ? geometry.face_width_mm()
-                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
-  std::vector<Effect> waves;
-  for (const double lengths : {0.3, 0.36, 0.43, 0.5, 0.59, 0.7, 0.85, 1.0, 1.2, 1.45})
-    waves.push_back({find_family("unnamed_waviness"), flank, {face, lengths * range_mm}});
-  return waves;
-}
-
-/// A slope over the profile (0) or the face (1), without a name.
-Effect slope_over(int face, FlankChoice flank) {
-  return {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
-}
-
-/// Hollows that end over the profile and over the face, to start from.
-std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank) {
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  const double face_mm = geometry.face_width_mm();
-  std::vector<Effect> forms;
-  for (const double u : {0.2, 0.35, 0.5, 0.65, 0.8})
-    for (const double v : {0.2, 0.35, 0.5, 0.65, 0.8})
-      for (const double wide : {0.2, 0.4})
-        for (const double long_ : {0.2, 0.4})
-          for (const char* family : {"unnamed_dish", "unnamed_patch"})
-            forms.push_back({find_family(family),
-                             flank,
-                             {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
-                              v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
-  return forms;
 }
 
 /// Cells in which forms like the last of these are tried in scans: small over what they run along.
@@ -328,6 +209,13 @@ bool PartLoop::tell_as_form_beside_slope(const std::vector<std::size_t>& all, in
   return false;
 }
 
+/// A hollow or swelling of these flanks that ends by itself, or with an edge, for these effects.
+bool PartLoop::put_dish_for(const std::vector<std::size_t>& these, FlankChoice flank) {
+  for (const char* family : {"unnamed_dish", "unnamed_patch"})
+    if (put_one_form_for(these, dishes(geometry_, flank, family))) return true;
+  return false;
+}
+
 /// A form of one flank, or of both in opposite directions, along the profile (0) or the face (1),
 /// for what runs that way on any flank: slopes that turn the section and bows of either flank were
 /// what it is made of. Or waves of one length on either flank, each in a phase of its own.
@@ -396,9 +284,8 @@ bool PartLoop::tell_as_dish_of_all_flanks() {
   if (!crossed || !(one_flank || uneven.size() < all.size()) ||
       values_of(own, true) < kValuesOfDish)
     return false;
-  const std::vector<Effect> forms = dishes(geometry_, FlankChoice::kBoth);
-  return put_one_form_for(all, forms) ||
-         (uneven.size() < all.size() && put_one_form_for(uneven, forms));
+  return put_dish_for(all, FlankChoice::kBoth) ||
+         (uneven.size() < all.size() && put_dish_for(uneven, FlankChoice::kBoth));
 }
 
 /// A bent axis, beside an eccentricity or a lean that has a name, for what moves the sections or
@@ -490,12 +377,11 @@ void PartLoop::tell_as_one_form() {
           std::ssize(all_over) > straight[0] + straight[1] || (straight[0] > 0 && straight[1] > 0);
       if (tell_as_wave_over_profile(along[0], flank)) return true;
       constexpr int kValuesOfDish = 5;
-      if (crossed && values(all_over) >= kValuesOfDish &&
-          put_one_form_for(all_over, dishes(geometry_, flank)))
+      if (crossed && values(all_over) >= kValuesOfDish && put_dish_for(all_over, flank))
         return true;
       // (waves across the flank are crossed by themselves)
       if (with_waves.size() > all_over.size() && values(with_waves) >= kValuesOfDish &&
-          put_one_form_for(with_waves, dishes(geometry_, flank)))
+          put_dish_for(with_waves, flank))
         return true;
       for (const int face : {0, 1}) {
         const std::vector<std::size_t>& all = along[static_cast<std::size_t>(face)];

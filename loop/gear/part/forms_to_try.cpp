@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trueflank/loop/gear/part/forms_to_try.h"
+
+#include <cmath>
+#include <utility>
+
+#include "trueflank/base/units.h"
+
+namespace trueflank::loop {
+
+/// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
+std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
+                                       FlankChoice flank) {
+  const double range_mm =
+      face != 0.0 ? geometry.face_width_mm()
+                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  std::vector<Effect> forms;
+  for (const double within : {0.05, 0.1, 0.15})
+    forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, 0.0}});
+  return forms;
+}
+
+/// Strips between two places, to start from.
+std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  constexpr int kParts = 12;
+  constexpr double kSides = 0.03;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const auto at = [&](int part) {
+    const double share = static_cast<double>(part) / kParts;
+    return face != 0.0 ? share * geometry.face_width_mm()
+                       : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+  };
+  std::vector<Effect> forms;
+  for (int from = 1; from < kParts; ++from)
+    for (int to = from + 1; to < kParts; ++to)
+      forms.push_back({find_family("unnamed_strip"),
+                       flank,
+                       {face, at(from), at(to),
+                        kSides * std::abs(face != 0.0 ? geometry.face_width_mm() : high - low)}});
+  return forms;
+}
+
+/// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
+/// an end, and bands where several effects may be one.
+std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
+                                bool bands) {
+  constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const double range_mm = face != 0.0 ? geometry.face_width_mm() : std::abs(high - low);
+  std::vector<Effect> forms;
+  for (const double within : {0.05, 0.1, 0.2, 0.4})
+    for (const double end : {-1.0, 1.0})
+      forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, end}});
+  for (Effect& form : rises_at_both_ends(geometry, face, flank)) forms.push_back(std::move(form));
+  for (double share = kFirst; share < 1.0 - 0.5 * kStep; share += kStep) {
+    const double at =
+        face != 0.0 ? share * geometry.face_width_mm()
+                    : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+    for (const double end : {-1.0, 1.0})
+      for (const char* family : {"unnamed_kink", "unnamed_bend"})
+        forms.push_back({find_family(family), flank, {face, at, end}});
+    if (share > kNearBothEnds)
+      forms.push_back({find_family("unnamed_bend"), flank, {face, at, 0.0}});
+    if (bands)
+      for (const double width : {0.1, 0.2, 0.35})
+        forms.push_back({find_family("unnamed_band"), flank, {face, at, width * range_mm}});
+  }
+  if (bands)
+    for (Effect& strip : strips(geometry, face, flank)) forms.push_back(std::move(strip));
+  return forms;
+}
+
+/// Waves over the profile, the same on every tooth, about as long as those of an order around the
+/// gear.
+std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, FlankChoice flank) {
+  std::vector<Effect> waves;
+  for (double times = 0.6; times < 1.6; times += 0.04)
+    waves.push_back({find_family("unnamed_waviness"),
+                     flank,
+                     {0.0, times * kTwoPi * geometry.base_radius_mm() / order}});
+  return waves;
+}
+
+/// Names of these effects that have a place or a width: one alone at its best shape may say it all.
+std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
+                                      const std::vector<Effect>& effects) {
+  std::vector<Effect> names;
+  for (const Effect& effect : effects) {
+    const EffectFamily& family = *effect.family;
+    if (!family.named || !family.shape_is_continuous || family.shape_is_step) continue;
+    names.push_back(effect);
+    for (const EffectShape& shape : family.shapes(geometry))
+      names.push_back({&family, effect.flank, shape});
+  }
+  return names;
+}
+
+/// One wave over about the whole length: an S.
+std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  const double range_mm =
+      face != 0.0 ? geometry.face_width_mm()
+                  : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  std::vector<Effect> waves;
+  for (const double lengths : {0.3, 0.36, 0.43, 0.5, 0.59, 0.7, 0.85, 1.0, 1.2, 1.45})
+    waves.push_back({find_family("unnamed_waviness"), flank, {face, lengths * range_mm}});
+  return waves;
+}
+
+/// A slope over the profile (0) or the face (1), without a name.
+Effect slope_over(int face, FlankChoice flank) {
+  return {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
+}
+
+/// Hollows that end over the profile and over the face, to start from.
+std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank, const char* family) {
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  const double face_mm = geometry.face_width_mm();
+  std::vector<Effect> forms;
+  for (const double u : {0.2, 0.35, 0.5, 0.65, 0.8})
+    for (const double v : {0.2, 0.35, 0.5, 0.65, 0.8})
+      for (const double wide : {0.2, 0.4})
+        for (const double long_ : {0.2, 0.4})
+          forms.push_back({find_family(family),
+                           flank,
+                           {2.0 * geometry.on_flank(1, 1, low + u * (high - low), 0.0).radius_mm,
+                            v * face_mm, wide * std::abs(high - low), long_ * face_mm}});
+  return forms;
+}
+
+/// Corners to start from.
+std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
+  const double profile_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()),
+               face_mm = geometry.face_width_mm();
+  std::vector<Effect> forms;
+  for (const double tip : {0.0, 1.0})
+    for (const double upper : {0.0, 1.0})
+      for (const double over_profile : {0.35, 0.6, 1.0})
+        for (const double over_face : {0.35, 0.6, 1.0})
+          for (const double power : {1.2, 1.8})
+            forms.push_back({find_family("unnamed_corner"),
+                             flank,
+                             {tip, upper, over_profile * profile_mm, over_face * face_mm, power}});
+  return forms;
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "trueflank/loop/gear/effect.h"
+
+// Forms of one kind, with places and widths to start from, that are tried for several effects.
+namespace trueflank::loop {
+
+/// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
+[[nodiscard]] std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
+                                                     FlankChoice flank);
+
+/// Strips between two places, to start from.
+[[nodiscard]] std::vector<Effect> strips(const FlankGeometry& geometry, double face,
+                                         FlankChoice flank);
+
+/// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
+/// an end, and bands where several effects may be one.
+[[nodiscard]] std::vector<Effect> forms_along(const FlankGeometry& geometry, double face,
+                                              FlankChoice flank, bool bands);
+
+/// Waves over the profile, the same on every tooth, about as long as those of an order around the
+/// gear.
+[[nodiscard]] std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order,
+                                                 FlankChoice flank);
+
+/// Names of these effects that have a place or a width: one alone at its best shape may say it all.
+[[nodiscard]] std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
+                                                    const std::vector<Effect>& effects);
+
+/// One wave over about the whole length: an S.
+[[nodiscard]] std::vector<Effect> long_waves(const FlankGeometry& geometry, double face,
+                                             FlankChoice flank);
+
+/// A slope over the profile (0) or the face (1), without a name.
+[[nodiscard]] Effect slope_over(int face, FlankChoice flank);
+
+/// Hollows that end over the profile and over the face, to start from.
+[[nodiscard]] std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank,
+                                         const char* family);
+
+/// Corners to start from.
+[[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);
+
+}  // namespace trueflank::loop
