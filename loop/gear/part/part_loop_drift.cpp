@@ -164,18 +164,24 @@ std::vector<std::vector<Effect>> PartLoop::drifts_in_place_of(const std::vector<
 /// and odd teeth together.
 bool PartLoop::tell_as_drift_aside() {
   const Course level;
-  std::vector<std::size_t> these, kept;
+  const Course slope{1.0, 0.0};
+  std::vector<std::size_t> these, moved, sloping;
+  std::set<double> orders;
   bool begins = false;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
     const bool odd = is_ramp_of(effect, level) || is_sector_of(effect, level) ||
                      (effect.family == find_family("unnamed_saw") && has_course(effect, 2, level));
     const bool tooth = effect.family->local && effect.columns() == 1;
+    const bool wave = is_wave_of(effect, level);
     begins = begins || odd || tooth;
-    if (odd || tooth || is_wave_of(effect, level)) these.push_back(e);
-    if (effect.family->displacement_mm && effect.order() == 1.0 && effect.columns() == 2)
-      kept.push_back(e);
+    if (odd || tooth || wave) these.push_back(e);
+    if (wave) orders.insert(effect.order());
+    if (is_wave_of(effect, slope)) sloping.push_back(e);
+    if (moves_the_teeth(effect)) moved.push_back(e);
   }
+  // Neighbouring orders are what does not close, too.
+  for (const double order : orders) begins = begins || orders.count(order + 1.0) > 0;
   if (!begins || these.size() < 2) return false;
   std::vector<Effect> forms, aside;
   for (int first = 1; first <= geometry_.teeth(); ++first) {
@@ -188,11 +194,22 @@ bool PartLoop::tell_as_drift_aside() {
   }
   forms.insert(forms.end(), aside.begin(), aside.end());
   if (put_one_form_for(these, forms)) return true;
-  // What lies off the axis moves with it.
-  these.insert(these.end(), kept.begin(), kept.end());
+  // What lies off the axis on the whole moves with it.
+  std::vector<Effect> off_axis;
+  for (const std::size_t e : moved) off_axis.push_back(effects_[e]);
+  for (std::size_t c = 0; off_axis.empty() && c < candidates_.size(); ++c)
+    if (moves_the_teeth(candidates_[c]) && candidates_[c].shape.empty() && !unseen_[c])
+      off_axis.push_back(candidates_[c]);
+  these.insert(these.end(), moved.begin(), moved.end());
   std::sort(these.begin(), these.end());
-  for (const std::size_t e : kept)
-    if (put_one_form_for(these, aside, {effects_[e]})) return true;
+  for (const Effect& effect : off_axis)
+    if (put_one_form_for(these, aside, {effect})) return true;
+  // (flanks lean against the direction: it slopes over the profile)
+  if (sloping.empty()) return false;
+  these.insert(these.end(), sloping.begin(), sloping.end());
+  std::sort(these.begin(), these.end());
+  for (const Effect& effect : off_axis)
+    if (put_one_form_for(these, aside, {effect})) return true;
   return false;
 }
 

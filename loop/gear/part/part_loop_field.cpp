@@ -48,7 +48,7 @@ bool PartLoop::tell_as_field() {
   std::set<double> orders;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    const double order = effect.order();
+    const double order = moves_the_teeth(effect) ? 1.0 : effect.order();
     if (effect.flank != FlankChoice::kBoth || effect.needs().along_face ||
         !(order == 1.0 || order == 3.0) || effect.columns() != 2 ||
         effect.family->tells_order_along_profile)
@@ -61,7 +61,7 @@ bool PartLoop::tell_as_field() {
   for (const double own_power : {2.0, 1.0, 0.0})
     fields.push_back({find_family("unnamed_field"), FlankChoice::kBoth, {own_power}});
   for (const std::size_t kept : all)
-    if (effects_[kept].family->displacement_mm) {
+    if (moves_the_teeth(effects_[kept])) {
       std::vector<std::size_t> rest = all;
       std::erase(rest, kept);
       if (put_one_form_for(all, fields) || put_one_form_for(rest, fields)) return true;

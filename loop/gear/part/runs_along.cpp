@@ -45,6 +45,12 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect, Flanks flanks)
   return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
 }
 
+bool moves_the_teeth(const Effect& effect) {
+  return effect.family->displacement_mm && effect.shape.empty() && effect.order() == 0.0 &&
+         effect.columns() == 2 && effect.flank == FlankChoice::kBoth &&
+         !effect.needs().several_heights;
+}
+
 Eigen::MatrixXd over_a_tooth(const FlankGeometry& geometry, const Effect& effect) {
   constexpr int kOfGrid = 9;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();

@@ -25,6 +25,9 @@ enum class Flanks { kAlike, kOfEither };
 /// A slope over the profile or the face, and no more.
 [[nodiscard]] bool is_straight(const FlankGeometry& geometry, const Effect& effect);
 
+/// True where all teeth are moved aside alike at every height: an eccentricity.
+[[nodiscard]] bool moves_the_teeth(const Effect& effect);
+
 /// True where both run along the profile, or both along the face, and differ by a factor and a
 /// level.
 [[nodiscard]] bool run_alike(const FlankGeometry& geometry, const Effect& a, const Effect& b);
