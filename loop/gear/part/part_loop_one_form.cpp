@@ -124,9 +124,10 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   if (spared < 0) return false;
   const double gain = now - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes.
-  const double doubt = undo_each_other(geometry_, *fit_of(effects_), these)
-                           ? std::max(kClearly, kNearly * none)
-                           : 0.0;
+  // So are pieces of a product: what a pose or a tip takes of it is left.
+  const bool doubtful = undo_each_other(geometry_, *fit_of(effects_), these) ||
+                        with.back().family == find_family("unnamed_product");
+  const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
   // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
   // itself.
   const Effect& one = with.back();
