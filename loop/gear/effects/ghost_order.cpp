@@ -108,6 +108,7 @@ EffectFamily ghost_order_counted_backwards() {
       "; its lines run as if the teeth of these data were counted clockwise, or the flanks named "
       "from the "
       "other face";
+  f.form_word = "wave_over_rotation_backwards";
   f.correctable = Correctable::kNoCause;
   f.of_traces_only = true;
   set_columns(f, true);

@@ -98,27 +98,34 @@ bool PartLoop::tell_as_alternating_wave() {
   return false;
 }
 
-/// Orders that are a half or a third of the teeth's multiples, beside teeth that differ by turns,
-/// and orders near a multiple that are a slower wave's over the profile: no machine's.
+/// Orders that are a half or a third of the teeth's multiples, beside teeth that differ by turns or
+/// beside another such order, and orders near a multiple that are a slower wave's over the profile:
+/// no machine's.
 void PartLoop::tell_ghosts_of_teeth() {
   const double z = geometry_.teeth();
+  constexpr int kMostTurns = 5;
+  const auto comes_by_turns = [&](double order, int turns) {
+    return std::remainder(order, z) != 0.0 && std::remainder(turns * order, z) == 0.0;
+  };
+  std::vector<std::size_t> told;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    if (!effects_[e].family->tells_order_along_profile) continue;
-    const EffectFamily* form = form_instead(e);
-    if (form == nullptr) continue;
+    if (!effects_[e].family->tells_order_along_profile || form_instead(e) == nullptr) continue;
     const double order = effects_[e].order(), off = std::abs(std::remainder(order, z));
     const bool part = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
-      const bool turns = other.family == find_family("unnamed_alternation") ||
-                         other.family == find_family("unnamed_comb") ||
-                         (other.family == find_family("unnamed_marks") && other.shape[2] != 0.0);
-      if (turns)
-        return off > 0.0 &&
-               (std::remainder(2.0 * order, z) == 0.0 || std::remainder(3.0 * order, z) == 0.0);
-      return other.is_term() && !other.family->tells_order_along_profile && off > 0.0 &&
-             other.order() == off && other.needs().along_profile;
+      const bool by_turns = other.family == find_family("unnamed_alternation") ||
+                            other.family == find_family("unnamed_comb") ||
+                            (other.family == find_family("unnamed_marks") && other.shape[2] != 0.0);
+      for (int turns = 2; turns <= kMostTurns; ++turns)
+        if (comes_by_turns(order, turns) &&
+            (by_turns || (other.family->tells_order_along_profile && other.order() != order &&
+                          comes_by_turns(other.order(), turns))))
+          return true;
+      return !by_turns && other.is_term() && !other.family->tells_order_along_profile &&
+             off > 0.0 && other.order() == off && other.needs().along_profile;
     });
-    if (part) effects_[e].family = form;
+    if (part) told.push_back(e);
   }
+  for (const std::size_t e : told) effects_[e].family = form_instead(e);
 }
 
 /// A bow over the face that comes and goes around the gear and is none in the middle of the face

@@ -259,6 +259,19 @@ bool PartLoop::tell_as_form_of_other_flanks(int face) {
       if (one_flank && put_one_form_for(these, forms_along(geometry_, face, flank, true)))
         return true;
   }
+  // Beside a name that these pieces have taken up.
+  for (std::size_t c = 0; c < candidates_.size(); ++c) {
+    const Effect& name = candidates_[c];
+    if (!name.family->named || unseen_[c] || name.flank != FlankChoice::kBoth ||
+        !name.shape.empty() || name.columns() != 1 ||
+        runs_of(geometry_, name, Flanks::kOfEither) != runs ||
+        std::find(own.begin(), own.end(), name) != own.end())
+      continue;
+    for (const std::vector<std::size_t>& these : sets)
+      for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight})
+        if (one_flank && put_one_form_for(these, forms_along(geometry_, face, flank, true), {name}))
+          return true;
+  }
   if (values_of(own, true) <= kValuesOfWaves) return false;
   for (const Effect& right : long_waves(geometry_, face, FlankChoice::kRight))
     if (put_one_form_for(all, {{right.family, FlankChoice::kLeft, right.shape}}, {right}))
