@@ -143,9 +143,13 @@ class PartLoop {
                                                FlankChoice flank);
   [[nodiscard]] bool tell_as_form_beside_slope(const std::vector<std::size_t>& all, int face,
                                                FlankChoice flank);
+  /// What a form that is tried may leave at most: before its place and widths are sought, and then.
+  struct MostLeft {
+    double on_the_grid = 1e300, in_place = 1e300;
+  };
   [[nodiscard]] std::vector<Effect> with_best_form(std::vector<Effect> rest,
                                                    const std::vector<Effect>& forms,
-                                                   double most = 1e300) const;
+                                                   const MostLeft& most) const;
   [[nodiscard]] std::optional<double> largest_wavelength_mm(
       const std::vector<std::size_t>& of) const;
   [[nodiscard]] std::optional<RemainderFinding> wave_of_pieces(int face, FlankChoice flank) const;

@@ -41,26 +41,59 @@ bool undo_each_other(const FlankGeometry& geometry, const PointFit& fit,
 /// Cells in which forms like the last of these are tried in scans: small over what they run along.
 FlankCells cells_for(const FlankGeometry& geometry, const std::vector<Effect>& effects) {
   constexpr int kAlong = 600, kBoth = 32;
+  constexpr double kShortest = 20.0;  // cells of a wave
   const Effect& form = effects.back();
-  if (!form.is_term() || form.columns() != 1 || !form.family->same_on_every_tooth ||
+  if (!form.is_term() || !form.family->same_on_every_tooth ||
       !form.family->same_on_every_tooth(form.shape))
     return {};
   const Runs runs = runs_of(geometry, form, Flanks::kOfEither);
-  if (runs == Runs::kOverProfile) return {kAlong, 1};
-  if (runs == Runs::kOverFace) return {1, kAlong};
-  return {kBoth, kBoth};
+  const bool profile = runs == Runs::kOverProfile;
+  if (!profile && runs != Runs::kOverFace)
+    return form.columns() == 1 ? FlankCells{kBoth, kBoth} : FlankCells{};
+  const double range_mm = profile
+                              ? std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm())
+                              : geometry.face_width_mm();
+  const std::vector<std::string>& names = form.family->shape_names;
+  const auto length = std::find(names.begin(), names.end(), "wavelength_mm");
+  if (length != names.end() && length - names.begin() < std::ssize(form.shape) &&
+      form.shape[static_cast<std::size_t>(length - names.begin())] * kAlong < kShortest * range_mm)
+    return {};
+  return profile ? FlankCells{kAlong, 1} : FlankCells{1, kAlong};
+}
+
+/// Moves one effect's place and widths, all else being where it is, and tells what is left.
+double move_alone(const FlankGeometry& geometry, const TrialFit& fit, std::size_t effect,
+                  EffectShape& shape) {
+  constexpr double kWorthIt = 4.0;  // chi-square
+  constexpr int kMostSteps = 8;
+  double least = fit.with_shapes(effect, {shape}, 1e300).front().square;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::vector<EffectShape> tried = fit.effects()[effect].family->nearby(geometry, shape);
+    const std::vector<TrialFit::Trial> trials = fit.with_shapes(effect, tried, least - kWorthIt);
+    double best = least - kWorthIt;
+    const EffectShape* moved = nullptr;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+      if (trials[i].square < best && trials[i].retained >= kToldApart) {
+        best = trials[i].square;
+        moved = &tried[i];
+      }
+    if (moved == nullptr) break;
+    least = best;
+    shape = *moved;
+  }
+  return least;
 }
 
 }  // namespace
 
 /// The form that leaves least in place of the last effect, first among those of its family by
-/// trial, then beside the others. Empty where all leave more than `most` before their places and
-/// widths are sought.
+/// trial, then beside the others. Empty where all leave too much.
 std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
-                                             const std::vector<Effect>& forms, double most) const {
+                                             const std::vector<Effect>& forms,
+                                             const MostLeft& most) const {
   const std::size_t at = rest.size();
   std::vector<Effect> best;
-  double least = most;
+  double least = most.on_the_grid;
   rest.emplace_back();
   for (std::size_t first = 0; first < forms.size();) {
     const EffectFamily* family = forms[first].family;
@@ -80,6 +113,11 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
     first = next;
   }
   if (best.empty()) return best;
+  const FlankCells cells = cells_for(geometry_, best);
+  if (cells.profile > 0 && best.back().family->nearby && !best.back().family->shape_is_continuous) {
+    const TrialFit fit(geometry_, table_, patches_, best, 1, nullptr, cells);
+    if (move_alone(geometry_, fit, at, best.back().shape) > most.in_place) return {};
+  }
   if (best.back().family->shape_is_continuous)
     refine_shapes(geometry_, table_, patches_, best, at);
   else
@@ -98,23 +136,25 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
     (std::find(these.begin(), these.end(), e) == these.end() ? others : own).push_back(effects_[e]);
-  const bool too_many = std::none_of(forms.begin(), forms.end(), [&](const Effect& form) {
-    return values_of({form}, true) + values_of(beside, true) <= values_of(own, true);
+  std::vector<Effect> tried = forms;
+  std::erase_if(tried, [&](const Effect& form) {
+    return values_of({form}, true) + values_of(beside, true) > values_of(own, true);
   });
-  if (too_many) return false;
+  if (tried.empty()) return false;
   std::vector<Effect> rest = others;
   rest.insert(rest.end(), beside.begin(), beside.end());
-  std::vector<Effect> tried = forms;
   std::stable_sort(tried.begin(), tried.end(),
                    [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
-  // Places and widths are sought where the best on the grid takes out most of what these effects
-  // do: the share of those that come to stand for them was 0.79 and more.
-  constexpr double kOnTheGrid = 0.5;
+  // Of those that came to stand for others the best on the grid took out a share of 0.79 and more
+  // of what these do, in its place nearly all.
+  constexpr double kOnTheGrid = 0.5, kInPlace = 0.9;
   const double now = fit_of(effects_)->residual_square();
   const double none = fit_of(others)->residual_square() - now;
-  const double most =
-      now + kValue * values_of(own, true) + (1.0 - kOnTheGrid) * std::max(0.0, none);
-  const std::vector<Effect> with = with_best_form(rest, tried, most);
+  const auto most = [&](double share) {
+    return now + kValue * values_of(own, true) + (1.0 - share) * std::max(0.0, none);
+  };
+  const std::vector<Effect> with =
+      with_best_form(rest, tried, {.on_the_grid = most(kOnTheGrid), .in_place = most(kInPlace)});
   if (with.empty()) return false;
   if (with.back().family->named &&
       !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
@@ -468,7 +508,7 @@ void PartLoop::name_forms_beside_names() {
     if (names.empty()) continue;
     std::vector<Effect> rest = effects_;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(e));
-    std::vector<Effect> with = with_best_form(rest, names);
+    std::vector<Effect> with = with_best_form(rest, names, {});
     if (with.empty()) continue;
     // Where it stood: what was given stays in front.
     std::rotate(with.begin() + static_cast<std::ptrdiff_t>(e), with.end() - 1, with.end());

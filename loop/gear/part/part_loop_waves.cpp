@@ -58,7 +58,7 @@ std::optional<RemainderFinding> PartLoop::wave_of_pieces(int face, FlankChoice f
   const std::optional<double> wavelength_mm = largest_wavelength_mm(along);
   if (along.size() < 3 || !wavelength_mm) return {};
   const std::vector<Effect> with = with_best_form(
-      std::move(others), gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm));
+      std::move(others), gear_effects::parts_of_waves(geometry_, face, flank, *wavelength_mm), {});
   if (with.empty()) return {};
   RemainderFinding wave;
   wave.effect = with.back();
