@@ -178,6 +178,19 @@ def form_over_the_face(term, z, face_mm):
         if term["bends"] == 0:
             return term["cos_um"] * abs(off) / max(abs(low), abs(high))
         return term["cos_um"] * numpy.maximum(0.0, off / (high if term["bends"] > 0 else low))
+    if "side_mm" in term:  # a strip between two heights
+        lower, upper = ((z - term[end]) / term["side_mm"] for end in ("from_mm", "to_mm"))
+        return term["cos_um"] / ((1 + numpy.exp(-4 * lower)) * (1 + numpy.exp(4 * upper)))
+    if "dies_within_mm" in term:  # a rise at an end, or at both
+        lower, upper = (numpy.exp(-abs(z - end) / term["dies_within_mm"]) for end in (0.0, face_mm))
+        return term["cos_um"] * (lower + upper if term["towards"] == 0 else
+                                 upper if term["towards"] > 0 else lower)
+    if "curves" in term:  # flat to its place and a parabola from there on
+        at, end = term["place_mm"], face_mm if term["curves"] >= 0 else 0.0
+        share = (z - at) / (end - at)
+        if term["curves"] == 0:
+            share = numpy.maximum(share, (face_mm - z - at) / (end - at))
+        return term["cos_um"] * numpy.maximum(0.0, share) ** 2
     return term["cos_um"] * (z > term["place_mm"])
 
 
@@ -226,8 +239,11 @@ def predicted_helix(gear, result, tooth, side, z):
             for term in effect["terms"]:
                 if "along" in term:  # a form along the flank, the same on every tooth
                     if term["along"] == "face":
-                        total += form_over_the_face(term, z, gear.nominal["face_width_mm"])
+                        turned = side if term.get("flanks") == "opposite" else 1
+                        total += turned * form_over_the_face(term, z, gear.nominal["face_width_mm"])
                     continue
+                if "profile_power" in term or "periods_per_turn" in term:
+                    raise AssertionError(f"no formula here for the form of {term}")
                 if "form" in term:
                     total += named_form(gear, term, tooth, side, roll, z, v)
                     continue
@@ -236,6 +252,15 @@ def predicted_helix(gear, result, tooth, side, z):
                 if "restarts_every" in term:  # rises evenly, and anew after so many teeth
                     since = (tooth - term["first_tooth"]) % gear.teeth % term["restarts_every"]
                     total += (since / term["restarts_every"] - 0.5) * term["cos_um"] * v ** term["face_degree"] * (
+                        side if term["flanks"] == "opposite" else 1)
+                    continue
+                if "first_tooth" in term and "teeth" not in term:  # drifts once around
+                    since = (tooth - term["first_tooth"]) % gear.teeth
+                    rise = since / gear.teeth - 0.5
+                    if "within_teeth" in term:
+                        rise = (-math.exp(-since / term["within_teeth"]) if term["course"] == "levels_off" else
+                                math.exp(-(gear.teeth - 1 - since) / term["within_teeth"]))
+                    total += rise * term["cos_um"] * v ** term["face_degree"] * (
                         side if term["flanks"] == "opposite" else 1)
                     continue
                 if "first_tooth" in term:
