@@ -110,6 +110,31 @@ TEST_F(TrialFits, AnIntervalKnowsThatThePlaceOfAFormBesideItIsFound) {
   EXPECT_GT(found.covariance(column, column), 2.0 * known.covariance(column, column));
 }
 
+TEST_F(TrialFits, FormsTriedInCellsLeaveWhatTheyLeavePointByPoint) {
+  const std::vector<Effect> effects{
+      {family("eccentricity"), loop::FlankChoice::kBoth, {}},
+      {family("unnamed_waviness"), loop::FlankChoice::kBoth, {1.0, 5.0}}};
+  const loop::TrialFit exact(geometry_, table_, patches_, effects);
+  // The true one takes out most of what is there.
+  const std::vector<loop::EffectShape> shapes{{1.0, 3.1}, {1.0, 3.3}, {1.0, 4.0}};
+  const auto slow = exact.with_shapes(1, shapes, 1e300);
+  const double taken = exact.residual_square() - slow[0].square;
+  const auto most_off = [&](loop::FlankCells cells) {
+    const loop::TrialFit in_cells(geometry_, table_, patches_, effects, 1, nullptr, cells);
+    // (what stands is exact)
+    EXPECT_NEAR(in_cells.residual_square() / exact.residual_square(), 1.0, 1e-12);
+    const auto quick = in_cells.with_shapes(1, shapes, 1e300);
+    double off = 0.0;
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      off = std::max(off, std::abs(quick[i].square - slow[i].square) / taken);
+    return off;
+  };
+  EXPECT_LT(most_off({1, 600}), 1e-3);
+  EXPECT_LT(most_off({8, 32}), 0.05);
+  // Cells as long as the wave follow none.
+  EXPECT_GT(most_off({1, 3}), 0.5);
+}
+
 TEST_F(TrialFits, ColumnsThatWereTriedAreThoseOfTheirEffectAndNoOther) {
   loop::TriedColumns tried;
   const std::vector<Effect> effects{wave(3.3), wave(1.7)};

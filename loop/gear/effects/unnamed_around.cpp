@@ -14,10 +14,17 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
+const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
+
+/// Teeth from one on, once around.
+int teeth_since(const FlankGeometry& g, int tooth, double from) {
+  const int z = g.teeth();
+  return ((tooth - static_cast<int>(from)) % z + z) % z;
+}
+
 /// 1 on teeth of the sector.
 double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
-  const int z = g.teeth(), from = static_cast<int>(shape[0]);
-  return ((tooth - from) % z + z) % z < static_cast<int>(shape[1]) ? 1.0 : 0.0;
+  return teeth_since(g, tooth, shape[0]) < static_cast<int>(shape[1]) ? 1.0 : 0.0;
 }
 
 /// A course of a degree without a height of its own.
@@ -42,11 +49,7 @@ EffectFamily unnamed_sector() {
     if (p.surface != Surface::kFlank) return;
     c[0] = in_sector(g, p.tooth, shape) * form_of_tooth(g, p, shape, 2);
   };
-  f.term_keys = {{"first_tooth"},
-                 {"teeth"},
-                 {"profile_degree"},
-                 {"face_degree"},
-                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     std::vector<EffectShape> shapes;
     for (const double first : {-2.0, -1.0, 0.0, 1.0, 2.0})
@@ -77,8 +80,7 @@ EffectFamily unnamed_alternation() {
     if (p.surface != Surface::kFlank) return;
     c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * form_of_tooth(g, p, shape, 0);
   };
-  f.term_keys = {
-      {"profile_degree"}, {"face_degree"}, {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.term_keys = {{"profile_degree"}, {"face_degree"}, kFlanks};
   f.words = [](const EffectShape& shape, FlankChoice) {
     return std::string("every other tooth differs") +
            (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
@@ -93,13 +95,6 @@ std::string what_of_tooth(const EffectShape& shape, std::size_t k) {
                      : shape[k + 1] > 0.0 ? "the form of the face"
                                           : "the height") +
          (shape[k + 2] != 0.0 ? ", opposite on the two flanks" : "");
-}
-const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
-
-/// Teeth from one on, once around.
-double teeth_since(const FlankGeometry& g, int tooth, int from) {
-  const int z = g.teeth();
-  return ((tooth - from) % z + z) % z;
 }
 
 /// What begins at its first tooth begins some teeth before or after.
@@ -121,7 +116,7 @@ EffectFamily unnamed_ramp() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double along = teeth_since(g, p.tooth, static_cast<int>(shape[0])) / g.teeth();
+    const double along = static_cast<double>(teeth_since(g, p.tooth, shape[0])) / g.teeth();
     c[0] = (along - 0.5) * form_of_tooth(g, p, shape, 1);
   };
   f.nearby = begun_beside;
@@ -140,7 +135,7 @@ EffectFamily unnamed_levelling() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    double since = teeth_since(g, p.tooth, static_cast<int>(shape[0]));
+    double since = teeth_since(g, p.tooth, shape[0]);
     if (shape[4] != 0.0) since = g.teeth() - 1.0 - since;
     // What levels off rises to nothing, what grows rises from it.
     const double sign = shape[4] != 0.0 ? 1.0 : -1.0;
@@ -176,7 +171,7 @@ EffectFamily unnamed_drift_aside() {
   f.is_drift = true;
   f.columns = [](const EffectShape&) { return 2; };
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const double since = teeth_since(g, p.tooth, static_cast<int>(shape[0]));
+    const double since = teeth_since(g, p.tooth, shape[0]);
     two_directions(g, p, since / g.teeth() - 0.5, c);
   };
   f.nearby = begun_beside;
@@ -198,7 +193,7 @@ EffectFamily unnamed_broken_wave() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = c[1] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const double since = teeth_since(g, p.tooth, static_cast<int>(shape[1]));
+    const double since = teeth_since(g, p.tooth, shape[1]);
     const double angle = kTwoPi * shape[0] * since / g.teeth();
     const double size = shape[2] != 0.0 ? p.side : 1;
     c[0] = size * std::cos(angle);
@@ -234,8 +229,8 @@ EffectFamily unnamed_saw() {
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;
-    const int z = g.teeth(), every = static_cast<int>(shape[0]), from = static_cast<int>(shape[1]);
-    const int since = ((p.tooth - from) % z + z) % z % every;
+    const int every = static_cast<int>(shape[0]);
+    const int since = teeth_since(g, p.tooth, shape[1]) % every;
     c[0] = (static_cast<double>(since) / every - 0.5) * form_of_tooth(g, p, shape, 2);
   };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {

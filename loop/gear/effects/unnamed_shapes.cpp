@@ -8,9 +8,10 @@
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
-// Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a short wave, a
-// sector, every other tooth, a spot. They describe and are given no cause. They are no candidates
-// of their own: the search through the remainder says which of them, and where (remainder.h).
+// Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a strip, a patch,
+// a short wave, a spot. They describe and are given no cause. They are no candidates of their own:
+// the search through the remainder says which of them, and where (remainder.h), or they are tried
+// in place of several effects (part_loop_one_form.cpp).
 namespace trueflank::loop::gear_effects {
 namespace {
 

@@ -8,6 +8,8 @@
 
 namespace trueflank::loop {
 
+namespace {
+
 /// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
 std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
                                        FlankChoice flank) {
@@ -40,8 +42,8 @@ std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoi
   return forms;
 }
 
-/// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
-/// an end, and bands where several effects may be one.
+}  // namespace
+
 std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, FlankChoice flank,
                                 bool bands) {
   constexpr double kFirst = 0.1, kStep = 0.1, kNearBothEnds = 0.65;
@@ -70,8 +72,6 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   return forms;
 }
 
-/// Waves over the profile, the same on every tooth, about as long as those of an order around the
-/// gear.
 std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, FlankChoice flank) {
   std::vector<Effect> waves;
   for (double times = 0.6; times < 1.6; times += 0.04)
@@ -81,7 +81,6 @@ std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order, 
   return waves;
 }
 
-/// Names of these effects that have a place or a width: one alone at its best shape may say it all.
 std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
                                       const std::vector<Effect>& effects) {
   std::vector<Effect> names;
@@ -95,7 +94,6 @@ std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
   return names;
 }
 
-/// One wave over about the whole length: an S.
 std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, FlankChoice flank) {
   const double range_mm =
       face != 0.0 ? geometry.face_width_mm()
@@ -106,12 +104,10 @@ std::vector<Effect> long_waves(const FlankGeometry& geometry, double face, Flank
   return waves;
 }
 
-/// A slope over the profile (0) or the face (1), without a name.
 Effect slope_over(int face, FlankChoice flank) {
   return {find_family("unnamed"), flank, {face == 0 ? 1.0 : 0.0, face == 0 ? 0.0 : 1.0, 0.0, 0.0}};
 }
 
-/// Hollows that end over the profile and over the face, to start from.
 std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank, const char* family) {
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const double face_mm = geometry.face_width_mm();
@@ -127,7 +123,6 @@ std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank, con
   return forms;
 }
 
-/// Corners to start from.
 std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   const double profile_mm = std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm()),
                face_mm = geometry.face_width_mm();

@@ -8,14 +8,6 @@
 // Forms of one kind, with places and widths to start from, that are tried for several effects.
 namespace trueflank::loop {
 
-/// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
-[[nodiscard]] std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
-                                                     FlankChoice flank);
-
-/// Strips between two places, to start from.
-[[nodiscard]] std::vector<Effect> strips(const FlankGeometry& geometry, double face,
-                                         FlankChoice flank);
-
 /// Forms along the profile (0) or the face (1), to start from: what is flat and leaves that towards
 /// an end, and bands where several effects may be one.
 [[nodiscard]] std::vector<Effect> forms_along(const FlankGeometry& geometry, double face,
@@ -30,7 +22,7 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<Effect> names_with_shapes(const FlankGeometry& geometry,
                                                     const std::vector<Effect>& effects);
 
-/// One wave over about the whole length: an S.
+/// Waves from a third of the whole length to an S over more than it.
 [[nodiscard]] std::vector<Effect> long_waves(const FlankGeometry& geometry, double face,
                                              FlankChoice flank);
 

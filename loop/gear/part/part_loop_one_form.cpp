@@ -131,7 +131,7 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 const std::vector<Effect>& forms,
                                 const std::vector<Effect>& beside) {
-  constexpr double kClearly = 9.0, kBesideAForm = 0.0, kValue = 6.0;  // chi-square
+  constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> others, own;
   for (std::size_t e = 0; e < effects_.size(); ++e)
@@ -163,8 +163,8 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
       values_of(own, true) - values_of({with.back()}, true) - values_of(beside, true);
   if (spared < 0) return false;
   const double gain = now - fit_of(with)->residual_square();
-  // Names that undo each other most of the way are no two causes.
-  // So are pieces of a product: what a pose or a tip takes of it is left.
+  // Names that undo each other most of the way are no two causes. Pieces of a product need not be
+  // followed to the last bit: a pose or a tip takes some of it.
   const bool doubtful = undo_each_other(geometry_, *fit_of(effects_), these) ||
                         with.back().family == find_family("unnamed_product");
   const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
@@ -182,11 +182,9 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   const bool nameless =
       own.size() > 1 && spared > 0 && !with.back().family->named &&
       std::none_of(own.begin(), own.end(), [](const Effect& e) { return e.family->named; });
-  const double clearly = beside_a_form || nameless ? kBesideAForm : kClearly;
-  const double asked = clearly - kValue * spared;
-  if (gain <
-      (nameless ? std::max(asked, std::min(0.0, kClearly - kValue * spared)) : asked) - doubt)
-    return false;
+  const double asked = kClearly - kValue * spared;
+  const double least = nameless ? std::min(0.0, asked) : beside_a_form ? -kValue * spared : asked;
+  if (gain < least - doubt) return false;
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)
