@@ -9,6 +9,7 @@
 #include "trueflank/base/threads.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/course_forms.h"
+#include "trueflank/loop/discovery/course_waves.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
@@ -23,11 +24,10 @@ using Eigen::VectorXd;
 
 /// Spectra are smoothed until so many degrees of freedom tell each value.
 constexpr double kDegrees = 24.0, kMostDegrees = 200.0;
-/// Gauges filter their traces. What little stands at the wavelengths that a filter took away, or in
-/// the lobes between them, is no line: it counts from these shares of what errors without a filter
-/// would have at each wavelength, in a wave of all courses and in one that each has by itself. The
-/// longest waves, forms rather than errors, do not say how large those are.
-constexpr double kFilteredAway = 0.1, kInALobe = 1.0;
+/// Gauges filter their traces. What little stands at the wavelengths that a filter took away is no
+/// line: it counts from this share of what errors without a filter would have at each wavelength.
+/// The longest waves, forms rather than errors, do not say how large those are.
+constexpr double kFilteredAway = 0.1;
 constexpr Index kLongest = 2;  // less than so many on the course
 /// Wild points count no more than so many spreads.
 constexpr double kClip = 3.5;
@@ -331,7 +331,12 @@ class CourseScan {
       const double p = f_tail(0.5 * half * amplitude * amplitude / variance[k], 2.0, degrees_);
       const double square = half * amplitude * amplitude / scale;
       if (!is_better(p, square, wave_.p_value, wave_.square)) return;
-      wave_ = {CourseKind::kWave, p, one.set, -1, 0.0, 1.0 / f, square, amplitude};
+      wave_ = {.kind = CourseKind::kWave,
+               .p_value = p,
+               .set = one.set,
+               .width = 1.0 / f,
+               .square = square,
+               .amount = amplitude};
       best = f;
     };
     for (std::size_t k = 0; k < one.amplitudes.size(); ++k)
@@ -365,66 +370,12 @@ class CourseScan {
     return std::hypot(cosine, sine) / (0.5 * static_cast<double>(m_));
   }
 
-  /// Power of all courses at every frequency, against that beside it; a line stands out of any
-  /// spectrum that is smooth.
   void look_for_own_waves() {
-    constexpr double kStandsOut = 3.0, kAboveEach = 1.5;
-    CourseFinding best{CourseKind::kOwnWaves};
+    std::vector<VectorXd> loud;
+    for (const Louder& of_set : louds_) loud.push_back(of_set.by);
     double tests = 0.0;
-    // One course that is louder than the others would count for all of them.
-    std::vector<MatrixXd> evened;
-    for (std::size_t s = 0; s < sets_.size(); ++s)
-      evened.push_back(sets_[s] * louds_[s].by.cwiseInverse().asDiagonal());
-    const std::vector<VectorXd> powers = tapered_powers(evened);
-    for (int s = 0; s < static_cast<int>(sets_.size()); ++s) {
-      if (sets_[s].cols() < 1) continue;
-      const VectorXd &loud = louds_[static_cast<std::size_t>(s)].by, &power = powers[static_cast<std::size_t>(s)];
-      const auto n = static_cast<double>(sets_[s].cols());
-      const double least = kInALobe * power.tail(std::max<Index>(1, power.size() - kLongest)).mean();
-      for (Index k = 5; k + 4 < power.size(); ++k) {
-        tests += 1.0;
-        if (power[k] < least) continue;
-        double beside = 0.0;
-        for (const Index off : {-4, -3, 3, 4})
-          beside += 0.25 * std::log(std::max(power[k + off], 1e-300));
-        // The edge of what a filter lets through stands above one side alone.
-        if (power[k] < kAboveEach * std::max(std::sqrt(power[k - 4] * power[k - 3]),
-                                             std::sqrt(power[k + 3] * power[k + 4])))
-          continue;
-        const double ratio = power[k] / std::exp(beside);
-        // Four neighbours; the mean of logarithms knows a little less than that of squares.
-        const double p = f_tail(ratio, 2.0 * n, 6.0 * n);
-        if (ratio < kStandsOut || !(p < best.p_value)) continue;
-        best.p_value = p;
-        best.set = s;
-        best.width = 1.0 / static_cast<double>(k);
-        best.amount = std::sqrt(4.0 * power[k] / n * loud.cwiseAbs2().mean());
-      }
-    }
-    keep(best, tests);
-  }
-
-  /// Squared amplitude / 4 of whole numbers of waves, summed over the courses of each set, with a Hann
-  /// window.
-  [[nodiscard]] std::vector<VectorXd> tapered_powers(const std::vector<MatrixXd>& sets) const {
-    const auto m = static_cast<double>(m_);
-    std::vector<VectorXd> powers(sets.size(), VectorXd::Zero(m_ / 2));
-    constexpr std::size_t kAtOnce = 8;
-    for_each_run(static_cast<std::size_t>(m_ / 2), kAtOnce, [&](std::size_t from, std::size_t to) {
-      VectorXd c(m_), s(m_);
-      for (std::size_t k = std::max<std::size_t>(1, from); k < to; ++k) {
-        for (Index i = 0; i < m_; ++i) {
-          const double x = (static_cast<double>(i) + 0.5) / m;
-          const double taper = (1.0 - std::cos(kTwoPi * x)) / m;
-          c[i] = taper * std::cos(kTwoPi * static_cast<double>(k) * x);
-          s[i] = taper * std::sin(kTwoPi * static_cast<double>(k) * x);
-        }
-        for (std::size_t one = 0; one < sets.size(); ++one)
-          powers[one][static_cast<Index>(k)] =
-              ((c.transpose() * sets[one]).squaredNorm() + (s.transpose() * sets[one]).squaredNorm());
-      }
-    });
-    return powers;
+    const CourseFinding waves = own_waves(sets_, loud, tests);
+    keep(waves, tests);
   }
 
   /// How much louder than the usual course each course of a set is; a quiet one may be so by chance.
@@ -579,6 +530,13 @@ class CourseScan {
 };
 
 }  // namespace
+
+double CourseFinding::side_of_kink() const {
+  constexpr double kAlike = 0.3;
+  const double slopes = std::abs(before) + std::abs(beyond);
+  if (std::abs(before + beyond) < kAlike * slopes) return 0.0;
+  return std::abs(before) > std::abs(beyond) ? -1.0 : 1.0;
+}
 
 bool is_better(double p_value, double square, double than_p_value, double than_square) {
   const bool sure = is_beyond_doubt(p_value), than_sure = is_beyond_doubt(than_p_value);

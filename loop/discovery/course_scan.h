@@ -22,12 +22,17 @@ struct CourseFinding {
   double p_value = 1.0;  ///< corrected for all that was looked at in the call
   int set = -1;          ///< of the sets; -1: their mean; -2: half the difference of two (steps)
   int course = -1;       ///< kSpot: of the set
+  std::vector<int> holders;  ///< kOwnWaves: courses of the set, where few of them have the waves
   double at = 0.0, width = 0.0;
   double square = 0.0;  ///< squares it takes out of all courses; forms in common only
   double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the
                         ///< wave, mean of the spot
   double before = 0.0, beyond = 0.0;  ///< kKink: slopes to either side
   bool beside_line = false;  ///< steps and bands that were sought beside a straight line
+
+  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike
+  /// 0.
+  [[nodiscard]] double side_of_kink() const;
 };
 
 /// Of two findings that are both beyond doubt the one that takes out more is the better

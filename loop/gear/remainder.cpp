@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/threads.h"
@@ -51,6 +53,7 @@ class RemainderSearch {
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
     gather();
     tell_loud_traces();
+    tell_rougher_teeth();
     for (auto& [key, courses] : courses_) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
     look_across(spectrum.get());
@@ -196,31 +199,41 @@ class RemainderSearch {
   void tell_loud_traces() {
     for (const auto& [key, courses] : courses_) {
       if (!is_of_trace(key.kind)) continue;
+      std::vector<MemberScatter>& scatters = trace_scatters_[key];
+      scatters = scatters_of(courses);
       const auto moments =
           moments_.find({key.face ? MomentsOf::kHelices : MomentsOf::kProfiles, key.source});
       if (moments == moments_.end()) continue;
       for (const int side : {0, 1}) {
-        std::vector<double> scatters, values;
+        std::vector<double> own, values;
         std::vector<std::size_t> of_tooth;
-        for (const auto& [number, samples] : courses.of_flank[static_cast<std::size_t>(side)]) {
-          std::vector<RemainderSample> in_order = samples;
-          std::stable_sort(in_order.begin(), in_order.end(),
-                           [](const auto& a, const auto& b) { return a.at < b.at; });
-          Eigen::VectorXd course(static_cast<Eigen::Index>(in_order.size()));
-          for (std::size_t i = 0; i < in_order.size(); ++i)
-            course[static_cast<Eigen::Index>(i)] = in_order[i].um;
-          scatters.push_back(short_wave_scatter(course));
-          values.push_back(static_cast<double>(in_order.size()));
-          of_tooth.push_back(
-              ToothMoments::at(side, courses.tooth_of[static_cast<std::size_t>(side)].at(number)));
+        for (const MemberScatter& trace : scatters) {
+          if (trace.set != side) continue;
+          own.push_back(trace.scatter);
+          values.push_back(trace.values);
+          of_tooth.push_back(ToothMoments::at(side, trace.number));
         }
-        const std::vector<double> loud = loudness_of(scatters, values).factors;
+        const std::vector<double> loud = loudness_of(own, values).factors;
         for (std::size_t k = 0; k < loud.size(); ++k) {
           double& of = moments->second[of_tooth[k]].loud;
           of = std::max(of, loud[k]);
         }
       }
     }
+  }
+
+  /// Flanks that are rougher from tooth to tooth, or on some neighbouring teeth.
+  void tell_rougher_teeth() {
+    const auto tell = [this](const std::vector<MemberScatter>& scatters, const std::string& what) {
+      ++looks_;
+      if (const std::optional<RougherMembers> rougher = rougher_members(scatters))
+        add_text(rougher->p_value, words_of(*rougher, what, flank_choice(geometry_, rougher->set)),
+                 rougher->inside);
+    };
+    for (const auto& [key, scatters] : trace_scatters_)
+      tell(scatters, key.face ? "traces over the face of " : "traces over the profile of ");
+    if (which_ != RemainderOf::kAll) return;
+    for (const auto& [source, scatters] : patches_.flank_scatters) tell(scatters, "");
   }
 
   /// Of values that are no scan's.
@@ -332,9 +345,21 @@ class RemainderSearch {
                           courses.tooth_of[static_cast<std::size_t>(side)].at(course));
       } else {
         add_course(key, courses, places, found,
-                   found.set < 0 ? -1 : all.side_of[static_cast<std::size_t>(found.set)]);
+                   found.set < 0 ? -1 : all.side_of[static_cast<std::size_t>(found.set)],
+                   scan ? "" : teeth_of(found, courses, all));
       }
     }
+  }
+
+  /// "on teeth 27 to 29": where few traces have the waves.
+  static std::string teeth_of(const CourseFinding& found, const Courses& courses,
+                              const CourseSets& all) {
+    if (found.holders.empty()) return {};
+    const auto side = static_cast<std::size_t>(all.side_of[static_cast<std::size_t>(found.set)]);
+    std::set<int> teeth;
+    for (const int course : found.holders)
+      teeth.insert(courses.tooth_of[side].at(all.members[side][static_cast<std::size_t>(course)]));
+    return words_of_teeth(teeth);
   }
 
   /// Told as a finding.
@@ -350,14 +375,7 @@ class RemainderSearch {
                  high = place_mm(key.face, courses.low + zone.to * length);
     const FlankChoice flank = flank_choice(geometry_, surest.side);
     add_text(zone.p_value,
-             printed("all traces over the %s%s are rougher between %s of %.4g and %.4g mm: %.3g um "
-                     "against %.3g um elsewhere",
-                     key.face ? "face" : "profile",
-                     flank == FlankChoice::kLeft    ? " of left flanks"
-                     : flank == FlankChoice::kRight ? " of right flanks"
-                                                    : "",
-                     key.face ? "heights" : "diameters", std::min(low, high), std::max(low, high),
-                     zone.inside_um, zone.outside_um),
+             words_of(zone, flank, key.face, std::min(low, high), std::max(low, high)),
              zone.inside_um);
     return surest;
   }
@@ -377,16 +395,8 @@ class RemainderSearch {
     found_.push_back({.p_value = p_value, .text = std::move(text), .amount_um = amount});
   }
 
-  /// Where a kink leaves the straight line: before its place -1, beyond it 1, to both sides alike
-  /// 0.
-  static double side_of_kink(const CourseFinding& kink) {
-    const double slopes = std::abs(kink.before) + std::abs(kink.beyond);
-    if (std::abs(kink.before + kink.beyond) < 0.3 * slopes) return 0.0;
-    return std::abs(kink.before) > std::abs(kink.beyond) ? -1.0 : 1.0;
-  }
-
   void add_course(const CourseKey& key, const Courses& courses, int places,
-                  const CourseFinding& found, int side) {
+                  const CourseFinding& found, int side, const std::string& on_teeth) {
     const double face = key.face ? 1.0 : 0.0;
     const FlankChoice flank = flank_choice(geometry_, side);
     // Of a ring's scan the course runs from root to tip, and its roll falls.
@@ -401,7 +411,7 @@ class RemainderSearch {
         found_.back().beside_line = found.beside_line;
         break;
       case Kind::kKink:
-        add_form("unnamed_kink", flank, {face, at, side_of_kink(found)}, found.p_value,
+        add_form("unnamed_kink", flank, {face, at, found.side_of_kink()}, found.p_value,
                  found.amount, false, found.square);
         break;
       case Kind::kBand:
@@ -416,9 +426,9 @@ class RemainderSearch {
       default:
         add_text(
             found.p_value,
-            printed(
-                "waves over the %s, %.3g mm long, %.3g um, in a phase of its own on every tooth",
-                key.face ? "face" : "profile", width, found.amount) +
+            printed("waves over the %s, %.3g mm long, %.3g um, %s", key.face ? "face" : "profile",
+                    width, found.amount,
+                    on_teeth.empty() ? "in a phase of its own on every tooth" : on_teeth.c_str()) +
                 (side < 0                      ? ""
                  : flank == FlankChoice::kLeft ? ", left flanks"
                                                : ", right flanks"),
@@ -575,6 +585,7 @@ class RemainderSearch {
   std::vector<bool> used_;
   std::map<CourseKey, Courses> courses_;
   std::map<CourseKey, Courses> coarse_courses_;  ///< of values read coarsely, spread widely
+  std::map<CourseKey, std::vector<MemberScatter>> trace_scatters_;
   MomentsOfTeeth moments_;
   int looks_ = 0;
   std::vector<RemainderFinding> found_;

@@ -54,7 +54,7 @@ class LoudPlaceSearch {
       multiply(side,
                [&](const FlankPart& part) { return flank[static_cast<std::size_t>(part.tooth)]; });
     }
-    return {std::move(factors_), std::move(places_)};
+    return {std::move(factors_), std::move(places_), std::move(flanks_)};
   }
 
  private:
@@ -115,6 +115,10 @@ class LoudPlaceSearch {
       scatters.push_back(
           of_member.size() < kFewestDifferences ? 0.0 : robust_sigma(std::move(of_member)));
     }
+    if (of == LoudPlace::Of::kFlank)
+      for (std::size_t tooth = 0; tooth < members; ++tooth)
+        flanks_.push_back(
+            {static_cast<int>(tooth), static_cast<int>(side), scatters[tooth], values[tooth]});
     std::vector<double> factors = loudness_of(scatters, values).factors;
     const bool even = std::all_of(factors.begin(), factors.end(), [](double factor) {
       return factor < kWorth && factor > 1.0 / kWorth;
@@ -190,6 +194,7 @@ class LoudPlaceSearch {
   std::vector<bool> common_known_;
   std::vector<double> factors_;
   std::vector<LoudPlace> places_;
+  std::vector<MemberScatter> flanks_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trueflank/loop/discovery/rougher_members.h"
 #include "trueflank/loop/gear/effect.h"
 #include "trueflank/loop/gear/observations.h"
 
@@ -33,6 +34,7 @@ struct LoudPlace {
 struct LoudPlaces {
   std::vector<double> factors;    ///< one for each part
   std::vector<LoudPlace> places;  ///< those twice as loud as is usual, or more
+  std::vector<MemberScatter> flanks;  ///< how much each scatters beside its places: tooth and side
 };
 
 /// By what factor the random error of each part is larger than the usual one of its side: the

@@ -500,11 +500,13 @@ class PatchMaker {
       const Patches::Patch& patch = result_.patches[i];
       parts.push_back({key[3], key[4] > 0 ? 1U : 0U, key[5], key[6], patch.mean_um, own_of(patch)});
     }
-    const LoudPlaces loud = loud_places(parts);
+    LoudPlaces loud = loud_places(parts);
     for (std::size_t k = 0; k < members.size(); ++k)
       result_.patches[members[k]].loud = loud.factors[k];
     for (const LoudPlace& place : loud.places)
       tell_louder(place, result_.patches[members.front()].source);
+    result_.flank_scatters.emplace_back(result_.patches[members.front()].source,
+                                        std::move(loud.flanks));
   }
 
   void tell_louder(const LoudPlace& place, int source) {

@@ -39,6 +39,9 @@ struct Patches {
   std::vector<int> patch_of_row;
   int units = 0;
   std::vector<LouderPlace> louder;  ///< of scans
+  /// How much the flanks of each scan scatter, beside each other: its source, their teeth and
+  /// sides.
+  std::vector<std::pair<int, std::vector<MemberScatter>>> flank_scatters;
 
   std::vector<std::pair<std::size_t, double>> left_out;  ///< patches, and the weight they had
 
