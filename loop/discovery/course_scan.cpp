@@ -508,6 +508,7 @@ class CourseScan {
                     static_cast<double>(m_);
           best.width = static_cast<double>(width) / static_cast<double>(m_);
           best.amount = sets_[s].col(column).segment(row, width).mean();
+          best.square = static_cast<double>(width) * best.amount * best.amount;
         }
       }
     keep(best, tests);

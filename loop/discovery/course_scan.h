@@ -24,7 +24,7 @@ struct CourseFinding {
   int course = -1;       ///< kSpot: of the set
   std::vector<int> holders;  ///< kOwnWaves: courses of the set, where few of them have the waves
   double at = 0.0, width = 0.0;
-  double square = 0.0;  ///< squares it takes out of all courses; forms in common only
+  double square = 0.0;  ///< squares it takes out of all courses, a spot of its own; no own waves
   double amount = 0.0;  ///< height of the step or band, of the kink at its end, amplitude of the
                         ///< wave, mean of the spot
   double before = 0.0, beyond = 0.0;  ///< kKink: slopes to either side

@@ -42,6 +42,7 @@ struct EffectFamily : EffectFacts {
   bool one_flank_too = false;       ///< may act on one flank only
   bool flank_only = false;          ///< must act on one flank only
   bool local = false;               ///< lives on one tooth
+  bool is_of_one_tooth = false;  ///< a form without a name on the tooth that its shape begins with
   bool tells_its_end = false;       ///< stands at the lower end by its cause: says which end is up
   Correctable correctable = Correctable::kGeometry;
   /// Ways of making that can have it, each with its cause; empty: any.

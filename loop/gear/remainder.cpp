@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/remainder.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,12 +18,13 @@
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
 #include "trueflank/loop/gear/local/flank_waves.h"
-#include "trueflank/loop/gear/local/reading_steps.h"
+#include "trueflank/loop/gear/local/loud_places.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
+#include "trueflank/loop/gear/odd_teeth.h"
 #include "trueflank/loop/gear/remainder_around.h"
-#include "trueflank/loop/gear/table/rows_by_class.h"
+#include "trueflank/loop/gear/remainder_values.h"
 
 namespace trueflank::loop {
 namespace {
@@ -43,7 +42,7 @@ class RemainderSearch {
       : geometry_(geometry), table_(table), patches_(patches), row_um_(row_um), which_(which) {}
 
   std::vector<RemainderFinding> run() {
-    tell_used();
+    used_ = rows_looked_at(table_, patches_, which_);
     // None of the four asks the others.
     auto spots = begun_beside([this] {
       return which_ == RemainderOf::kAll ? spots_of_scans(geometry_, table_, patches_, row_um_)
@@ -51,10 +50,10 @@ class RemainderSearch {
     });
     auto spectrum = begun_beside([this] { return spectrum_across(); });
     auto rotation = begun_beside([this] { return wave_over_rotation(); });
-    gather();
+    values_ = gather_values(geometry_, table_, patches_, row_um_, which_, used_);
     tell_loud_traces();
     tell_rougher_teeth();
-    for (auto& [key, courses] : courses_) look_along(key, courses);
+    for (auto& [key, courses] : values_.courses) look_along(key, courses);
     if (which_ == RemainderOf::kAll) look_for_spots(spots.get());
     look_across(spectrum.get());
     tell_rough_places();
@@ -63,6 +62,7 @@ class RemainderSearch {
       finding.p_value = std::min(1.0, looks * finding.p_value);
     look_over_rotation(rotation.get());
     look_around();
+    if (which_ == RemainderOf::kAll) look_at_single_teeth();
     std::erase_if(found_, [](const RemainderFinding& f) { return f.p_value > kRemainderLevel; });
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return is_better(a.p_value, a.square, b.p_value, b.square);
@@ -71,139 +71,15 @@ class RemainderSearch {
   }
 
  private:
-  Courses& scan_courses_of(int source, bool face) {
-    Courses& courses = courses_[{source, ObservationKind::kScanFlank, face}];
-    courses.low = face ? 0.0 : geometry_.root_form_roll_mm();
-    courses.high = face ? geometry_.face_width_mm() : geometry_.tip_form_roll_mm();
-    return courses;
-  }
-  std::vector<ToothMoments>& moments_of(MomentsOf what, int source) {
-    std::vector<ToothMoments>& moments = moments_[{what, source}];
-    moments.resize(2 * static_cast<std::size_t>(geometry_.teeth() + 1));
-    return moments;
-  }
-
-  /// Where the values of a scan are gathered.
-  struct OfScan {
-    Courses *profile = nullptr, *face = nullptr;
-    std::vector<ToothMoments>* moments = nullptr;
-  };
-
-  struct OfCourse {
-    std::vector<RemainderSample> profile, face;
-    std::vector<ToothMoments> moments;  ///< of the teeth of one side
-  };
-
-  /// One course of one scan: a class of rows.
-  struct Course {
-    const OfScan* scan = nullptr;
-    int side = 0, course = 0;
-  };
-
-  /// Teeth of scans are gathered to few courses, each dense enough. Courses do not ask each other:
-  /// the same sums on any number of processors.
-  void gather() {
-    std::map<int, OfScan> of_source;
-    std::map<std::array<int, 3>, int> numbers;  // of source, side and course
-    std::vector<Course> courses;
-    constexpr int kOther = -2, kNone = -1;
-    std::vector<int> class_of(patches_.patches.size(), kNone);
-    for (std::size_t p = 0; p < class_of.size(); ++p) {
-      const Patches::Patch& patch = patches_.patches[p];
-      if (!is_asked(patch)) continue;
-      class_of[p] = kOther;
-      if (patch.kind != ObservationKind::kScanFlank) continue;
-      const Place& place = patch.places.front().place;
-      const int side = place.side > 0 ? 1 : 0,
-                course = place.tooth % std::min(kScanCourses, geometry_.teeth());
-      const auto [number, is_new] =
-          numbers.emplace(std::array{patch.source, side, course}, static_cast<int>(courses.size()));
-      class_of[p] = number->second;
-      if (is_new) courses.push_back({&opened(of_source, patch.source, side, course), side, course});
-    }
-    const RowsByClass rows(table_.rows.size(), courses.size() + 1, [&](std::size_t i) {
-      const int patch = patches_.patch_of_row[i];
-      const int number = patch < 0 ? kNone : class_of[static_cast<std::size_t>(patch)];
-      return number == kOther ? static_cast<int>(courses.size()) : number;
-    });
-    for_each_piece(courses.size(), [&](std::size_t k) { gather_course(rows, k, courses[k]); });
-    for (auto& [source, scan] : of_source)
-      for (Courses* all : {scan.profile, scan.face}) all->count_cells();
-    const ReadingSteps steps(table_, row_um_);
-    rows.for_each(courses.size(), [&](std::size_t i) {
-      if (!used_[i]) return;
-      gather_other(i, row_um_[i] + steps.spread_um(table_, i));
-      if (const double wide = steps.wide_spread_um(table_, i); wide != 0.0)
-        add_to_courses(i, row_um_[i] + wide, coarse_courses_);
-    });
-  }
-
-  const OfScan& opened(std::map<int, OfScan>& of_source, int source, int side, int course) {
-    OfScan& scan = of_source[source];
-    if (scan.profile == nullptr)
-      scan = {&scan_courses_of(source, false), &scan_courses_of(source, true),
-              &moments_of(MomentsOf::kScan, source)};
-    scan.profile->open(side, course);
-    scan.face->open(side, course);
-    return scan;
-  }
-
-  /// Teeth have their sums side by side: they are added up apart, so that processors do not
-  /// wait for each other's memory.
-  void gather_course(const RowsByClass& rows, std::size_t of_class, const Course& of) const {
-    const auto flank = static_cast<std::size_t>(of.side);
-    std::vector<RemainderSample>&profile = of.scan->profile->of_flank[flank].at(of.course),
-    &face = of.scan->face->of_flank[flank].at(of.course);
-    OfCourse sums{profile, face,
-                  std::vector<ToothMoments>(static_cast<std::size_t>(geometry_.teeth()) + 1)};
-    rows.for_each(of_class, table_, [&](std::size_t i) {
-      add_scanned(table_.place(table_.rows[i]), row_um_[i], sums);
-    });
-    profile = std::move(sums.profile);
-    face = std::move(sums.face);
-    for (int tooth = 1; tooth <= geometry_.teeth(); ++tooth)
-      if (const ToothMoments& own = sums.moments[static_cast<std::size_t>(tooth)]; own.count > 0)
-        (*of.scan->moments)[ToothMoments::at(of.side, tooth)] = own;
-  }
-
-  void add_scanned(const Place& place, double um, OfCourse& to) const {
-    const double u = geometry_.profile_coordinate(place.roll_mm),
-                 v = geometry_.face_coordinate(place.z_mm);
-    const std::array<double, ToothMoments::kForms> form = ToothMoments::forms_at(u, v);
-    ToothMoments& of_tooth = to.moments[static_cast<std::size_t>(place.tooth)];
-    ++of_tooth.count;
-    for (std::size_t k = 0; k < form.size(); ++k) {
-      of_tooth.sum[k] += form[k] * um;
-      of_tooth.square[k] += form[k] * form[k];
-    }
-    Courses::add_to_cell(to.profile, 0.5 * (u + 1.0), um);
-    Courses::add_to_cell(to.face, 0.5 * (v + 1.0), um);
-  }
-
-  void gather_other(std::size_t i, double um) {
-    const Observation& row = table_.rows[i];
-    add_moments(row, table_.place(row), um);
-    if (is_of_trace(row.kind)) add_to_courses(i, um, courses_);
-  }
-
-  void add_to_courses(std::size_t i, double um, std::map<CourseKey, Courses>& courses) {
-    const Observation& row = table_.rows[i];
-    const Place& place = table_.place(row);
-    const bool helix = row.kind == ObservationKind::kHelix;
-    courses[{row.source, row.kind, helix}].add(place.side > 0 ? 1 : 0,
-                                               row.trace >= 0 ? row.trace : place.tooth,
-                                               place.tooth, helix ? place.z_mm : place.roll_mm, um);
-  }
-
   /// Which traces of a flank scatter more than the usual one.
   void tell_loud_traces() {
-    for (const auto& [key, courses] : courses_) {
+    for (const auto& [key, courses] : values_.courses) {
       if (!is_of_trace(key.kind)) continue;
       std::vector<MemberScatter>& scatters = trace_scatters_[key];
       scatters = scatters_of(courses);
       const auto moments =
-          moments_.find({key.face ? MomentsOf::kHelices : MomentsOf::kProfiles, key.source});
-      if (moments == moments_.end()) continue;
+          values_.moments.find({key.face ? MomentsOf::kHelices : MomentsOf::kProfiles, key.source});
+      if (moments == values_.moments.end()) continue;
       for (const int side : {0, 1}) {
         std::vector<double> own, values;
         std::vector<std::size_t> of_tooth;
@@ -222,6 +98,26 @@ class RemainderSearch {
     }
   }
 
+  /// Single teeth with a form of their own; of scans it is known how loud their flanks are.
+  void look_at_single_teeth() {
+    for (const auto& [source, scatters] : patches_.flank_scatters) {
+      const auto moments = values_.moments.find({MomentsOf::kScan, source});
+      if (moments == values_.moments.end()) continue;
+      std::vector<double> own, values;
+      for (const MemberScatter& flank : scatters) {
+        own.push_back(flank.scatter);
+        values.push_back(flank.values);
+      }
+      const std::vector<double> loud = loudness_of(own, values).factors;
+      for (std::size_t k = 0; k < loud.size(); ++k)
+        moments->second[ToothMoments::at(scatters[k].set, scatters[k].number)].loud =
+            std::max(1.0, loud[k]);
+    }
+    const std::vector<RemainderFinding> odd =
+        without_spots_alike(odd_teeth(geometry_, values_.moments), found_);
+    found_.insert(found_.end(), odd.begin(), odd.end());
+  }
+
   /// Flanks that are rougher from tooth to tooth, or on some neighbouring teeth.
   void tell_rougher_teeth() {
     const auto tell = [this](const std::vector<MemberScatter>& scatters, const std::string& what) {
@@ -234,29 +130,6 @@ class RemainderSearch {
       tell(scatters, key.face ? "traces over the face of " : "traces over the profile of ");
     if (which_ != RemainderOf::kAll) return;
     for (const auto& [source, scatters] : patches_.flank_scatters) tell(scatters, "");
-  }
-
-  /// Of values that are no scan's.
-  void add_moments(const Observation& row, const Place& place, double um) {
-    if (row.kind == ObservationKind::kRadial) return;
-    const std::array<double, ToothMoments::kForms> form = ToothMoments::forms_at(
-        geometry_.profile_coordinate(place.roll_mm), geometry_.face_coordinate(place.z_mm));
-    const bool profile = row.kind == ObservationKind::kProfile,
-               helix = row.kind == ObservationKind::kHelix;
-    ToothMoments& of_tooth =
-        moments_of(profile ? MomentsOf::kProfiles
-                   : helix ? MomentsOf::kHelices
-                           : MomentsOf::kOthers,
-                   row.source)[ToothMoments::at(place.side > 0 ? 1 : 0, place.tooth)];
-    ++of_tooth.count;
-    for (std::size_t k = 0; k < form.size(); ++k) {
-      // A trace shows its own direction; with a zero of its own no height.
-      if (k == 0 && row.trace >= 0 && row.kind != ObservationKind::kIndex) continue;
-      if ((k == 1 || k == 3) && (helix || row.kind == ObservationKind::kIndex)) continue;
-      if ((k == 2 || k == 4) && (profile || row.kind == ObservationKind::kIndex)) continue;
-      of_tooth.sum[k] += form[k] * um;
-      of_tooth.square[k] += form[k] * form[k];
-    }
   }
 
   /// One flank's courses as columns, of the flanks that have any.
@@ -282,8 +155,8 @@ class RemainderSearch {
   [[nodiscard]] std::vector<CourseFinding> findings_along(const CourseKey& key,
                                                           const CourseSets& of, int places) const {
     std::vector<CourseFinding> found = scan_courses(of.sets);
-    const auto coarse = coarse_courses_.find(key);
-    if (coarse == coarse_courses_.end()) return found;
+    const auto coarse = values_.coarse_courses.find(key);
+    if (coarse == values_.coarse_courses.end()) return found;
     const auto is_spot = [](const CourseFinding& f) {
       return f.kind == CourseFinding::Kind::kSpot;
     };
@@ -295,8 +168,8 @@ class RemainderSearch {
 
   /// A trend of every trace's own that the teeth share out in a way that is told is not told twice.
   void look_around() {
-    const std::vector<RemainderFinding> around =
-        look_around_gear(geometry_, moments_, [this](const ToothSector& sector, double p_value) {
+    const std::vector<RemainderFinding> around = look_around_gear(
+        geometry_, values_.moments, [this](const ToothSector& sector, double p_value) {
           return dent_in_place_of(sector, p_value);
         });
     std::erase_if(found_, [&](const RemainderFinding& own) {
@@ -368,7 +241,7 @@ class RemainderSearch {
     RoughFlanks surest = rough_flanks(courses);
     const RoughZone& zone = surest.zone;
     // As it will be judged with all others: spots in a zone that is not told are told themselves.
-    const auto most_looks = static_cast<double>(4 * courses_.size() + 4);
+    const auto most_looks = static_cast<double>(4 * values_.courses.size() + 4);
     if (zone.p_value > kRemainderLevel / most_looks) return {};
     const double length = courses.high - courses.low;
     const double low = place_mm(key.face, courses.low + zone.from * length),
@@ -447,7 +320,7 @@ class RemainderSearch {
             : EffectShape{double(tooth), place_mm(false, at), middle,
                           2.0 * half * gear_effects::along_profile(geometry_, at), 0.0};
     add_form("unnamed_spot", flank_choice(geometry_, side), std::move(shape), found.p_value,
-             found.amount, true);
+             found.amount, true, found.square * courses.values_of_place(places));
   }
 
   void look_for_spots(const std::vector<FlankSpot>& spots) {
@@ -457,7 +330,7 @@ class RemainderSearch {
                {double(spot.tooth), place_mm(false, spot.roll_mm), spot.height_mm,
                 2.0 * spot.half_profile_mm * gear_effects::along_profile(geometry_, spot.roll_mm),
                 2.0 * spot.half_face_mm},
-               spot.p_value, spot.amount_um, true);
+               spot.p_value, spot.amount_um, true, spot.square);
   }
 
   void tell_rough_places() {
@@ -553,40 +426,14 @@ class RemainderSearch {
         false);
   }
 
-  [[nodiscard]] bool is_asked(const Patches::Patch& patch) const {
-    return which_ != RemainderOf::kTraining || patch.fold != 0;
-  }
-  /// Which rows are looked at.
-  void tell_used() {
-    enum class Rows : std::uint8_t { kNone, kAll, kOnFlanks };
-    std::vector<Rows> of_patch(patches_.patches.size(), Rows::kNone);
-    for (std::size_t p = 0; p < of_patch.size(); ++p)
-      if (const Patches::Patch& patch = patches_.patches[p]; is_asked(patch))
-        of_patch[p] = patch.kind == ObservationKind::kScanFlank ? Rows::kAll : Rows::kOnFlanks;
-    used_.assign(table_.rows.size(), false);
-    // (whole words: bits of one are not written by two threads)
-    constexpr std::size_t kRowsOfPiece = 16384;
-    for_each_run(used_.size(), kRowsOfPiece, [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) {
-        const int patch = patches_.patch_of_row[i];
-        const Rows which = patch < 0 ? Rows::kNone : of_patch[static_cast<std::size_t>(patch)];
-        const Observation& row = table_.rows[i];
-        used_[i] = which == Rows::kAll || (which == Rows::kOnFlanks && row.places == 1 &&
-                                           table_.place(row).surface == Surface::kFlank);
-      }
-    });
-  }
-
   const FlankGeometry& geometry_;
   const Observations& table_;
   const Patches& patches_;
   const std::vector<float>& row_um_;
   RemainderOf which_;
   std::vector<bool> used_;
-  std::map<CourseKey, Courses> courses_;
-  std::map<CourseKey, Courses> coarse_courses_;  ///< of values read coarsely, spread widely
+  RemainderValues values_;
   std::map<CourseKey, std::vector<MemberScatter>> trace_scatters_;
-  MomentsOfTeeth moments_;
   int looks_ = 0;
   std::vector<RemainderFinding> found_;
 };

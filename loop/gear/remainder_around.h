@@ -22,6 +22,7 @@ struct ToothMoments {
   static constexpr std::size_t kForms = 5;
   std::array<double, kForms> sum{}, square{};
   int count = 0;
+  double squares = 0.0;  ///< sum of the values' squares
   double loud = 1.0;  ///< the random error of its trace over that of the usual one
 
   /// Height, slope and bow over the profile coordinate u and the face coordinate v (-1 ... 1): 1,

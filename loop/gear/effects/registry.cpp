@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/effects/registry.h"
 
+#include <utility>
+
 namespace trueflank::loop {
 
 const std::vector<EffectFamily>& effect_library() {
@@ -47,6 +49,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_waves_from(),
         unnamed_waves_dying(),
         unnamed_marks(),
+        unnamed_tooth_form(),
         unnamed_sector(),
         unnamed_bow(),
         unnamed_field(),
@@ -61,6 +64,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_dent(),
         unnamed_spot(),
     };
+    for (EffectFamily& family : forms_of_teeth()) all.push_back(std::move(family));
     for (EffectFamily& family : all) {
       family.cause = causes_text(family.causes, kAnyMaking);
       if (family.columns) continue;

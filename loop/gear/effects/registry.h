@@ -51,6 +51,11 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed();
 [[nodiscard]] EffectFamily unnamed_flank();
 [[nodiscard]] EffectFamily unnamed_tooth_aside();
+[[nodiscard]] EffectFamily unnamed_tooth_form();
+/// Forms along the flanks, each on some neighbouring teeth only.
+[[nodiscard]] std::vector<EffectFamily> forms_of_teeth();
+/// The family of a form on some teeth; nullptr where there is none.
+[[nodiscard]] const EffectFamily* of_teeth(const Effect& form);
 [[nodiscard]] EffectFamily unnamed_step();
 [[nodiscard]] EffectFamily unnamed_kink();
 [[nodiscard]] EffectFamily unnamed_bend();

@@ -72,6 +72,31 @@ EffectFamily unnamed_sector() {
   return f;
 }
 
+EffectFamily unnamed_tooth_form() {
+  EffectFamily f = described("unnamed_tooth_form",
+                             {"tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.is_of_one_tooth = true;
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    const bool is_it = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]);
+    c[0] = is_it ? form_of_tooth(g, p, shape, 1) : 0.0;
+  };
+  f.term_keys = {{"tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
+  f.words = [](const EffectShape& shape, FlankChoice flank) {
+    const double degree = std::max(shape[1], shape[2]);
+    return printed("tooth %.0f alone ", shape[0]) +
+           (degree > 1.0   ? "bends"
+            : degree > 0.0 ? "leans"
+                           : "stands out") +
+           (shape[1] > 0.0   ? " over the profile"
+            : shape[2] > 0.0 ? " over the face"
+                             : "") +
+           (flank != FlankChoice::kBoth ? ""
+            : shape[3] != 0.0           ? ", opposite on its two flanks"
+                                        : ", alike on both its flanks");
+  };
+  return f;
+}
+
 EffectFamily unnamed_alternation() {
   EffectFamily f =
       described("unnamed_alternation", {"profile_degree", "face_degree", "opposite_flanks"});

@@ -473,6 +473,7 @@ EffectFamily unnamed_spot() {
   EffectFamily f = described(
       "unnamed_spot", {"tooth", "diameter_mm", "height_mm", "width_profile_mm", "width_face_mm"});
   f.flank_only = true;
+  f.is_of_one_tooth = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank || p.tooth != static_cast<int>(shape[0])) return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "trueflank/base/threads.h"
@@ -80,9 +81,9 @@ class SpotSearch {
       Field& field = *fields[flank];
       field.sum = field.count = field.plain = std::vector<double>(corners(), 0.0);
       const double limit = limits[flank % 2];
-      std::vector<float> steps;  // from one point of the flank to the next
-      float last_um = 0.0F;
-      bool any = false;
+      // From one point of a cell to the next: points come in any order, and a flank that leans is
+      // not loud.
+      std::vector<float> steps, last_um(corners(), std::numeric_limits<float>::quiet_NaN());
       rows.for_each(flank, table, [&](std::size_t i) {
         const Place& place = table.place(table.rows[i]);
         const std::size_t at = corner(cell(geometry.profile_coordinate(place.roll_mm)) + 1,
@@ -91,9 +92,8 @@ class SpotSearch {
         field.sum[at] += std::clamp(static_cast<double>(um), -limit, limit);
         field.plain[at] += row_um[i];
         field.count[at] += 1.0;
-        if (any) steps.push_back(um - last_um);
-        last_um = um;
-        any = true;
+        if (!std::isnan(last_um[at])) steps.push_back(um - last_um[at]);
+        last_um[at] = um;
       });
       field.loud = robust_sigma(std::move(steps));
       for (std::vector<double>* values : {&field.sum, &field.count, &field.plain}) add_up(*values);
@@ -304,7 +304,8 @@ class SpotSearch {
                            (v + 0.5 * dv) * mm_v,
                            window.profile > 0 ? 0.5 * du * mm_u : 0.0,
                            window.face > 0 ? 0.5 * dv * mm_v : 0.0,
-                           sum / count};
+                           sum / count,
+                           square};
       if (p < found.most_likely.p_value) {
         found.most_likely = spot;
         found.too_near = size_as_likely(std::max(p, kBeyondDoubt));

@@ -14,6 +14,7 @@ struct FlankSpot {
   double roll_mm = 0.0, height_mm = 0.0;
   double half_profile_mm = 0.0, half_face_mm = 0.0;  ///< 0: over all of it
   double amount_um = 0.0;                            ///< mean over the window
+  double square = 0.0;                               ///< that it takes out of the window's values
 };
 
 /// The most certain spot of every flank with p below 1, at most a few. Windows of several sizes

@@ -99,6 +99,14 @@ struct Courses {
     return static_cast<int>(std::min<std::size_t>(median(counts), kMostPlaces));
   }
 
+  /// How many values of a trace stand at one of the places.
+  [[nodiscard]] double values_of_place(int places) const {
+    std::vector<double> counts;
+    for (const auto& flank : of_flank)
+      for (const auto& [course, list] : flank) counts.push_back(static_cast<double>(list.size()));
+    return counts.empty() ? 0.0 : median(std::move(counts)) / places;
+  }
+
   /// One flank's courses as columns over the places; gaps are bridged, courses with many left out.
   [[nodiscard]] Eigen::MatrixXd matrix(int side, int places, std::vector<int>& courses) const {
     Eigen::MatrixXd all(places, static_cast<Eigen::Index>(of_flank[side].size()));

@@ -57,6 +57,11 @@ bool is_sector_of(const Effect& effect, const Course& course) {
           course.face == 0.0);
 }
 
+/// Single teeth of it are its beginning, too.
+bool is_tooth_of(const Effect& effect, const Course& course) {
+  return effect.family == find_family("unnamed_tooth_form") && has_course(effect, 1, course);
+}
+
 bool is_ramp_of(const Effect& effect, const Course& course) {
   return (effect.family == find_family("unnamed_ramp") ||
           effect.family == find_family("unnamed_levelling")) &&
@@ -222,10 +227,12 @@ bool PartLoop::tell_as_drift() {
     std::set<double> orders;
     bool drifts = false;
     for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-      const bool ramp = is_ramp_of(effects_[e], course), sector = is_sector_of(effects_[e], course);
-      if (ramp || sector || is_wave_of(effects_[e], course)) {
+      const bool ramp = is_ramp_of(effects_[e], course), sector = is_sector_of(effects_[e], course),
+                 tooth = is_tooth_of(effects_[e], course);
+      if (ramp || sector || tooth || is_wave_of(effects_[e], course)) {
+        constexpr double kSector = -1.0, kTooth = -2.0;  // kinds beside orders
         waves.push_back(e);
-        orders.insert(ramp ? 0.0 : sector ? -1.0 : effects_[e].order());
+        orders.insert(ramp ? 0.0 : sector ? kSector : tooth ? kTooth : effects_[e].order());
         drifts = drifts || ramp;
       } else if (effects_[e].family->local && effects_[e].columns() == 1) {
         teeth.push_back(e);

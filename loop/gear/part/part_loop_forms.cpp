@@ -255,6 +255,8 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
 void PartLoop::tell_parts_of_a_form() {
   drop_echoes_of_forms();
   tell_bows_with_a_level();
+  tell_forms_of_teeth();
+  tell_forms_of_sectors();
   tell_as_one_form();
   tell_parts_beside_forms();
   tell_parts_of_a_sector();

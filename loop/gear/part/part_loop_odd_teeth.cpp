@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one tooth has by itself, and forms along the flanks of some teeth: told as what they are
+// where spots, heights and waves around the gear were what they are made of.
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+
+namespace trueflank::loop {
+namespace {
+
+bool is_on_one_tooth(const Effect& effect) {
+  return effect.family->local || effect.family->is_of_one_tooth;
+}
+
+/// A tooth that leans or bends over profile or face, or stands out.
+Effect form_of_one(int tooth, double profile, double face, FlankChoice flank, bool opposite) {
+  return {find_family("unnamed_tooth_form"),
+          flank,
+          {static_cast<double>(tooth), profile, face, opposite ? 1.0 : 0.0}};
+}
+
+std::vector<Effect> leans_and_bends(int tooth, FlankChoice flank) {
+  std::vector<Effect> forms;
+  for (const double degree : {1.0, 2.0})
+    for (const bool face : {false, true})
+      for (const bool opposite : {false, true})
+        if (!opposite || flank == FlankChoice::kBoth)
+          forms.push_back(
+              form_of_one(tooth, face ? 0.0 : degree, face ? degree : 0.0, flank, opposite));
+  return forms;
+}
+
+/// The same form, of some teeth; empty where there is none of its kind.
+std::vector<Effect> on_teeth(const std::vector<Effect>& forms, double first, double count) {
+  std::vector<Effect> of_teeth;
+  for (const Effect& form : forms) {
+    const EffectFamily* family = gear_effects::of_teeth(form);
+    if (family == nullptr) continue;
+    Effect& own = of_teeth.emplace_back(Effect{family, form.flank, form.shape});
+    own.shape.insert(own.shape.begin(), {first, count});
+  }
+  return of_teeth;
+}
+
+/// Steps at places along the profile (0) or the face (1), to start from.
+std::vector<Effect> steps(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  constexpr int kParts = 12;
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  std::vector<Effect> forms;
+  for (int part = 1; part < kParts; ++part) {
+    const double share = static_cast<double>(part) / kParts;
+    forms.push_back(
+        {find_family("unnamed_step"),
+         flank,
+         {face,
+          face != 0.0 ? share * geometry.face_width_mm()
+                      : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm,
+          0.0}});
+  }
+  return forms;
+}
+
+}  // namespace
+
+/// Spots and heights of one tooth are told as one lean, bow, step or rise of it where that says as
+/// much with fewer values; both flanks together first.
+void PartLoop::tell_forms_of_teeth() {
+  if (options_.joined) return;
+  const auto on_tooth = [&](int tooth, const auto& is_asked) {
+    std::vector<std::size_t> these;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
+      if (is_on_one_tooth(effects_[e]) && static_cast<int>(effects_[e].shape[0]) == tooth &&
+          is_asked(effects_[e]))
+        these.push_back(e);
+    return these;
+  };
+  std::set<int> teeth;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
+    if (is_on_one_tooth(effects_[e])) teeth.insert(static_cast<int>(effects_[e].shape[0]));
+  for (const int tooth : teeth) {
+    const auto put = [&](const std::vector<std::size_t>& these, FlankChoice flank) {
+      const std::vector<Effect> forms = leans_and_bends(tooth, flank);
+      return put_one_form_for(these, forms) ||
+             put_one_form_for(these, forms, {form_of_one(tooth, 0.0, 0.0, flank, false)});
+    };
+    const std::vector<std::size_t> all = on_tooth(tooth, [](const Effect&) { return true; });
+    std::set<FlankChoice> flanks;
+    for (const std::size_t e : all) flanks.insert(effects_[e].flank);
+    if (flanks.size() > 1 && put(all, FlankChoice::kBoth)) continue;
+    for (const FlankChoice flank : {FlankChoice::kLeft, FlankChoice::kRight}) {
+      const std::vector<std::size_t> these =
+          on_tooth(tooth, [&](const Effect& effect) { return effect.flank == flank; });
+      if (these.empty() || put(these, flank)) continue;
+      for (const double face : {0.0, 1.0}) {
+        if (put_one_form_for(these, on_teeth(steps(geometry_, face, flank), tooth, 1.0)) ||
+            put_one_form_for(these,
+                             on_teeth(forms_along(geometry_, face, flank, false), tooth, 1.0)))
+          break;
+      }
+    }
+  }
+}
+
+/// A form along the flanks beside a sector of teeth on the same flanks is one that these teeth
+/// have: waves around the gear, and orders of a machine, were what made of it one of all teeth.
+void PartLoop::tell_forms_of_sectors() {
+  if (options_.joined) return;
+  const EffectFamily *sectors = find_family("unnamed_sector"),
+                     *marks = find_family("unnamed_marks");
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    const auto once = [&] {
+      std::vector<std::size_t> of_sectors, along, waves;
+      for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+        const Effect& effect = effects_[e];
+        if (effect.flank != flank && effect.flank != FlankChoice::kBoth) continue;
+        if (effect.family == sectors && effect.flank == flank)
+          of_sectors.push_back(e);
+        else if (effect.flank == flank && !effect.family->named &&
+                 gear_effects::of_teeth(effect) != nullptr)
+          along.push_back(e);
+        else if (effect.family == marks || effect.family->tells_order_along_profile ||
+                 (!effect.family->named && effect.order() > 0.0))
+          waves.push_back(e);
+      }
+      for (const Runs runs : {Runs::kOverProfile, Runs::kOverFace}) {
+        std::vector<std::size_t> with_waves = waves;
+        std::vector<Effect> forms;
+        for (const std::size_t form : along) {
+          if (runs_of(geometry_, effects_[form]) != runs) continue;
+          with_waves.push_back(form);
+          for (const std::size_t sector : of_sectors)
+            for (Effect& own :
+                 on_teeth({effects_[form]}, effects_[sector].shape[0], effects_[sector].shape[1]))
+              forms.push_back(std::move(own));
+        }
+        if (forms.empty()) continue;
+        for (const bool with_sectors : {true, false}) {
+          std::vector<std::size_t> these = with_waves;
+          if (with_sectors) these.insert(these.end(), of_sectors.begin(), of_sectors.end());
+          std::sort(these.begin(), these.end());
+          if (these.size() > 1 && put_one_form_for(these, forms)) return true;
+        }
+      }
+      return false;
+    };
+    constexpr int kMost = 3;
+    for (int taken = 0; taken < kMost && once(); ++taken) {
+    }
+  }
+}
+
+}  // namespace trueflank::loop

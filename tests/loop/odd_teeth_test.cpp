@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/loop/discovery/course_scan.h"
+#include "trueflank/loop/discovery/rougher_members.h"
+
+// What one tooth, or some teeth side by side, have by themselves.
+namespace trueflank::test {
+namespace {
+
+bool tells_of(const loop::LoopResult& result, const std::string& words) {
+  return list(result).find(words) != std::string::npos;
+}
+
+bool is_on(const FlankSpot& s, int tooth, int side = 0) {
+  return s.tooth == tooth && (side == 0 || s.side == side);
+}
+
+TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
+  const MadeGear gear = spur(20);
+  const auto askew = [](auto&, const FlankSpot& s, auto&) {
+    return is_on(s, 7) ? 6.0 * s.side * s.v : 0.0;
+  };
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const auto scanned_one =
+        close(gear, scan_of(gear, {grown(askew)}, scanned(8000, 1.0, seed)), true);
+    EXPECT_EQ(scanned_one.effects.size(), 1U) << list(scanned_one);
+    EXPECT_TRUE(tells_of(scanned_one, "tooth 7 alone leans over the face, opposite on its two"))
+        << list(scanned_one);
+  }
+  InspectionOptions options;
+  options.points = 80;
+  options.noise_um = 1.0;
+  options.seed = 3;
+  const auto traced_one = close(gear, inspection_of(gear, {grown(askew)}, options));
+  EXPECT_TRUE(tells_of(traced_one, "tooth 7 alone leans over the face, opposite on its two"))
+      << list(traced_one);
+}
+
+TEST(FlankThatLeansOverItsProfile, IsNoHeightAndNoSpots) {
+  const MadeGear gear = spur(24);
+  const auto leans = [](auto&, const FlankSpot& s, auto&) {
+    return is_on(s, 5, 1) ? 9.0 * s.u : 0.0;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(leans)}, scanned(9000, 1.0, 4)), true);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells_of(result, "tooth 5 alone leans over the profile")) << list(result);
+}
+
+TEST(ToothCrownedByItself, IsOneBow) {
+  const MadeGear gear = spur(22);
+  const auto crowned = [](auto&, const FlankSpot& s, auto&) {
+    return is_on(s, 11) ? -8.0 * s.v * s.v : 0.0;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(crowned)}, scanned(9000, 1.0, 5)), true);
+  EXPECT_TRUE(tells_of(result, "tooth 11 alone bends over the face, alike on both its flanks"))
+      << list(result);
+  EXPECT_FALSE(tells_of(result, "a spot")) << list(result);
+}
+
+TEST(StylusThatSlips, IsAStepOfOneTrace) {
+  const MadeGear gear = spur(26);
+  const auto slipped = [](auto&, const FlankSpot& s, auto&) {
+    return is_on(s, 9, -1) && s.v > -0.3 ? 8.0 : 0.0;
+  };
+  InspectionOptions options;
+  options.points = 90;
+  options.noise_um = 0.8;
+  options.seed = 6;
+  const auto result = close(gear, inspection_of(gear, {grown(slipped)}, options));
+  EXPECT_TRUE(tells_of(result, "on tooth 9 alone, a step over the face")) << list(result);
+  EXPECT_FALSE(tells_of(result, "a spot")) << list(result);
+}
+
+TEST(GrooveOfASector, IsNoGrooveOfAllTeeth) {
+  const MadeGear gear = spur(40);
+  const auto worn = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 && s.tooth >= 12 && s.tooth < 26
+               ? -9.0 * std::exp(-std::pow((s.u - 0.1) / 0.25, 2))
+               : 0.0;
+  };
+  const auto result = close(gear, scan_of(gear, {grown(worn)}, scanned(20000, 1.0, 7)), true);
+  EXPECT_TRUE(tells_of(result, "on 14 teeth from tooth 12 on, a groove")) << list(result);
+  EXPECT_FALSE(tells_of(result, "the same on every tooth, a groove")) << list(result);
+}
+
+TEST(WavesOfFewTraces, NameTheirTeeth) {
+  const MadeGear gear = spur(30);
+  const auto shaken = [](auto&, const FlankSpot& s, auto&) {
+    return s.side > 0 && s.tooth >= 14 && s.tooth <= 16
+               ? 4.0 * std::cos(17.0 * 3.14159 * s.v + s.tooth)
+               : 0.0;
+  };
+  InspectionOptions options;
+  options.points = 100;
+  options.noise_um = 0.8;
+  options.seed = 8;
+  const auto result = close(gear, inspection_of(gear, {grown(shaken)}, options));
+  EXPECT_NE(result.structure_left.find("on teeth 14 to 16"), std::string::npos)
+      << result.structure_left;
+}
+
+/// Scatters of `teeth` members on either side, told from `values` differences each.
+std::vector<loop::MemberScatter> scatters(unsigned seed, int teeth, double values,
+                                          const std::function<double(int tooth)>& loud) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> log(0.0, std::sqrt(2.5 / values));
+  std::vector<loop::MemberScatter> all;
+  for (int tooth = 1; tooth <= teeth; ++tooth)
+    for (const int set : {0, 1})
+      all.push_back({tooth, set, loud(tooth) * std::exp(log(random)), values});
+  return all;
+}
+
+TEST(RougherMembers, TellAGrowthAndARunWithTheirSizes) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto grows = loop::rougher_members(
+        scatters(seed, 30, 60.0, [](int tooth) { return 1.0 + 2.5 * (tooth - 1) / 29.0; }));
+    ASSERT_TRUE(grows.has_value());
+    EXPECT_TRUE(grows->grows);
+    EXPECT_LT(grows->p_value, 1e-6);
+    EXPECT_EQ(grows->last, 30);
+    EXPECT_NEAR(grows->times, 3.5, 1.2);
+    const auto run = loop::rougher_members(
+        scatters(seed, 30, 60.0, [](int tooth) { return tooth >= 8 && tooth <= 12 ? 3.0 : 1.0; }));
+    ASSERT_TRUE(run.has_value());
+    EXPECT_FALSE(run->grows);
+    EXPECT_EQ(run->first, 8);
+    EXPECT_EQ(run->last, 12);
+    EXPECT_NEAR(run->times, 3.0, 0.7);
+    EXPECT_LT(run->p_value, 1e-6);
+  }
+}
+
+TEST(RougherMembers, AreSeldomFoundWhereLoudnessDiffersByChance) {
+  constexpr unsigned kRuns = 400;
+  constexpr double kLevel = 0.01;
+  int alarms = 0;
+  for (unsigned seed = 1; seed <= kRuns; ++seed) {
+    std::mt19937_64 random(1000 + seed);
+    std::normal_distribution<double> log(0.0, 0.5);
+    const auto found = loop::rougher_members(scatters(seed, 8 + static_cast<int>(seed % 40), 50.0,
+                                                      [&](int) { return std::exp(log(random)); }));
+    alarms += found && found->p_value < kLevel ? 1 : 0;
+  }
+  EXPECT_LE(alarms, 12);  // 4 of 400 at the level; more than 12 once in 2000 runs
+}
+
+}  // namespace
+}  // namespace trueflank::test
