@@ -3,7 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tests/loop/made_gears.h"
 
@@ -35,6 +42,52 @@ TEST(RunsAlong, NamedEffectsRunAsTheirNamesSay) {
   }
   EXPECT_EQ(runs_of(kGeometry, named("eccentricity", FlankChoice::kBoth)), Runs::kOtherwise);
   EXPECT_EQ(runs_of(kGeometry, named("crowning", FlankChoice::kBoth)), Runs::kOverFace);
+}
+
+/// The same asked at places drawn at random, for every effect of the library that needs no shape.
+TEST(RunsAlong, EveryEffectRunsAsItDoesAtRandomPlaces) {
+  std::mt19937 engine(492);
+  const auto share = [&] { return std::uniform_real_distribution<double>(0.02, 0.98)(engine); };
+  const double low = kGeometry.root_form_roll_mm(), high = kGeometry.tip_form_roll_mm();
+  std::set<Runs> met;
+  for (const auto& family : loop::effect_library()) {
+    if (family.shapes) continue;
+    const Effect effect{&family, FlankChoice::kBoth, {}};
+    if (effect.columns() > 2 || effect.order() != 0.0 || family.local) {
+      EXPECT_EQ(runs_of(kGeometry, effect), Runs::kOtherwise) << family.id;
+      continue;
+    }
+    const auto at = [&](int tooth, int side, double u, double v) {
+      std::array<double, 2> values{};
+      effect.evaluate(
+          kGeometry,
+          kGeometry.on_flank(tooth, side, low + u * (high - low), v * kGeometry.face_width_mm()),
+          values.data());
+      return values;
+    };
+    double profile = 0.0, face = 0.0, flanks = 0.0, teeth = 0.0;
+    const auto keep = [](double& most, std::array<double, 2> a, std::array<double, 2> b) {
+      most = std::max({most, std::abs(a[0] - b[0]), std::abs(a[1] - b[1])});
+    };
+    for (int draw = 0; draw < 60; ++draw) {
+      const double u = share(), v = share();
+      const int side = draw % 2 == 0 ? 1 : -1;
+      const auto here = at(1, side, u, v);
+      keep(profile, here, at(1, side, share(), v));
+      keep(face, here, at(1, side, u, share()));
+      keep(flanks, here, at(1, -side, u, v));
+      keep(teeth, here, at(2 + draw % 23, side, u, v));
+    }
+    const Runs runs = teeth > 1e-5                    ? Runs::kOtherwise
+                      : profile > 1e-5 && face > 1e-5 ? Runs::kOverBoth
+                      : profile > 1e-5                ? Runs::kOverProfile
+                      : face > 1e-5                   ? Runs::kOverFace
+                                                      : Runs::kNowhere;
+    EXPECT_EQ(runs_of(kGeometry, effect, loop::Flanks::kOfEither), runs) << family.id;
+    EXPECT_EQ(runs_of(kGeometry, effect), flanks > 1e-5 ? Runs::kOtherwise : runs) << family.id;
+    met.insert(runs);
+  }
+  EXPECT_GE(met.size(), 4U);
 }
 
 TEST(RunsAlong, SlopesAreStraightAndBowsAreNot) {
