@@ -7,10 +7,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <new>
+#include <utility>
 
+#include "trueflank/base/system_failure.h"
 #include "trueflank/export/atomic_file.h"
 
 namespace trueflank::app {
@@ -56,10 +57,13 @@ Status write_to_output(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0)
+    if (written < 0) {
+      SystemFailure why = system_failure(errno, SystemUse::kWrite);
       return fail({.code = ErrorCode::kDisk,
-                   .message = std::string("cannot write to standard output: ") +
-                              std::strerror(errno)});
+                   .message = "cannot write to standard output: " + why.reason,
+                   .value = std::move(why.limit),
+                   .remedy = std::move(why.remedy)});
+    }
     text.remove_prefix(static_cast<std::size_t>(written));
   }
   return {};

@@ -6,17 +6,19 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 
+#include "trueflank/base/system_failure.h"
 #include "trueflank/design/design_file.h"
 
 namespace trueflank {
 namespace {
 
 Error system_error(const std::string& path, int code) {
+  const SystemFailure why = system_failure(code, SystemUse::kRead);
   Error error{.code = ErrorCode::kDisk,
-              .message = "cannot read " + path + ": " + std::generic_category().message(code),
-              .remedy = "a readable file",
+              .message = "cannot read " + path + ": " + why.reason,
+              .value = why.limit,
+              .remedy = why.remedy.empty() ? "a readable file" : why.remedy,
               .file = path};
   if (code == ENOENT || code == ENOTDIR || code == ELOOP || code == ENAMETOOLONG)
     error.code = ErrorCode::kFileNotFound;

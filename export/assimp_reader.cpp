@@ -19,7 +19,10 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <utility>
 
+#include "trueflank/base/system_failure.h"
 #include "trueflank/export/mesh_parsers.h"
 
 namespace trueflank::io {
@@ -219,9 +222,11 @@ class Teller {
   bound(RLIMIT_CORE, 0);
   bound(RLIMIT_AS, memory_bound(content.size()));
   bound(RLIMIT_CPU, kMostSeconds);
-  if (const int null = open("/dev/null", O_RDWR | O_CLOEXEC); null >= 0)
+  if (const int null = open("/dev/null", O_RDWR | O_CLOEXEC); null >= 0) {
     for (const int standard : {0, 1, 2})
       if (standard != pipe) static_cast<void>(dup2(null, standard));
+    if (null > 2) close(null);  // the library is a file to open, where few may be open
+  }
   try {
     Teller(pipe, content, convention).run();
   } catch (...) {
@@ -337,6 +342,18 @@ std::string assimp_extensions(std::string_view separator) {
 
 bool is_assimp_extension(std::string_view extension) { return convention_of(extension) != nullptr; }
 
+namespace {
+
+Error not_begun(std::string_view what, int error_number) {
+  SystemFailure why = system_failure(error_number, SystemUse::kStartProcess);
+  return {.code = ErrorCode::kDisk,
+          .message = std::string(what) + why.reason,
+          .value = std::move(why.limit),
+          .remedy = std::move(why.remedy)};
+}
+
+}  // namespace
+
 Result<Bodies> parse_by_assimp(std::string_view content, std::string_view extension, Reading& reading) {
   const Convention* const convention = convention_of(extension);
   if (!convention) return syntax_error("no format that assimp is asked for");
@@ -344,14 +361,13 @@ Result<Bodies> parse_by_assimp(std::string_view content, std::string_view extens
     return fail(Error{.code = ErrorCode::kUnsupported, .message = "assimp reads no file of 4 GB or more"});
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
-    return fail(Error{.code = ErrorCode::kDisk, .message = std::string("no pipe: ") + std::strerror(errno)});
+    return fail(not_begun("no pipe to read this format through: ", errno));
   const pid_t child = fork();
   if (child < 0) {
     const int number = errno;
     close(ends[0]);
     close(ends[1]);
-    return fail(Error{.code = ErrorCode::kDisk,
-                      .message = std::string("no process to read this format in: ") + std::strerror(number)});
+    return fail(not_begun("no process to read this format in: ", number));
   }
   if (child == 0) {
     close(ends[0]);

@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "trueflank/base/system_failure.h"
+
 namespace trueflank::io {
 namespace {
 
@@ -28,7 +30,7 @@ struct Slot {
   std::atomic<int> state{kFree};
   std::array<char, 4096> path{};
 };
-std::array<Slot, 64> g_slots;
+std::array<Slot, 512> g_slots;  // more than the files of a gearbox in all formats: threads write them at once
 std::atomic<bool> g_stopped{false};
 std::atomic<unsigned> g_serial{0};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
@@ -99,25 +101,6 @@ ErrorCode code_of(int error_number) {
       return ErrorCode::kInterrupted;
     default:
       return ErrorCode::kDisk;
-  }
-}
-
-const char* remedy_of(int error_number, bool reading) {
-  switch (error_number) {
-    case ENOENT:
-    case ENOTDIR:
-      return reading ? "a file that is there" : "an existing folder";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return reading ? "a file you may read" : "a place you may write to";
-    case ENOSPC:
-    case EDQUOT:
-      return "free some space or write elsewhere";
-    case EISDIR:
-      return "the name of a file, not of a folder";
-    default:
-      return "";
   }
 }
 
@@ -194,11 +177,12 @@ void remove_left_over_files(const fs::path& folder) {
 Error file_error(std::string_view what, const fs::path& path, int error_number) {
   Error error;
   error.code = code_of(error_number);
-  const std::string reason = error_number == ECANCELED
-                                 ? "interrupted"
-                                 : std::generic_category().message(error_number);
-  error.message = "cannot " + std::string(what) + " '" + path.string() + "': " + reason;
-  error.remedy = remedy_of(error_number, what == "read" || what == "verify");
+  const bool reading = what.starts_with("read") || what == "verify";
+  SystemFailure why = system_failure(error_number, reading ? SystemUse::kRead : SystemUse::kWrite);
+  if (error_number == ECANCELED) why = {.reason = "interrupted", .remedy = "", .limit = ""};
+  error.message = "cannot " + std::string(what) + " '" + path.string() + "': " + why.reason;
+  error.remedy = std::move(why.remedy);
+  error.value = std::move(why.limit);
   error.file = path.string();
   return error;
 }

@@ -64,7 +64,8 @@ class AtomicFile {
 /// Async-signal-safe: for handlers of SIGINT, SIGTERM and SIGHUP, which should _exit() afterwards.
 void remove_temporary_files() noexcept;
 
-/// The error of a failed system call on a path: kFileNotFound, kPermission or kDisk, with strerror.
+/// The error of a failed system call on a path: kFileNotFound, kPermission or kDisk, with the system's
+/// words, the limit that was met as its value, and what would help.
 [[nodiscard]] Error file_error(std::string_view what, const std::filesystem::path& path,
                                int error_number);
 

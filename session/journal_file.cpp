@@ -2,6 +2,7 @@
 #include "trueflank/session/journal_file.h"
 
 #include <algorithm>
+#include <cerrno>
 
 #include "trueflank/design/design_file.h"
 #include "trueflank/export/atomic_file.h"
@@ -39,10 +40,10 @@ Result<SearchJournal> JournalFile::open(const SearchTask& task, const std::files
   journal.path_ = path;
   // whole first, so that a line cut short is gone; then it only grows
   if (auto ok = journal.close(task, found); !ok) return fail(ok.error());
+  errno = 0;
   journal.stream_.open(path, std::ios::app | std::ios::binary);
   if (!journal.stream_)
-    return fail({.code = ErrorCode::kDisk, .message = "cannot write the journal",
-                 .file = path.string()});
+    return fail(io::file_error("write", path, errno != 0 ? errno : EIO));
   return found;
 }
 

@@ -2,6 +2,7 @@
 #include "trueflank/session/search_session.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include "trueflank/check/check_gearbox.h"
 #include "trueflank/check/tolerance_analysis.h"
@@ -142,9 +143,16 @@ ResultAll<SearchRecords> merge_search(const SearchTask& task,
     std::vector<std::filesystem::path> journals;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
       if (entry.path().extension() == ".journal") journals.push_back(entry.path());
-    if (error || journals.empty())
-      errors.push_back({.code = error ? ErrorCode::kFileNotFound : ErrorCode::kInconsistent,
-                        .message = error ? "no such folder" : "no journal in this folder",
+    if (error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
+      errors.push_back({.code = ErrorCode::kFileNotFound,
+                        .message = "no such folder",
+                        .remedy = "output folders of trueflank search --shard",
+                        .file = folder});
+    else if (error)
+      errors.push_back(io::file_error("read folder", folder, error.value()));
+    else if (journals.empty())
+      errors.push_back({.code = ErrorCode::kInconsistent,
+                        .message = "no journal in this folder",
                         .remedy = "output folders of trueflank search --shard",
                         .file = folder});
     std::sort(journals.begin(), journals.end());

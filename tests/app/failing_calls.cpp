@@ -3,7 +3,7 @@
 // A library that is loaded before the program and lets one kind of its calls fail, as SQLite's
 // tests do:
 //   FAILING_CALL=write:17    the 17th call fails, those before and after succeed
-//   FAILING_CALL=write:17+   all from the 17th on
+//   FAILING_CALL=write:17+   all from the 17th on (for the limit of a file's size; a single one for want of room)
 //   FAILING_CALL_COUNT=FILE  the number of calls of each kind is written there when the program
 //   ends
 // Calls before main() are not counted. Kinds: malloc write rename open close thread.
@@ -128,7 +128,7 @@ int posix_memalign(void** result, std::size_t alignment, std::size_t size) {
 
 ssize_t write(int descriptor, const void* data, std::size_t size) {
   if (!fails(kWrite)) return syscall(SYS_write, descriptor, data, size);
-  errno = ENOSPC;
+  errno = g_all_after ? EFBIG : ENOSPC;
   return -1;
 }
 int rename(const char* from, const char* to) {

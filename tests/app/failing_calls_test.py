@@ -9,6 +9,7 @@ are tried where N of each kind are,] and the commands (all).
 """
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -18,6 +19,9 @@ OUTPUT = pathlib.Path(os.environ["TRUEFLANK_TEST_OUTPUT"]) / "failing_calls"
 LIBRARY, PLACES = sys.argv[1], int(sys.argv[2])
 BEYOND = int(sys.argv[4]) if sys.argv[3:4] == ["--beyond"] else 0
 COMMANDS = sys.argv[5:] if BEYOND else sys.argv[3:]
+FILE_LIMIT = 1 << 40  # bytes; not reached
+REMEDIES = {b"No space left": b"free some space", b"File too large": b"beyond 1099511627776 bytes here; wanted: a higher limit (ulimit -f",
+            b"Too many open files": b"open here; wanted: a higher limit (ulimit -n"}
 SLOW_ONLY = {"certified", "wished"}
 LONG = {"fix", "shifts", "bench", "certified"}  # up to a second each: at a quarter of the places
 GEAR = """format = 1
@@ -65,7 +69,8 @@ def run(arguments, failing=None, count=None):
         environment["FAILING_CALL"] = failing
     if count:
         environment["FAILING_CALL_COUNT"] = str(count)
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment, timeout=120)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment, timeout=120,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (FILE_LIMIT, FILE_LIMIT)))
 
 
 def files_of(folder):
@@ -122,6 +127,8 @@ def try_command(name, arguments, kind, calm):
             if done.returncode == 3:
                 assert b"trueflank: " in done.stderr or kind in ("malloc", "write"), told
                 assert b"internal error" not in done.stderr, told
+                for words, remedy in REMEDIES.items():
+                    assert words not in done.stderr or remedy in done.stderr, told
             else:
                 assert set(found) == set(expected), (told, set(expected) - set(found))
             if kind == "thread":

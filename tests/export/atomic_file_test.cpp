@@ -12,6 +12,9 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/export/sample_scene.h"
 
@@ -240,8 +243,52 @@ TEST(AtomicFile, RemovesWhatDidNotFit) {
   ::setrlimit(RLIMIT_FSIZE, &before);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ErrorCode::kDisk);
+  EXPECT_EQ(status.error().value, "1000000 bytes");
+  EXPECT_NE(status.error().message.find((folder / "a").string()), std::string::npos);
+  EXPECT_NE(status.error().message.find("beyond 1000000 bytes"), std::string::npos)
+      << status.error().message;
+  EXPECT_NE(status.error().remedy.find("ulimit -f"), std::string::npos) << status.error().remedy;
   EXPECT_EQ(content_of(folder / "a"), "old");
   EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(AtomicFile, SaysWhichLimitOfOpenFilesStopsItAndWhatHelps) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "a", "old"));
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  const int next = ::open("/dev/null", O_RDONLY);
+  ::close(next);
+  const rlimit limit{static_cast<rlim_t>(next), before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+  const auto written = write_file(folder / "a", "new");
+  const auto read = read_file(folder / "a");
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  ASSERT_FALSE(written);
+  ASSERT_FALSE(read);
+  for (const Error& error : {written.error(), read.error()}) {
+    EXPECT_EQ(error.code, ErrorCode::kDisk);
+    EXPECT_EQ(error.value, std::to_string(next) + " open files");
+    EXPECT_NE(error.message.find((folder / "a").string()), std::string::npos);
+    EXPECT_NE(error.message.find("may have " + std::to_string(next) + " open"), std::string::npos)
+        << error.message;
+    EXPECT_NE(error.remedy.find("ulimit -n"), std::string::npos) << error.remedy;
+  }
+  EXPECT_EQ(content_of(folder / "a"), "old");
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
+// A machine of many processors writes a file on each.
+TEST(AtomicFile, HundredsAreWrittenAtOnce) {
+  const ScratchFolder folder;
+  std::vector<AtomicFile> files;
+  for (int i = 0; i < 200; ++i) {
+    auto file = AtomicFile::create(folder / std::to_string(i));
+    ASSERT_TRUE(file) << i << " " << file.error().message;
+    files.push_back(std::move(*file));
+  }
+  for (AtomicFile& file : files) ASSERT_TRUE(file.commit());
+  EXPECT_EQ(folder.entries(), 200U);
 }
 
 TEST(AtomicFile, IsRemovedByASignalHandlerInTheMiddle) {
