@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,25 @@ namespace trueflank::loop::gear_effects {
   if (end == 0.0) return " to both sides";
   if (face != 0.0) return end > 0.0 ? " towards the upper end" : " towards the lower end";
   return end > 0.0 ? " towards the tip" : " towards the root";
+}
+
+/// ", 1.9 mm long" of waves.
+[[nodiscard]] inline std::string long_each(double face, double length_mm) {
+  return printed(", %.3g mm long", length_mm) + (face != 0.0 ? "" : " (of roll length)");
+}
+/// "3.6 waves over the face, 1.9 mm long"; "waves over ..." where they are longer than the flank.
+[[nodiscard]] inline std::string waves_over(const FlankGeometry& g, double face, double length_mm) {
+  const double waves = std::abs(range_mm(g, face)) / length_mm;
+  return (waves > 1.0 ? printed("%.1f ", waves) : "") + "waves " + over(face) +
+         long_each(face, length_mm);
+}
+/// A length along the flank to either side of a place, or to one side of an end; one that reaches
+/// all over the flank is said so: "0.35 mm to either side", "over the whole face".
+[[nodiscard]] inline std::string within(const FlankGeometry& g, double face, double length_mm,
+                                        const std::string& before, const std::string& after) {
+  if (length_mm >= std::abs(range_mm(g, face)))
+    return std::string("over the whole ") + (face != 0.0 ? "face" : "profile");
+  return before + printed("%.2g mm", length_mm) + (face != 0.0 ? "" : " of roll length") + after;
 }
 
 inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
