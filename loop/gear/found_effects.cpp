@@ -2,8 +2,10 @@
 #include "trueflank/loop/gear/found_effects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
@@ -60,6 +62,7 @@ class Describer {
     for (const auto& [terms, place] : unnamed_at)
       finish_unnamed(found_[place], std::get<int>(terms));
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    say_what_is_one_form();
     share_what_is_explained();
     return std::move(found_);
   }
@@ -227,6 +230,60 @@ class Describer {
            found.terms.front().text + on + beside +
            (family.local ? "; inspect that tooth"
                          : "; find its source before anything is corrected");
+  }
+
+  /// The flanks of an effect of one coefficient that may be opposite on the two flanks; empty of
+  /// others.
+  [[nodiscard]] std::optional<std::array<double, 2>> left_and_right(std::size_t place) const {
+    if (members_[place].size() != 1) return {};
+    const int e = members_[place].front();
+    const Effect& effect = sources_.fit.effects()[e];
+    const auto& names = effect.family->shape_names;
+    if (effect.family->named || effect.columns() != 1 || names.empty() ||
+        names.back() != "opposite_flanks" || effect.shape.size() != names.size())
+      return {};
+    const double amount = sources_.fit.coefficients()[sources_.fit.first_column(e)];
+    const double of_left =
+        effect.shape.back() != 0.0 ? flank_side(Flank::kLeft, sources_.geometry.gear().kind) : 1.0;
+    const double of_right = effect.shape.back() != 0.0 ? -of_left : 1.0;
+    return std::array{effect.flank == FlankChoice::kRight ? 0.0 : of_left * amount,
+                      effect.flank == FlankChoice::kLeft ? 0.0 : of_right * amount};
+  }
+
+  /// One form on both flanks and on one of them as well: what each flank has of it in all.
+  void say_what_is_one_form() {
+    const auto form_of = [&](std::size_t place) {
+      Effect effect = sources_.fit.effects()[members_[place].front()];
+      effect.flank = FlankChoice::kBoth;
+      effect.shape.back() = 0.0;
+      return effect;
+    };
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const auto own = left_and_right(i);
+      if (!own) continue;
+      Effect form = form_of(i);
+      std::array<double, 2> in_all = *own;
+      bool several = false;
+      for (std::size_t k = 0; k < found_.size(); ++k) {
+        const auto other = k == i ? std::nullopt : left_and_right(k);
+        if (!other || !(form_of(k) == form)) continue;
+        several = true;
+        in_all[0] += (*other)[0];
+        in_all[1] += (*other)[1];
+      }
+      if (!several) continue;
+      double sign = in_all[0];
+      if (in_all[0] * in_all[1] < 0.0) {
+        form.shape.back() = 1.0;
+        sign *= flank_side(Flank::kLeft, sources_.geometry.gear().kind);
+      }
+      found_[i].sentence +=
+          printed(
+              "; with what else has this form in all %.3g um on the left flanks and %.3g um on "
+              "the right ones: ",
+              std::abs(in_all[0]), std::abs(in_all[1])) +
+          words_for(sources_.geometry, form, {&sign, 1});
+    }
   }
 
   /// Every effect's share of what all explain together.
