@@ -218,8 +218,7 @@ class Describer {
     const std::size_t told = std::min(found.terms.size(), kMostTold);
     std::string beside;
     for (std::size_t k = 1; k < told; ++k)
-      beside +=
-          printed("; with it %.3g um: ", found.terms[k].amplitude()) + found.terms[k].text + on;
+      beside += printed("; with it %.3g um: ", found.terms[k].amplitude()) + found.terms[k].text;
     const std::size_t smaller = found.terms.size() - told;
     if (smaller > 0)
       beside += smaller == 1

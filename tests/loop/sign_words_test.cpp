@@ -323,6 +323,11 @@ TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
   EXPECT_THAT(
       spot(4.0, 1.0),
       HasSubstr("a lump on the right flank of tooth 5, at a height of 4 mm, 1 mm over the face"));
+  EXPECT_THAT(
+      told(g, effect_of("unnamed_spot", {5, d, 4.0, 50.0, 190.0}, FlankChoice::kLeft), {-4.0}),
+      testing::StrEq("the left flank of tooth 5 lies back"));
+  EXPECT_THAT(told(g, effect_of("unnamed_band", {1, -0.06, 1.7, 0}), {4.0}),
+              HasSubstr("a ridge over the face at the lower end"));
   const auto dent = [&](double tooth, double half) {
     return told(g, effect_of("unnamed_dent", {tooth, half, 0.0, 0.0}), {4.0});
   };
@@ -338,7 +343,8 @@ TEST(SizesInWords, AreSaidOfWavesAlongOneDirectionByThatAlone) {
   EXPECT_THAT(
       told(g, effect_of("unnamed_marks", {1.5, -4.0, 3.0})),
       testing::AllOf(HasSubstr("1.5 over the profile"), HasSubstr("4.0 over the face, 2.5 mm each"),
-                     HasSubstr("rising towards the tip"), HasSubstr("3 periods a turn")));
+                     HasSubstr("rising towards the tip"),
+                     HasSubstr("3 periods a turn, towards the upper end")));
 }
 
 TEST(NotesOnLouderFlanks, AreOneForManyTeeth) {

@@ -20,10 +20,6 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] inline double stands_at(const FlankGeometry& g, double face, double place_mm) {
   return face != 0.0 ? place_mm : g.roll_at_radius_mm(0.5 * place_mm);
 }
-[[nodiscard]] inline std::string at_place(double face, double place_mm) {
-  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
-                     : printed("at a diameter of %.5g mm", place_mm);
-}
 [[nodiscard]] inline std::string over(double face) {
   return face != 0.0 ? "over the face" : "over the profile";
 }
@@ -54,6 +50,15 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] inline double end_mm(const FlankGeometry& g, double face, double end) {
   if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
   return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
+}
+/// "at a height of 4 mm", "at a diameter of 30.12 mm"; a place off the flank is at its end.
+[[nodiscard]] inline std::string at_place(const FlankGeometry& g, double face, double place_mm) {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  const double share = (stands_at(g, face, place_mm) - low) / (high - low);
+  if (!(share > 0.0)) return face != 0.0 ? "at the lower end" : "at the root";
+  if (!(share < 1.0)) return face != 0.0 ? "at the upper end" : "at the tip";
+  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
+                     : printed("at a diameter of %.5g mm", place_mm);
 }
 [[nodiscard]] inline std::string towards(double face, double end) {
   if (end == 0.0) return " to both sides";

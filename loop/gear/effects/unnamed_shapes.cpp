@@ -132,7 +132,7 @@ EffectFamily unnamed_step() {
     const EffectShape& shape = told.shape;
     const bool opposite = shape[2] != 0.0;
     return "the same on every tooth, a step " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + opposite_words(opposite) +
+           at_place(told.geometry, shape[0], shape[1]) + opposite_words(opposite) +
            there(beyond(shape[0]), told.sign(), opposite);
   };
   return f;
@@ -164,7 +164,7 @@ EffectFamily unnamed_kink() {
     const EffectShape& shape = told.shape;
     const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, a kink " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", straight on in another direction" +
+           at_place(told.geometry, shape[0], shape[1]) + ", straight on in another direction" +
            towards(shape[0], shape[2]) + opposite_words(opposite) +
            there("there", told.sign(), opposite);
   };
@@ -208,7 +208,7 @@ EffectFamily unnamed_bend() {
     const EffectShape& shape = told.shape;
     const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, flat to a place " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", and curved from there on" +
+           at_place(told.geometry, shape[0], shape[1]) + ", and curved from there on" +
            (shape[2] == 0.0 ? ", and as far from the other end" : towards(shape[0], shape[2])) +
            opposite_words(opposite) + there("there", told.sign(), opposite);
   };
@@ -340,7 +340,7 @@ EffectFamily unnamed_band() {
     const bool opposite = is_opposite(shape, 3);
     const int sign = opposite ? 0 : told.sign();
     return "the same on every tooth, " + a_ridge(sign) + " " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", " +
+           at_place(told.geometry, shape[0], shape[1]) + ", " +
            within(told.geometry, shape[0], shape[2], "", " to either side") +
            opposite_words(opposite) + (opposite ? there("there", told.sign(), true) : "");
   };
@@ -421,14 +421,15 @@ std::string first_crest(const ToldForm& told) {
   const double first = crest + length * std::ceil((low - crest) / length);
   if (!(first <= high)) return "";
   const double place = face != 0.0 ? first : 2.0 * g.on_flank(1, 1, first, 0.0).radius_mm;
-  return ", the first crest " + at_place(face, place);
+  return ", the first crest " + at_place(g, face, place);
 }
 
 /// "waves across the flanks, 2.1 over the profile, 3.4 mm of roll length each, and 3.6 over the
 /// face, 1.9 mm each"; those along one direction alone by that.
 std::string waves_across(const FlankGeometry& g, double over_profile, double over_face) {
-  // Over a tenth of a wave a line across the flank is as good as straight along it.
-  constexpr double kNone = 0.1;
+  // Less than a quarter of a wave: the crests lie straight along the flank, as near as waves of
+  // one flank tell it.
+  constexpr double kNone = 0.25;
   const double profile = std::abs(over_profile), face = std::abs(over_face);
   const double profile_mm = std::abs(range_mm(g, 0.0)) / profile, face_mm = range_mm(g, 1.0) / face;
   if (profile < kNone && face < kNone) return "the flanks stand in waves around the gear";
@@ -440,6 +441,17 @@ std::string waves_across(const FlankGeometry& g, double over_profile, double ove
              profile, profile_mm, face, face_mm) +
          (over_profile * over_face < 0.0 ? ", rising towards the tip"
                                          : ", falling towards the tip");
+}
+
+/// ", that march from tooth to tooth: 15 periods a turn, towards the tip": along the direction in
+/// which there are more waves.
+std::string marching(const EffectShape& shape) {
+  const double periods = std::abs(shape[2]);
+  const double face = std::abs(shape[1]) >= std::abs(shape[0]) ? 1.0 : 0.0;
+  const double waves = face != 0.0 ? shape[1] : shape[0];
+  return ", that march from tooth to tooth: " +
+         (periods == 1.0 ? std::string("one period") : printed("%g periods", periods)) + " a turn" +
+         (waves == 0.0 ? "" : "," + towards(face, waves * shape[2] < 0.0 ? 1.0 : -1.0));
 }
 
 }  // namespace
@@ -501,9 +513,7 @@ EffectFamily unnamed_marks() {
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
     return waves_across(told.geometry, shape[0], shape[1]) +
-           (shape[2] == 0.0 ? std::string(", the same on every tooth")
-                            : printed(", that march from tooth to tooth: %g periods a turn",
-                                      std::abs(shape[2])));
+           (shape[2] == 0.0 ? ", the same on every tooth" : marching(shape));
   };
   return f;
 }
@@ -555,7 +565,7 @@ struct Covered {
 
   Covered(double at, double width, double from, double to)
       : low(std::max(from, at - 0.5 * width)),
-        high(std::min(to, at + 0.5 * width)),
+        high(std::max(low, std::min(to, at + 0.5 * width))),
         range(to - from) {
     constexpr double kEnd = 0.02;  // of the flank, which no measurement comes nearer to
     from_low = low - from < kEnd * range;
@@ -566,7 +576,8 @@ struct Covered {
 };
 
 /// Where a spot stands over the face, or over the profile; `length_mm` along the flank.
-std::string place_of_spot(double face, const Covered& covered, double place_mm, double length_mm) {
+std::string place_of_spot(const FlankGeometry& g, double face, const Covered& covered,
+                          double place_mm, double length_mm) {
   const std::string length = printed("%.2g mm", length_mm);
   if (covered.is_whole()) return face != 0.0 ? ", over the whole face" : ", over the whole profile";
   if (covered.from_low || covered.to_high) {
@@ -575,7 +586,7 @@ std::string place_of_spot(double face, const Covered& covered, double place_mm, 
              " of the face";
     return ", over the " + length + (covered.to_high ? " below the tip" : " above the root");
   }
-  return ", " + at_place(face, place_mm) + ", " + length + " " + over(face);
+  return ", " + at_place(g, face, place_mm) + ", " + length + " " + over(face);
 }
 
 /// A pit or lump; what covers much of the flank is a part of it.
@@ -585,23 +596,28 @@ std::string spot_in_words(const ToldForm& told) {
   const FlankGeometry& g = told.geometry;
   std::string where;
   double most = 0.0;
+  bool all_over = shape[3] > 0.0 && shape[4] > 0.0;
   if (shape[3] > 0.0) {
     // (of a ring the roll falls from the root to the tip)
     const double root = g.root_form_roll_mm(), tip = g.tip_form_roll_mm(),
                  turn = tip < root ? -1.0 : 1.0, roll = stands_at(g, 0.0, shape[1]),
                  width = roll_of_width(g, shape);
     const Covered covered(turn * roll, width, turn * root, turn * tip);
-    where += place_of_spot(0.0, covered, shape[1], (covered.high - covered.low) / width * shape[3]);
+    where +=
+        place_of_spot(g, 0.0, covered, shape[1], (covered.high - covered.low) / width * shape[3]);
     most = covered.share();
+    all_over = all_over && covered.is_whole();
   }
   if (shape[4] > 0.0) {
     const Covered covered(shape[2], shape[4], 0.0, g.face_width_mm());
-    where += place_of_spot(1.0, covered, shape[2], covered.high - covered.low);
+    where += place_of_spot(g, 1.0, covered, shape[2], covered.high - covered.low);
     most = std::max(most, covered.share());
+    all_over = all_over && covered.is_whole();
   }
   const int sign = told.sign();
   const std::string flank = std::string(told.flank == FlankChoice::kLeft ? "left" : "right") +
                             printed(" flank of tooth %.0f", shape[0]);
+  if (all_over) return "the " + flank + " " + stands(sign);
   if (most >= kPart)
     return std::string(sign > 0   ? "a raised"
                        : sign < 0 ? "a low"

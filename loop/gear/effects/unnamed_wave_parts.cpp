@@ -77,7 +77,7 @@ EffectFamily unnamed_waves_from() {
   };
   f.words = [](const ToldForm& told) {
     const EffectShape& shape = told.shape;
-    return waves(told) + ", from a place " + at_place(shape[0], shape[2]) + " on" +
+    return waves(told) + ", from a place " + at_place(told.geometry, shape[0], shape[2]) + " on" +
            towards(shape[0], shape[3]);
   };
   return f;
