@@ -317,7 +317,7 @@ class RemainderSearch {
     add_text(
         trend->p_value,
         printed("the traces over the %s %s each by itself, with a standard deviation of %.3g "
-                "um: flanks that differ, or a drift while they were measured",
+                "um, as where flanks differ, or drift while they are measured",
                 key.face ? "face" : "profile", trend->degree == 1 ? "lean" : "bend", trend->spread),
         trend->spread);
     found_.back().own = key.face ? OwnCourse::kLead : OwnCourse::kProfile;

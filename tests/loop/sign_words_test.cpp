@@ -347,6 +347,29 @@ TEST(SizesInWords, AreSaidOfWavesAlongOneDirectionByThatAlone) {
                      HasSubstr("3 periods a turn, towards the upper end")));
 }
 
+TEST(LinesOfWavesThatRunBackwards, AreSaidOnlyWhereAllDo) {
+  const MadeGear gear = spur(67);
+  const auto ghost = [](double order, double way) {
+    return grown([order, way](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      return 5.0 * std::cos(order * (2.0 * M_PI * (s.tooth - 1) / g.teeth + way * s.side * turned));
+    });
+  };
+  InspectionOptions options = traced({1, 14, 27, 41, 54}, 0.4, 7);
+  const auto count = [](const loop::LoopResult& result) {
+    return std::count_if(result.effects.begin(), result.effects.end(), [](const auto& effect) {
+      return effect.description.find("counted clockwise") != std::string::npos;
+    });
+  };
+  const auto alone = close(gear, inspection_of(gear, {ghost(174.0, 1.0)}, options));
+  EXPECT_EQ(count(alone), 1) << list(alone);
+  const auto beside =
+      close(gear, inspection_of(gear, {ghost(174.0, 1.0), ghost(120.0, -1.0)}, options));
+  EXPECT_GE(beside.effects.size(), 2U) << list(beside);
+  EXPECT_EQ(count(beside), 0) << list(beside);
+}
+
 TEST(NotesOnLouderFlanks, AreOneForManyTeeth) {
   std::vector<loop::LouderPlace> places;
   for (int tooth = 3; tooth <= 9; ++tooth)
