@@ -416,7 +416,7 @@ namespace {
 std::string first_crest(const ToldForm& told) {
   const FlankGeometry& g = told.geometry;
   const double face = told.shape[0], length = told.shape[1];
-  const auto [low, high] = std::minmax(end_mm(g, face, -1.0), end_mm(g, face, 1.0));
+  const auto [low, high] = std::minmax({end_mm(g, face, -1.0), end_mm(g, face, 1.0)});
   const double crest = told.direction_rad() / kTwoPi * length;
   const double first = crest + length * std::ceil((low - crest) / length);
   if (!(first <= high)) return "";
