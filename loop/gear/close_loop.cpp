@@ -80,11 +80,9 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
       random_error(geometry, loop.table(), loop.patches(), left_um, loop.what_is_left());
   result.noise = noise.um;
   result.notes = loop.table().notes;
-  for (const LouderPlace& place : still_louder(geometry, loop.table(), loop.patches(), left_um))
-    result.notes.push_back(
-        printed("%s, points of the scan scatter %.2g times as much as elsewhere: "
-                "what they show counts for less",
-                place.words().c_str(), place.times));
+  for (std::string& note :
+       notes_on(still_louder(geometry, loop.table(), loop.patches(), left_um)))
+    result.notes.push_back(std::move(note));
   const auto none = loop.plain_fit()->errors({});
   const auto all = fit.errors(std::vector<bool>(loop.effects().size(), true));
   result.before = {none.rms_um, none.held_out_rms_um, 0.0};
@@ -116,7 +114,8 @@ LoopResult result_of(const FlankGeometry& geometry, const PartLoop& loop, const 
     result.verdict = Verdict::kPartlyExplained;
     const bool held_out = result.held_out > 0;
     result.structure_left = printed(
-        "what is left, %.3g um%s, is more than the measurement's own noise of %.3g um",
+        "what is left, %.3g um%s, is more than the measurement's own noise of %.3g um: the verdict "
+        "rests on that, and no form of it is sure",
         held_out ? result.after.held_out_rms : result.after.rms, held_out ? " on held-out data" : "",
         held_out ? noise.held_out_um : noise.um);
   }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "trueflank/loop/gear/effects/columns.h"
+
 namespace trueflank::loop {
 
 namespace {
@@ -17,6 +19,15 @@ FlankChoice flank_of(const FlankGeometry& geometry, const Place& place) {
 }
 
 }  // namespace
+
+int ToldForm::sign() const {
+  if (amounts.size() != 1) return 0;
+  return amounts[0] > 0.0 ? 1 : amounts[0] < 0.0 ? -1 : 0;
+}
+
+double ToldForm::direction_rad() const {
+  return amounts.size() == 2 ? std::atan2(amounts[1], amounts[0]) : kNaN;
+}
 
 void Effect::evaluate(const FlankGeometry& geometry, const Place& place, double* values) const {
   if (flank == FlankChoice::kBoth || flank == flank_of(geometry, place))
@@ -96,6 +107,12 @@ EffectFamily without_cause(const EffectFamily& named) {
   form.parameters.resize(named.parameters.size());
   for (const std::string& name : named.shape_names)
     form.term_keys.push_back({name, TermKey::Kind::kNumber});
+  form.words = [told = named.form_told, description = named.description,
+                names = named.shape_names](const ToldForm& of) {
+    const std::string& of_sign = told[of.sign() < 0 ? 1 : 0];
+    return gear_effects::with_shape(of.sign() == 0 || of_sign.empty() ? description : of_sign,
+                                    names, of.shape);
+  };
   return form;
 }
 

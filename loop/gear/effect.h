@@ -27,6 +27,20 @@ using EffectShape = std::vector<double>;
 
 struct Effect;
 
+/// A form to be put into words.
+struct ToldForm {
+  const FlankGeometry& geometry;
+  const EffectShape& shape;
+  FlankChoice flank = FlankChoice::kBoth;
+  std::span<const double> amounts = {};  ///< its coefficients; empty: not known
+
+  /// Of its one coefficient: +1, more material (on opposite flanks: turned counter-clockwise), or
+  /// -1; 0 where it is not known, or where there are two.
+  [[nodiscard]] int sign() const;
+  /// Of its two coefficients [rad]; NaN where they are not known, or where there is one.
+  [[nodiscard]] double direction_rad() const;
+};
+
 /// Along what a gear must have been measured before an effect can be seen.
 struct NeedsToBeSeen {
   bool along_profile = false, along_face = false;
@@ -94,8 +108,12 @@ struct EffectFamily : EffectFacts {
 
   /// @name How it is told
   /// @{
-  /// In words; empty: its id and shape values.
-  std::function<std::string(const EffectShape&, FlankChoice)> words = {};
+  /// In words that say where there is more material and where less; empty: its id and shape values.
+  std::function<std::string(const ToldForm&)> words = {};
+  /// What is said of it besides, where no effect of the other form word was found: empty, or both.
+  struct Remark {
+    std::string text, not_beside;
+  } remark = {};
   /// What is wrong and what follows, for the shop, from the effect as found; empty: its description.
   std::function<std::string(const FlankGeometry&, const FoundEffect&)> sentence = {};
   /// @}

@@ -2,14 +2,17 @@
 #include "trueflank/loop/gear/found_effects.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "trueflank/base/number_text.h"
 #include "trueflank/base/units.h"
 #include "trueflank/loop/discovery/distributions.h"
 #include "trueflank/loop/gear/arbitrary_pose.h"
+#include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/orders_alike.h"
 #include "trueflank/loop/result/describe.h"
 
@@ -18,9 +21,12 @@ namespace {
 
 std::string flank_text(FlankChoice flank) {
   switch (flank) {
-    case FlankChoice::kLeft: return "left";
-    case FlankChoice::kRight: return "right";
-    default: return "both";
+    case FlankChoice::kLeft:
+      return "left";
+    case FlankChoice::kRight:
+      return "right";
+    default:
+      return "both";
   }
 }
 
@@ -53,8 +59,10 @@ class Describer {
         members_.push_back({e});
       }
     }
-    for (const auto& [terms, place] : unnamed_at) finish_unnamed(found_[place], std::get<int>(terms));
+    for (const auto& [terms, place] : unnamed_at)
+      finish_unnamed(found_[place], std::get<int>(terms));
     for (std::size_t i = 0; i < found_.size(); ++i) add_figures(found_[i], members_[i]);
+    say_what_is_one_form();
     share_what_is_explained();
     return std::move(found_);
   }
@@ -67,8 +75,9 @@ class Describer {
     FoundEffect found;
     found.id = family.named ? family.id : "unnamed";
     found.named = family.named;
-    found.description = family.description;
-    found.cause = family.causes.empty() ? family.cause : causes_text(family.causes, sources_.makings);
+    found.description = with_remark(family.description, family);
+    found.cause =
+        family.causes.empty() ? family.cause : causes_text(family.causes, sources_.makings);
     if (sources_.makings == kAnyMaking)
       for (const CauseOfMaking& cause : family.causes)
         found.by_process.emplace_back(making_text(cause.makings), cause.cause);
@@ -79,15 +88,16 @@ class Describer {
     found.correctable = family.correctable == Correctable::kGeometry;
     found.form = family.formulas;
     if (!family.named && family.local) {
-      found.description = words_for(effect);
       found.terms = {term(e)};
+      found.description = found.terms.front().text;
     }
     for (const int group : chosen.confounded) {
       if (!sources_.unseen.empty() && sources_.unseen[group]) continue;
       const EffectFamily& other = *sources_.candidates[group].family;
       const bool listed = std::find(found.confounded_with.begin(), found.confounded_with.end(),
                                     other.id) != found.confounded_with.end();
-      if (other.named && other.id != family.id && !listed) found.confounded_with.push_back(other.id);
+      if (other.named && other.id != family.id && !listed)
+        found.confounded_with.push_back(other.id);
     }
     return found;
   }
@@ -129,7 +139,9 @@ class Describer {
     const auto& b = sources_.fit.coefficients();
     const auto& covariance = sources_.uncertainty.covariance;
     Term result = term_of(*effect.family, effect.shape);
-    result.text = words_for(effect);
+    const std::span<const double> own(b.data() + column,
+                                      static_cast<std::size_t>(effect.columns()));
+    result.text = with_remark(words_for(sources_.geometry, effect, own), *effect.family);
     result.cos = b[column];
     double variance = covariance(column, column);
     if (effect.columns() == 2) {
@@ -140,10 +152,21 @@ class Describer {
     return result;
   }
 
+  /// What is said of a kind of effect besides, where no other that was found denies it.
+  std::string with_remark(const std::string& text, const EffectFamily& family) const {
+    if (family.remark.text.empty()) return text;
+    const auto& effects = sources_.fit.effects();
+    const bool denied = std::any_of(effects.begin(), effects.end(), [&](const Effect& other) {
+      return other.family->form_word == family.remark.not_beside;
+    });
+    return denied ? text : text + "; " + family.remark.text;
+  }
+
   void finish_unnamed(FoundEffect& found, int order) const {
     sort_by_size(found.terms);
     found.description.clear();
-    for (const Term& t : found.terms) found.description += (found.description.empty() ? "" : "; and ") + t.text;
+    for (const Term& t : found.terms)
+      found.description += (found.description.empty() ? "" : "; and ") + t.text;
     found.parameters = parameters_of_terms(found.terms, order, "amplitude_um", order > 0);
   }
 
@@ -152,8 +175,7 @@ class Describer {
     std::vector<bool> with(count, true);
     const auto full = sources_.fit.errors(with);
     for (const int e : members) with[e] = false;
-    found.held_out_gain =
-        sources_.fit.errors(with).held_out_rms_um - full.held_out_rms_um;
+    found.held_out_gain = sources_.fit.errors(with).held_out_rms_um - full.held_out_rms_um;
     if (sources_.table != nullptr)
       found.orders_alike =
           orders_alike(sources_.geometry, *sources_.table, sources_.fit, members.front());
@@ -172,7 +194,8 @@ class Describer {
     std::string text = plain_sentence(found, effect);
     if (found.orders_alike.empty()) return text;
     return text + "; the " + std::to_string(traced_teeth(*sources_.table).size()) +
-           " teeth traced would show " + waves_in_words(found.orders_alike) + " alike: the simplest is reported";
+           " teeth traced would show " + waves_in_words(found.orders_alike) +
+           " alike: the simplest is reported";
   }
 
   std::string plain_sentence(const FoundEffect& found, int effect) const {
@@ -190,13 +213,76 @@ class Describer {
         in_um ? found.terms.front().amplitude() : sources_.fit.effect_size_um(effect);
     const FlankChoice flank = sources_.fit.effects()[effect].flank;
     const bool says_flank = family.flank_only || flank == FlankChoice::kBoth;
+    const std::string on = says_flank ? "" : ", " + flank_text(flank) + " flanks alone";
+    constexpr std::size_t kMostTold = 3;
+    const std::size_t told = std::min(found.terms.size(), kMostTold);
+    std::string beside;
+    for (std::size_t k = 1; k < told; ++k)
+      beside += printed("; with it %.3g um: ", found.terms[k].amplitude()) + found.terms[k].text;
+    const std::size_t smaller = found.terms.size() - told;
+    if (smaller > 0)
+      beside += smaller == 1
+                    ? printed("; and a smaller form of %.3g um", found.terms[told].amplitude())
+                    : printed("; and %zu smaller forms, of %.3g um at most", smaller,
+                              found.terms[told].amplitude());
     return printed("A deviation of %.3g um without a known cause: ", size) +
-           found.terms.front().text +
-           (says_flank ? "" : ", " + flank_text(flank) + " flanks alone") +
-           (found.terms.size() > 1 ? printed(" (and %zu forms more)", found.terms.size() - 1)
-                                   : "") +
+           found.terms.front().text + on + beside +
            (family.local ? "; inspect that tooth"
                          : "; find its source before anything is corrected");
+  }
+
+  /// The flanks of an effect of one coefficient that may be opposite on the two flanks; empty of
+  /// others.
+  [[nodiscard]] std::optional<std::array<double, 2>> left_and_right(std::size_t place) const {
+    if (members_[place].size() != 1) return {};
+    const int e = members_[place].front();
+    const Effect& effect = sources_.fit.effects()[e];
+    const auto& names = effect.family->shape_names;
+    if (effect.family->named || effect.columns() != 1 || names.empty() ||
+        names.back() != "opposite_flanks" || effect.shape.size() != names.size())
+      return {};
+    const double amount = sources_.fit.coefficients()[sources_.fit.first_column(e)];
+    const double of_left =
+        effect.shape.back() != 0.0 ? flank_side(Flank::kLeft, sources_.geometry.gear().kind) : 1.0;
+    const double of_right = effect.shape.back() != 0.0 ? -of_left : 1.0;
+    return std::array{effect.flank == FlankChoice::kRight ? 0.0 : of_left * amount,
+                      effect.flank == FlankChoice::kLeft ? 0.0 : of_right * amount};
+  }
+
+  /// One form on both flanks and on one of them as well: what each flank has of it in all.
+  void say_what_is_one_form() {
+    const auto form_of = [&](std::size_t place) {
+      Effect effect = sources_.fit.effects()[members_[place].front()];
+      effect.flank = FlankChoice::kBoth;
+      effect.shape.back() = 0.0;
+      return effect;
+    };
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const auto own = left_and_right(i);
+      if (!own) continue;
+      Effect form = form_of(i);
+      std::array<double, 2> in_all = *own;
+      bool several = false;
+      for (std::size_t k = 0; k < found_.size(); ++k) {
+        const auto other = k == i ? std::nullopt : left_and_right(k);
+        if (!other || !(form_of(k) == form)) continue;
+        several = true;
+        in_all[0] += (*other)[0];
+        in_all[1] += (*other)[1];
+      }
+      if (!several) continue;
+      double sign = in_all[0];
+      if (in_all[0] * in_all[1] < 0.0) {
+        form.shape.back() = 1.0;
+        sign *= flank_side(Flank::kLeft, sources_.geometry.gear().kind);
+      }
+      found_[i].sentence +=
+          printed(
+              "; with what else has this form in all %.3g um on the left flanks and %.3g um on "
+              "the right ones: ",
+              std::abs(in_all[0]), std::abs(in_all[1])) +
+          words_for(sources_.geometry, form, {&sign, 1});
+    }
   }
 
   /// Every effect's share of what all explain together.
@@ -234,6 +320,15 @@ std::vector<FoundEffect> describe_effects(const EffectSources& sources) {
   return Describer(sources).run();
 }
 
+std::string words_for(const FlankGeometry& geometry, const Effect& effect,
+                      std::span<const double> amounts) {
+  const EffectFamily& family = *effect.family;
+  if (family.words) return family.words({geometry, effect.shape, effect.flank, amounts});
+  std::string name = family.id;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return gear_effects::with_shape(name, family.shape_names, effect.shape);
+}
+
 std::vector<std::pair<std::string, double>> parameter_values(const Effect& effect,
                                                              const Eigen::VectorXd& b) {
   const EffectFamily& family = *effect.family;
@@ -252,27 +347,13 @@ std::vector<std::pair<std::string, double>> parameter_values(const Effect& effec
 
 namespace {
 
-/// Id or description with the shape values.
-std::string with_shape(std::string text, const Effect& effect) {
-  for (std::size_t k = 0; k < effect.shape.size(); ++k)
-    text += " (" + effect.family->shape_names[k] + " " + printed("%.4g", effect.shape[k]) + ")";
-  return text;
-}
-
-}  // namespace
-
-std::string words_for(const Effect& effect) {
-  if (effect.family->words) return effect.family->words(effect.shape, effect.flank);
-  const bool form = !effect.family->named && !effect.family->form_word.empty();
-  return with_shape(form ? effect.family->description : effect.family->id, effect);
-}
-
-namespace {
-
-/// What would show an effect that these data cannot: said where everything that it would show is hidden.
-void say_what_is_hidden(const std::vector<std::string>& not_observable, std::vector<std::string>& sentences) {
+/// What would show an effect that these data cannot: said where everything that it would show is
+/// hidden.
+void say_what_is_hidden(const std::vector<std::string>& not_observable,
+                        std::vector<std::string>& sentences) {
   const auto hidden = [&](const EffectFamily& family) {
-    return std::find(not_observable.begin(), not_observable.end(), family.id) != not_observable.end();
+    return std::find(not_observable.begin(), not_observable.end(), family.id) !=
+           not_observable.end();
   };
   const auto& library = effect_library();
   for (const EffectFamily& family : library) {
@@ -286,31 +367,35 @@ void say_what_is_hidden(const std::vector<std::string>& not_observable, std::vec
 
 }  // namespace
 
-std::vector<std::string> measurements_that_separate(const std::vector<FoundEffect>& effects,
-                                                    const std::vector<std::string>& not_observable) {
+std::vector<std::string> measurements_that_separate(
+    const std::vector<FoundEffect>& effects, const std::vector<std::string>& not_observable) {
   std::vector<std::string> sentences;
   ToldApart told;
   for (const FoundEffect& found : effects)
     for (const std::string& other : found.confounded_with)
-      told.add(found.id, other,
-               measurement_between(found.id, find_family(found.id), other, find_family(other),
-                                   "the same gear in more records: both flanks, profile, helix, index "
-                                   "and sizes"));
+      told.add(
+          found.id, other,
+          measurement_between(found.id, find_family(found.id), other, find_family(other),
+                              "the same gear in more records: both flanks, profile, helix, index "
+                              "and sizes"));
   told.say(sentences, "measure");
   for (const FoundEffect& found : effects)
-    if (const EffectFamily* family = find_family(found.id); family && !family->causes_told_by.empty())
+    if (const EffectFamily* family = find_family(found.id);
+        family && !family->causes_told_by.empty())
       say_once(sentences, found.id + ": " + family->causes_told_by);
   if (std::any_of(effects.begin(), effects.end(),
                   [](const FoundEffect& found) { return found.by_process.size() > 1; }))
     say_once(sentences,
-             "how the part was made decides between the causes: say it ([made] process in the design, or a "
+             "how the part was made decides between the causes: say it ([made] process in the "
+             "design, or a "
              "line \"# process = grinding\" in the data)");
   const bool one_part = std::any_of(effects.begin(), effects.end(), [](const FoundEffect& found) {
     return found.correctable && !found.repeatable;
   });
   if (one_part)
     say_once(sentences,
-             "one part cannot show what repeats; measure a second part of the process before correcting it");
+             "one part cannot show what repeats; measure a second part of the process before "
+             "correcting it");
   say_what_is_hidden(not_observable, sentences);
   return sentences;
 }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "trueflank/loop/discovery/discovery.h"
 #include "trueflank/loop/gear/fit/point_fit.h"
 #include "trueflank/loop/gear/shape_refinement.h"
@@ -33,8 +38,10 @@ struct EffectSources {
 /// Named effects in the order they were chosen, unnamed terms gathered by their order.
 [[nodiscard]] std::vector<FoundEffect> describe_effects(const EffectSources& sources);
 
-/// A candidate in words: "twice per turn, sloping over the face, equal on both flanks".
-[[nodiscard]] std::string words_for(const Effect& effect);
+/// An effect in words: "twice per turn, sloping over the face, equal on both flanks"; with its
+/// coefficients, where they are known, where there is more material.
+[[nodiscard]] std::string words_for(const FlankGeometry& geometry, const Effect& effect,
+                                    std::span<const double> amounts = {});
 
 /// For what is confounded or hidden: the measurement that would tell (one sentence each).
 [[nodiscard]] std::vector<std::string> measurements_that_separate(

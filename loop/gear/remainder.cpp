@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/remainder.h"
+#include "trueflank/loop/gear/local/loud_places.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include "trueflank/loop/discovery/course_scan.h"
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/trend_scan.h"
+#include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/dents.h"
 #include "trueflank/loop/gear/local/flank_spots.h"
@@ -189,7 +191,7 @@ class RemainderSearch {
     add_text(
         trend->p_value,
         printed("the traces over the %s %s each by itself, with a standard deviation of %.3g "
-                "um: flanks that differ, or a drift while they were measured",
+                "um, as where flanks differ, or drift while they are measured",
                 key.face ? "face" : "profile", trend->degree == 1 ? "lean" : "bend", trend->spread),
         trend->spread);
     found_.back().own = key.face ? OwnCourse::kLead : OwnCourse::kProfile;
@@ -260,7 +262,8 @@ class RemainderSearch {
 
   void add_form(const char* family, FlankChoice flank, EffectShape shape, double p_value,
                 double amount, bool local, double square = 0.0) {
-    found_.push_back(finding_of(family, flank, std::move(shape), p_value, amount, local, square));
+    found_.push_back(
+        finding_of(geometry_, family, flank, std::move(shape), p_value, amount, local, square));
   }
 
   /// What is no form that could be a column.
@@ -397,8 +400,9 @@ class RemainderSearch {
     for (const EffectFamily& family : effect_library())
       if (family.id == "ghost_order" && family.of_traces_only == wave.backwards)
         found_.push_back({.p_value = wave.p_value,
-                          .text = family.description + " (order " + std::to_string(wave.order) +
-                                  printed("), %.3g um", wave.amplitude_um),
+                          .text = family.description + ", " +
+                                  gear_effects::times_per_turn(wave.order) +
+                                  printed(", %.3g um", wave.amplitude_um),
                           .amount_um = wave.amplitude_um,
                           .effect = Effect{&family, flank, {double(wave.order)}}});
   }
@@ -420,7 +424,7 @@ class RemainderSearch {
     const auto dent = largest_dent(geometry_, table_, row_um_, used_);
     if (!dent || !(square > 0.0) || dent->square <= product * product / square) return {};
     return finding_of(
-        "unnamed_dent",
+        geometry_, "unnamed_dent",
         dent->side == 0 ? FlankChoice::kBoth : flank_choice(geometry_, dent->side > 0 ? 1 : 0),
         {dent->tooth, dent->half_teeth, dent->height_mm, dent->half_mm}, p_value, dent->amount_um,
         false);

@@ -163,7 +163,7 @@ class AroundSearch {
     if (p_value > kRemainderLevel) return false;
     const double u = form == 1 ? 1.0 : form == 3 ? 2.0 : 0.0;
     const double v = form == 2 ? 1.0 : form == 4 ? 2.0 : 0.0;
-    found_.push_back(finding_of("unnamed", FlankChoice::kBoth,
+    found_.push_back(finding_of(geometry_, "unnamed", FlankChoice::kBoth,
                                 {u, v, static_cast<double>(best), opposite ? 1.0 : 0.0}, p_value,
                                 amplitude, false));
     return true;
@@ -240,7 +240,8 @@ class AroundSearch {
     };
     for (int form = 0; form < static_cast<int>(ToothMoments::kForms); ++form)
       for (const bool opposite : {false, true})
-        if (!opposite || side < 0) add_series({form, opposite, flank_choice(geometry_, side)}, side);
+        if (!opposite || side < 0)
+          add_series({form, opposite, flank_choice(geometry_, side)}, side);
     if (what.empty()) return;
     // Then those of one of both flanks: what differs there alone stands in either of the others.
     const Eigen::Index of_both = series.cols();
@@ -248,7 +249,7 @@ class AroundSearch {
       for (const int own : {0, 1}) add_series({form, false, flank_choice(geometry_, own)}, own);
     if (const auto moved =
             side < 0 && has_heights(key.first) ? moved_sector(geometry_, of_teeth) : std::nullopt) {
-      found_.push_back(finding_of("unnamed_moved_sector", FlankChoice::kBoth,
+      found_.push_back(finding_of(geometry_, "unnamed_moved_sector", FlankChoice::kBoth,
                                   {double(moved->first), double(moved->count)}, moved->p_value,
                                   moved->amount_um, false));
       return;
@@ -275,9 +276,9 @@ class AroundSearch {
     const double v = series.form == 2 ? 1.0 : series.form == 4 ? 2.0 : 0.0;
     const double turned = series.opposite ? 1.0 : 0.0;
     const auto n = static_cast<int>(teeth.size());
-    const auto add_here = [&](const char* family, EffectShape shape) {
-      found_.push_back(
-          finding_of(family, series.flank, std::move(shape), found.p_value, found.amount, false));
+    const auto add_here = [&](const char* family, EffectShape shape, SignOf sign = SignOf::kForm) {
+      found_.push_back(finding_of(geometry_, family, series.flank, std::move(shape), found.p_value,
+                                  found.amount, false, 0.0, sign));
     };
     using Kind = RingFinding::Kind;
     if (found.kind == Kind::kRamp) {
@@ -299,7 +300,7 @@ class AroundSearch {
       add_here("unnamed_sector", {double(first), double(count), u, v, turned});
     } else if (found.kind == Kind::kComb ||
                (3 * n >= 2 * geometry_.teeth() && 2 * found.order >= geometry_.teeth() - 1)) {
-      add_here("unnamed_alternation", {u, v, turned});
+      add_here("unnamed_alternation", {u, v, turned}, SignOf::kUnknown);
     } else if (u < 2.0 && v < 2.0 && series.flank == FlankChoice::kBoth) {
       add_here("unnamed", {u, v, double(found.order), turned});
     } else {
@@ -323,16 +324,19 @@ class AroundSearch {
 
 }  // namespace
 
-RemainderFinding finding_of(const char* family, FlankChoice flank, EffectShape shape,
-                            double p_value, double amount, bool local, double square) {
+RemainderFinding finding_of(const FlankGeometry& geometry, const char* family, FlankChoice flank,
+                            EffectShape shape, double p_value, double amount, bool local,
+                            double square, SignOf sign) {
   RemainderFinding finding{
       p_value, {}, square, amount, Effect{find_family(family), flank, std::move(shape)}, local};
   const Effect& effect = *finding.effect;
   const char* on = effect.family->flank_only || effect.flank == FlankChoice::kBoth ? ""
                    : effect.flank == FlankChoice::kLeft                            ? ", left flanks"
                                                         : ", right flanks";
-  finding.text =
-      effect.family->words(effect.shape, effect.flank) + on + printed(", %.3g um", amount);
+  std::vector<double> amounts;
+  if (sign == SignOf::kForm && effect.columns() == 1) amounts.push_back(amount);
+  finding.text = effect.family->words({geometry, effect.shape, effect.flank, amounts}) + on +
+                 printed(", %.3g um", std::abs(amount));
   return finding;
 }
 

@@ -47,10 +47,13 @@ struct ToothSector {
   bool opposite = false;  ///< on the two flanks
 };
 
+/// Whether the sign of an amount is that of the form's coefficient.
+enum class SignOf { kForm, kUnknown };
 /// The finding of a form, with its words. `amount` in um.
-[[nodiscard]] RemainderFinding finding_of(const char* family, FlankChoice flank, EffectShape shape,
-                                          double p_value, double amount, bool local,
-                                          double square = 0.0);
+[[nodiscard]] RemainderFinding finding_of(const FlankGeometry& geometry, const char* family,
+                                          FlankChoice flank, EffectShape shape, double p_value,
+                                          double amount, bool local, double square = 0.0,
+                                          SignOf sign = SignOf::kForm);
 /// `side` 1 left and 0 right in the gear's own sense, -1 both.
 [[nodiscard]] FlankChoice flank_choice(const FlankGeometry& geometry, int side);
 

@@ -53,6 +53,8 @@ struct EffectFacts {
   std::string shown_by = {};
   /// What its form is called where its cause cannot be: "bulge_at_lower_face"; empty: not at all.
   std::string form_word = {};
+  /// That form in words, for a coefficient above and below 0; empty: as its description.
+  std::array<std::string, 2> form_told = {};
   /// Effects without a name: how a term of theirs is written, a key a value of its shape.
   std::vector<TermKey> term_keys = {};
 };

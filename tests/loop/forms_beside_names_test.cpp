@@ -109,7 +109,8 @@ TEST(CrowningThatGrowsOnceAround, IsOneDriftBesideATilt) {
   const auto result =
       close(gear, scan_of(gear, {grown(made), leaning(0.8, 60.0)}, scanned(9000, 0.8, 3)), true);
   EXPECT_NE(find(result, "axis_tilt"), nullptr) << list(result);
-  EXPECT_TRUE(tells(result, "from tooth 7 on, once around, the form of the face drifts evenly"))
+  EXPECT_TRUE(tells(result, "from tooth 7 on, once around, the bow over the face drifts evenly, towards less "
+                    "material at both ends"))
       << list(result);
   EXPECT_FALSE(tells(result, "twice per turn")) << list(result);
 }
@@ -121,7 +122,7 @@ TEST(CombOfOneFlank, IsToldOfThatFlank) {
   };
   const auto result = close(gear, scan_of(gear, {grown(comb)}, scanned(8000, 1.5, 2)), true);
   EXPECT_TRUE(tells(result, "every other tooth differs")) << list(result);
-  EXPECT_FALSE(tells(result, "every other tooth differs, opposite")) << list(result);
+  EXPECT_FALSE(tells(result, "every other tooth differs: one of odd number stands aside")) << list(result);
 }
 
 TEST(GapThatIsDeeper, IsOneFlankOfEitherTooth) {
@@ -132,8 +133,8 @@ TEST(GapThatIsDeeper, IsOneFlankOfEitherTooth) {
   };
   const auto result = close(gear, scan_of(gear, {grown(made)}, scanned(6000, 5.0, 3)), true);
   EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
-  EXPECT_TRUE(tells(result, "flank of tooth 20 stands out")) << list(result);
-  EXPECT_TRUE(tells(result, "flank of tooth 21 stands out")) << list(result);
+  EXPECT_TRUE(tells(result, "left flank of tooth 20 lies back")) << list(result);
+  EXPECT_TRUE(tells(result, "right flank of tooth 21 lies back")) << list(result);
   EXPECT_FALSE(tells(result, "aside")) << list(result);
 }
 

@@ -111,4 +111,12 @@ inline std::string list(const loop::LoopResult& result) {
   return text;
 }
 
+/// Of a pit, a lump, or a part of one flank.
+inline bool tells_spot(const loop::LoopResult& result) {
+  const std::string told = list(result);
+  for (const char* words : {"a pit on the", "a lump on the", "part of the left flank", "part of the right flank"})
+    if (told.find(words) != std::string::npos) return true;
+  return false;
+}
+
 }  // namespace trueflank::test

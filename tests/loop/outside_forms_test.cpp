@@ -31,7 +31,7 @@ TEST(SectorBesideEccentricity, IsOneSectorAndTheEccentricityKeepsItsSize) {
     EXPECT_NEAR(parameter(*find(result, "eccentricity"), "amplitude_um").value, 8.0, 0.3)
         << list(result);
     EXPECT_TRUE(tells(result, "a sector of " + std::to_string(count) + " teeth from tooth " +
-                                  std::to_string(first) + " on"))
+                                  std::to_string(first) + " on stands out on both flanks"))
         << list(result);
     EXPECT_EQ(result.effects.size(), 2U) << list(result);
     EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
@@ -99,7 +99,7 @@ TEST(WornCorner, IsOneFormOfItsFlankBesideATaper) {
       return -18.0 * std::pow(on, power) + 7.0 * s.v;
     };
     const auto result = close(gear, scan_of(gear, {grown(corner)}, scanned(7000, 1.1, 3)), true);
-    EXPECT_TRUE(tells(result, "the corner at the tip and the lower end stands off"))
+    EXPECT_TRUE(tells(result, "the corner at the tip and the lower end lies back"))
         << power << " " << list(result);
     ASSERT_NE(find(result, "taper"), nullptr) << power << " " << list(result);
     EXPECT_NEAR(parameter(*find(result, "taper"), "slope_um").value, 14.0, 0.5)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,6 @@ namespace trueflank::loop::gear_effects {
 /// Where a form stands [mm] in the same measure; over the profile a form's place is a diameter.
 [[nodiscard]] inline double stands_at(const FlankGeometry& g, double face, double place_mm) {
   return face != 0.0 ? place_mm : g.roll_at_radius_mm(0.5 * place_mm);
-}
-[[nodiscard]] inline std::string at_place(double face, double place_mm) {
-  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
-                     : printed("at a diameter of %.5g mm", place_mm);
 }
 [[nodiscard]] inline std::string over(double face) {
   return face != 0.0 ? "over the face" : "over the profile";
@@ -54,10 +51,38 @@ namespace trueflank::loop::gear_effects {
   if (face != 0.0) return end < 0.0 ? 0.0 : g.face_width_mm();
   return end < 0.0 ? g.root_form_roll_mm() : g.tip_form_roll_mm();
 }
+/// "at a height of 4 mm", "at a diameter of 30.12 mm"; a place off the flank is at its end.
+[[nodiscard]] inline std::string at_place(const FlankGeometry& g, double face, double place_mm) {
+  const double low = end_mm(g, face, -1.0), high = end_mm(g, face, 1.0);
+  const double share = (stands_at(g, face, place_mm) - low) / (high - low);
+  if (!(share > 0.0)) return face != 0.0 ? "at the lower end" : "at the root";
+  if (!(share < 1.0)) return face != 0.0 ? "at the upper end" : "at the tip";
+  return face != 0.0 ? printed("at a height of %.3g mm", place_mm)
+                     : printed("at a diameter of %.5g mm", place_mm);
+}
 [[nodiscard]] inline std::string towards(double face, double end) {
   if (end == 0.0) return " to both sides";
   if (face != 0.0) return end > 0.0 ? " towards the upper end" : " towards the lower end";
   return end > 0.0 ? " towards the tip" : " towards the root";
+}
+
+/// ", 1.9 mm long" of waves.
+[[nodiscard]] inline std::string long_each(double face, double length_mm) {
+  return printed(", %.3g mm long", length_mm) + (face != 0.0 ? "" : " (of roll length)");
+}
+/// "3.6 waves over the face, 1.9 mm long"; "waves over ..." where they are longer than the flank.
+[[nodiscard]] inline std::string waves_over(const FlankGeometry& g, double face, double length_mm) {
+  const double waves = std::abs(range_mm(g, face)) / length_mm;
+  return (waves > 1.0 ? printed("%.1f ", waves) : "") + "waves " + over(face) +
+         long_each(face, length_mm);
+}
+/// A length along the flank to either side of a place, or to one side of an end; one that reaches
+/// all over the flank is said so: "0.35 mm to either side", "over the whole face".
+[[nodiscard]] inline std::string within(const FlankGeometry& g, double face, double length_mm,
+                                        const std::string& before, const std::string& after) {
+  if (length_mm >= std::abs(range_mm(g, face)))
+    return std::string("over the whole ") + (face != 0.0 ? "face" : "profile");
+  return before + printed("%.2g mm", length_mm) + (face != 0.0 ? "" : " of roll length") + after;
 }
 
 inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};

@@ -73,6 +73,21 @@ std::string times_per_turn(double order) {
                         : printed("%.0f times per turn", order);
 }
 
+std::string with_shape(const std::string& form, const std::vector<std::string>& names,
+                       const EffectShape& shape) {
+  std::string values, order;
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    if (names[k] == "order") {
+      order = ", " + times_per_turn(shape[k]);
+      continue;
+    }
+    const auto [name, unit] = name_and_unit(names[k]);
+    values += (values.empty() ? " (" : ", ") + name + " " + printed("%.4g", shape[k]) +
+              (unit.empty() ? "" : " " + unit);
+  }
+  return form + order + (values.empty() ? "" : values + ")");
+}
+
 EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
   EffectFamily f;
   f.id = id;

@@ -95,6 +95,10 @@ template <class Function>
 [[nodiscard]] std::string towards(double deg);
 /// " on the left flanks"; empty for both.
 [[nodiscard]] std::string on_which_flanks(const FoundEffect& found);
+/// A form and its shape values: "a hollow across the flanks (centre diameter 10.3 mm, width 0.21 mm)",
+/// "lobing, 3 times per turn".
+[[nodiscard]] std::string with_shape(const std::string& form, const std::vector<std::string>& names,
+                                     const EffectShape& shape);
 /// "3 times per turn"
 [[nodiscard]] std::string times_per_turn(double order);
 /// @}

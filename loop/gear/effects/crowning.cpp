@@ -9,6 +9,8 @@ EffectFamily crowning() {
   f.id = "crowning";
   f.description = "material is missing towards both ends of the face";
   f.form_word = "bow_over_face";
+  f.form_told = {"material is missing towards both ends of the face",
+                 "too much material stands towards both ends of the face"};
   f.causes = {{kGearMachines, "crowning motion, deflection"},
               {kPrinting, "edges rounded or cooled faster than the middle"},
               {kContourCutting, "barrelling of the wire, deflection of the cutter"},

@@ -15,6 +15,8 @@ EffectFamily elephant_foot() {
   f.description = "the teeth bulge out towards the lower face";
   f.tells_its_end = true;
   f.form_word = "bulge_at_lower_face";
+  f.form_told = {"the teeth bulge out towards the lower face",
+                 "the teeth fall back towards the lower face"};
   f.causes = {{kOnPlate, "first layers pressed against the plate or overheated"}};
   f.correction = "set first layer height and temperature or elephant foot compensation; draw in the foot";
   f.parameters = {"amount_um"};

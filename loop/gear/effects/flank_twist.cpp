@@ -9,6 +9,8 @@ EffectFamily flank_twist() {
   f.id = "flank_twist";
   f.description = "the profile slope changes over the face (bias)";
   f.form_word = "twist_of_flank";
+  f.form_told = {"the flanks are twisted: more material at the tip's upper and the root's lower corner",
+                 "the flanks are twisted: more material at the tip's lower and the root's upper corner"};
   f.causes = {{kGearMachines, "crowning of a helical gear by radial motion, diagonal grinding"},
               {kInMould, "twist of the cavity"},
               {kPrinting | kContourCutting, "warping"}};

@@ -10,6 +10,8 @@ EffectFamily flank_wear() {
   f.id = "flank_wear";
   f.description = "a hollow across the flank, around a diameter";
   f.form_word = "hollow_over_profile";
+  f.form_told = {"a hollow across the flanks",
+                 "a ridge across the flanks"};
   f.causes = {{kAnyMaking, "sliding under load on the loaded flank"}};
   f.correction = "look at lubrication, material and load; nothing the geometry of a new part should cancel";
   f.parameters = {"depth_um"};

@@ -104,10 +104,9 @@ EffectFamily ghost_order() {
 /// wave run the other way. Scans have neither numbers nor names.
 EffectFamily ghost_order_counted_backwards() {
   EffectFamily f = ghost_order();
-  f.description +=
-      "; its lines run as if the teeth of these data were counted clockwise, or the flanks named "
-      "from the "
-      "other face";
+  f.remark = {"its lines run as if the teeth of these data were counted clockwise, or the flanks "
+              "named from the other face",
+              f.form_word};
   f.form_word = "wave_over_rotation_backwards";
   f.correctable = Correctable::kNoCause;
   f.of_traces_only = true;

@@ -10,6 +10,8 @@ EffectFamily helix_error() {
   f.id = "helix_error";
   f.description = "the section turns with height: counter-clockwise where positive";
   f.form_word = "lean_over_face";
+  f.form_told = {"the section turns counter-clockwise with height",
+                 "the section turns clockwise with height"};
   f.causes = {
       {kGearMachines, "lead of the machine, differential"},
       {kPrinting, "twist of the print"},

@@ -9,6 +9,8 @@ EffectFamily pressure_angle_error() {
   f.id = "pressure_angle_error";
   f.description = "the profile leans: more material towards the tip where positive";
   f.form_word = "slope_over_profile";
+  f.form_told = {"the profile leans: more material towards the tip",
+                 "the profile leans: less material towards the tip"};
   f.causes = {{kGearMachines,
                "pressure angle of tool or dresser, base circle (both flanks alike); tool tilted or "
                "off centre (flanks opposite)"},

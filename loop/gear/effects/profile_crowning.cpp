@@ -9,6 +9,8 @@ EffectFamily profile_crowning() {
   f.id = "profile_crowning";
   f.description = "material is missing towards root and tip";
   f.form_word = "bow_over_profile";
+  f.form_told = {"material is missing towards root and tip",
+                 "too much material stands towards root and tip"};
   f.causes = {{kGearMachines, "form of tool or dresser, elastic tool"},
               {kPrinting | kContourCutting, "rounding of the contour towards root and tip"},
               {kInMould, "sink marks, form of the cavity"},

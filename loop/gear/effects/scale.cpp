@@ -10,6 +10,8 @@ EffectFamily scale() {
   f.id = "scale";
   f.description = "the whole part is too big or too small";
   f.form_word = "size_of_part";
+  f.form_told = {"the whole part is too big",
+                 "the whole part is too small"};
   f.causes = {{kPrinting | kInMould, "shrinkage, or steps per millimetre of a printer"},
               {kContourCutting, "scale of the axes"},
               {kAnyMaking, "the part or the measuring device was not at 20 degrees"}};

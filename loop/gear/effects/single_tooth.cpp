@@ -10,6 +10,8 @@ EffectFamily single_tooth() {
   f.id = "single_tooth";
   f.description = "one tooth stands out on both flanks";
   f.form_word = "height_of_tooth";
+  f.form_told = {"one tooth stands out on both flanks",
+                 "one tooth lies back on both flanks"};
   f.causes = {{kAnyMaking, "damage, a burr, a chip, a fault of one pass"}};
   f.correction = "inspect or reject the part; nothing to correct in the geometry";
   f.parameters = {"amount_um"};

@@ -10,6 +10,8 @@ EffectFamily skew() {
   f.id = "skew";
   f.description = "x and y are not square to each other";
   f.form_word = "sheared_section";
+  f.form_told = {"x and y are not square to each other: longer along their bisector",
+                 "x and y are not square to each other: shorter along their bisector"};
   f.causes = {{kPrinting | kContourCutting, "the axes of the printer or machine are not square"},
               {kInMould, "the part was cooled or ejected one-sidedly"}};
   f.correction = "square the axes or enter the skew in the firmware; shear the model the other way";

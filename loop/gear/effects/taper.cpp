@@ -9,6 +9,8 @@ EffectFamily taper() {
   f.id = "taper";
   f.description = "the teeth grow thicker with height where positive";
   f.form_word = "taper_over_face";
+  f.form_told = {"the teeth grow thicker with height",
+                 "the teeth grow thinner with height"};
   f.causes = {
       {kGearMachines, "tailstock or axis slope, deflection of the machine, infeed over the stroke"},
       {kPrinting, "cooling of the layers"},

@@ -10,6 +10,8 @@ EffectFamily tip_relief() {
   f.id = "tip_relief";
   f.description = "material is missing at the tip, from a diameter on";
   f.form_word = "fall_towards_tip";
+  f.form_told = {"material is missing at the tip",
+                 "too much material stands at the tip"};
   f.causes = {{kGearMachines, "relief by tool or dresser"},
               {kPrinting | kContourCutting, "rounding of the tips"},
               {kInMould, "tips that did not fill"},

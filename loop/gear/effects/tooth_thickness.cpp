@@ -11,6 +11,8 @@ EffectFamily tooth_thickness() {
   f.id = "tooth_thickness";
   f.description = "the teeth are too thick or too thin, the tips as designed";
   f.form_word = "thickness";
+  f.form_told = {"the teeth are too thick, the tips as designed",
+                 "the teeth are too thin, the tips as designed"};
   f.causes = {{kMachining, "infeed of the tool (profile shift error), tool thickness"},
               {kPrinting | kContourCutting | kInMould,
                "profile shift or thinning of the model, width of line or kerf"}};

@@ -6,6 +6,7 @@
 #include "trueflank/base/legendre.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 // The free form: Legendre over profile and face, times an order around the gear, alike or opposite
 // on the two flanks. It describes and is given no cause.
@@ -64,28 +65,33 @@ void evaluate_terms(const FlankGeometry& g, const Place& p, std::span<const Effe
 std::string course(int degree, const std::string& over) {
   switch (degree) {
     case 0:
-      return "constant over the " + over;
+      return "";
     case 1:
-      return "sloping over the " + over;
+      return ", sloping over the " + over;
     case 2:
-      return "crowned over the " + over;
+      return ", crowned over the " + over;
     case 3:
-      return "S-shaped over the " + over;
+      return ", S-shaped over the " + over;
     default:
-      return "in a wave of degree " + std::to_string(degree) + " over the " + over;
+      return ", in a wave of degree " + std::to_string(degree) + " over the " + over;
   }
 }
 
-std::string in_words(const EffectShape& shape) {
-  const int order = static_cast<int>(shape[2]);
-  std::string text = order == 0   ? "the same on every tooth"
-                     : order == 1 ? "once per turn"
-                     : order == 2 ? "twice per turn"
-                                  : std::to_string(order) + " times per turn";
-  text += ", " + course(static_cast<int>(shape[0]), "profile");
-  text += ", " + course(static_cast<int>(shape[1]), "face");
-  text += shape[3] != 0.0 ? ", opposite on the two flanks" : ", equal on both flanks";
-  return text;
+std::string in_words(const ToldForm& told) {
+  const EffectShape& shape = told.shape;
+  const double order = shape[2], direction_rad = told.direction_rad();
+  const bool opposite = shape[3] != 0.0;
+  std::string text = order == 0.0 ? "the same on every tooth" : times_per_turn(order);
+  text += course(static_cast<int>(shape[0]), "profile");
+  text += course(static_cast<int>(shape[1]), "face");
+  text += opposite ? ", opposite on the two flanks" : ", equal on both flanks";
+  // (a wave has it where it is largest)
+  const int sign = order == 0.0 ? told.sign() : std::isnan(direction_rad) ? 0 : 1;
+  const std::string material =
+      CourseOfTeeth{shape[0], shape[1], opposite, told.flank, sign}.material();
+  if (material.empty()) return text;
+  return text + ": " + material +
+         (order == 0.0 ? "" : ", most" + first_at(direction_rad, order).substr(1));
 }
 
 }  // namespace
@@ -126,7 +132,7 @@ EffectFamily unnamed() {
   };
   // Low degrees first, low orders among them.
   f.complexity = [](const EffectShape& shape) { return shape[0] + shape[1] + 0.01 * shape[2]; };
-  f.words = [](const EffectShape& shape, FlankChoice) { return in_words(shape); };
+  f.words = in_words;
   f.bends_over_the_face = [](const EffectShape& shape) { return shape[1] > 1.0; };
   return f;
 }

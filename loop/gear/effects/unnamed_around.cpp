@@ -10,6 +10,7 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -62,12 +63,10 @@ EffectFamily unnamed_sector() {
       }
     return shapes;
   };
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    const std::string form = shape[2] > 0.0   ? "another form of the profile"
-                             : shape[3] > 0.0 ? "another form of the face"
-                                              : "another height";
-    return "a sector of " + printed("%.0f teeth from tooth %.0f on has ", shape[1], shape[0]) +
-           form + " than the rest" + (shape[4] != 0.0 ? ", opposite on the two flanks" : "");
+  f.words = [](const ToldForm& told) {
+    return "a sector of " +
+           printed("%.0f teeth from tooth %.0f on ", told.shape[1], told.shape[0]) +
+           CourseOfTeeth::at(told, 2).does();
   };
   return f;
 }
@@ -106,21 +105,13 @@ EffectFamily unnamed_alternation() {
     c[0] = (p.tooth % 2 == 1 ? 1.0 : -1.0) * form_of_tooth(g, p, shape, 0);
   };
   f.term_keys = {{"profile_degree"}, {"face_degree"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return std::string("every other tooth differs") +
-           (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
+  f.words = [](const ToldForm& told) {
+    return "every other tooth differs: one of odd number " + CourseOfTeeth::at(told, 0).does();
   };
   return f;
 }
 
 namespace {
-
-std::string what_of_tooth(const EffectShape& shape, std::size_t k) {
-  return std::string(shape[k] > 0.0       ? "the form of the profile"
-                     : shape[k + 1] > 0.0 ? "the form of the face"
-                                          : "the height") +
-         (shape[k + 2] != 0.0 ? ", opposite on the two flanks" : "");
-}
 
 /// What begins at its first tooth begins some teeth before or after.
 std::vector<EffectShape> begun_beside(const FlankGeometry& g, const EffectShape& shape) {
@@ -146,9 +137,11 @@ EffectFamily unnamed_ramp() {
   };
   f.nearby = begun_beside;
   f.term_keys = {{"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
-           " drifts evenly and begins anew: a tool that wears, or a machine that warms up";
+  f.words = [](const ToldForm& told) {
+    const CourseOfTeeth course = CourseOfTeeth::at(told, 1);
+    return printed("from tooth %.0f on, once around, ", told.shape[0]) + course.what() +
+           " drifts evenly" + course.direction() +
+           ", and begins anew, as from a tool that wears or a machine that warms up";
   };
   return f;
 }
@@ -181,12 +174,16 @@ EffectFamily unnamed_levelling() {
                  kFlanks,
                  {"course", TermKey::Kind::kWord, {"levels_off", "grows"}},
                  number("within_teeth")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("from tooth %.0f on, once around, ", shape[0]) + what_of_tooth(shape, 1) +
-           (shape[4] != 0.0
-                ? printed(" drifts more and more, most of it in the last %.2g teeth", shape[5])
-                : printed(" drifts and levels off, most of it in the first %.2g teeth", shape[5])) +
-           ", and begins anew: a machine that warms up, or a tool that wears";
+  f.words = [](const ToldForm& told) {
+    const CourseOfTeeth course = CourseOfTeeth::at(told, 1);
+    const double teeth = std::min(std::ceil(told.shape[5]), double(told.geometry.teeth()));
+    return printed("from tooth %.0f on, once around, ", told.shape[0]) + course.what() +
+           (told.shape[4] != 0.0 ? " drifts more and more" : " drifts and levels off") +
+           course.direction() +
+           printed(told.shape[4] != 0.0 ? ", most of it in the last %.0f teeth"
+                                        : ", most of it in the first %.0f teeth",
+                   teeth) +
+           ", and begins anew, as from a machine that warms up or a tool that wears";
   };
   return f;
 }
@@ -201,11 +198,10 @@ EffectFamily unnamed_drift_aside() {
   };
   f.nearby = begun_beside;
   f.term_keys = {{"first_tooth"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed(
-        "from tooth %.0f on, once around, the teeth drift aside evenly, in one direction, and "
-        "begin anew: part or probe moved while it was made or measured",
-        shape[0]);
+  f.words = [](const ToldForm& told) {
+    return printed("from tooth %.0f on, once around, the teeth drift aside evenly", told.shape[0]) +
+           in_direction(told.direction_rad()) +
+           ", and begin anew, as where part or probe moved while it was made or measured";
   };
   return f;
 }
@@ -236,12 +232,13 @@ EffectFamily unnamed_broken_wave() {
     return shapes;
   };
   f.term_keys = {number("periods_per_turn"), {"first_tooth"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
     return printed("from tooth %.0f on, once around, the teeth stand ", shape[1]) +
            (shape[2] != 0.0 ? "ahead and behind" : "high and low") +
            printed(
-               " in a wave of %.3g periods a turn, which does not close: a cutter that runs "
-               "out and takes no whole number of teeth a turn",
+               " in a wave of %.3g periods a turn, which does not close, as from a cutter that "
+               "runs out and takes no whole number of teeth a turn",
                shape[0]);
   };
   return f;
@@ -271,12 +268,14 @@ EffectFamily unnamed_saw() {
     return shapes;
   };
   f.term_keys = {{"restarts_every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("from tooth %.0f on ", shape[1]) + what_of_tooth(shape, 2) +
+  f.words = [](const ToldForm& told) {
+    const CourseOfTeeth course = CourseOfTeeth::at(told, 2);
+    return printed("from tooth %.0f on ", told.shape[1]) + course.what() + " drifts evenly" +
+           course.direction() +
            printed(
-               " drifts evenly and begins anew every %.0f teeth: a tool that wears and is dressed "
-               "or set again",
-               shape[0]);
+               ", and begins anew every %.0f teeth, as from a tool that wears and is dressed or "
+               "set again",
+               told.shape[0]);
   };
   return f;
 }
@@ -290,9 +289,9 @@ EffectFamily unnamed_comb() {
     c[0] = stands_out ? form_of_tooth(g, p, shape, 2) : 0.0;
   };
   f.term_keys = {{"every"}, {"first_tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("one tooth in %.0f, from tooth %.0f on, differs in ", shape[0], shape[1]) +
-           what_of_tooth(shape, 2) + ": a cutter of so many teeth or starts";
+  f.words = [](const ToldForm& told) {
+    return printed("one tooth in %.0f, from tooth %.0f on, ", told.shape[0], told.shape[1]) +
+           CourseOfTeeth::at(told, 2).does() + ", as from a cutter of so many teeth or starts";
   };
   return f;
 }

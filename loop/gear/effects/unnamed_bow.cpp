@@ -3,6 +3,7 @@
 
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -44,8 +45,9 @@ EffectFamily unnamed_bow() {
     return shapes;
   };
   f.term_keys = {{"held_at"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return std::string("the axis of the teeth is bent ") + held_where(shape[0]);
+  f.words = [](const ToldForm& told) {
+    return std::string("the axis of the teeth is bent ") + held_where(told.shape[0]) +
+           in_direction(told.direction_rad());
   };
   return f;
 }

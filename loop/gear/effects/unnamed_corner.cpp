@@ -5,8 +5,10 @@
 #include <string>
 
 #include "trueflank/base/number_text.h"
+#include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -65,12 +67,15 @@ EffectFamily unnamed_corner() {
                  {"profile_mm", TermKey::Kind::kNumber},
                  {"face_mm", TermKey::Kind::kNumber},
                  {"power", TermKey::Kind::kNumber}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
     return "the same on every tooth, the corner at the " +
            std::string(shape[0] != 0.0 ? "tip" : "root") + " and the " +
            (shape[1] != 0.0 ? "upper" : "lower") +
-           printed(" end stands off, over %.2g mm of roll length and %.2g mm of the face", shape[2],
-                   shape[3]);
+           printed(" end %s, over %.2g mm of roll length and %.2g mm of the face",
+                   stands(told.sign()).c_str(),
+                   std::min(shape[2], std::abs(range_mm(told.geometry, 0.0))),
+                   std::min(shape[3], told.geometry.face_width_mm()));
   };
   return f;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string>
 
+#include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
@@ -24,12 +25,17 @@ EffectFamily unnamed_field() {
     c[1] = normal_part(g, p, 0.0, of_y);
   };
   f.term_keys = {{"own_power"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
     return std::string("places are shifted by the square of where they stand in the plane: ") +
            (shape[0] == 2.0   ? "along x by x^2, along y by y^2, an axis whose scale changes"
             : shape[0] == 0.0 ? "along x by y^2, along y by x^2, an axis that is bent"
                               : "along x and y by x y, a keystone") +
-           " (the field of a laser, a projector or a camera, a guide of a machine)";
+           (told.amounts.size() == 2
+                ? printed("; at the reference radius by %+.3g um along x and %+.3g um along y",
+                          told.amounts[0], told.amounts[1])
+                : "") +
+           ", as from the field of a laser, a projector or a camera, or a guide of a machine";
   };
   return f;
 }

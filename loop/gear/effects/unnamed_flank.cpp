@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 
@@ -25,9 +26,10 @@ EffectFamily unnamed_flank() {
     const double tooth = p.surface == Surface::kFlank ? p.tooth : kNaN;
     for (const Effect& effect : effects) *c++ = effect.shape[0] == tooth ? 1.0 : 0.0;
   };
-  f.words = [](const EffectShape& shape, FlankChoice flank) {
-    return "the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") +
-           " flank of tooth " + std::to_string(static_cast<int>(shape[0])) + " stands out";
+  f.words = [](const ToldForm& told) {
+    return "the " + std::string(told.flank == FlankChoice::kLeft ? "left" : "right") +
+           " flank of tooth " + std::to_string(static_cast<int>(told.shape[0])) + " " +
+           stands(told.sign());
   };
   return f;
 }

@@ -4,6 +4,7 @@
 #include "trueflank/base/number_text.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 
@@ -27,11 +28,11 @@ EffectFamily unnamed_moved_sector() {
     return shapes;
   };
   f.term_keys = {{"first_tooth"}, {"teeth"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed(
-        "%.0f teeth from tooth %.0f on stand aside as one body: two views of a scan, "
-        "halves of a mould or two clampings that do not meet",
-        shape[1], shape[0]);
+  f.words = [](const ToldForm& told) {
+    return printed("%.0f teeth from tooth %.0f on stand aside as one body", told.shape[1],
+                   told.shape[0]) +
+           in_direction(told.direction_rad()) +
+           ", as where two views of a scan, halves of a mould or two clampings do not meet";
   };
   return f;
 }

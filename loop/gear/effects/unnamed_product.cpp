@@ -5,6 +5,7 @@
 
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 namespace {
@@ -24,6 +25,13 @@ std::string in_words(double towards, double power, const std::array<const char*,
          (power == 1.0   ? " evenly"
           : power == 2.0 ? " by the square"
                          : " by the cube");
+}
+
+/// What grows, and that it does.
+std::string grows(int sign, bool opposite) {
+  if (sign == 0) return "grows";
+  if (opposite) return "a turn of the teeth " + turned(sign) + " grows";
+  return sign > 0 ? "an excess of material grows" : "a lack of material grows";
 }
 
 }  // namespace
@@ -51,13 +59,15 @@ EffectFamily unnamed_product() {
                  {"face_towards"},
                  {"face_power"},
                  {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return "the same on every tooth, grows towards " +
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = shape[4] != 0.0;
+    return "the same on every tooth, " + grows(told.sign(), opposite) + " towards " +
            in_words(shape[0], shape[1], {shape[0] == kTowardsBoth ? "profile" : "root", "tip"}) +
            ", and that the more, towards " +
            in_words(shape[2], shape[3],
                     {shape[2] == kTowardsBoth ? "face" : "lower end", "upper end"}) +
-           (shape[4] != 0.0 ? ", opposite on the two flanks" : "");
+           (opposite ? ", opposite on the two flanks" : "");
   };
   return f;
 }

@@ -7,6 +7,7 @@
 #include "trueflank/loop/gear/effects/along_flank.h"
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 // Forms that no polynomial and no slow wave describes: a step, a groove or ridge, a strip, a patch,
 // a short wave, a spot. They describe and are given no cause. They are no candidates of their own:
@@ -69,10 +70,18 @@ EffectFamily along_flank(const std::string& id, std::vector<std::string> shape_n
   return f;
 }
 
+/// True of opposite signs on the two flanks: the shape value behind a form's own.
+bool is_opposite(const EffectShape& shape, std::size_t own) {
+  return shape.size() > own && shape[own] != 0.0;
+}
+std::string opposite_words(bool opposite) { return opposite ? ", opposite on the two flanks" : ""; }
+/// The place of a form that is more than a place away from the lower end or the root.
+std::string beyond(double face) { return face != 0.0 ? "above it" : "at larger diameters"; }
+
 /// The same, of opposite signs on the two flanks where one more shape value is not 0.
 EffectFamily on_either_flank(EffectFamily f) {
   const auto opposite = [own = f.shape_names.size()](const EffectShape& shape) {
-    return shape.size() > own && shape[own] != 0.0;
+    return is_opposite(shape, own);
   };
   f.shape_names.emplace_back("opposite_flanks");
   f.term_keys.push_back({"flanks", TermKey::Kind::kWord, {"equal", "opposite"}});
@@ -86,9 +95,6 @@ EffectFamily on_either_flank(EffectFamily f) {
     for (EffectShape& beside : shapes)
       for (std::size_t k = beside.size(); k < shape.size(); ++k) beside.push_back(shape[k]);
     return shapes;
-  };
-  f.words = [words = f.words, opposite](const EffectShape& shape, FlankChoice flank) {
-    return words(shape, flank) + (opposite(shape) ? ", opposite on the two flanks" : "");
   };
   return f;
 }
@@ -120,13 +126,14 @@ EffectFamily unnamed_step() {
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
     return places_beside(g, shape, {0.05, 0.02, 0.01, 0.005, 0.002, 0.0007, 0.0002});
   };
-  f.term_keys = {kAlong,
-                 number("place_mm"),
-                 {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.term_keys = {
+      kAlong, number("place_mm"), {"flanks", TermKey::Kind::kWord, {"equal", "opposite"}}};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = shape[2] != 0.0;
     return "the same on every tooth, a step " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) +
-           (shape[2] != 0.0 ? ", opposite on the two flanks" : "");
+           at_place(told.geometry, shape[0], shape[1]) + opposite_words(opposite) +
+           there(beyond(shape[0]), told.sign(), opposite);
   };
   return f;
 }
@@ -153,10 +160,13 @@ EffectFamily unnamed_kink() {
   };
   f.is_like_many = true;
   f.term_keys = {kAlong, number("place_mm"), {"bends"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, a kink " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", straight on in another direction" +
-           towards(shape[0], shape[2]);
+           at_place(told.geometry, shape[0], shape[1]) + ", straight on in another direction" +
+           towards(shape[0], shape[2]) + opposite_words(opposite) +
+           there("there", told.sign(), opposite);
   };
   return on_either_flank(std::move(f));
 }
@@ -194,10 +204,13 @@ EffectFamily unnamed_bend() {
   };
   f.is_like_many = true;
   f.term_keys = {kAlong, number("place_mm"), {"curves"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, flat to a place " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + ", and curved from there on" +
-           (shape[2] == 0.0 ? ", and as far from the other end" : towards(shape[0], shape[2]));
+           at_place(told.geometry, shape[0], shape[1]) + ", and curved from there on" +
+           (shape[2] == 0.0 ? ", and as far from the other end" : towards(shape[0], shape[2])) +
+           opposite_words(opposite) + there("there", told.sign(), opposite);
   };
   return on_either_flank(std::move(f));
 }
@@ -226,10 +239,13 @@ EffectFamily unnamed_rise() {
   };
   f.is_like_many = true;
   f.term_keys = {kAlong, number("dies_within_mm"), {"towards"}};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 3);
     return "the same on every tooth, more and more " + over(shape[0]) +
-           (shape[2] == 0.0 ? " towards both ends" : towards(shape[0], shape[2])) +
-           printed(", within %.2g mm", shape[1]) + (shape[0] != 0.0 ? "" : " of roll length");
+           (shape[2] == 0.0 ? " towards both ends" : towards(shape[0], shape[2])) + ", " +
+           within(told.geometry, shape[0], shape[1], "within ", "") + opposite_words(opposite) +
+           there("there", told.sign(), opposite);
   };
   return on_either_flank(std::move(f));
 }
@@ -272,14 +288,14 @@ EffectFamily about_a_place(const std::string& id, Function function, const std::
   };
   f.term_keys = {number("diameter_mm"), number("height_mm"), number("half_profile_mm"),
                  number("half_mm")};
-  f.words = [how](const EffectShape& shape, FlankChoice) {
-    return printed(
-               "the same on every tooth, a hollow or swelling of the flank at a diameter of %.5g "
-               "mm "
-               "and a height of %.3g mm, %.2g mm of roll length and %.2g mm of the face to either "
-               "side",
-               shape[0], shape[1], shape[2], shape[3]) +
-           how;
+  f.words = [how](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const FlankGeometry& g = told.geometry;
+    return "the same on every tooth, " + a_swelling(told.sign()) +
+           printed(" of the flank at a diameter of %.5g mm and a height of %.3g mm, ", shape[0],
+                   shape[1]) +
+           within(g, 0.0, shape[2], "", " to either side") + " and " +
+           within(g, 1.0, shape[3], "", " of the face to either side") + how;
   };
   return f;
 }
@@ -319,9 +335,14 @@ EffectFamily unnamed_band() {
     return shapes;
   };
   f.term_keys = {kAlong, number("place_mm"), number("width_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return "the same on every tooth, a groove or ridge " + over(shape[0]) + " " +
-           at_place(shape[0], shape[1]) + printed(", %.2g mm to either side", shape[2]);
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 3);
+    const int sign = opposite ? 0 : told.sign();
+    return "the same on every tooth, " + a_ridge(sign) + " " + over(shape[0]) + " " +
+           at_place(told.geometry, shape[0], shape[1]) + ", " +
+           within(told.geometry, shape[0], shape[2], "", " to either side") +
+           opposite_words(opposite) + (opposite ? there("there", told.sign(), true) : "");
   };
   return on_either_flank(std::move(f));
 }
@@ -373,16 +394,67 @@ EffectFamily unnamed_strip() {
     return shapes;
   };
   f.term_keys = {kAlong, number("from_mm"), number("to_mm"), number("side_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const bool opposite = is_opposite(shape, 4);
     return "the same on every tooth, a strip " + over(shape[0]) + " " +
            (shape[0] != 0.0
                 ? printed("between heights of %.3g and %.3g mm", shape[1], shape[2])
                 : printed("between diameters of %.5g and %.5g mm", shape[1], shape[2])) +
-           printed(" stands out or is worn, with sides of %.2g mm", shape[3]) +
-           (shape[0] != 0.0 ? "" : " of roll length");
+           (opposite ? "" : " " + stands(told.sign())) +
+           printed(", with sides of %.2g mm", shape[3]) +
+           (shape[0] != 0.0 ? "" : " of roll length") + opposite_words(opposite) +
+           (opposite ? there("there", told.sign(), true) : "");
   };
   return on_either_flank(std::move(f));
 }
+
+namespace {
+
+/// ", the first crest at a height of 0.4 mm": from the lower end, or the root, on; empty where it
+/// is not known.
+std::string first_crest(const ToldForm& told) {
+  const FlankGeometry& g = told.geometry;
+  const double face = told.shape[0], length = told.shape[1];
+  const auto [low, high] = std::minmax({end_mm(g, face, -1.0), end_mm(g, face, 1.0)});
+  const double crest = told.direction_rad() / kTwoPi * length;
+  const double first = crest + length * std::ceil((low - crest) / length);
+  if (!(first <= high)) return "";
+  const double place = face != 0.0 ? first : 2.0 * g.on_flank(1, 1, first, 0.0).radius_mm;
+  return ", the first crest " + at_place(g, face, place);
+}
+
+/// "waves across the flanks, 2.1 over the profile, 3.4 mm of roll length each, and 3.6 over the
+/// face, 1.9 mm each"; those along one direction alone by that.
+std::string waves_across(const FlankGeometry& g, double over_profile, double over_face) {
+  // Less than a quarter of a wave: the crests lie straight along the flank, as near as waves of
+  // one flank tell it.
+  constexpr double kNone = 0.25;
+  const double profile = std::abs(over_profile), face = std::abs(over_face);
+  const double profile_mm = std::abs(range_mm(g, 0.0)) / profile, face_mm = range_mm(g, 1.0) / face;
+  if (profile < kNone && face < kNone) return "the flanks stand in waves around the gear";
+  if (profile < kNone) return waves_over(g, 1.0, face_mm);
+  if (face < kNone) return waves_over(g, 0.0, profile_mm);
+  return printed(
+             "waves across the flanks, %.1f over the profile, %.3g mm of roll length each, and "
+             "%.1f over the face, %.3g mm each",
+             profile, profile_mm, face, face_mm) +
+         (over_profile * over_face < 0.0 ? ", rising towards the tip"
+                                         : ", falling towards the tip");
+}
+
+/// ", that march from tooth to tooth: 15 periods a turn, towards the tip": along the direction in
+/// which there are more waves.
+std::string marching(const EffectShape& shape) {
+  const double periods = std::abs(shape[2]);
+  const double face = std::abs(shape[1]) >= std::abs(shape[0]) ? 1.0 : 0.0;
+  const double waves = face != 0.0 ? shape[1] : shape[0];
+  return ", that march from tooth to tooth: " +
+         (periods == 1.0 ? std::string("one period") : printed("%g periods", periods)) + " a turn" +
+         (waves == 0.0 ? "" : "," + towards(face, waves * shape[2] < 0.0 ? 1.0 : -1.0));
+}
+
+}  // namespace
 
 EffectFamily unnamed_waviness() {
   EffectFamily f = described("unnamed_waviness", {"along", "wavelength_mm"});
@@ -403,9 +475,10 @@ EffectFamily unnamed_waviness() {
     return shapes;
   };
   f.term_keys = {kAlong, number("wavelength_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return "the same on every tooth, waves " + over(shape[0]) +
-           printed(", %.3g mm long", shape[1]) + (shape[0] != 0.0 ? "" : " (of roll length)");
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return "the same on every tooth, " + waves_over(told.geometry, shape[0], shape[1]) +
+           first_crest(told);
   };
   return f;
 }
@@ -437,18 +510,30 @@ EffectFamily unnamed_marks() {
     return shapes;
   };
   f.term_keys = {number("waves_over_profile"), number("waves_over_face"), number("order")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed("waves across the flanks, %.3g over the profile and %.3g over the face",
-                   std::abs(shape[0]), std::abs(shape[1])) +
-           (shape[0] * shape[1] < 0.0   ? ", rising towards the tip"
-            : shape[0] * shape[1] > 0.0 ? ", falling towards the tip"
-                                        : "") +
-           (shape[2] == 0.0 ? std::string(", the same on every tooth")
-                            : printed(", that march from tooth to tooth: %g periods a turn",
-                                      std::abs(shape[2])));
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return waves_across(told.geometry, shape[0], shape[1]) +
+           (shape[2] == 0.0 ? ", the same on every tooth" : marching(shape));
   };
   return f;
 }
+
+namespace {
+
+/// " over a few teeth about tooth 5, about 3 teeth to either side"
+std::string about_tooth(int teeth, double tooth, double half_teeth) {
+  constexpr double kHardlyBeside = 0.75;  // (the teeth beside have a sixth of it, or less)
+  const double z = teeth, whole = std::round(tooth) - 1.0;
+  const std::string about = printed("tooth %.0f", whole - z * std::floor(whole / z) + 1.0);
+  if (half_teeth < kHardlyBeside) return " at " + about + ", hardly at those beside it";
+  if (2.0 * half_teeth >= z) return " around the gear, most about " + about;
+  const double beside = std::round(half_teeth);
+  return " over a few teeth about " + about +
+         (beside == 1.0 ? ", a tooth to either side"
+                        : printed(", %.0f teeth to either side", beside));
+}
+
+}  // namespace
 
 EffectFamily unnamed_dent() {
   EffectFamily f = described("unnamed_dent", {"tooth", "half_teeth", "height_mm", "half_mm"});
@@ -460,14 +545,91 @@ EffectFamily unnamed_dent() {
     c[0] = bell(off, shape[1]) * (shape[3] > 0.0 ? bell(p.z_mm - shape[2], shape[3]) : 1.0);
   };
   f.term_keys = {number("tooth"), number("half_teeth"), number("height_mm"), number("half_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return printed(
-               "a hollow or swelling over a few teeth about tooth %.0f, %.2g teeth to either side",
-               shape[0], shape[1]) +
-           (shape[3] > 0.0 ? printed(", at a height of %.3g mm", shape[2]) : "");
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return a_swelling(told.sign()) + about_tooth(told.geometry.teeth(), shape[0], shape[1]) +
+           (shape[3] > 0.0
+                ? printed(", at a height of %.3g mm, ", shape[2]) +
+                      within(told.geometry, 1.0, shape[3], "", " of the face to either side")
+                : "");
   };
   return f;
 }
+
+namespace {
+
+/// What a spot covers of the profile or the face: as far as the flank goes.
+struct Covered {
+  double low = 0.0, high = 0.0, range = 0.0;
+  bool from_low = false, to_high = false;
+
+  Covered(double at, double width, double from, double to)
+      : low(std::max(from, at - 0.5 * width)),
+        high(std::max(low, std::min(to, at + 0.5 * width))),
+        range(to - from) {
+    constexpr double kEnd = 0.02;  // of the flank, which no measurement comes nearer to
+    from_low = low - from < kEnd * range;
+    to_high = to - high < kEnd * range;
+  }
+  [[nodiscard]] double share() const { return (high - low) / range; }
+  [[nodiscard]] bool is_whole() const { return share() >= 0.85; }
+};
+
+/// Where a spot stands over the face, or over the profile; `length_mm` along the flank.
+std::string place_of_spot(const FlankGeometry& g, double face, const Covered& covered,
+                          double place_mm, double length_mm) {
+  const std::string length = printed("%.2g mm", length_mm);
+  if (covered.is_whole()) return face != 0.0 ? ", over the whole face" : ", over the whole profile";
+  if (covered.from_low || covered.to_high) {
+    if (face != 0.0)
+      return (covered.to_high ? ", over the upper " : ", over the lower ") + length +
+             " of the face";
+    return ", over the " + length + (covered.to_high ? " below the tip" : " above the root");
+  }
+  return ", " + at_place(g, face, place_mm) + ", " + length + " " + over(face);
+}
+
+/// A pit or lump; what covers much of the flank is a part of it.
+std::string spot_in_words(const ToldForm& told) {
+  constexpr double kPart = 0.4;  // of the profile or the face
+  const EffectShape& shape = told.shape;
+  const FlankGeometry& g = told.geometry;
+  std::string where;
+  double most = 0.0;
+  bool all_over = shape[3] > 0.0 && shape[4] > 0.0;
+  if (shape[3] > 0.0) {
+    // (of a ring the roll falls from the root to the tip)
+    const double root = g.root_form_roll_mm(), tip = g.tip_form_roll_mm(),
+                 turn = tip < root ? -1.0 : 1.0, roll = stands_at(g, 0.0, shape[1]),
+                 width = roll_of_width(g, shape);
+    const Covered covered(turn * roll, width, turn * root, turn * tip);
+    where +=
+        place_of_spot(g, 0.0, covered, shape[1], (covered.high - covered.low) / width * shape[3]);
+    most = covered.share();
+    all_over = all_over && covered.is_whole();
+  }
+  if (shape[4] > 0.0) {
+    const Covered covered(shape[2], shape[4], 0.0, g.face_width_mm());
+    where += place_of_spot(g, 1.0, covered, shape[2], covered.high - covered.low);
+    most = std::max(most, covered.share());
+    all_over = all_over && covered.is_whole();
+  }
+  const int sign = told.sign();
+  const std::string flank = std::string(told.flank == FlankChoice::kLeft ? "left" : "right") +
+                            printed(" flank of tooth %.0f", shape[0]);
+  if (all_over) return "the " + flank + " " + stands(sign);
+  if (most >= kPart)
+    return std::string(sign > 0   ? "a raised"
+                       : sign < 0 ? "a low"
+                                  : "a raised or low") +
+           " part of the " + flank + where;
+  return std::string(sign > 0   ? "a lump"
+                     : sign < 0 ? "a pit"
+                                : "a pit or lump") +
+         " on the " + flank + where;
+}
+
+}  // namespace
 
 EffectFamily unnamed_spot() {
   EffectFamily f = described(
@@ -489,14 +651,7 @@ EffectFamily unnamed_spot() {
                  number("height_mm"),
                  number("width_profile_mm"),
                  number("width_face_mm")};
-  f.words = [](const EffectShape& shape, FlankChoice flank) {
-    return "a spot on the " + std::string(flank == FlankChoice::kLeft ? "left" : "right") +
-           printed(" flank of tooth %.0f", shape[0]) +
-           (shape[3] > 0.0 ? printed(", at a diameter of %.5g mm", shape[1]) : "") +
-           (shape[4] > 0.0 ? printed(", at a height of %.3g mm", shape[2]) : "") +
-           (shape[3] > 0.0 ? printed(", %.2g mm wide over the profile", shape[3]) : "") +
-           (shape[4] > 0.0 ? printed(", %.2g mm over the face", shape[4]) : "");
-  };
+  f.words = spot_in_words;
   return f;
 }
 

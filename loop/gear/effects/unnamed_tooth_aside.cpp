@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
+#include "trueflank/loop/gear/effects/sign_words.h"
 
 namespace trueflank::loop::gear_effects {
 
@@ -26,9 +27,10 @@ EffectFamily unnamed_tooth_aside() {
     c[0] = p.surface == Surface::kFlank && p.tooth == static_cast<int>(shape[0]) ? shape[1] * p.side
                                                                                  : 0.0;
   };
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return "tooth " + std::to_string(static_cast<int>(shape[0])) +
-           " stands aside, ahead on one flank and back on the other";
+  f.words = [](const ToldForm& told) {
+    const int sign = told.sign() * (told.shape[1] < 0.0 ? -1 : 1);
+    return "tooth " + std::to_string(static_cast<int>(told.shape[0])) + " stands aside, " +
+           (sign == 0 ? "ahead on one flank and back on the other" : turned(sign));
   };
   return f;
 }

@@ -46,9 +46,9 @@ std::vector<EffectShape> lengths_beside(const EffectShape& shape) {
   return shapes;
 }
 
-std::string waves(const EffectShape& shape) {
-  return "the same on every tooth, waves " + over(shape[0]) + printed(", %.3g mm long", shape[1]) +
-         (shape[0] != 0.0 ? "" : " (of roll length)");
+std::string waves(const ToldForm& told) {
+  return "the same on every tooth, waves " + over(told.shape[0]) +
+         long_each(told.shape[0], told.shape[1]);
 }
 
 }  // namespace
@@ -75,8 +75,9 @@ EffectFamily unnamed_waves_from() {
         shapes.push_back({shape[0], shape[1], shape[2], shape[3], within});
     return shapes;
   };
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return waves(shape) + ", from a place " + at_place(shape[0], shape[2]) + " on" +
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return waves(told) + ", from a place " + at_place(told.geometry, shape[0], shape[2]) + " on" +
            towards(shape[0], shape[3]);
   };
   return f;
@@ -98,9 +99,10 @@ EffectFamily unnamed_waves_dying() {
     }
     return shapes;
   };
-  f.words = [](const EffectShape& shape, FlankChoice) {
-    return waves(shape) + ", that grow" + towards(shape[0], shape[3]) +
-           printed(" and die away from it within %.2g mm", shape[2]);
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    return waves(told) + ", that grow" + towards(shape[0], shape[3]) + ", " +
+           within(told.geometry, shape[0], shape[2], "and die away from it within ", "");
   };
   return f;
 }

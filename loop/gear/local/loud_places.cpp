@@ -2,8 +2,10 @@
 #include "trueflank/loop/gear/local/loud_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "trueflank/base/number_text.h"
@@ -11,6 +13,7 @@
 #include "trueflank/loop/discovery/loudness.h"
 #include "trueflank/loop/discovery/order_statistics.h"
 #include "trueflank/loop/gear/local/patches.h"
+#include "trueflank/loop/gear/local/rough_flanks.h"
 
 namespace trueflank::loop {
 namespace {
@@ -211,6 +214,37 @@ std::string LouderPlace::words() const {
   if (tooth > 0) return printed("on the %sflank of tooth %d", side, tooth);
   return printed("on all %sflanks between %s of %.4g and %.4g mm", side,
                  over_face ? "heights" : "diameters", low_mm, high_mm);
+}
+
+std::vector<std::string> notes_on(const std::vector<LouderPlace>& places) {
+  constexpr std::size_t kMostByThemselves = 3;
+  std::vector<std::string> notes;
+  std::array<std::set<int>, 2> teeth;  // with left, with right flanks that are louder
+  double least = 0.0, most = 0.0;
+  std::size_t flanks = 0;
+  for (const LouderPlace& place : places) flanks += place.tooth > 0 ? 1 : 0;
+  const auto note = [&](const std::string& where, const std::string& times) {
+    notes.push_back(where + ", points of the scan scatter " + times +
+                    " times as much as elsewhere: what they show counts for less");
+  };
+  for (const LouderPlace& place : places) {
+    if (place.tooth == 0 || flanks <= kMostByThemselves) {
+      note(place.words(), printed("%.2g", place.times));
+      continue;
+    }
+    least = least > 0.0 ? std::min(least, place.times) : place.times;
+    most = std::max(most, place.times);
+    if (place.flank != FlankChoice::kRight) teeth[0].insert(place.tooth);
+    if (place.flank != FlankChoice::kLeft) teeth[1].insert(place.tooth);
+  }
+  if (flanks <= kMostByThemselves) return notes;
+  std::string where;
+  for (const std::size_t side : {0U, 1U})
+    if (!teeth[side].empty())
+      where += (where.empty() ? "" : " and ") + words_of_teeth(teeth[side]) +
+               (side == 0 ? " (left flanks)" : " (right flanks)");
+  note(where, printed("%.2g to %.2g", least, most));
+  return notes;
 }
 
 void add_louder(std::vector<LouderPlace>& louder, const LouderPlace& place) {

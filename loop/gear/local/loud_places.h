@@ -67,6 +67,10 @@ struct LouderPlace {
 /// Adds a place; the same one on both sides is one.
 void add_louder(std::vector<LouderPlace>& louder, const LouderPlace& place);
 
+/// What notes say of them: of each flank, or part of all flanks, that they count for less; of many
+/// flanks in one note with their teeth.
+[[nodiscard]] std::vector<std::string> notes_on(const std::vector<LouderPlace>& places);
+
 struct Patches;
 
 /// The louder places of scans whose values still scatter twice as much, or more, beside what was

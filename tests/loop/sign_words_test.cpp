@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forms without a name in words: where there is more material, and sizes that the flank has.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "tests/loop/made_gears.h"
+#include "trueflank/loop/gear/found_effects.h"
+#include "trueflank/loop/gear/local/loud_places.h"
+
+namespace trueflank::test {
+namespace {
+
+using loop::EffectShape;
+using loop::FlankChoice;
+using testing::HasSubstr;
+using testing::Not;
+
+loop::Effect effect_of(const std::string& family, EffectShape shape,
+                       FlankChoice flank = FlankChoice::kBoth) {
+  return {loop::find_family(family), flank, std::move(shape)};
+}
+std::string told(const loop::FlankGeometry& g, const loop::Effect& effect,
+                 const std::vector<double>& amounts = {}) {
+  return loop::words_for(g, effect, amounts);
+}
+
+/// A form of one coefficient, what is said of it with a positive and a negative one, and a place
+/// that this speaks of: tooth, side, profile and face coordinate.
+struct Told {
+  std::string family;
+  EffectShape shape;
+  std::string positive, negative;
+  int tooth, side;
+  double u, v;
+  FlankChoice flank = FlankChoice::kBoth;
+};
+
+/// Of a spur gear of 24 teeth and 10 mm.
+std::vector<Told> forms(const loop::FlankGeometry& g) {
+  const double d = 2.0 * g.reference_radius_mm();
+  return {
+      {"unnamed", {0, 0, 0, 0}, "flanks stand out", "flanks lie back", 3, 1, 0, 0},
+      {"unnamed",
+       {1, 0, 0, 0},
+       "more material at the tip",
+       "less material at the tip",
+       3,
+       -1,
+       1,
+       0},
+      {"unnamed", {0, 2, 0, 0}, "more material at both ends", "less material at both", 3, 1, 0, -1},
+      {"unnamed",
+       {0, 1, 0, 1},
+       "upper end stands counter-clockwise",
+       "upper end stands clockwise",
+       3,
+       1,
+       0,
+       1},
+      {"unnamed",
+       {1, 1, 0, 0},
+       "more material at the tip's upper corner",
+       "less material at the tip's upper corner",
+       3,
+       1,
+       1,
+       1},
+      {"unnamed_flank",
+       {5},
+       "tooth 5 stands out",
+       "tooth 5 lies back",
+       5,
+       1,
+       0,
+       0,
+       FlankChoice::kLeft},
+      {"unnamed_tooth_aside", {5, 1}, "aside, counter-clockwise", "aside, clockwise", 5, 1, 0, 0},
+      {"unnamed_tooth_aside", {5, -1}, "aside, clockwise", "aside, counter-clockwise", 5, -1, 0, 0},
+      {"unnamed_step",
+       {1, 4, 0},
+       "above it the flanks stand out",
+       "above it the flanks lie back",
+       3,
+       1,
+       0,
+       0.5},
+      {"unnamed_step",
+       {0, d, 1},
+       "at larger diameters the teeth stand counter-clockwise",
+       "the teeth stand clockwise",
+       3,
+       1,
+       0.9,
+       0},
+      {"unnamed_kink",
+       {1, 4, 1, 0},
+       "towards the upper end: there the flanks stand out",
+       "there the flanks lie back",
+       3,
+       1,
+       0,
+       0.9},
+      {"unnamed_bend",
+       {1, 6, 1, 0},
+       "towards the upper end: there the flanks stand out",
+       "there the flanks lie back",
+       3,
+       1,
+       0,
+       0.9},
+      {"unnamed_rise",
+       {1, 1, -1, 1},
+       "opposite on the two flanks: there the teeth stand counter-clockwise",
+       "the teeth stand clockwise",
+       3,
+       1,
+       0,
+       -1},
+      {"unnamed_dish",
+       {d, 5, 1, 2},
+       "a swelling of the flank",
+       "a hollow of the flank",
+       3,
+       1,
+       0,
+       0},
+      {"unnamed_band", {1, 5, 1, 0}, "a ridge over the face", "a groove over the face", 3, 1, 0, 0},
+      {"unnamed_strip", {1, 3, 7, 0.2, 0}, "stands out", "lies back", 3, 1, 0, 0},
+      {"unnamed_corner",
+       {1, 0, 2, 4, 1},
+       "the tip and the lower end stands out",
+       "the tip and the lower end lies back",
+       3,
+       1,
+       0.99,
+       -0.99},
+      {"unnamed_product",
+       {1, 1, -1, 2, 0},
+       "an excess of material grows",
+       "a lack of material grows",
+       3,
+       1,
+       1,
+       -1},
+      {"unnamed_product",
+       {1, 1, -1, 2, 1},
+       "a turn of the teeth counter-clockwise grows",
+       "a turn of the teeth clockwise grows",
+       3,
+       1,
+       1,
+       -1},
+      {"unnamed_sector",
+       {4, 3, 0, 0, 0},
+       "on stands out on both flanks",
+       "on lies back on both flanks",
+       5,
+       1,
+       0,
+       0},
+      {"unnamed_sector",
+       {4, 3, 0, 0, 1},
+       "stands aside, counter-clockwise",
+       "stands aside, clockwise",
+       5,
+       1,
+       0,
+       0},
+      {"unnamed_sector",
+       {4, 3, 0, 1, 0},
+       "leans over the face: more material at the upper end",
+       "less material at the upper end",
+       5,
+       1,
+       0,
+       1,
+       FlankChoice::kLeft},
+      {"unnamed_sector",
+       {4, 3, 1, 0, 1},
+       "leans over the profile: the tip stands counter-clockwise",
+       "the tip stands clockwise",
+       5,
+       1,
+       1,
+       0},
+      {"unnamed_alternation",
+       {0, 2, 0},
+       "odd number is bowed over the face: more material at both ends",
+       "less material at both ends",
+       5,
+       1,
+       0,
+       1},
+      {"unnamed_ramp",
+       {1, 0, 0, 0},
+       "the height drifts evenly, towards more material",
+       "towards less material",
+       24,
+       1,
+       0,
+       0},
+      {"unnamed_levelling",
+       {1, 0, 0, 1, 1, 3},
+       "the place of the teeth drifts more and more, counter-clockwise",
+       "drifts more and more, clockwise",
+       24,
+       1,
+       0,
+       0},
+      {"unnamed_saw",
+       {6, 1, 0, 1, 0},
+       "the lean over the face drifts evenly, towards more material at the upper end",
+       "towards less material at the upper end",
+       6,
+       1,
+       0,
+       1},
+      {"unnamed_comb",
+       {4, 2, 0, 0, 0},
+       "from tooth 2 on, stands out on both flanks",
+       "from tooth 2 on, lies back",
+       6,
+       1,
+       0,
+       0},
+      {"unnamed_dent",
+       {5.4, 2, 0, 0},
+       "a swelling over a few teeth about tooth 5",
+       "a hollow over a few teeth",
+       5,
+       1,
+       0,
+       0},
+      {"unnamed_spot",
+       {5, d, 5, 0.5, 1},
+       "a lump on the left flank",
+       "a pit on the left flank",
+       5,
+       1,
+       0,
+       0,
+       FlankChoice::kLeft},
+  };
+}
+
+double at(const loop::FlankGeometry& g, const loop::Effect& effect, const Told& form) {
+  const double low = g.root_form_roll_mm(), high = g.tip_form_roll_mm();
+  double value = 0.0;
+  effect.evaluate(g,
+                  g.on_flank(form.tooth, form.side, low + 0.5 * (form.u + 1.0) * (high - low),
+                             0.5 * (form.v + 1.0) * g.face_width_mm()),
+                  &value);
+  return value;
+}
+
+TEST(SignWords, SayOfEveryFormWhereThereIsMoreMaterial) {
+  const auto g = geometry_of(spur(24));
+  for (const Told& form : forms(g)) {
+    const loop::Effect effect = effect_of(form.family, form.shape, form.flank);
+    EXPECT_THAT(told(g, effect, {3.0}), HasSubstr(form.positive));
+    EXPECT_THAT(told(g, effect, {-3.0}), HasSubstr(form.negative));
+    EXPECT_THAT(told(g, effect), Not(HasSubstr("clockwise"))) << "of an unknown sign";
+    // What is true of the place that the words speak of.
+    const bool more_on_this_side =
+        form.positive.find("aside, clockwise") == std::string::npos
+            ? form.side > 0 || form.positive.find("clockwise") == std::string::npos
+            : form.side < 0;
+    EXPECT_EQ(at(g, effect, form) > 0.0, more_on_this_side) << form.family << " " << form.positive;
+  }
+}
+
+TEST(SignWords, AreSaidOfEveryFormOfOneCoefficient) {
+  const auto g = geometry_of(spur(24));
+  std::set<std::string> known;
+  for (const Told& form : forms(g)) known.insert(form.family);
+  for (const loop::EffectFamily& family : loop::effect_library()) {
+    if (family.named) continue;
+    // (a patch is a dish with an edge; the others have two coefficients)
+    static const std::set<std::string> kOther{
+        "unnamed_patch",       "unnamed_waviness",   "unnamed_marks", "unnamed_waves_from",
+        "unnamed_waves_dying", "unnamed_bow",        "unnamed_field", "unnamed_moved_sector",
+        "unnamed_drift_aside", "unnamed_broken_wave"};
+    EXPECT_TRUE(known.contains(family.id) || kOther.contains(family.id)) << family.id;
+  }
+  for (const loop::EffectFamily& named : loop::effect_library()) {
+    const loop::EffectFamily* form = loop::find_form(named.form_word);
+    if (form == nullptr) continue;
+    EffectShape shape;
+    if (named.shapes) shape = named.shapes(g).front();
+    const loop::Effect effect{form, FlankChoice::kBoth, shape};
+    EXPECT_THAT(told(g, effect), Not(HasSubstr("_"))) << named.id;
+    if (form->columns(shape) != 1) continue;
+    EXPECT_NE(told(g, effect, {3.0}), told(g, effect, {-3.0})) << named.id;
+    EXPECT_THAT(told(g, effect, {3.0}), Not(HasSubstr("where positive"))) << named.id;
+  }
+}
+
+TEST(SignWords, SayWhereAWaveIsLargest) {
+  const auto g = geometry_of(spur(24));
+  EXPECT_THAT(told(g, effect_of("unnamed", {0, 0, 2, 0}), {0.0, 5.0}),
+              HasSubstr("the flanks stand out, most at 45 deg first"));
+  EXPECT_THAT(told(g, effect_of("unnamed", {0, 1, 1, 1}), {-5.0, 0.0}),
+              HasSubstr("the upper end stands counter-clockwise, most at 180 deg"));
+  EXPECT_THAT(told(g, effect_of("unnamed_moved_sector", {5, 7}), {0.0, -4.0}),
+              HasSubstr("7 teeth from tooth 5 on stand aside as one body, towards 270 deg"));
+  EXPECT_THAT(
+      told(g, effect_of("unnamed_waviness", {1, 2.5}), {0.0, 4.0}),
+      HasSubstr("4.0 waves over the face, 2.5 mm long, the first crest at a height of 0.625 mm"));
+}
+
+TEST(SizesInWords, AreBoundedByTheFlankAndTheGear) {
+  const auto g = geometry_of(spur(24));
+  const double d = 2.0 * g.reference_radius_mm();
+  ASSERT_NEAR(g.face_width_mm(), 10.0, 1e-9);
+  const auto spot = [&](double height, double wide) {
+    return told(g, effect_of("unnamed_spot", {5, d, height, 0.0, wide}, FlankChoice::kRight),
+                {4.0});
+  };
+  EXPECT_THAT(spot(4.0, 190.0),
+              HasSubstr("part of the right flank of tooth 5, over the whole face"));
+  EXPECT_THAT(spot(9.0, 8.0), HasSubstr("over the upper 5 mm of the face"));
+  EXPECT_THAT(
+      spot(4.0, 1.0),
+      HasSubstr("a lump on the right flank of tooth 5, at a height of 4 mm, 1 mm over the face"));
+  EXPECT_THAT(
+      told(g, effect_of("unnamed_spot", {5, d, 4.0, 50.0, 190.0}, FlankChoice::kLeft), {-4.0}),
+      testing::StrEq("the left flank of tooth 5 lies back"));
+  EXPECT_THAT(told(g, effect_of("unnamed_band", {1, -0.06, 1.7, 0}), {4.0}),
+              HasSubstr("a ridge over the face at the lower end"));
+  const auto dent = [&](double tooth, double half) {
+    return told(g, effect_of("unnamed_dent", {tooth, half, 0.0, 0.0}), {4.0});
+  };
+  EXPECT_THAT(dent(25.2, 0.7), HasSubstr("a swelling at tooth 1, hardly at those beside it"));
+  EXPECT_THAT(dent(0.3, 2.8), HasSubstr("about tooth 24, 3 teeth to either side"));
+  EXPECT_THAT(dent(5.0, 40.0), HasSubstr("around the gear, most about tooth 5"));
+}
+
+TEST(SizesInWords, AreSaidOfWavesAlongOneDirectionByThatAlone) {
+  const auto g = geometry_of(spur(24));
+  EXPECT_THAT(told(g, effect_of("unnamed_marks", {0.016, -4.0, 0.0})),
+              testing::StartsWith("4.0 waves over the face, 2.5 mm long, the same on every tooth"));
+  EXPECT_THAT(
+      told(g, effect_of("unnamed_marks", {1.5, -4.0, 3.0})),
+      testing::AllOf(HasSubstr("1.5 over the profile"), HasSubstr("4.0 over the face, 2.5 mm each"),
+                     HasSubstr("rising towards the tip"),
+                     HasSubstr("3 periods a turn, towards the upper end")));
+}
+
+TEST(LinesOfWavesThatRunBackwards, AreSaidOnlyWhereAllDo) {
+  const MadeGear gear = spur(67);
+  const auto ghost = [](double order, double way) {
+    return grown([order, way](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      return 5.0 * std::cos(order * (2.0 * M_PI * (s.tooth - 1) / g.teeth + way * s.side * turned));
+    });
+  };
+  InspectionOptions options = traced({1, 14, 27, 41, 54}, 0.4, 7);
+  const auto count = [](const loop::LoopResult& result) {
+    return std::count_if(result.effects.begin(), result.effects.end(), [](const auto& effect) {
+      return effect.description.find("counted clockwise") != std::string::npos;
+    });
+  };
+  const auto alone = close(gear, inspection_of(gear, {ghost(174.0, 1.0)}, options));
+  EXPECT_EQ(count(alone), 1) << list(alone);
+  const auto beside =
+      close(gear, inspection_of(gear, {ghost(174.0, 1.0), ghost(120.0, -1.0)}, options));
+  EXPECT_GE(beside.effects.size(), 2U) << list(beside);
+  EXPECT_EQ(count(beside), 0) << list(beside);
+}
+
+TEST(NotesOnLouderFlanks, AreOneForManyTeeth) {
+  std::vector<loop::LouderPlace> places;
+  for (int tooth = 3; tooth <= 9; ++tooth)
+    places.push_back({.flank = FlankChoice::kLeft, .tooth = tooth, .times = 2.0 + 0.3 * tooth});
+  places.push_back({.flank = FlankChoice::kRight,
+                    .over_face = true,
+                    .low_mm = 1.0,
+                    .high_mm = 2.0,
+                    .times = 3.0});
+  const auto notes = loop::notes_on(places);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_THAT(notes[0], HasSubstr("on all right flanks between heights of 1 and 2 mm"));
+  EXPECT_THAT(
+      notes[1],
+      HasSubstr("on teeth 3 to 9 (left flanks), points of the scan scatter 2.9 to 4.7 times"));
+  places.resize(2);
+  EXPECT_EQ(loop::notes_on(places).size(), 2U);
+}
+
+}  // namespace
+}  // namespace trueflank::test
