@@ -182,7 +182,7 @@ class OddTeeth {
 RemainderFinding finding_of_tooth(const FlankGeometry& geometry, const OfTooth& one) {
   const double u = one.form == 1 ? 1.0 : one.form == 3 ? 2.0 : 0.0;
   const double v = one.form == 2 ? 1.0 : one.form == 4 ? 2.0 : 0.0;
-  return finding_of("unnamed_tooth_form", flank_choice(geometry, one.side),
+  return finding_of(geometry, "unnamed_tooth_form", flank_choice(geometry, one.side),
                     {double(one.tooth), u, v, one.opposite ? 1.0 : 0.0}, one.p_value, one.um, true,
                     one.square);
 }

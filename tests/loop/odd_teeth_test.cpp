@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
     const auto scanned_one =
         close(gear, scan_of(gear, {grown(askew)}, scanned(8000, 1.0, seed)), true);
     EXPECT_EQ(scanned_one.effects.size(), 1U) << list(scanned_one);
-    EXPECT_TRUE(tells_of(scanned_one, "tooth 7 alone leans over the face, opposite on its two"))
+    EXPECT_TRUE(tells_of(
+        scanned_one, "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
         << list(scanned_one);
   }
   InspectionOptions options;
@@ -40,7 +42,8 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
   options.noise_um = 1.0;
   options.seed = 3;
   const auto traced_one = close(gear, inspection_of(gear, {grown(askew)}, options));
-  EXPECT_TRUE(tells_of(traced_one, "tooth 7 alone leans over the face, opposite on its two"))
+  EXPECT_TRUE(tells_of(traced_one,
+                       "tooth 7 alone leans over the face: the upper end stands counter-clockwise"))
       << list(traced_one);
 }
 
@@ -60,8 +63,7 @@ TEST(ToothCrownedByItself, IsOneBow) {
     return is_on(s, 11) ? -8.0 * s.v * s.v : 0.0;
   };
   const auto result = close(gear, scan_of(gear, {grown(crowned)}, scanned(9000, 1.0, 5)), true);
-  EXPECT_TRUE(tells_of(result, "tooth 11 alone bends over the face, alike on both its flanks"))
-      << list(result);
+  EXPECT_TRUE(tells_of(result, "tooth 11 alone is bowed over the face")) << list(result);
   EXPECT_FALSE(tells_of(result, "a spot")) << list(result);
 }
 

@@ -80,18 +80,8 @@ EffectFamily unnamed_tooth_form() {
     c[0] = is_it ? form_of_tooth(g, p, shape, 1) : 0.0;
   };
   f.term_keys = {{"tooth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
-  f.words = [](const EffectShape& shape, FlankChoice flank) {
-    const double degree = std::max(shape[1], shape[2]);
-    return printed("tooth %.0f alone ", shape[0]) +
-           (degree > 1.0   ? "bends"
-            : degree > 0.0 ? "leans"
-                           : "stands out") +
-           (shape[1] > 0.0   ? " over the profile"
-            : shape[2] > 0.0 ? " over the face"
-                             : "") +
-           (flank != FlankChoice::kBoth ? ""
-            : shape[3] != 0.0           ? ", opposite on its two flanks"
-                                        : ", alike on both its flanks");
+  f.words = [](const ToldForm& told) {
+    return printed("tooth %.0f alone ", told.shape[0]) + CourseOfTeeth::at(told, 1).does();
   };
   return f;
 }

@@ -64,11 +64,12 @@ EffectFamily of_teeth(EffectFamily form) {
       }
     return shapes;
   };
-  f.words = [words = form.words](const EffectShape& shape, FlankChoice flank) {
+  f.words = [words = form.words](const ToldForm& told) {
     const std::string every = "the same on every tooth, ";
-    std::string own = words(EffectShape(shape.begin() + kOwnValues, shape.end()), flank);
+    const EffectShape shape(told.shape.begin() + kOwnValues, told.shape.end());
+    std::string own = words({told.geometry, shape, told.flank, told.amounts});
     if (own.rfind(every, 0) == 0) own.erase(0, every.size());
-    return words_of_sector(shape) + own;
+    return words_of_sector(told.shape) + own;
   };
   return f;
 }
