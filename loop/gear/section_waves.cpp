@@ -33,8 +33,8 @@ std::array<SumsAtHeight, kHeights> sums_over_heights(const FlankGeometry& geomet
     const Place& place = table.place(row);
     if (place.surface != Surface::kFlank) continue;
     const double share = place.z_mm / geometry.face_width_mm();
-    const auto at = static_cast<std::size_t>(
-        std::clamp(static_cast<int>(share * kHeights), 0, kHeights - 1));
+    const auto at =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(share * kHeights), 0, kHeights - 1));
     const double x = normal_part(geometry, place, 1.0, 0.0),
                  y = normal_part(geometry, place, 0.0, 1.0), r = row_um[i];
     SumsAtHeight& sum = sums[at];
@@ -90,7 +90,8 @@ Fitted<kCourses> fitted(const std::array<SumsAtHeight, kHeights>& sums,
 SectionWave ellipse_of(const Eigen::Matrix2d& m) {
   const double xx = m.row(0).squaredNorm(), yy = m.row(1).squaredNorm(),
                xy = m.row(0).dot(m.row(1));
-  const double turned = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  double turned = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  if (turned < 0.0) turned += kPi;  // to and fro
   SectionWave wave;
   wave.towards_deg = deg_from_rad(turned);
   wave.along_um = (std::cos(turned) * m.row(0) + std::sin(turned) * m.row(1)).norm();
@@ -98,20 +99,18 @@ SectionWave ellipse_of(const Eigen::Matrix2d& m) {
   return wave;
 }
 
-}  // namespace
+using Sums = std::array<SumsAtHeight, kHeights>;
 
-std::vector<SectionWave> likeliest_section_waves(const FlankGeometry& geometry,
-                                                 const Observations& table, const Patches& patches,
-                                                 const std::vector<float>& row_um) {
+std::vector<SectionWave> likeliest_waves(const FlankGeometry& geometry, const Sums& sums) {
   // Longer ones are a bend of the axis; shorter ones need heights to be seen at.
-  constexpr double kFewest = 0.75, kStep = 0.05, kHeightsOfOne = 5.0, kApart = 0.5;
+  constexpr double kFewest = 0.75, kStep = 0.05, kHeightsOfOne = 3.0, kApart = 0.5;
   constexpr std::size_t kFew = 3;
-  const auto sums = sums_over_heights(geometry, table, patches, row_um);
   const auto seen = std::count_if(sums.begin(), sums.end(),
                                   [](const SumsAtHeight& sum) { return sum.xx + sum.yy > 0.0; });
   const double most = static_cast<double>(seen) / kHeightsOfOne;
-  const double without =
-      fitted<2>(sums, [](double share) { return std::array<double, 2>{1.0, share - 0.5}; }).square;
+  const double without = fitted<2>(sums, [](double share) {
+                           return std::array<double, 2>{1.0, share - 0.5};
+                         }).square;
   std::vector<SectionWave> waves;
   for (double count = kFewest; count <= most; count += kStep) {
     const auto found = fitted<4>(sums, [&](double share) {
@@ -125,9 +124,8 @@ std::vector<SectionWave> likeliest_section_waves(const FlankGeometry& geometry,
     wave.square = found.square - without;
     waves.push_back(wave);
   }
-  std::stable_sort(waves.begin(), waves.end(), [](const SectionWave& a, const SectionWave& b) {
-    return a.square > b.square;
-  });
+  std::stable_sort(waves.begin(), waves.end(),
+                   [](const SectionWave& a, const SectionWave& b) { return a.square > b.square; });
   std::vector<SectionWave> best;
   for (const SectionWave& wave : waves) {
     const double count = geometry.face_width_mm() / wave.wavelength_mm;
@@ -139,6 +137,50 @@ std::vector<SectionWave> likeliest_section_waves(const FlankGeometry& geometry,
     if (best.size() == kFew) break;
   }
   return best;
+}
+
+/// Heights above which sections stand aside once and once more: the likeliest of a coarse grid,
+/// then moved in turn.
+std::array<double, 2> likeliest_steps_mm(const FlankGeometry& geometry, const Sums& sums) {
+  constexpr int kGrid = 10, kRounds = 2;  // heights
+  const auto square = [&](const std::array<int, 2>& steps) {
+    return fitted<3>(sums,
+                     [&](double share) {
+                       const double at = share * kHeights;
+                       return std::array<double, 3>{1.0, at > steps[0] ? 1.0 : 0.0,
+                                                    at > steps[1] ? 1.0 : 0.0};
+                     })
+        .square;
+  };
+  std::array<int, 2> best{};
+  double most = 0.0;
+  const auto keep_best = [&](const std::array<int, 2>& steps) {
+    const double taken_out = square(steps);
+    if (!(taken_out > most)) return;
+    most = taken_out;
+    best = steps;
+  };
+  for (int low = kGrid; low < kHeights; low += kGrid)
+    for (int high = low + kGrid; high < kHeights; high += kGrid) keep_best({low, high});
+  for (int round = 0; round < kRounds; ++round)
+    for (const std::size_t k : {0U, 1U}) {
+      const std::array<int, 2> from = best;
+      for (int off = 1 - kGrid; off < kGrid; ++off) {
+        std::array<int, 2> steps = from;
+        steps[k] += off;
+        if (steps[0] < steps[1] && steps[0] > 0 && steps[1] < kHeights) keep_best(steps);
+      }
+    }
+  const double height_mm = geometry.face_width_mm() / kHeights;
+  return {best[0] * height_mm, best[1] * height_mm};
+}
+
+}  // namespace
+
+SectionsAside sections_aside(const FlankGeometry& geometry, const Observations& table,
+                             const Patches& patches, const std::vector<float>& row_um) {
+  const Sums sums = sums_over_heights(geometry, table, patches, row_um);
+  return {.waves = likeliest_waves(geometry, sums), .steps_mm = likeliest_steps_mm(geometry, sums)};
 }
 
 }  // namespace trueflank::loop

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "trueflank/base/units.h"
 #include "trueflank/loop/gear/local/patches.h"
 
 namespace trueflank::loop {
@@ -15,12 +17,16 @@ struct SectionWave {
   double square = 0.0;                     ///< squares that it takes out, about
 };
 
-/// The likeliest lengths in residuals of helix traces and scanned flanks (`row_um`: of every row of
-/// the table), beside a section that stands aside and leans; the best first, a few. Zeros of traces
-/// are taken to be alike: the length and the direction are to start from.
-[[nodiscard]] std::vector<SectionWave> likeliest_section_waves(const FlankGeometry& geometry,
-                                                               const Observations& table,
-                                                               const Patches& patches,
-                                                               const std::vector<float>& row_um);
+/// What sections that stand aside look like most, to start from.
+struct SectionsAside {
+  std::vector<SectionWave> waves;              ///< the best first, a few
+  std::array<double, 2> steps_mm{kNaN, kNaN};  ///< heights of two steps
+};
+
+/// From residuals of helix traces and scanned flanks (`row_um`: of every row of the table); waves
+/// beside a section that stands aside and leans. Zeros of traces are taken to be alike.
+[[nodiscard]] SectionsAside sections_aside(const FlankGeometry& geometry, const Observations& table,
+                                           const Patches& patches,
+                                           const std::vector<float>& row_um);
 
 }  // namespace trueflank::loop

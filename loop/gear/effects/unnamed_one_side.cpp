@@ -25,6 +25,7 @@ EffectFamily unnamed_one_side() {
            (shape[3] != 0.0 ? around : 0.5 * (1.0 + around));
   };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
+  f.faces_a_direction = true;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {

@@ -18,6 +18,7 @@ EffectFamily unnamed_reversal() {
     const double x = normal_part(g, p, 1.0, 0.0), y = normal_part(g, p, 0.0, 1.0);
     c[0] = shape[0] == 0.0 ? (y < 0.0 ? x : -x) : (x < 0.0 ? -y : y);
   };
+  f.faces_a_direction = true;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.term_keys = {{"axis", TermKey::Kind::kWord, {"x", "y"}}};
   f.words = [](const EffectShape& shape, FlankChoice) {

@@ -33,6 +33,7 @@ EffectFamily unnamed_wobble() {
     }
   };
   f.needs = [](const EffectShape&) { return NeedsToBeSeen{.several_heights = true}; };
+  f.faces_a_direction = true;
   f.is_fine = [](const FlankGeometry&, const EffectShape&) { return true; };
   f.bends_over_the_face = [](const EffectShape&) { return true; };
   f.nearby = [](const FlankGeometry&, const EffectShape& shape) {

@@ -99,7 +99,7 @@ class PartLoop {
   void take_up(const RemainderFinding& finding);
   void explain_with_moved_sections();
   [[nodiscard]] bool take_up_moved_sections();
-  [[nodiscard]] std::vector<Effect> with_wobble(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_sections_aside(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_one_side(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_reversal(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> cheapest_one_form(

@@ -89,19 +89,20 @@ std::vector<Effect> PartLoop::cheapest_one_form(const std::vector<std::vector<st
   return best;
 }
 
-/// Sections that move in waves over the height, for what moves them and comes once per turn. Its
-/// length is sought in what is left without these: the pieces do not lead to it.
-std::vector<Effect> PartLoop::with_wobble(std::vector<std::size_t>& these) const {
+/// Sections that move in waves over the height, or in two steps, for what moves them and comes once
+/// per turn. Lengths and heights are sought in what is left without these: the pieces do not lead
+/// to them.
+std::vector<Effect> PartLoop::with_sections_aside(std::vector<std::size_t>& these) const {
   constexpr double kTurns = 0.5, kTwoWays = 0.1;  // of the half axes
   std::vector<std::size_t> all, forms_alone;
   std::vector<Effect> others;
   bool curved = false;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    const bool piece = e >= first_told_here() &&
-                       (moves_sections(effect) || is_once_per_turn(effect) ||
-                        marches_once_per_turn(effect) ||
-                        effect.family == find_family("unnamed_bow"));
+    const bool piece =
+        e >= first_told_here() &&
+        (moves_sections(effect) || is_once_per_turn(effect) || marches_once_per_turn(effect) ||
+         effect.family == find_family("unnamed_bow"));
     if (!piece) {
       others.push_back(effect);
       continue;
@@ -130,10 +131,16 @@ std::vector<Effect> PartLoop::with_wobble(std::vector<std::size_t>& these) const
     best = std::move(with);
     these = std::move(set);
   };
-  for (const SectionWave& wave :
-       likeliest_section_waves(geometry_, table_, patches_, *fit_of(others)->residuals_um())) {
-    const Effect along{
-        family, FlankChoice::kBoth, {wave.wavelength_mm, wave.towards_deg, 0.0}};
+  const SectionsAside aside =
+      sections_aside(geometry_, table_, patches_, *fit_of(others)->residuals_um());
+  const Effect shift{find_family("layer_shift"), FlankChoice::kBoth, {aside.steps_mm[1]}};
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (candidates_[c].family == shift.family && !unseen_[c] && aside.steps_mm[0] > 0.0) {
+      keep_best({shift}, {{shift.family, shift.flank, {aside.steps_mm[0]}}});
+      break;
+    }
+  for (const SectionWave& wave : aside.waves) {
+    const Effect along{family, FlankChoice::kBoth, {wave.wavelength_mm, wave.towards_deg, 0.0}};
     const double round = std::abs(wave.across_um) / wave.along_um;
     keep_best({along}, {});
     if (round > kTurns)
@@ -144,7 +151,7 @@ std::vector<Effect> PartLoop::with_wobble(std::vector<std::size_t>& these) const
     if (round > kTwoWays)
       keep_best({along}, {{family,
                            FlankChoice::kBoth,
-                           {wave.wavelength_mm, wave.towards_deg + 90.0, 0.0}}});
+                           {wave.wavelength_mm, std::fmod(wave.towards_deg + 90.0, 180.0), 0.0}}});
   }
   if (best.empty()) return {};
   // A bent axis is told as that (tell_as_bow).
@@ -191,11 +198,14 @@ std::vector<Effect> PartLoop::with_one_side(std::vector<std::size_t>& these) con
   std::vector<Effect> forms;
   for (const double end : {-1.0, 1.0}) {
     const double towards_deg = direction_at_end_deg(geometry_, *fit, sets.back(), end);
-    for (const double opposite : {0.0, 1.0})
+    // (what is missing is most on the other side)
+    for (const auto& [turned_deg, opposite] :
+         {std::pair(0.0, 0.0), std::pair(180.0, 0.0), std::pair(0.0, 1.0)})
       for (const double within : {0.04, 0.08, 0.14, 0.22})
-        forms.push_back({find_family("unnamed_one_side"),
-                         FlankChoice::kBoth,
-                         {end, within * geometry_.face_width_mm(), towards_deg, opposite}});
+        forms.push_back(
+            {find_family("unnamed_one_side"),
+             FlankChoice::kBoth,
+             {end, within * geometry_.face_width_mm(), towards_deg + turned_deg, opposite}});
   }
   return cheapest_one_form(sets, forms, {}, these);
 }
@@ -227,7 +237,7 @@ std::vector<Effect> PartLoop::with_reversal(std::vector<std::size_t>& these) con
 /// True where one of these forms stands for what was chosen: it is taken up in place of that.
 bool PartLoop::take_up_moved_sections() {
   std::vector<std::size_t> these;
-  std::vector<Effect> with = with_wobble(these);
+  std::vector<Effect> with = with_sections_aside(these);
   if (with.empty()) with = with_one_side(these);
   if (with.empty()) with = with_reversal(these);
   if (with.empty()) return false;
@@ -239,9 +249,10 @@ bool PartLoop::take_up_moved_sections() {
   for (std::size_t i = these.size(); i-- > 0;)
     if (these[i] < options_.given.size()) {
       options_.given.erase(options_.given.begin() + static_cast<std::ptrdiff_t>(these[i]));
-      given_p_values_.erase(given_p_values_.begin() +
-                            static_cast<std::ptrdiff_t>(these[i] - told));
+      given_p_values_.erase(given_p_values_.begin() + static_cast<std::ptrdiff_t>(these[i] - told));
     }
+  // What was denied beside the pieces is asked again.
+  banned_ = unseen_;
   for (std::size_t e = effects_.size() - these.size(); e < with.size(); ++e) {
     finding.effect = with[e];
     take_up(finding);
