@@ -98,6 +98,9 @@ struct EffectFamily : EffectFacts {
   bool doubted_by_any_order = false;
   /// Begins anew at one tooth: where its zero lies, and slow waves beside it, are parts of one drift.
   bool is_drift = false;
+  /// Differs from tooth to tooth by the direction in which each stands: what is alike on all of
+  /// them beside it is no part of it but for its mean around the gear.
+  bool faces_a_direction = false;
   bool is_like_many = false;  ///< a form that names with a free shape follow closely
   bool of_traces_only = false;  ///< scans cannot have it
   bool tells_order_along_profile = false;  ///< few teeth tell its orders apart

@@ -73,6 +73,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_field();
+[[nodiscard]] EffectFamily unnamed_wobble();
+[[nodiscard]] EffectFamily unnamed_one_side();
+[[nodiscard]] EffectFamily unnamed_reversal();
 [[nodiscard]] EffectFamily unnamed_moved_sector();
 [[nodiscard]] EffectFamily unnamed_alternation();
 [[nodiscard]] EffectFamily unnamed_ramp();

@@ -97,6 +97,14 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> names_alike(const Effect& form) const;
   [[nodiscard]] bool take_up_remainder();
   void take_up(const RemainderFinding& finding);
+  void explain_with_moved_sections();
+  [[nodiscard]] bool take_up_moved_sections();
+  [[nodiscard]] std::vector<Effect> with_sections_aside(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_one_side(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_reversal(std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> cheapest_one_form(
+      const std::vector<std::vector<std::size_t>>& sets, const std::vector<Effect>& forms,
+      const std::vector<Effect>& beside, std::vector<std::size_t>& these) const;
   [[nodiscard]] bool ban_what_forms_explain();
   [[nodiscard]] bool drop_idle_forms();
   [[nodiscard]] bool drop_doubtful_orders();
@@ -183,6 +191,9 @@ class PartLoop {
   };
   [[nodiscard]] LeastMissed least_missed(std::size_t first, std::size_t end,
                                          const std::function<bool(const Effect&)>& is_asked) const;
+  [[nodiscard]] std::vector<Effect> one_form_for(const std::vector<std::size_t>& these,
+                                                 const std::vector<Effect>& forms,
+                                                 const std::vector<Effect>& beside = {}) const;
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
                                       const std::vector<Effect>& forms,
                                       const std::vector<Effect>& beside = {});

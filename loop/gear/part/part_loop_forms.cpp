@@ -36,10 +36,24 @@ Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit,
   return values;
 }
 
-/// The same, each flank about its mean.
+/// What an effect does in the mean of the teeth, of some where all are more than are needed.
+Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& fit,
+                                std::size_t effect, bool face) {
+  constexpr int kTeeth = 12;
+  const bool all = fit.effects()[effect].family->faces_a_direction;
+  const int teeth = all ? geometry.teeth() : std::min(kTeeth, geometry.teeth());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
+  for (int i = 0; i < teeth; ++i)
+    mean += values_along(geometry, fit, effect, face, 1 + i * geometry.teeth() / teeth) / teeth;
+  return mean;
+}
+
+/// Along the flanks, each about its mean; in the mean of the teeth where they differ by direction.
 Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
                           bool face) {
-  Eigen::VectorXd course = values_along(geometry, fit, effect, face);
+  Eigen::VectorXd course = fit.effects()[effect].family->faces_a_direction
+                               ? mean_over_teeth(geometry, fit, effect, face)
+                               : values_along(geometry, fit, effect, face);
   course.head(kPlaces).array() -= course.head(kPlaces).mean();
   course.tail(kPlaces).array() -= course.tail(kPlaces).mean();
   // What does not run that way leaves the rounding of its mean.
@@ -96,14 +110,10 @@ bool is_opposite_slope(const Eigen::VectorXd& course) {
 /// What the forms without a name do in the mean of the teeth, but for slopes that are opposite on
 /// the two flanks: these are no part of what is equal on both.
 Eigen::VectorXd mean_of_forms(const FlankGeometry& geometry, const PointFit& fit, bool face) {
-  constexpr int kTeeth = 12;
-  const int teeth = std::min(kTeeth, geometry.teeth());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
   for (std::size_t e = 0; e < fit.effects().size(); ++e) {
     if (!is_form_without_name(fit.effects()[e]) || fit.effects()[e].order() > 0.0) continue;
-    Eigen::VectorXd own = Eigen::VectorXd::Zero(2 * kPlaces);
-    for (int i = 0; i < teeth; ++i)
-      own += values_along(geometry, fit, e, face, 1 + i * geometry.teeth() / teeth) / teeth;
+    const Eigen::VectorXd own = mean_over_teeth(geometry, fit, e, face);
     if (!is_opposite_slope(own)) mean += own;
   }
   return mean;

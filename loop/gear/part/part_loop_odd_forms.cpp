@@ -429,7 +429,9 @@ void PartLoop::tell_what_teeth_do_not_share() {
 /// that bend over both, profile and face, is a part of these.
 void PartLoop::tell_means_of_odd_forms() {
   constexpr double kChanges = 0.5, kShare = 0.3, kCounts = 0.1;
-  const auto is_form = [](const Effect& e) { return e.is_term() && e.family->form_word.empty(); };
+  const auto is_form = [](const Effect& e) {
+    return e.is_term() && e.family->form_word.empty() && !e.family->faces_a_direction;
+  };
   const auto asked = [&](std::size_t e) {
     return form_instead(e) != nullptr && !effects_[e].family->local && effects_[e].columns() == 1 &&
            effects_[e].order() == 0.0;

@@ -125,12 +125,12 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
   return best;
 }
 
-/// True where one of the forms, and what is put beside it, stands for these effects: it needs no
-/// more values than they do, and leaves clearly less; for every value that it spares it may leave a
-/// little more.
-bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
-                                const std::vector<Effect>& forms,
-                                const std::vector<Effect>& beside) {
+/// All others with one of the forms, the last, and what is put beside it in place of these effects:
+/// it needs no more values than they do, and leaves clearly less; for every value that it spares it
+/// may leave a little more. Empty where none does.
+std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these,
+                                           const std::vector<Effect>& forms,
+                                           const std::vector<Effect>& beside) const {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> others, own;
@@ -140,7 +140,7 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   std::erase_if(tried, [&](const Effect& form) {
     return values_of({form}, true) + values_of(beside, true) > values_of(own, true);
   });
-  if (tried.empty()) return false;
+  if (tried.empty()) return {};
   std::vector<Effect> rest = others;
   rest.insert(rest.end(), beside.begin(), beside.end());
   std::stable_sort(tried.begin(), tried.end(),
@@ -155,13 +155,13 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
   };
   const std::vector<Effect> with =
       with_best_form(rest, tried, {.on_the_grid = most(kOnTheGrid), .in_place = most(kInPlace)});
-  if (with.empty()) return false;
+  if (with.empty()) return {};
   if (with.back().family->named &&
       !is_possible(geometry_, *fit_of(with), static_cast<int>(with.size()) - 1))
-    return false;
+    return {};
   const int spared =
       values_of(own, true) - values_of({with.back()}, true) - values_of(beside, true);
-  if (spared < 0) return false;
+  if (spared < 0) return {};
   const double gain = now - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes. Pieces of a product need not be
   // followed to the last bit: a pose or a tip takes some of it.
@@ -184,7 +184,16 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
       std::none_of(own.begin(), own.end(), [](const Effect& e) { return e.family->named; });
   const double asked = kClearly - kValue * spared;
   const double least = nameless ? std::min(0.0, asked) : beside_a_form ? -kValue * spared : asked;
-  if (gain < least - doubt) return false;
+  if (gain < least - doubt) return {};
+  return with;
+}
+
+/// True where one of the forms stands for these effects: it is put in their place.
+bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
+                                const std::vector<Effect>& forms,
+                                const std::vector<Effect>& beside) {
+  const std::vector<Effect> with = one_form_for(these, forms, beside);
+  if (with.empty()) return false;
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)

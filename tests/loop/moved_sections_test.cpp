@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tests/loop/made_gears.h"
+
+// Whole sections that stand aside by an amount that changes with the height, feet of one side, play
+// of an axis: each was told in many pieces, with names of causes that are not there.
+namespace trueflank::test {
+namespace {
+
+bool tells_of(const loop::LoopResult& result, const std::string& words) {
+  return list(result).find(words) != std::string::npos;
+}
+
+/// Sections moved [um] by where they stand [mm], towards a direction and across it.
+Process moved(const std::function<double(double)>& along, double deg,
+              const std::function<double(double)>& across = {}) {
+  return {.move_um = [=](const MadeGear& g, const FlankSpot& s, const Vec3&) -> Vec3 {
+    const double a = deg * M_PI / 180.0, z_mm = 0.5 * (s.v + 1.0) * g.face_mm, off = along(z_mm),
+                 aside = across ? across(z_mm) : 0.0;
+    return {off * std::cos(a) - aside * std::sin(a), off * std::sin(a) + aside * std::cos(a), 0.0};
+  }};
+}
+Process wobbling(double um, double wavelength_mm, double phase, double deg) {
+  return moved([=](double z) { return um * std::cos(2.0 * M_PI * z / wavelength_mm + phase); },
+               deg);
+}
+
+double tooth_rad(const MadeGear& g, const FlankSpot& s) {
+  return 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+}
+
+InspectionOptions of_all_teeth(double noise_um, unsigned seed) {
+  InspectionOptions options;
+  options.points = 60;
+  options.noise_um = noise_um;
+  options.seed = seed;
+  return options;
+}
+
+TEST(SectionsInWaves, AreNoTiltAndNoLayerShift) {
+  const MadeGear gear = spur(24);
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const auto wave = wobbling(15.0, gear.face_mm / (2.0 + seed), 0.7, 42.0);
+    for (const auto& result :
+         {close(gear, inspection_of(gear, {wave}, of_all_teeth(1.5, seed))),
+          close(gear, scan_of(gear, {wave}, scanned(7000, 2.0, seed)), true)}) {
+      EXPECT_FALSE(has_name(result)) << list(result);
+      ASSERT_EQ(result.effects.size(), 1U) << list(result);
+      EXPECT_TRUE(tells_of(result, "whole sections stand aside in waves over the height"))
+          << list(result);
+      EXPECT_TRUE(tells_of(result, "towards 4")) << list(result);
+      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6);
+    }
+  }
+}
+
+TEST(SectionsInWaves, ThatTurnAreOneForm) {
+  const MadeGear gear = spur(24);
+  const double length_mm = gear.face_mm / 2.7;
+  const auto turns =
+      moved([=](double z) { return 12.0 * std::cos(2.0 * M_PI * z / length_mm); }, 30.0,
+            [=](double z) { return -12.0 * std::sin(2.0 * M_PI * z / length_mm); });
+  const auto result = close(gear, scan_of(gear, {turns}, scanned(7000, 2.0, 3)), true);
+  EXPECT_FALSE(has_name(result)) << list(result);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells_of(result, "all around, clockwise with the height")) << list(result);
+}
+
+TEST(SectionsInWaves, LeaveATiltAndAHelixErrorTheirNames) {
+  const MadeGear gear = spur(24);
+  const double face_mm = gear.face_mm;
+  const auto leans = moved([=](double z) { return 24.0 * (z / face_mm - 0.5); }, -60.0);
+  const auto turned = grown([](auto&, const FlankSpot& s, auto&) { return 9.0 * s.side * s.v; });
+  const auto wave = wobbling(15.0, face_mm / 3.3, 2.0, 110.0);
+  for (const auto& result :
+       {close(gear, inspection_of(gear, {wave, leans, turned}, of_all_teeth(1.5, 4))),
+        close(gear, scan_of(gear, {wave, leans, turned}, scanned(7000, 2.0, 4)), true)}) {
+    EXPECT_EQ(result.effects.size(), 3U) << list(result);
+    ASSERT_NE(find(result, "axis_tilt"), nullptr) << list(result);
+    EXPECT_NEAR(parameter(*find(result, "axis_tilt"), "slope_um_per_mm").value, 24.0 / face_mm,
+                1.2 / face_mm)
+        << list(result);
+    EXPECT_NE(find(result, "helix_error"), nullptr) << list(result);
+  }
+}
+
+TEST(SectionsInSteps, AreLayerShiftsAndNoWave) {
+  const MadeGear gear = spur(24);
+  const double face_mm = gear.face_mm;
+  const auto low = moved([=](double z) { return z > 0.3 * face_mm ? 14.0 : 0.0; }, 20.0),
+             high = moved([=](double z) { return z > 0.65 * face_mm ? 11.0 : 0.0; }, 100.0),
+             leans = moved([=](double z) { return 24.0 * (z / face_mm - 0.5); }, -60.0);
+  const auto two = close(gear, scan_of(gear, {low, high}, scanned(7000, 2.0, 5)), true);
+  EXPECT_EQ(two.effects.size(), 2U) << list(two);
+  for (const auto& effect : two.effects) EXPECT_EQ(effect.id, "layer_shift") << list(two);
+  const auto one = close(gear, scan_of(gear, {low, leans}, scanned(7000, 2.0, 6)), true);
+  EXPECT_EQ(one.effects.size(), 2U) << list(one);
+  EXPECT_NE(find(one, "layer_shift"), nullptr) << list(one);
+  EXPECT_NE(find(one, "axis_tilt"), nullptr) << list(one);
+}
+
+TEST(FootOfOneSide, IsOneFormAndNoFoot) {
+  const MadeGear gear = spur(30);
+  const auto foot = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double z = 0.5 * (s.v + 1.0);
+    return 10.0 * std::exp(-z / 0.09) * (1.0 + std::cos(tooth_rad(g, s) - 2.0));
+  });
+  const auto result = close(gear, scan_of(gear, {foot}, scanned(9000, 1.5, 1)), true);
+  EXPECT_FALSE(has_name(result)) << list(result);
+  ASSERT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells_of(result, "dies away from the lower end within")) << list(result);
+  EXPECT_TRUE(tells_of(result, "most on the teeth towards 11")) << list(result);
+  EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 20.0, 1.0);
+}
+
+TEST(FootOfOneSide, BesideAFootOfAllTeethLeavesItItsName) {
+  const MadeGear gear = spur(30);
+  const auto feet = grown([](const MadeGear& g, const FlankSpot& s, auto&) {
+    const double z = 0.5 * (s.v + 1.0);
+    return std::exp(-z / 0.09) * (14.0 + 8.0 * (1.0 + std::cos(tooth_rad(g, s) + 0.5)));
+  });
+  const auto result = close(gear, scan_of(gear, {feet}, scanned(9000, 1.5, 2)), true);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+  ASSERT_NE(find(result, "elephant_foot"), nullptr) << list(result);
+  EXPECT_TRUE(tells_of(result, "dies away from the lower end within")) << list(result);
+}
+
+TEST(PlayOfAnAxis, IsOneFormAndLeavesAPressureAngleItsName) {
+  const MadeGear gear = spur(34);
+  const Process play{.move_um = [](const MadeGear& g, const FlankSpot& s, const Vec3&) -> Vec3 {
+    return {normal_at(g, s)[1] < 0.0 ? 8.0 : -8.0, 0.0, 0.0};
+  }};
+  const auto leans = grown([](auto&, const FlankSpot& s, auto&) { return 2.5 * s.u; });
+  for (const auto& result :
+       {close(gear, inspection_of(gear, {play, leans}, of_all_teeth(1.0, 1))),
+        close(gear, scan_of(gear, {play, leans}, scanned(7000, 1.5, 1)), true)}) {
+    EXPECT_EQ(result.effects.size(), 2U) << list(result);
+    EXPECT_TRUE(tells_of(result, "displaced along x")) << list(result);
+    EXPECT_NE(find(result, "pressure_angle_error"), nullptr) << list(result);
+  }
+}
+
+}  // namespace
+}  // namespace trueflank::test
