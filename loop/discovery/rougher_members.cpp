@@ -128,6 +128,11 @@ RougherMembers run_of(const std::vector<Member>& members, double& looks) {
 
 }  // namespace
 
+bool are_asked(const std::vector<MemberScatter>& members) {
+  double usual = 0.0;
+  return members_of(members, -1, usual).size() >= kFewestMembers;
+}
+
 std::optional<RougherMembers> rougher_members(const std::vector<MemberScatter>& members) {
   std::optional<RougherMembers> surest;
   double sets = 0.0;

@@ -26,6 +26,9 @@ struct RougherMembers {
   double p_value = 1.0;     ///< corrected for all that was looked at
 };
 
+/// True where there are so many members that the question is asked.
+[[nodiscard]] bool are_asked(const std::vector<MemberScatter>& members);
+
 /// The surer of a growth with the number and a run of two to a third of the members, by the
 /// logarithms of the scatters. Members that differ each by itself are judged by how much they
 /// differ. Empty of fewer than eight members, and where it is less than twice as loud.

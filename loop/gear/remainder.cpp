@@ -33,10 +33,6 @@ namespace {
 
 constexpr int kFewestPlaces = 12, kFewestLines = 8;
 
-bool is_of_trace(ObservationKind kind) {
-  return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
-}
-
 class RemainderSearch {
  public:
   RemainderSearch(const FlankGeometry& geometry, const Observations& table, const Patches& patches,
@@ -123,6 +119,7 @@ class RemainderSearch {
   /// Flanks that are rougher from tooth to tooth, or on some neighbouring teeth.
   void tell_rougher_teeth() {
     const auto tell = [this](const std::vector<MemberScatter>& scatters, const std::string& what) {
+      if (!are_asked(scatters)) return;
       ++looks_;
       if (const std::optional<RougherMembers> rougher = rougher_members(scatters))
         add_text(rougher->p_value, words_of(*rougher, what, flank_choice(geometry_, rougher->set)),

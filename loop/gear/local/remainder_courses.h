@@ -19,6 +19,10 @@ inline constexpr int kCells = 960, kScanCourses = 8;
 /// Places of which a course is made at most.
 inline constexpr int kMostPlaces = 120;
 
+[[nodiscard]] inline bool is_of_trace(ObservationKind kind) {
+  return kind == ObservationKind::kProfile || kind == ObservationKind::kHelix;
+}
+
 /// What runs over the same places: traces of one kind and source, or a scan's flanks.
 struct CourseKey {
   int source = 0;
