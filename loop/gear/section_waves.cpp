@@ -95,7 +95,7 @@ SectionWave ellipse_of(const Eigen::Matrix2d& m) {
   SectionWave wave;
   wave.towards_deg = deg_from_rad(turned);
   wave.along_um = (std::cos(turned) * m.row(0) + std::sin(turned) * m.row(1)).norm();
-  wave.across_um = m.determinant() / std::max(1e-12, wave.along_um);
+  wave.across_um = (m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0)) / std::max(1e-12, wave.along_um);
   return wave;
 }
 

@@ -45,18 +45,16 @@ InspectionOptions of_all_teeth(double noise_um, unsigned seed) {
 
 TEST(SectionsInWaves, AreNoTiltAndNoLayerShift) {
   const MadeGear gear = spur(24);
-  for (unsigned seed = 1; seed <= 2; ++seed) {
-    const auto wave = wobbling(15.0, gear.face_mm / (2.0 + seed), 0.7, 42.0);
-    for (const auto& result :
-         {close(gear, inspection_of(gear, {wave}, of_all_teeth(1.5, seed))),
-          close(gear, scan_of(gear, {wave}, scanned(7000, 2.0, seed)), true)}) {
-      EXPECT_FALSE(has_name(result)) << list(result);
-      ASSERT_EQ(result.effects.size(), 1U) << list(result);
-      EXPECT_TRUE(tells_of(result, "whole sections stand aside in waves over the height"))
-          << list(result);
-      EXPECT_TRUE(tells_of(result, "towards 4")) << list(result);
-      EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6);
-    }
+  const auto wave = [&](double waves) { return wobbling(15.0, gear.face_mm / waves, 0.7, 42.0); };
+  for (const auto& result :
+       {close(gear, inspection_of(gear, {wave(3.0)}, of_all_teeth(1.5, 1))),
+        close(gear, scan_of(gear, {wave(4.0)}, scanned(7000, 2.0, 2)), true)}) {
+    EXPECT_FALSE(has_name(result)) << list(result);
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(result, "whole sections stand aside in waves over the height"))
+        << list(result);
+    EXPECT_TRUE(tells_of(result, "towards 4")) << list(result);
+    EXPECT_NEAR(parameter(result.effects[0], "amplitude_um").value, 15.0, 0.6);
   }
 }
 

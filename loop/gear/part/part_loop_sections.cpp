@@ -69,17 +69,26 @@ double direction_at_end_deg(const FlankGeometry& geometry, const PointFit& fit,
 }  // namespace
 
 /// Of the answers in which one of the forms stands for one of these sets, the one that costs least.
-/// Empty where none does.
+/// It says most of what the set does: many places that errors made have so many values that a form
+/// which says nothing would be worth it. Empty where none does.
 std::vector<Effect> PartLoop::cheapest_one_form(const std::vector<std::vector<std::size_t>>& sets,
                                                 const std::vector<Effect>& forms,
                                                 const std::vector<Effect>& beside,
                                                 std::vector<std::size_t>& these) const {
+  constexpr double kMostOfIt = 0.8;  // of chi-square
   std::vector<Effect> best;
   double least = 1e300;
   for (const std::vector<std::size_t>& set : sets) {
     if (set.empty()) continue;
     std::vector<Effect> with = one_form_for(set, forms, beside);
     if (with.empty()) continue;
+    std::vector<Effect> without = effects_;
+    for (std::size_t i = set.size(); i-- > 0;)
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(set[i]));
+    const double none = fit_of(without)->residual_square();
+    if (none - fit_of(with)->residual_square() <
+        kMostOfIt * (none - fit_of(effects_)->residual_square()))
+      continue;
     const double cost = cost_of(with);
     if (!(cost < least)) continue;
     least = cost;
