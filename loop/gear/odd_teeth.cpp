@@ -222,8 +222,9 @@ std::vector<RemainderFinding> odd_teeth(const FlankGeometry& geometry,
                          any.um, odd.usual_um(any.side)),
          .amount_um = any.um});
   }
-  const auto records = static_cast<double>(std::max<std::size_t>(1, moments.size()));
-  for (RemainderFinding& one : told) one.p_value = std::min(1.0, records * one.p_value);
+  // Two questions of every record: forms, and any form.
+  const auto questions = 2.0 * static_cast<double>(moments.size());
+  for (RemainderFinding& one : told) one.p_value = std::min(1.0, questions * one.p_value);
   std::erase_if(told, [](const RemainderFinding& one) { return one.p_value > kRemainderLevel; });
   return told;
 }
