@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-bool tells_of(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
-}
-
 int names_in(const loop::LoopResult& result) {
   return static_cast<int>(std::count_if(result.effects.begin(), result.effects.end(),
                                         [](const auto& effect) { return effect.named; }));

@@ -119,4 +119,9 @@ inline bool tells_spot(const loop::LoopResult& result) {
   return false;
 }
 
+/// True where the answer has these words.
+inline bool tells_of(const loop::LoopResult& result, const std::string& words) {
+  return list(result).find(words) != std::string::npos;
+}
+
 }  // namespace trueflank::test

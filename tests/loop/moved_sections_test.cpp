@@ -13,10 +13,6 @@
 namespace trueflank::test {
 namespace {
 
-bool tells_of(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
-}
-
 /// Sections moved [um] by where they stand [mm], towards a direction and across it.
 Process moved(const std::function<double(double)>& along, double deg,
               const std::function<double(double)>& across = {}) {

@@ -16,10 +16,6 @@
 namespace trueflank::test {
 namespace {
 
-bool tells_of(const loop::LoopResult& result, const std::string& words) {
-  return list(result).find(words) != std::string::npos;
-}
-
 bool is_on(const FlankSpot& s, int tooth, int side = 0) {
   return s.tooth == tooth && (side == 0 || s.side == side);
 }
