@@ -104,8 +104,8 @@ class OddTeeth {
   [[nodiscard]] double mean_square(int side, int tooth) const {
     const ToothMoments& own = of(side, tooth);
     const double n = own.count;
-    const double level = own.square[0] > 0.0 ? own.sum[0] * own.sum[0] / own.square[0] : 0.0;
-    return std::max(0.0, own.squares - level) / ((n - 1.0) * own.loud * own.loud);
+    return std::max(0.0, own.squares - own.total * own.total / n) /
+           ((n - 1.0) * own.loud * own.loud);
   }
   void tell_usual() {
     for (const int side : {0, 1}) {
@@ -124,13 +124,23 @@ class OddTeeth {
   /// The height of a form on one flank, or what both have of it.
   [[nodiscard]] double height(std::size_t form, int side, int tooth, bool opposite) const {
     const auto own = [&](int one) {
-      return of(one, tooth).sum[form] / of(one, tooth).square[form];
+      return of(one, tooth).sum_beside_level(form) / of(one, tooth).square_beside_level(form);
     };
     return side >= 0 ? own(side) : 0.5 * (own(1) + (opposite ? -1.0 : 1.0) * own(0));
   }
+  /// A flank on which a form hardly varies (one line of a scan at one height) does not show it.
+  [[nodiscard]] bool shows(std::size_t form, int side, int tooth) const {
+    constexpr double kVaries = 0.3;
+    // Mean squares of u and of u^2 - 1/3 over an even flank.
+    constexpr double kOfSlope = 1.0 / 3.0, kOfBow = 4.0 / 45.0;
+    const ToothMoments& own = of(side, tooth);
+    return own.square[form] > 0.0 &&
+           own.square_beside_level(form) >
+               kVaries * (form < 3 ? kOfSlope : kOfBow) * static_cast<double>(own.count);
+  }
   [[nodiscard]] bool has(std::size_t form, int side, int tooth) const {
     for (const int one : {0, 1})
-      if ((side < 0 || side == one) && !(of(one, tooth).square[form] > 0.0)) return false;
+      if ((side < 0 || side == one) && !shows(form, one, tooth)) return false;
     return true;
   }
 
@@ -157,7 +167,7 @@ class OddTeeth {
       for (const int one : {0, 1}) {
         if (side >= 0 && side != one) continue;
         loud = std::max(loud, of(one, teeth[i]).loud);
-        square += off * off * of(one, teeth[i]).square[form];
+        square += off * off * of(one, teeth[i]).square_beside_level(form);
         beyond += excess(one, teeth[i]);
       }
       const double p = student_two_sided(off / (loud * spread), degrees_of(teeth.size()));

@@ -21,14 +21,29 @@ constexpr double kRemainderLevel = 0.004;
 struct ToothMoments {
   static constexpr std::size_t kForms = 5;
   std::array<double, kForms> sum{}, square{};
+  std::array<double, kForms> form{};  ///< sums of the forms
   int count = 0;
-  double squares = 0.0;  ///< sum of the values' squares
+  double total = 0.0, squares = 0.0;  ///< sums of the values and of their squares
   double loud = 1.0;  ///< the random error of its trace over that of the usual one
 
   /// Height, slope and bow over the profile coordinate u and the face coordinate v (-1 ... 1): 1,
   /// u, v, u^2 - 1/3, v^2 - 1/3.
   [[nodiscard]] static std::array<double, kForms> forms_at(double u, double v) {
     return {1.0, u, v, u * u - 1.0 / 3.0, v * v - 1.0 / 3.0};
+  }
+  /// Takes a value at a place to the sums that know of levels.
+  void add(const std::array<double, kForms>& at, double um) {
+    ++count;
+    total += um;
+    squares += um * um;
+    for (std::size_t k = 0; k < kForms; ++k) form[k] += at[k];
+  }
+  /// Of a form the part that is no level: its square, and its product with the values.
+  [[nodiscard]] double square_beside_level(std::size_t k) const {
+    return square[k] - (count > 0 ? form[k] * form[k] / count : 0.0);
+  }
+  [[nodiscard]] double sum_beside_level(std::size_t k) const {
+    return sum[k] - (count > 0 ? form[k] * total / count : 0.0);
   }
   /// Where a flank stands: side 0 right, 1 left.
   [[nodiscard]] static std::size_t at(int side, int tooth) {

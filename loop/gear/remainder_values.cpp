@@ -133,8 +133,7 @@ class Gathering {
                  v = geometry_.face_coordinate(place.z_mm);
     const std::array<double, ToothMoments::kForms> form = ToothMoments::forms_at(u, v);
     ToothMoments& of_tooth = to.moments[static_cast<std::size_t>(place.tooth)];
-    ++of_tooth.count;
-    of_tooth.squares += um * um;
+    of_tooth.add(form, um);
     for (std::size_t k = 0; k < form.size(); ++k) {
       of_tooth.sum[k] += form[k] * um;
       of_tooth.square[k] += form[k] * form[k];
@@ -170,8 +169,7 @@ class Gathering {
                    : helix ? MomentsOf::kHelices
                            : MomentsOf::kOthers,
                    row.source)[ToothMoments::at(place.side > 0 ? 1 : 0, place.tooth)];
-    ++of_tooth.count;
-    of_tooth.squares += um * um;
+    of_tooth.add(form, um);
     for (std::size_t k = 0; k < form.size(); ++k) {
       // A trace shows its own direction; with a zero of its own no height.
       if (k == 0 && row.trace >= 0 && row.kind != ObservationKind::kIndex) continue;

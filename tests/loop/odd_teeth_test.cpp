@@ -84,7 +84,7 @@ TEST(GrooveOfASector, IsNoGrooveOfAllTeeth) {
                ? -9.0 * std::exp(-std::pow((s.u - 0.1) / 0.25, 2))
                : 0.0;
   };
-  const auto result = close(gear, scan_of(gear, {grown(worn)}, scanned(20000, 1.0, 7)), true);
+  const auto result = close(gear, scan_of(gear, {grown(worn)}, scanned(9000, 1.0, 7)), true);
   EXPECT_TRUE(tells_of(result, "on 14 teeth from tooth 12 on, a groove")) << list(result);
   EXPECT_FALSE(tells_of(result, "the same on every tooth, a groove")) << list(result);
 }

@@ -113,7 +113,7 @@ void PartLoop::explain_what_is_left() {
     DiscoveryResult discovery;
     std::vector<bool> banned, unseen;
   };
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 5;
   const bool keep = table_->points_mm.empty();
   Chosen best;
   double least = kNaN;

@@ -293,7 +293,13 @@ bool PartLoop::take_up_remainder() {
   };
   int taken = 0;
   while (taken < kAtOnce && take_first(RemainderOf::kTraining, false)) ++taken;
-  // What stands on one tooth cannot be learnt from others: from all the data.
+  // What stands on one tooth cannot be learnt from others: from all the data. Beside forms that
+  // were just taken up, and that the choice has not settled yet, a tooth where one begins looks
+  // odd.
+  if (taken > 0) {
+    names_ = {};
+    return true;
+  }
   while (taken < kAtOnce && take_first(RemainderOf::kAll, true)) ++taken;
   names_ = {};
   return taken > 0;
