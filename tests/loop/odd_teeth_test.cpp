@@ -43,6 +43,22 @@ TEST(ToothAskew, IsOneLeanOfItsTwoFlanksInScansAndTraces) {
       << list(traced_one);
 }
 
+TEST(ToothAskew, OfManyIsNoSectorsThatUndoEachOther) {
+  const MadeGear gear = spur(66);
+  const auto askew = [](auto&, const FlankSpot& s, auto&) {
+    return (is_on(s, 41) ? -17.0 * s.side * s.v : 0.0) - 11.0 * s.v * s.v;
+  };
+  InspectionOptions options;
+  options.points = 60;
+  options.noise_um = 1.3;
+  for (options.seed = 9; options.seed <= 10; ++options.seed) {
+    const auto result = close(gear, inspection_of(gear, {grown(askew)}, options));
+    EXPECT_NE(find(result, "crowning"), nullptr) << list(result);
+    EXPECT_TRUE(tells_of(result, "tooth 41 alone leans over the face")) << list(result);
+    EXPECT_FALSE(tells_of(result, "sector")) << list(result);
+  }
+}
+
 TEST(FlankThatLeansOverItsProfile, IsNoHeightAndNoSpots) {
   const MadeGear gear = spur(24);
   const auto leans = [](auto&, const FlankSpot& s, auto&) {

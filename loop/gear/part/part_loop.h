@@ -201,6 +201,7 @@ class PartLoop {
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();
   void tell_forms_of_teeth();
+  void tell_tooth_of_sectors();
   void tell_forms_of_sectors();
   void tell_teeth_beside_dents();
   [[nodiscard]] const EffectFamily* form_instead(std::size_t effect) const;

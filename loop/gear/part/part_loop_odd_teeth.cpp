@@ -68,10 +68,38 @@ std::vector<Effect> steps(const FlankGeometry& geometry, double face, FlankChoic
 
 }  // namespace
 
+/// Sectors of two and three teeth that overlap may be what is on one tooth alone, as no sector is
+/// of one: one that stands out and the rest of it that takes it back.
+void PartLoop::tell_tooth_of_sectors() {
+  constexpr double kFew = 3.0;
+  const EffectFamily* sectors = find_family("unnamed_sector");
+  std::vector<std::size_t> these;
+  std::set<int> teeth;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    if (effects_[e].family != sectors || effects_[e].shape[1] > kFew) continue;
+    these.push_back(e);
+    for (int k = 0; k < static_cast<int>(effects_[e].shape[1]); ++k)
+      teeth.insert((static_cast<int>(effects_[e].shape[0]) - 1 + k) % geometry_.teeth() + 1);
+  }
+  if (these.size() < 2 || static_cast<double>(teeth.size()) > 2.0 * kFew) return;
+  std::vector<std::size_t> all = these;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
+    if (is_on_one_tooth(effects_[e]) && teeth.count(static_cast<int>(effects_[e].shape[0])) > 0)
+      all.push_back(e);
+  std::sort(all.begin(), all.end());
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    std::vector<Effect> forms;
+    for (const int tooth : teeth)
+      for (Effect& form : leans_and_bends(tooth, flank)) forms.push_back(std::move(form));
+    if (put_one_form_for(all, forms) || put_one_form_for(these, forms)) return;
+  }
+}
+
 /// Spots and heights of one tooth are told as one lean, bow, step or rise of it where that says as
 /// much with fewer values; both flanks together first.
 void PartLoop::tell_forms_of_teeth() {
   if (options_.joined) return;
+  tell_tooth_of_sectors();
   const auto on_tooth = [&](int tooth, const auto& is_asked) {
     std::vector<std::size_t> these;
     for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
