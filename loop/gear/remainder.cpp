@@ -21,10 +21,10 @@
 #include "trueflank/loop/gear/local/flank_spots.h"
 #include "trueflank/loop/gear/local/flank_waves.h"
 #include "trueflank/loop/gear/local/loud_places.h"
+#include "trueflank/loop/gear/local/odd_teeth.h"
 #include "trueflank/loop/gear/local/remainder_courses.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/local/rough_flanks.h"
-#include "trueflank/loop/gear/odd_teeth.h"
 #include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/remainder_values.h"
 

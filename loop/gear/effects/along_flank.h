@@ -85,6 +85,11 @@ namespace trueflank::loop::gear_effects {
   return before + printed("%.2g mm", length_mm) + (face != 0.0 ? "" : " of roll length") + after;
 }
 
+/// 1 at its place, and dying away to both sides.
+[[nodiscard]] inline double bell(double off, double width) {
+  return std::exp(-off * off / (width * width));
+}
+
 inline const TermKey kAlong{"along", TermKey::Kind::kWord, {"profile", "face"}};
 [[nodiscard]] inline TermKey number(const std::string& name) {
   return {name, TermKey::Kind::kNumber};

@@ -503,10 +503,9 @@ class PatchMaker {
     LoudPlaces loud = loud_places(parts);
     for (std::size_t k = 0; k < members.size(); ++k)
       result_.patches[members[k]].loud = loud.factors[k];
-    for (const LoudPlace& place : loud.places)
-      tell_louder(place, result_.patches[members.front()].source);
-    result_.flank_scatters.emplace_back(result_.patches[members.front()].source,
-                                        std::move(loud.flanks));
+    const int source = result_.patches[members.front()].source;
+    for (const LoudPlace& place : loud.places) tell_louder(place, source);
+    result_.flank_scatters.emplace_back(source, std::move(loud.flanks));
   }
 
   void tell_louder(const LoudPlace& place, int source) {

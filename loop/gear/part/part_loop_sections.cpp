@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "trueflank/base/units.h"
+#include "trueflank/loop/gear/local/section_waves.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
-#include "trueflank/loop/gear/section_waves.h"
 
 namespace trueflank::loop {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/section_waves.h"
+#include "trueflank/loop/gear/local/section_waves.h"
 
 #include <Eigen/Core>
 #include <algorithm>

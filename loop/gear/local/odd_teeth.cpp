@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "trueflank/loop/gear/odd_teeth.h"
+#include "trueflank/loop/gear/local/odd_teeth.h"
 
 #include <algorithm>
 #include <array>
