@@ -69,6 +69,27 @@ class RemainderSearch {
   }
 
  private:
+  /// How much louder than the usual one of its side each flank or trace is: to the moments of its
+  /// tooth.
+  static void tell_loudness(const std::vector<MemberScatter>& scatters,
+                            std::vector<ToothMoments>& moments) {
+    for (const int side : {0, 1}) {
+      std::vector<double> own, values;
+      std::vector<std::size_t> of_tooth;
+      for (const MemberScatter& one : scatters) {
+        if (one.set != side) continue;
+        own.push_back(one.scatter);
+        values.push_back(one.values);
+        of_tooth.push_back(ToothMoments::at(side, one.number));
+      }
+      const std::vector<double> loud = loudness_of(own, values).factors;
+      for (std::size_t k = 0; k < loud.size(); ++k) {
+        double& of = moments[of_tooth[k]].loud;
+        of = std::max(of, loud[k]);
+      }
+    }
+  }
+
   /// Which traces of a flank scatter more than the usual one.
   void tell_loud_traces() {
     for (const auto& [key, courses] : values_.courses) {
@@ -78,21 +99,7 @@ class RemainderSearch {
       const auto moments =
           values_.moments.find({key.face ? MomentsOf::kHelices : MomentsOf::kProfiles, key.source});
       if (moments == values_.moments.end()) continue;
-      for (const int side : {0, 1}) {
-        std::vector<double> own, values;
-        std::vector<std::size_t> of_tooth;
-        for (const MemberScatter& trace : scatters) {
-          if (trace.set != side) continue;
-          own.push_back(trace.scatter);
-          values.push_back(trace.values);
-          of_tooth.push_back(ToothMoments::at(side, trace.number));
-        }
-        const std::vector<double> loud = loudness_of(own, values).factors;
-        for (std::size_t k = 0; k < loud.size(); ++k) {
-          double& of = moments->second[of_tooth[k]].loud;
-          of = std::max(of, loud[k]);
-        }
-      }
+      tell_loudness(scatters, moments->second);
     }
   }
 
@@ -101,15 +108,7 @@ class RemainderSearch {
     for (const auto& [source, scatters] : patches_.flank_scatters) {
       const auto moments = values_.moments.find({MomentsOf::kScan, source});
       if (moments == values_.moments.end()) continue;
-      std::vector<double> own, values;
-      for (const MemberScatter& flank : scatters) {
-        own.push_back(flank.scatter);
-        values.push_back(flank.values);
-      }
-      const std::vector<double> loud = loudness_of(own, values).factors;
-      for (std::size_t k = 0; k < loud.size(); ++k)
-        moments->second[ToothMoments::at(scatters[k].set, scatters[k].number)].loud =
-            std::max(1.0, loud[k]);
+      tell_loudness(scatters, moments->second);
     }
     const std::vector<RemainderFinding> odd =
         without_spots_alike(odd_teeth(geometry_, values_.moments), found_);

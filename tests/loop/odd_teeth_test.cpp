@@ -76,7 +76,7 @@ TEST(ToothCrownedByItself, IsOneBow) {
   };
   const auto result = close(gear, scan_of(gear, {grown(crowned)}, scanned(9000, 1.0, 5)), true);
   EXPECT_TRUE(tells_of(result, "tooth 11 alone is bowed over the face")) << list(result);
-  EXPECT_FALSE(tells_of(result, "a spot")) << list(result);
+  EXPECT_FALSE(tells_spot(result)) << list(result);
 }
 
 TEST(StylusThatSlips, IsAStepOfOneTrace) {
@@ -90,7 +90,7 @@ TEST(StylusThatSlips, IsAStepOfOneTrace) {
   options.seed = 6;
   const auto result = close(gear, inspection_of(gear, {grown(slipped)}, options));
   EXPECT_TRUE(tells_of(result, "on tooth 9 alone, a step over the face")) << list(result);
-  EXPECT_FALSE(tells_of(result, "a spot")) << list(result);
+  EXPECT_FALSE(tells_spot(result)) << list(result);
 }
 
 TEST(GrooveOfASector, IsNoGrooveOfAllTeeth) {

@@ -88,6 +88,25 @@ std::string with_shape(const std::string& form, const std::vector<std::string>& 
   return form + order + (values.empty() ? "" : values + ")");
 }
 
+int teeth_since(const FlankGeometry& geometry, int tooth, double from) {
+  const int z = geometry.teeth();
+  return ((tooth - static_cast<int>(from)) % z + z) % z;
+}
+
+std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry, const EffectShape& shape,
+                                        int most) {
+  std::vector<EffectShape> shapes;
+  for (int first = -most; first <= most; ++first)
+    for (int last = -most; last <= most; ++last) {
+      EffectShape beside = shape;
+      beside[0] = std::fmod(shape[0] - 1.0 + first + geometry.teeth(), geometry.teeth()) + 1.0;
+      beside[1] = shape[1] + last - first;
+      if (beside != shape && beside[1] >= 2.0 && beside[1] < geometry.teeth())
+        shapes.push_back(std::move(beside));
+    }
+  return shapes;
+}
+
 EffectFamily described(const std::string& id, std::vector<std::string> shape_names) {
   EffectFamily f;
   f.id = id;

@@ -74,6 +74,13 @@ template <class Function>
 [[nodiscard]] std::vector<EffectShape> heights(const FlankGeometry& geometry, double from_mm,
                                                double to_mm, int count, bool in_ratios);
 
+/// Teeth from one on, once around.
+[[nodiscard]] int teeth_since(const FlankGeometry& geometry, int tooth, double from);
+/// Sectors (first tooth, number of teeth, what else a shape has) that begin and end up to so many
+/// teeth before or after: of two teeth and more.
+[[nodiscard]] std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry,
+                                                      const EffectShape& shape, int most);
+
 /// Limits of a height over the face, and of a diameter between root form and tip.
 [[nodiscard]] std::pair<double, double> height_limits(const FlankGeometry& geometry);
 [[nodiscard]] std::pair<double, double> diameter_limits(const FlankGeometry& geometry);

@@ -17,12 +17,6 @@ namespace {
 
 const TermKey kFlanks{"flanks", TermKey::Kind::kWord, {"equal", "opposite"}};
 
-/// Teeth from one on, once around.
-int teeth_since(const FlankGeometry& g, int tooth, double from) {
-  const int z = g.teeth();
-  return ((tooth - static_cast<int>(from)) % z + z) % z;
-}
-
 /// 1 on teeth of the sector.
 double in_sector(const FlankGeometry& g, int tooth, const EffectShape& shape) {
   return teeth_since(g, tooth, shape[0]) < static_cast<int>(shape[1]) ? 1.0 : 0.0;
@@ -52,16 +46,7 @@ EffectFamily unnamed_sector() {
   };
   f.term_keys = {{"first_tooth"}, {"teeth"}, {"profile_degree"}, {"face_degree"}, kFlanks};
   f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
-    std::vector<EffectShape> shapes;
-    for (const double first : {-2.0, -1.0, 0.0, 1.0, 2.0})
-      for (const double last : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
-        EffectShape beside = shape;
-        beside[0] = std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0;
-        beside[1] = shape[1] + last - first;
-        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth())
-          shapes.push_back(std::move(beside));
-      }
-    return shapes;
+    return sectors_beside(g, shape, 2);
   };
   f.words = [](const ToldForm& told) {
     return "a sector of " +

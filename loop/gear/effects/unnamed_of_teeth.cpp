@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forms along the flanks that some neighbouring teeth have, or one alone.
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "trueflank/base/number_text.h"
-#include "trueflank/loop/gear/effects/along_flank.h"
+#include "trueflank/loop/gear/effects/columns.h"
 #include "trueflank/loop/gear/effects/registry.h"
 
 namespace trueflank::loop::gear_effects {
@@ -34,8 +33,8 @@ EffectFamily of_teeth(EffectFamily form) {
   f.term_keys.insert(f.term_keys.begin(), {{"from_tooth"}, {"teeth"}});
   f.same_on_every_tooth = {};
   f.evaluate = [form](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    const int z = g.teeth(), since = ((p.tooth - static_cast<int>(shape[0])) % z + z) % z;
-    if (p.surface == Surface::kFlank && since < static_cast<int>(shape[1])) {
+    if (p.surface == Surface::kFlank &&
+        teeth_since(g, p.tooth, shape[0]) < static_cast<int>(shape[1])) {
       const EffectShape& own = form_shape(shape);
       form.evaluate(g, p, own, c);
       return;
@@ -54,14 +53,7 @@ EffectFamily of_teeth(EffectFamily form) {
       shapes.push_back(std::move(beside));
     }
     if (shape[1] == 1.0) return shapes;
-    for (const double first : {-1.0, 0.0, 1.0})
-      for (const double last : {-1.0, 0.0, 1.0}) {
-        EffectShape beside = shape;
-        beside[0] = std::fmod(shape[0] - 1.0 + first + g.teeth(), g.teeth()) + 1.0;
-        beside[1] = shape[1] + last - first;
-        if (beside != shape && beside[1] >= 2.0 && beside[1] < g.teeth())
-          shapes.push_back(std::move(beside));
-      }
+    for (EffectShape& beside : sectors_beside(g, shape, 1)) shapes.push_back(std::move(beside));
     return shapes;
   };
   f.words = [words = form.words](const ToldForm& told) {

@@ -10,6 +10,13 @@ namespace trueflank::loop {
 
 namespace {
 
+/// A height, or over the profile a diameter [mm], at a share of the flank.
+double place_at(const FlankGeometry& geometry, double face, double share) {
+  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
+  return face != 0.0 ? share * geometry.face_width_mm()
+                     : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+}
+
 /// What dies away from both ends alike: a bell mouth. Longer ones are nearly a crowning.
 std::vector<Effect> rises_at_both_ends(const FlankGeometry& geometry, double face,
                                        FlankChoice flank) {
@@ -28,9 +35,7 @@ std::vector<Effect> strips(const FlankGeometry& geometry, double face, FlankChoi
   constexpr double kSides = 0.03;
   const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
   const auto at = [&](int part) {
-    const double share = static_cast<double>(part) / kParts;
-    return face != 0.0 ? share * geometry.face_width_mm()
-                       : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+    return place_at(geometry, face, static_cast<double>(part) / kParts);
   };
   std::vector<Effect> forms;
   for (int from = 1; from < kParts; ++from)
@@ -55,9 +60,7 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
       forms.push_back({find_family("unnamed_rise"), flank, {face, within * range_mm, end}});
   for (Effect& form : rises_at_both_ends(geometry, face, flank)) forms.push_back(std::move(form));
   for (double share = kFirst; share < 1.0 - 0.5 * kStep; share += kStep) {
-    const double at =
-        face != 0.0 ? share * geometry.face_width_mm()
-                    : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm;
+    const double at = place_at(geometry, face, share);
     for (const double end : {-1.0, 1.0})
       for (const char* family : {"unnamed_kink", "unnamed_bend"})
         forms.push_back({find_family(family), flank, {face, at, end}});
@@ -69,6 +72,16 @@ std::vector<Effect> forms_along(const FlankGeometry& geometry, double face, Flan
   }
   if (bands)
     for (Effect& strip : strips(geometry, face, flank)) forms.push_back(std::move(strip));
+  return forms;
+}
+
+std::vector<Effect> steps_along(const FlankGeometry& geometry, double face, FlankChoice flank) {
+  constexpr int kParts = 12;
+  std::vector<Effect> forms;
+  for (int part = 1; part < kParts; ++part)
+    forms.push_back({find_family("unnamed_step"),
+                     flank,
+                     {face, place_at(geometry, face, static_cast<double>(part) / kParts), 0.0}});
   return forms;
 }
 

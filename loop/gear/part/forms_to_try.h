@@ -13,6 +13,10 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<Effect> forms_along(const FlankGeometry& geometry, double face,
                                               FlankChoice flank, bool bands);
 
+/// Steps at places along the profile (0) or the face (1), to start from.
+[[nodiscard]] std::vector<Effect> steps_along(const FlankGeometry& geometry, double face,
+                                              FlankChoice flank);
+
 /// Waves over the profile, the same on every tooth, about as long as those of an order around the
 /// gear.
 [[nodiscard]] std::vector<Effect> waves_of_order(const FlankGeometry& geometry, double order,

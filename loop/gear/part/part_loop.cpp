@@ -381,10 +381,12 @@ std::string PartLoop::structure_left() const {
   if (neighbours_share())
     return words_for(neighbours_) + (remainder_.empty() ? "" : "; and " + remainder_.front().text);
   if (!remainder_.empty()) return remainder_.front().text;
-  if (denied_spot_) return words_for(geometry_, *denied_spot_) + ", which the values held out do not bear out";
+  if (denied_spot_)
+    return words_for(geometry_, *denied_spot_) + ", which the values held out do not bear out";
   if (!structure_is_left() || discovery_.most_likely_left < 0)
     return "nothing beyond the measurement's own noise was found";
-  return "what is left looks most like " + words_for(geometry_, candidates_[discovery_.most_likely_left]);
+  return "what is left looks most like " +
+         words_for(geometry_, candidates_[discovery_.most_likely_left]);
 }
 
 }  // namespace trueflank::loop

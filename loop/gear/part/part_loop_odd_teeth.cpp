@@ -48,28 +48,10 @@ std::vector<Effect> on_teeth(const std::vector<Effect>& forms, double first, dou
   return of_teeth;
 }
 
-/// Steps at places along the profile (0) or the face (1), to start from.
-std::vector<Effect> steps(const FlankGeometry& geometry, double face, FlankChoice flank) {
-  constexpr int kParts = 12;
-  const double low = geometry.root_form_roll_mm(), high = geometry.tip_form_roll_mm();
-  std::vector<Effect> forms;
-  for (int part = 1; part < kParts; ++part) {
-    const double share = static_cast<double>(part) / kParts;
-    forms.push_back(
-        {find_family("unnamed_step"),
-         flank,
-         {face,
-          face != 0.0 ? share * geometry.face_width_mm()
-                      : 2.0 * geometry.on_flank(1, 1, low + share * (high - low), 0.0).radius_mm,
-          0.0}});
-  }
-  return forms;
-}
-
 }  // namespace
 
-/// Sectors of two and three teeth that overlap may be what is on one tooth alone, as no sector is
-/// of one: one that stands out and the rest of it that takes it back.
+/// Some sectors of two and three teeth may be what is on one tooth alone, as no sector is of one:
+/// one that stands out and the rest of it that takes it back.
 void PartLoop::tell_tooth_of_sectors() {
   constexpr double kFew = 3.0;
   const EffectFamily* sectors = find_family("unnamed_sector");
@@ -91,7 +73,7 @@ void PartLoop::tell_tooth_of_sectors() {
     std::vector<Effect> forms;
     for (const int tooth : teeth)
       for (Effect& form : leans_and_bends(tooth, flank)) forms.push_back(std::move(form));
-    if (put_one_form_for(all, forms) || put_one_form_for(these, forms)) return;
+    if (put_one_form_for(all, forms) || (these != all && put_one_form_for(these, forms))) return;
   }
 }
 
@@ -126,7 +108,7 @@ void PartLoop::tell_forms_of_teeth() {
           on_tooth(tooth, [&](const Effect& effect) { return effect.flank == flank; });
       if (these.empty() || put(these, flank)) continue;
       for (const double face : {0.0, 1.0}) {
-        if (put_one_form_for(these, on_teeth(steps(geometry_, face, flank), tooth, 1.0)) ||
+        if (put_one_form_for(these, on_teeth(steps_along(geometry_, face, flank), tooth, 1.0)) ||
             put_one_form_for(these,
                              on_teeth(forms_along(geometry_, face, flank, false), tooth, 1.0)))
           break;
