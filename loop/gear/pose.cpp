@@ -99,6 +99,19 @@ class PoseSearch {
     return refined(poses[static_cast<std::size_t>(least)], fine_, {.rounds = 12, .still = 1e-5});
   }
 
+  /// The same with axes that no principal direction comes near: of a pinion about 2.4 times as long
+  /// as its radius the points scatter alike in all directions.
+  Pose best_of_all_axes() {
+    constexpr std::size_t kMost = 4;
+    const std::vector<Eigen::Vector3d> axes = likeliest_axes(kMost);
+    std::vector<Pose> poses(axes.size());
+    for_each_piece(poses.size(), [&](std::size_t k) { poses[k] = start(turn_onto_z(axes[k])); });
+    std::vector<double> costs;
+    for (Pose& pose : poses) costs.push_back(search_phase(pose));
+    const auto least = std::min_element(costs.begin(), costs.end()) - costs.begin();
+    return refined(poses[static_cast<std::size_t>(least)], fine_, {.rounds = 12, .still = 1e-5});
+  }
+
   /// When a refinement ends: after so many rounds, or where the step is smaller than `still` [mm and
   /// rad] and the weights hardly change any more.
   struct Rounds {
@@ -126,6 +139,72 @@ class PoseSearch {
   }
 
  private:
+  /// How unlike their distances from an axis are, and how far points lie beyond the faces: mean
+  /// square [mm^2].
+  [[nodiscard]] double unlike_a_cylinder(const Eigen::Vector3d& axis, const Points& points) const {
+    Pose pose;
+    pose.rotation = turn_onto_z(axis);
+    place_height(pose, points);
+    const Eigen::Vector2d centre = circle_centre(pose, points);
+    const double half = 0.5 * geometry_.face_width_mm();
+    double sum = 0.0, squares = 0.0, beyond = 0.0;
+    for (const Point& p : points) {
+      const Point q = pose(p);
+      const double radius = std::hypot(q[0] - centre.x(), q[1] - centre.y());
+      sum += radius;
+      squares += radius * radius;
+      beyond += std::pow(std::max(0.0, std::abs(q[2] - half) - half), 2);
+    }
+    const auto count = static_cast<double>(points.size());
+    return squares / count - std::pow(sum / count, 2) + beyond / count;
+  }
+
+  /// Directions about which the points lie in the ring of the teeth best, found on a grid of all
+  /// and moved to where they do most.
+  [[nodiscard]] std::vector<Eigen::Vector3d> likeliest_axes(std::size_t most) const {
+    constexpr int kOfGrid = 600;  // 6 degrees apart
+    constexpr double kFirstStep_rad = 0.06, kLastStep_rad = 0.002, kSame_rad = 0.05;
+    std::vector<std::pair<double, Eigen::Vector3d>> tried(kOfGrid);
+    for_each_piece(tried.size(), [&](std::size_t k) {
+      // Vogel's spiral over a hemisphere.
+      const double z = 1.0 - (static_cast<double>(k) + 0.5) / kOfGrid;
+      const double angle = kPi * (3.0 - std::sqrt(5.0)) * static_cast<double>(k);
+      const double r = std::sqrt(1.0 - z * z);
+      tried[k].second = {r * std::cos(angle), r * std::sin(angle), z};
+      tried[k].first = unlike_a_cylinder(tried[k].second, few_);
+    });
+    const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::stable_sort(tried.begin(), tried.end(), cheaper);
+    tried.resize(4 * most);
+    for_each_piece(tried.size(), [&](std::size_t k) {
+      auto& [unlike, axis] = tried[k];
+      unlike = unlike_a_cylinder(axis, coarse_);
+      for (double step = kFirstStep_rad; step > kLastStep_rad; step *= 0.5)
+        for (bool moved = true; moved;) {
+          moved = false;
+          const Eigen::Vector3d one = axis.unitOrthogonal(), other = axis.cross(one);
+          for (const auto& [a, b] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+            const Eigen::Vector3d beside = (axis + step * (a * one + b * other)).normalized();
+            const double there = unlike_a_cylinder(beside, coarse_);
+            if (!(there < unlike)) continue;
+            unlike = there;
+            axis = beside;
+            moved = true;
+            break;
+          }
+        }
+    });
+    std::stable_sort(tried.begin(), tried.end(), cheaper);
+    std::vector<Eigen::Vector3d> axes;
+    for (const auto& [unlike, axis] : tried) {
+      const bool is_new = std::none_of(axes.begin(), axes.end(), [&](const Eigen::Vector3d& known) {
+        return known.cross(axis).norm() < kSame_rad;
+      });
+      if (is_new && axes.size() < most) axes.push_back(axis);
+    }
+    return axes;
+  }
+
   /// Middle of the points' height range onto the middle of the face.
   void place_height(Pose& pose, const Points& points) const {
     std::vector<double> z;
@@ -139,17 +218,17 @@ class PoseSearch {
     Pose pose;
     pose.rotation = rotation;
     place_height(pose, coarse_);
-    Eigen::Vector2d centre = circle_centre(pose);
+    Eigen::Vector2d centre = circle_centre(pose, coarse_);
     for (int round = 0; round < 6; ++round) centre += tip_circle_step(pose, centre);
     pose.translation_mm.head<2>() = -centre;
     return pose;
   }
 
   /// Algebraic circle through all points: right within the tooth height for any sector.
-  [[nodiscard]] Eigen::Vector2d circle_centre(const Pose& pose) const {
+  [[nodiscard]] static Eigen::Vector2d circle_centre(const Pose& pose, const Points& points) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const auto& p : coarse_) {
+    for (const auto& p : points) {
       const auto q = pose(p);
       const Eigen::Vector3d row(q[0], q[1], 1.0);
       normal += row * row.transpose();
@@ -399,8 +478,14 @@ Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan) {
                             std::to_string(scan.points_mm.size()),
                  .file = scan.file});
   PoseSearch search(geometry, scan.points_mm);
-  Pose pose = search.best();
-  pose = search.refined(pose, thinned(scan.points_mm, 40000), {});
+  const Points points = thinned(scan.points_mm, 40000);
+  Pose pose = search.refined(search.best(), points, {});
+  constexpr double kGood = 0.8;  // nearly 1 where all points are on flanks as designed
+  const double share = pose_quality(geometry, scan, pose).share;
+  if (share < kGood) {
+    const Pose other = search.refined(search.best_of_all_axes(), points, {});
+    if (pose_quality(geometry, scan, other).share > share) pose = other;
+  }
   return least_turned(geometry, pose);
 }
 

@@ -294,4 +294,26 @@ ShapeUncertainty shape_uncertainty(const FlankGeometry& geometry, const Observat
   return result;
 }
 
+double move_alone(const FlankGeometry& geometry, const TrialFit& fit, std::size_t effect,
+                  EffectShape& shape) {
+  constexpr double kWorthIt = 4.0;  // chi-square
+  constexpr int kMostSteps = 8;
+  double least = fit.with_shapes(effect, {shape}, 1e300).front().square;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::vector<EffectShape> tried = fit.effects()[effect].family->nearby(geometry, shape);
+    const std::vector<TrialFit::Trial> trials = fit.with_shapes(effect, tried, least - kWorthIt);
+    double best = least - kWorthIt;
+    const EffectShape* moved = nullptr;
+    for (std::size_t i = 0; i < tried.size(); ++i)
+      if (trials[i].square < best && trials[i].retained >= kToldApart) {
+        best = trials[i].square;
+        moved = &tried[i];
+      }
+    if (moved == nullptr) break;
+    least = best;
+    shape = *moved;
+  }
+  return least;
+}
+
 }  // namespace trueflank::loop

@@ -52,4 +52,9 @@ enum class FreeShapes : std::uint8_t { kRefined, kAll };
                                                  const PointFit& fit,
                                                  FreeShapes free = FreeShapes::kRefined);
 
+/// Moves one effect's place and widths to where clearly less is left, all else being where it is,
+/// and tells what is left (chi-square).
+double move_alone(const FlankGeometry& geometry, const TrialFit& fit, std::size_t effect,
+                  EffectShape& shape);
+
 }  // namespace trueflank::loop

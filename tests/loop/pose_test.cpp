@@ -28,6 +28,24 @@ TEST(Pose, IsFoundExactlyFromPointsWithoutNoise) {
   }
 }
 
+TEST(Pose, IsFoundOfPinionsWhosePointsScatterAlikeInAllDirections) {
+  // A cylinder 2.45 times as long as its radius has no principal direction.
+  for (const double length : {2.2, 2.35, 2.45, 2.55, 2.7})
+    for (const unsigned seed : {1U, 2U}) {
+      MadeGear made = spur(17);
+      made.face_mm = length * made.reference();
+      ScanOptions options = scanned(4000, 2.0, seed);
+      options.any_pose = true;
+      const auto scan = scan_of(made, {}, options);
+      const loop::FlankGeometry geometry = geometry_of(made);
+      const auto pose = loop::fit_pose(geometry, scan);
+      ASSERT_TRUE(pose.has_value());
+      const loop::PoseQuality quality = loop::pose_quality(geometry, scan, *pose);
+      EXPECT_GT(quality.share, 0.95) << length;
+      EXPECT_LT(quality.median_mm, 0.003) << length;
+    }
+}
+
 TEST(Pose, IsFoundWithHalfTheTeethMissing) {
   ScanOptions options;
   options.points = 6000;

@@ -65,6 +65,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_saw(),
         unnamed_comb(),
         unnamed_dent(),
+        unnamed_swellings(),
         unnamed_spot(),
     };
     for (EffectFamily& family : forms_of_teeth()) all.push_back(std::move(family));

@@ -85,6 +85,7 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_saw();
 [[nodiscard]] EffectFamily unnamed_comb();
 [[nodiscard]] EffectFamily unnamed_dent();
+[[nodiscard]] EffectFamily unnamed_swellings();
 [[nodiscard]] EffectFamily unnamed_spot();
 /// @}
 

@@ -86,6 +86,42 @@ EffectFamily unnamed_dent() {
   return f;
 }
 
+EffectFamily unnamed_swellings() {
+  EffectFamily f = described("unnamed_swellings", {"number", "tooth", "half_teeth"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = 0.0;
+    if (p.surface != Surface::kFlank) return;
+    const double z = g.teeth();
+    for (int k = 0; k < static_cast<int>(shape[0]); ++k)
+      c[0] += bell(std::remainder(p.tooth - shape[1] - k * z / shape[0], z), shape[2]);
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const double apart = g.teeth() / shape[0];
+    for (const double off : {-0.5, -0.15, -0.04, 0.0, 0.04, 0.15, 0.5})
+      for (const double times : {0.8, 0.93, 0.98, 1.0, 1.02, 1.07, 1.25}) {
+        EffectShape beside = shape;
+        beside[1] = std::fmod(shape[1] - 1.0 + off * shape[2] + apart, apart) + 1.0;
+        beside[2] = std::clamp(times * shape[2], 0.5, 0.5 * apart);
+        if (beside != shape) shapes.push_back(std::move(beside));
+      }
+    return shapes;
+  };
+  f.term_keys = {{"number"}, number("tooth"), number("half_teeth")};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const int sign = told.sign();
+    return printed("%.0f ", shape[0]) +
+           (sign > 0   ? "swellings"
+            : sign < 0 ? "hollows"
+                       : "swellings or hollows") +
+           " evenly spaced around the gear, one" +
+           about_tooth(told.geometry.teeth(), shape[1], shape[2]) +
+           ", as from gates, ribs, bolts or jaws";
+  };
+  return f;
+}
+
 namespace {
 
 /// What a spot covers of the profile or the face: as far as the flank goes.

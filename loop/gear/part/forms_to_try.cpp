@@ -151,4 +151,98 @@ std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank) {
   return forms;
 }
 
+std::vector<Effect> swellings_around(int teeth, FlankChoice flank) {
+  std::vector<Effect> forms;
+  for (int number = 2; number <= kMostSwellings; ++number) {
+    const double apart = static_cast<double>(teeth) / number;
+    for (double half = 0.7; half < 0.4 * apart; half *= 1.4)
+      for (double tooth = 1.0; tooth < 1.0 + apart; tooth += 0.5 * half)
+        forms.push_back({find_family("unnamed_swellings"), flank, {double(number), tooth, half}});
+  }
+  return forms;
+}
+
+namespace {
+
+/// Numbers from one to another, each beyond a few a fifth larger than the one before: between them
+/// forms differ by little, and the best is moved (`nearby`).
+std::vector<int> counts_between(int fewest, int most) {
+  constexpr double kLarger = 1.2;
+  std::vector<int> counts;
+  for (int count = fewest; count <= most;
+       count = std::max(count + 1, static_cast<int>(kLarger * count)))
+    counts.push_back(count);
+  return counts;
+}
+
+/// Places for what is so many teeth long.
+int step_of(int count) { return std::max(1, count / 6); }
+
+/// Combs and saws: what begins anew after some teeth.
+void add_repeating(int z, FlankChoice flank, double opposite,
+                   std::vector<std::vector<Effect>>& sets) {
+  constexpr int kMostEvery = 8, kFewestTeeth = 4;  // of a comb; of a saw
+  std::vector<Effect> combs, saws;
+  for (int every = 2; every <= kMostEvery && 3 * every <= z; ++every)
+    for (int first = 1; first <= every; ++first)
+      combs.push_back(
+          {find_family("unnamed_comb"), flank, {double(every), double(first), 0.0, 0.0, opposite}});
+  for (const int every : counts_between(kFewestTeeth, z / 2))
+    for (int first = 1; first <= (z % every == 0 ? every : z); first += step_of(every))
+      saws.push_back(
+          {find_family("unnamed_saw"), flank, {double(every), double(first), 0.0, 0.0, opposite}});
+  sets.push_back(std::move(combs));
+  sets.push_back(std::move(saws));
+}
+
+/// Sectors and drifts: what begins at one tooth.
+void add_beginning(int z, FlankChoice flank, double opposite,
+                   std::vector<std::vector<Effect>>& sets) {
+  std::vector<Effect> sectors, ramps, levellings, half_waves;
+  for (const int count : counts_between(2, z / 2))
+    for (int first = 1; first <= z; first += step_of(count))
+      sectors.push_back({find_family("unnamed_sector"),
+                         flank,
+                         {double(first), double(count), 0.0, 0.0, opposite}});
+  for (int first = 1; first <= z; ++first) {
+    ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), 0.0, 0.0, opposite}});
+    for (const double share : {0.06, 0.12, 0.25, 0.5})
+      for (const double grows : {0.0, 1.0})
+        levellings.push_back({find_family("unnamed_levelling"),
+                              flank,
+                              {double(first), 0.0, 0.0, opposite, grows, share * z}});
+    if (flank == FlankChoice::kBoth)
+      half_waves.push_back(
+          {find_family("unnamed_broken_wave"), flank, {0.5, double(first), opposite}});
+  }
+  for (std::vector<Effect>* forms : {&sectors, &ramps, &levellings, &half_waves})
+    sets.push_back(std::move(*forms));
+}
+
+/// A swelling or hollow over a few teeth.
+std::vector<Effect> dents_around(int z, FlankChoice flank) {
+  std::vector<Effect> dents;
+  for (const double half : {1.0, 1.5, 2.2, 3.3, 5.0})
+    for (double tooth = 1.0; 4.0 * half < z && tooth <= z; tooth += 0.5)
+      dents.push_back({find_family("unnamed_dent"), flank, {tooth, half, 0.0, 0.0}});
+  return dents;
+}
+
+}  // namespace
+
+std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth) {
+  std::vector<std::vector<Effect>> sets;
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    for (const double opposite : {0.0, 1.0}) {
+      if (opposite != 0.0 && flank != FlankChoice::kBoth) continue;
+      add_beginning(teeth, flank, opposite, sets);
+      add_repeating(teeth, flank, opposite, sets);
+    }
+    sets.push_back(dents_around(teeth, flank));
+    sets.push_back(swellings_around(teeth, flank));
+  }
+  std::erase_if(sets, [](const std::vector<Effect>& set) { return set.empty(); });
+  return sets;
+}
+
 }  // namespace trueflank::loop

@@ -37,6 +37,15 @@ namespace trueflank::loop {
 [[nodiscard]] std::vector<Effect> dishes(const FlankGeometry& geometry, FlankChoice flank,
                                          const char* family);
 
+/// Swellings or hollows evenly spaced around the gear, to start from: two to kMostSwellings.
+inline constexpr int kMostSwellings = 8;
+[[nodiscard]] std::vector<Effect> swellings_around(int teeth, FlankChoice flank);
+
+/// Forms that go from tooth to tooth, at every place: sectors, dents, drifts, saws, combs,
+/// swellings; alike or opposite on both flanks, or of one. Those of a set differ by their shape
+/// alone, and have as many columns.
+[[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth);
+
 /// Corners to start from.
 [[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);
 

@@ -96,6 +96,7 @@ void PartLoop::run() {
   prefer_names();
   prefer_one_name_to_two();
   take_other_start();
+  take_form_around();
   drop_names_that_may_be_nothing();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;

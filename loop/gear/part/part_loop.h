@@ -178,6 +178,7 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
                                                         bool opposite);
   [[nodiscard]] bool tell_as_sector();
+  [[nodiscard]] bool tell_as_swellings();
   [[nodiscard]] std::vector<std::vector<Effect>> drifts_in_place_of(
       const std::vector<std::size_t>& these, double profile, double face, bool evenly);
   [[nodiscard]] bool tell_as_drift();
@@ -214,6 +215,8 @@ class PartLoop {
   [[nodiscard]] std::vector<RemainderFinding> other_starts() const;
   [[nodiscard]] bool begins_better();
   void take_other_start();
+  [[nodiscard]] std::vector<RemainderFinding> forms_around(int teeth) const;
+  void take_form_around();
   void drop_names_that_may_be_nothing();
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);

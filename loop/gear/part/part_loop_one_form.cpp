@@ -61,29 +61,6 @@ FlankCells cells_for(const FlankGeometry& geometry, const std::vector<Effect>& e
   return profile ? FlankCells{kAlong, 1} : FlankCells{1, kAlong};
 }
 
-/// Moves one effect's place and widths, all else being where it is, and tells what is left.
-double move_alone(const FlankGeometry& geometry, const TrialFit& fit, std::size_t effect,
-                  EffectShape& shape) {
-  constexpr double kWorthIt = 4.0;  // chi-square
-  constexpr int kMostSteps = 8;
-  double least = fit.with_shapes(effect, {shape}, 1e300).front().square;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const std::vector<EffectShape> tried = fit.effects()[effect].family->nearby(geometry, shape);
-    const std::vector<TrialFit::Trial> trials = fit.with_shapes(effect, tried, least - kWorthIt);
-    double best = least - kWorthIt;
-    const EffectShape* moved = nullptr;
-    for (std::size_t i = 0; i < tried.size(); ++i)
-      if (trials[i].square < best && trials[i].retained >= kToldApart) {
-        best = trials[i].square;
-        moved = &tried[i];
-      }
-    if (moved == nullptr) break;
-    least = best;
-    shape = *moved;
-  }
-  return least;
-}
-
 }  // namespace
 
 /// The form that leaves least in place of the last effect, first among those of its family by
@@ -414,8 +391,8 @@ void PartLoop::tell_as_one_form() {
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_sector() || tell_as_drift() || tell_as_drift_aside() || tell_as_field() ||
-        tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
+    if (tell_as_swellings() || tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
+        tell_as_field() || tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
         tell_as_alternating_wave())
       return true;
     for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {

@@ -170,12 +170,17 @@ bool PartLoop::adopt(const std::vector<Effect>& more, const std::vector<double>&
   return false;
 }
 
-/// Waves of the answer without a name, constant on each flank, that values one a tooth alone do not
-/// tell, which show nothing else: `alone` says what they show.
+/// Waves of the answer, constant on each flank, that values one a tooth alone do not tell, which
+/// show nothing else: `alone` says what they show. Those with a name only where a form without one
+/// stands for them there.
 std::vector<Effect> PartLoop::waves_in_place_of(const std::vector<Effect>& alone) const {
+  const bool form = std::any_of(alone.begin(), alone.end(), [](const Effect& effect) {
+    return effect.is_term() && effect.order() == 0.0;
+  });
   std::vector<Effect> waves;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e)
-    if (effects_[e].is_term() && effects_[e].order() > 0.0 && is_constant_on_flanks(effects_[e]) &&
+    if ((form || effects_[e].is_term()) && effects_[e].order() > 0.0 &&
+        is_constant_on_flanks(effects_[e]) &&
         std::find(alone.begin(), alone.end(), effects_[e]) == alone.end())
       waves.push_back(effects_[e]);
   return waves;

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One form from tooth to tooth that values one a tooth (an index, runout) show beside one cause
+// with a name: waves around the gear, chosen first, would take up parts of both.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "trueflank/loop/discovery/distributions.h"
+#include "trueflank/loop/gear/finite_displacement.h"
+#include "trueflank/loop/gear/fit/trial_fit.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
+#include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/shape_refinement.h"
+
+namespace trueflank::loop {
+namespace {
+
+/// Orders and teeth that an effect is at, chosen among as many as there are teeth.
+int places_of(const Effect& effect) {
+  if (effect.order() > 0.0 || effect.family->local) return 1;
+  const std::vector<TermKey>& keys = effect.family->term_keys;
+  return static_cast<int>(std::count_if(keys.begin(), keys.end(), [](const TermKey& key) {
+    return key.kind == TermKey::Kind::kInteger && !key.name.ends_with("_degree");
+  }));
+}
+
+/// What effects leave of so many values, and how many values and places they are told by, as -2 log
+/// of likelihood where the noise is not known: an index that a form stands in shows no noise
+/// without it.
+double cost_around(const FlankGeometry& geometry, double count, double square,
+                   const std::vector<Effect>& effects) {
+  constexpr double kValue = 8.0;  // as in cost_of
+  constexpr double kNothing = 1e-9;
+  int places = 0;
+  for (const Effect& effect : effects) places += places_of(effect);
+  return count * std::log(std::max(square, kNothing * count)) + kValue * values_of(effects, true) +
+         2.0 * places * std::log(geometry.teeth());
+}
+
+/// Says nothing of where on a flank: values one a tooth show it.
+bool is_from_tooth_to_tooth(const Effect& effect) {
+  const NeedsToBeSeen needs = effect.needs();
+  return !needs.along_profile && !needs.along_face && !effect.family->tells_order_along_profile;
+}
+
+}  // namespace
+
+/// The forms from tooth to tooth that leave least beside one cause or none, in place of all that
+/// effects say of that; the best of its family, the best first.
+std::vector<RemainderFinding> PartLoop::forms_around(int teeth) const {
+  constexpr std::size_t kMost = 2;
+  std::vector<Effect> rest;
+  std::vector<std::vector<Effect>> beside{{}};
+  for (std::size_t e = 0; e < effects_.size(); ++e)
+    if (e < first_told_here() || !is_from_tooth_to_tooth(effects_[e]))
+      rest.push_back(effects_[e]);
+    else if (effects_[e].family->named)
+      beside.push_back({effects_[e]});
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (moves_the_teeth(candidates_[c]) && candidates_[c].family->named && !unseen_[c] &&
+        candidates_[c].shape.empty() &&
+        std::find(effects_.begin(), effects_.end(), candidates_[c]) == effects_.end())
+      beside.push_back({candidates_[c]});
+  const std::vector<std::vector<Effect>> sets = forms_from_tooth_to_tooth(geometry_.teeth());
+  constexpr std::size_t kMovedEach = 4;  // and where each could come to
+  std::size_t tried = 0;
+  for (const std::vector<Effect>& set : sets) tried += kMovedEach * set.size() * beside.size();
+  // Both flanks of a tooth may share their error: a value a tooth.
+  const double none = fit_of(rest)->residual_square();
+  const double count = fit_of(rest)->observations();
+  const auto chance = [&](double square, int values) {
+    const double degrees = teeth - values - 1.0;
+    if (!(degrees > 0.0)) return 1.0;
+    const double f = (none - square) / values / (std::max(square, 1e-12 * none) / degrees);
+    return std::min(1.0, static_cast<double>(tried) * f_tail(f, values, degrees));
+  };
+  std::vector<std::pair<double, RemainderFinding>> found;
+  for (const std::vector<Effect>& set : sets) {
+    std::pair<double, RemainderFinding> best{kNaN, {}};
+    std::vector<EffectShape> shapes;
+    for (const Effect& form : set) shapes.push_back(form.shape);
+    for (const std::vector<Effect>& names : beside) {
+      std::vector<Effect> with = rest;
+      with.insert(with.end(), names.begin(), names.end());
+      with.push_back(set.front());
+      const TrialFit fit(geometry_, table_, patches_, with);
+      const std::vector<TrialFit::Trial> trials = fit.with_shapes(with.size() - 1, shapes, 1e300);
+      std::size_t least = shapes.size();
+      double square = kNaN;
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (trials[i].square >= square || trials[i].retained < kToldApart) continue;
+        square = trials[i].square;
+        least = i;
+      }
+      if (least == shapes.size()) continue;
+      Effect form = set[least];
+      if (form.family->nearby) square = move_alone(geometry_, fit, with.size() - 1, form.shape);
+      with.back() = form;
+      const double cost = cost_around(geometry_, count, square, with);
+      if (cost >= best.first) continue;
+      best.first = cost;
+      best.second.p_value = chance(square, values_of({form}, true) + values_of(names, true));
+      best.second.effect = std::move(form);
+    }
+    if (best.second.effect) found.push_back(std::move(best));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<RemainderFinding> starts;
+  for (auto& [cost, finding] : found) {
+    if (starts.size() == kMost) break;
+    finding.square = cost;
+    starts.push_back(std::move(finding));
+  }
+  return starts;
+}
+
+/// Swellings that repeat (sinks at gates, ribs, jaws) are waves of an order and its multiples, and
+/// a mean that may get a name.
+bool PartLoop::tell_as_swellings() {
+  constexpr std::size_t kFewestWaves = 2;
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
+    std::vector<std::size_t> waves, levels;
+    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+      const Effect& effect = effects_[e];
+      if (effect.flank != flank || effect.family->local || effect.family->displacement_mm) continue;
+      if (effect.order() > 0.0 && is_from_tooth_to_tooth(effect))
+        waves.push_back(e);
+      else if (runs_of(geometry_, effect) == Runs::kNowhere)
+        levels.push_back(e);
+    }
+    const std::vector<Effect> forms = swellings_around(geometry_.teeth(), flank);
+    for (int number = 2; number <= kMostSwellings; ++number) {
+      std::vector<std::size_t> these;
+      for (const std::size_t e : waves)
+        if (std::remainder(effects_[e].order(), double(number)) == 0.0) these.push_back(e);
+      if (these.size() < kFewestWaves) continue;
+      std::vector<Effect> of_number;
+      for (const Effect& form : forms)
+        if (form.shape[0] == double(number)) of_number.push_back(form);
+      std::vector<std::size_t> with_levels = these;
+      with_levels.insert(with_levels.end(), levels.begin(), levels.end());
+      std::sort(with_levels.begin(), with_levels.end());
+      if (put_one_form_for(with_levels, of_number) ||
+          (!levels.empty() && put_one_form_for(these, of_number)))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Values one a tooth alone (of other data they are asked by themselves: hold_to_single_values):
+/// told with one form that goes from tooth to tooth where that costs clearly less.
+void PartLoop::take_form_around() {
+  constexpr double kClearlyLess = 9.0;
+  constexpr int kFewestTeeth = 8;
+  if (!options_.start.empty() || options_.joined || options_.names_only ||
+      !table_->points_mm.empty())
+    return;
+  std::set<int> teeth;
+  for (const Patches::Patch& patch : patches_.patches) {
+    if (patch.kind != ObservationKind::kIndex && patch.kind != ObservationKind::kRadial &&
+        patch.kind != ObservationKind::kSize)
+      return;
+    if (patch.kind != ObservationKind::kSize) teeth.insert(patch.places.front().place.tooth);
+  }
+  if (static_cast<int>(teeth.size()) < kFewestTeeth) return;
+  const auto cost = [](const PartLoop& part) {
+    const auto fit = part.fit_of(part.effects_);
+    return cost_around(part.geometry_, fit->observations(), fit->residual_square(), part.effects_);
+  };
+  const double own = cost(*this);
+  const bool seen = vetoed_ || first_told_here() < effects_.size();
+  double least = own - kClearlyLess;
+  std::unique_ptr<PartLoop> best;
+  for (const RemainderFinding& start : forms_around(static_cast<int>(teeth.size()))) {
+    if (!(start.square < own)) continue;
+    if (!seen && start.p_value > kRemainderLevel / options_.tables) continue;
+    Options options = options_;
+    options.given.resize(first_told_here());
+    options.start = {start};
+    auto other = std::make_unique<PartLoop>(geometry_, table_, std::move(options));
+    other->run();
+    if (!(cost(*other) < least)) continue;
+    least = cost(*other);
+    best = std::move(other);
+  }
+  if (!best) return;
+  alone_ = std::move(best->alone_);
+  take_over(*best);
+}
+
+}  // namespace trueflank::loop

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/loop/made_gears.h"
+
+// One form that goes from tooth to tooth, beside an eccentricity.
+namespace trueflank::test {
+namespace {
+
+constexpr int kTeeth = 31;
+
+struct FormAround {
+  const char* words;
+  double (*um)(int tooth, int side);
+};
+
+const std::vector<FormAround> kForms = {
+    {"a sector of 13 teeth from tooth 9 on stands out",
+     [](int tooth, int) { return tooth >= 9 && tooth <= 21 ? 2.4 : 0.0; }},
+    {"from tooth 24 on, once around, the place of the teeth drifts evenly",
+     [](int tooth, int side) { return side * 7.0 * ((tooth - 24 + kTeeth) % kTeeth) / kTeeth; }},
+    {"from tooth 1 on, once around, the place of the teeth drifts and levels off",
+     [](int tooth, int side) { return -side * 5.0 * std::exp(-(tooth - 1) / 6.0); }},
+    {"begins anew every 10 teeth",
+     [](int tooth, int) { return 0.4 * ((tooth - 4 + kTeeth) % kTeeth % 10); }},
+    {"one tooth in 4", [](int tooth, int) { return tooth % 4 == 2 && tooth < 31 ? 3.0 : 0.0; }},
+    {"3 hollows evenly spaced around the gear, one over a few teeth about tooth 5",
+     [](int tooth, int) {
+       double sum = 0.0;
+       for (int k = 0; k < 3; ++k)
+         sum -= 3.0 * std::exp(-std::pow(
+                          std::remainder(tooth - 5.0 - k * kTeeth / 3.0, double{kTeeth}) / 1.8, 2));
+       return sum;
+     }},
+};
+
+loop::LoopResult index_of(const FormAround& form, double eccentric_um, unsigned seed) {
+  InspectionOptions options;
+  options.profile = options.helix = false;
+  options.noise_um = 0.25;
+  options.seed = seed;
+  const auto own = [&](auto&, const FlankSpot& s, auto&) { return form.um(s.tooth, s.side); };
+  std::vector<Process> processes{grown(own)};
+  if (eccentric_um > 0.0) processes.push_back(off_centre(eccentric_um, 100.0));
+  return close(spur(kTeeth), inspection_of(spur(kTeeth), processes, options));
+}
+
+TEST(FormsAround, StandAsOneFormBesideAnEccentricityInAnIndex) {
+  for (const FormAround& form : kForms)
+    for (const unsigned seed : {1U, 2U}) {
+      const auto result = index_of(form, 3.0, seed);
+      EXPECT_EQ(result.effects.size(), 2U) << form.words << ": " << list(result);
+      EXPECT_TRUE(tells_of(result, form.words)) << form.words << ": " << list(result);
+      const auto* found = find(result, "eccentricity");
+      ASSERT_NE(found, nullptr) << form.words << ": " << list(result);
+      EXPECT_NEAR(parameter(*found, "amplitude_um").value, 3.0, 0.35) << list(result);
+      EXPECT_NEAR(parameter(*found, "phase_deg").value, 100.0, 6.0) << list(result);
+    }
+}
+
+TEST(FormsAround, AreNoNamesByThemselves) {
+  for (const FormAround& form : kForms) {
+    const auto result = index_of(form, 0.0, 5);
+    EXPECT_EQ(result.effects.size(), 1U) << form.words << ": " << list(result);
+    EXPECT_TRUE(tells_of(result, form.words)) << list(result);
+    EXPECT_FALSE(has_name(result)) << list(result);
+  }
+}
+
+TEST(FormsAround, WhatAnIndexShowsStandsInPlaceOfNamesThatTracesWouldKeep) {
+  // Four traced teeth: the drift of their slopes could be anything.
+  InspectionOptions options;
+  options.teeth = {1, 9, 17, 25};
+  options.helix = false;
+  options.points = 60;
+  options.noise_um = 0.4;
+  options.seed = 3;
+  const auto drift = [](auto&, const FlankSpot& s, auto&) { return kForms[1].um(s.tooth, s.side); };
+  const auto result = close(
+      spur(kTeeth), inspection_of(spur(kTeeth), {grown(drift), off_centre(4.0, 20.0)}, options));
+  EXPECT_TRUE(tells_of(result, kForms[1].words)) << list(result);
+  const auto* found = find(result, "eccentricity");
+  ASSERT_NE(found, nullptr) << list(result);
+  EXPECT_NEAR(parameter(*found, "amplitude_um").value, 4.0, 0.6) << list(result);
+  EXPECT_EQ(result.effects.size(), 2U) << list(result);
+}
+
+TEST(FormsAround, AWaveOfAnIndexKeepsItsName) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    InspectionOptions options;
+    options.profile = options.helix = false;
+    options.noise_um = 0.6;
+    options.seed = seed;
+    const auto result =
+        close(spur(kTeeth), inspection_of(spur(kTeeth), {indexed(2, 2.0, 30.0)}, options));
+    ASSERT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_EQ(result.effects[0].id, "pitch_wave") << list(result);
+  }
+}
+
+TEST(FormsAround, SinksOfAScanAreNoThinnerTeeth) {
+  const auto sinks = [](auto&, const FlankSpot& s, auto&) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+      sum -= 14.0 * std::exp(-std::pow(std::remainder(s.tooth - 8.0 - k * 12.0, 36.0) / 1.8, 2));
+    return sum;
+  };
+  const auto result =
+      close(spur(36), scan_of(spur(36), {grown(sinks)}, scanned(6000, 2.0, 7)), true);
+  EXPECT_TRUE(tells_of(result, "3 hollows evenly spaced around the gear")) << list(result);
+  EXPECT_FALSE(has_name(result)) << list(result);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+}
+
+}  // namespace
+}  // namespace trueflank::test
