@@ -133,6 +133,8 @@ class PartLoop {
   void drop_echoes_of_forms();
   void tell_parts_of_a_form();
   [[nodiscard]] bool stands_beside_forms(const PointFit& fit, std::size_t effect) const;
+  [[nodiscard]] bool stands_beside_one_form(const PointFit& fit, std::size_t effect,
+                                            bool face) const;
   void tell_parts_beside_forms();
   void tell_parts_of_a_sector();
   void tell_means_of_odd_forms();
@@ -194,15 +196,18 @@ class PartLoop {
                                          const std::function<bool(const Effect&)>& is_asked) const;
   [[nodiscard]] std::vector<Effect> one_form_for(const std::vector<std::size_t>& these,
                                                  const std::vector<Effect>& forms,
-                                                 const std::vector<Effect>& beside = {}) const;
+                                                 const std::vector<Effect>& beside = {},
+                                                 int more_values = 0) const;
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
                                       const std::vector<Effect>& forms,
-                                      const std::vector<Effect>& beside = {});
+                                      const std::vector<Effect>& beside = {}, int more_values = 0);
   void tell_level_of_forms();
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();
   void tell_forms_of_teeth();
   void tell_tooth_of_sectors();
+  [[nodiscard]] bool tell_as_form_of_some_teeth(FlankChoice flank);
+  void tell_forms_of_some_teeth();
   void tell_forms_of_sectors();
   void tell_teeth_beside_dents();
   [[nodiscard]] const EffectFamily* form_instead(std::size_t effect) const;

@@ -7,7 +7,9 @@
 #include <set>
 
 #include "trueflank/geometry/linear_equations.h"
+#include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
+#include "trueflank/loop/gear/part/runs_along.h"
 
 namespace trueflank::loop {
 
@@ -36,11 +38,19 @@ Eigen::VectorXd values_along(const FlankGeometry& geometry, const PointFit& fit,
   return values;
 }
 
+/// True where one tooth does not say what the mean of all does: a form of some teeth.
+bool differs_by_tooth(const Effect& effect) {
+  const EffectFamily& family = *effect.family;
+  return family.faces_a_direction ||
+         (effect.is_term() && effect.order() == 0.0 &&
+          !(family.same_on_every_tooth && family.same_on_every_tooth(effect.shape)));
+}
+
 /// What an effect does in the mean of the teeth, of some where all are more than are needed.
 Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& fit,
                                 std::size_t effect, bool face) {
   constexpr int kTeeth = 12;
-  const bool all = fit.effects()[effect].family->faces_a_direction;
+  const bool all = differs_by_tooth(fit.effects()[effect]);
   const int teeth = all ? geometry.teeth() : std::min(kTeeth, geometry.teeth());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(2 * kPlaces);
   for (int i = 0; i < teeth; ++i)
@@ -48,10 +58,10 @@ Eigen::VectorXd mean_over_teeth(const FlankGeometry& geometry, const PointFit& f
   return mean;
 }
 
-/// Along the flanks, each about its mean; in the mean of the teeth where they differ by direction.
+/// Along the flanks, each about its mean; in the mean of the teeth where they differ.
 Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, std::size_t effect,
                           bool face) {
-  Eigen::VectorXd course = fit.effects()[effect].family->faces_a_direction
+  Eigen::VectorXd course = differs_by_tooth(fit.effects()[effect])
                                ? mean_over_teeth(geometry, fit, effect, face)
                                : values_along(geometry, fit, effect, face);
   course.head(kPlaces).array() -= course.head(kPlaces).mean();
@@ -60,6 +70,37 @@ Eigen::VectorXd course_of(const FlankGeometry& geometry, const PointFit& fit, st
   constexpr double kNothing_um = 1e-6;
   if (course.norm() < kNothing_um) course.setZero();
   return course;
+}
+
+/// How the two flanks of a tooth go together in a course.
+enum class Kind { kEqual, kOpposite, kNeither };
+Kind kind_of(const Eigen::VectorXd& course) {
+  constexpr double kNothing = 1e-6;
+  const double nothing = kNothing * course.norm();
+  if ((course.head(kPlaces) - course.tail(kPlaces)).norm() <= nothing) return Kind::kEqual;
+  if ((course.head(kPlaces) + course.tail(kPlaces)).norm() <= nothing) return Kind::kOpposite;
+  return Kind::kNeither;
+}
+
+/// True where a course leaves one of the flanks nearly level.
+bool is_of_one_flank(const Eigen::VectorXd& course) {
+  constexpr double kNearlyNothing = 0.25;
+  const auto bends = [](const auto& flank) {
+    return (flank.array() - flank.mean()).matrix().norm();
+  };
+  const double left = bends(course.head(kPlaces)), right = bends(course.tail(kPlaces));
+  return std::min(left, right) < kNearlyNothing * std::max(left, right);
+}
+
+/// The part of a course that is of a kind: what is equal on both flanks is no part of a name that
+/// is opposite on them. What is of one flank is wholly there.
+Eigen::VectorXd part_of_kind(const Eigen::VectorXd& course, Kind kind) {
+  if (kind == Kind::kNeither || is_of_one_flank(course)) return course;
+  const double sign = kind == Kind::kEqual ? 1.0 : -1.0;
+  const Eigen::VectorXd half = 0.5 * (course.head(kPlaces) + sign * course.tail(kPlaces));
+  Eigen::VectorXd part(course.size());
+  part << half, sign * half;
+  return part;
 }
 
 /// True where an effect lifts all flanks by nearly one amount (a scale, too, on few teeth).
@@ -88,10 +129,6 @@ Eigen::VectorXd slow_part(const Eigen::VectorXd& course) {
 
 bool is_common_form(const Effect& e) {
   return e.is_term() && e.family->form_word.empty() && e.order() == 0.0;
-}
-
-bool is_wave_around(const Effect& e) {
-  return e.order() > 0.0 && !e.family->tells_order_along_profile;
 }
 
 bool is_form_without_name(const Effect& e) { return e.is_term() && e.family->form_word.empty(); }
@@ -236,7 +273,8 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   for (const bool face : {false, true}) {
     const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
     if (!(course.norm() > 0.0)) continue;
-    const Eigen::VectorXd forms = mean_of_forms(geometry_, fit, face);
+    const Eigen::VectorXd forms =
+        part_of_kind(mean_of_forms(geometry_, fit, face), kind_of(course));
     const bool rises_alone = std::all_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
       const NeedsToBeSeen needs = form.needs();
       return !is_common_form(form) || !(face ? needs.along_face : needs.along_profile) ||
@@ -261,10 +299,79 @@ bool PartLoop::stands_beside_forms(const PointFit& fit, std::size_t e) const {
   return runs;
 }
 
+namespace {
+
+/// True of what is so wide or long that the flank is a small part of it: a bow, told another way.
+bool is_longer_than_the_flank(const FlankGeometry& geometry, const Effect& form, bool face) {
+  constexpr double kMostOfIt = 0.5, kLongest = 1.5;
+  const double range_mm =
+      face ? geometry.face_width_mm()
+           : std::abs(geometry.tip_form_roll_mm() - geometry.root_form_roll_mm());
+  return (form.family == find_family("unnamed_band") && form.shape[2] > kMostOfIt * range_mm) ||
+         (form.family == find_family("unnamed_waviness") && form.shape[1] > kLongest * range_mm);
+}
+
+}  // namespace
+
+/// A slope or a bow stands by itself beside the one form that there is along its flanks where that
+/// has no part of its course, as an S or a bow has no slope, and no form that bends, steps, rises
+/// or comes in waves says both.
+bool PartLoop::stands_beside_one_form(const PointFit& fit, std::size_t e, bool face) const {
+  constexpr double kDenied = 25.0;                    // chi-square
+  constexpr double kOnTheGrid = 0.5, kInPlace = 0.1;  // of what both take out
+  constexpr double kNoPart = 0.2;
+  const Effect& name = effects_[e];
+  if (name.columns() != 1 || !name.shape.empty()) return false;
+  const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
+  const Kind kind = kind_of(course);
+  std::vector<Effect> rest;
+  int count = 0;
+  for (std::size_t f = 0; f < effects_.size(); ++f) {
+    if (f == e) continue;
+    const Eigen::VectorXd form = is_common_form(effects_[f]) && !differs_by_tooth(effects_[f])
+                                     ? part_of_kind(course_of(geometry_, fit, f, face), kind)
+                                     : Eigen::VectorXd::Zero(course.size());
+    if (!(form.norm() > 0.0)) {
+      rest.push_back(effects_[f]);
+      continue;
+    }
+    if (++count > 1 || effects_[f].columns() != 1 || effects_[f].flank != name.flank ||
+        std::abs(form.dot(course)) > kNoPart * form.norm() * course.norm())
+      return false;
+  }
+  if (count != 1 || (kind == Kind::kNeither && name.flank == FlankChoice::kBoth)) return false;
+  const double now = fit.residual_square(), none = fit_of(rest)->residual_square() - now;
+  const MostLeft most{now + kOnTheGrid * none, now + kInPlace * none + kDenied};
+  const auto says_both = [&](const std::vector<Effect>& beside, const std::vector<Effect>& forms) {
+    const std::vector<Effect> with = with_best_form(beside, forms, most);
+    return !with.empty() && !is_longer_than_the_flank(geometry_, with.back(), face) &&
+           PointFit(geometry_, table_, patches_, with).residual_square() < now + kDenied;
+  };
+  const int along = face ? 1 : 0;
+  std::vector<Effect> forms = forms_along(geometry_, along, name.flank, true);
+  if (kind == Kind::kOpposite)
+    for (Effect& form : forms) form.shape.push_back(1.0);
+  for (Effect& step : steps_along(geometry_, along, name.flank)) {
+    step.shape.back() = kind == Kind::kOpposite ? 1.0 : 0.0;
+    forms.push_back(std::move(step));
+  }
+  std::stable_sort(forms.begin(), forms.end(),
+                   [](const Effect& a, const Effect& b) { return a.family->id < b.family->id; });
+  if (says_both(rest, forms)) return false;
+  if (kind != Kind::kOpposite) return !says_both(rest, long_waves(geometry_, along, name.flank));
+  const std::vector<Effect> waves = long_waves(geometry_, along, FlankChoice::kRight);
+  return std::none_of(waves.begin(), waves.end(), [&](const Effect& wave) {
+    std::vector<Effect> beside = rest;
+    beside.push_back(wave);
+    return says_both(beside, {{wave.family, FlankChoice::kLeft, wave.shape}});
+  });
+}
+
 /// A name that is a part of one odd form, and no cause of its own, is told as a form.
 void PartLoop::tell_parts_of_a_form() {
   drop_echoes_of_forms();
   tell_bows_with_a_level();
+  tell_forms_of_some_teeth();
   tell_forms_of_teeth();
   tell_forms_of_sectors();
   tell_as_one_form();
@@ -321,11 +428,14 @@ void PartLoop::tell_parts_beside_forms() {
     } else {
       for (const bool face : {false, true}) {
         const Eigen::VectorXd course = course_of(geometry_, fit, e, face);
+        if (!(course.norm() > 0.0)) continue;
+        const Eigen::VectorXd beside = part_of_kind(forms[face ? 1 : 0], kind_of(course));
         double there = 0.0;  // forms on the flanks that the name is of
         for (const int flank : {0, 1})
           if (course.segment(flank * kPlaces, kPlaces).norm() > 1e-6 * course.norm())
-            there += forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces).squaredNorm();
-        part = part || (course.norm() > 0.0 && std::sqrt(there) > kShare * course.norm());
+            there += beside.segment(flank * kPlaces, kPlaces).squaredNorm();
+        part = part ||
+               (std::sqrt(there) > kShare * course.norm() && !stands_beside_one_form(fit, e, face));
       }
     }
     if (part) effects_[e].family = form;
@@ -398,77 +508,35 @@ void PartLoop::tell_imitations() {
       for (const bool face : {false, true})
         forms[face ? 1 : 0] += course_of(geometry_, *fit, e, face);
   std::set<std::size_t> told;
-  for (const bool face : {false, true})
-    for (const int flank : {0, 1}) {
-      std::vector<NamedPart> parts;
-      for (std::size_t e = 0; e < effects_.size(); ++e) {
-        const Effect& effect = effects_[e];
-        if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1 ||
-            stands_beside_forms(*fit, e))
-          continue;
-        add_part(parts, e, course_of(geometry_, *fit, e, face).segment(flank * kPlaces, kPlaces));
+  for (const bool face : {false, true}) {
+    std::vector<std::pair<std::size_t, Eigen::VectorXd>> names;
+    Eigen::VectorXd total = forms[face ? 1 : 0];
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      const Effect& effect = effects_[e];
+      if (form_instead(e) == nullptr || effect.family->local || effect.columns() != 1 ||
+          stands_beside_forms(*fit, e))
+        continue;
+      names.emplace_back(e, course_of(geometry_, *fit, e, face));
+      total += names.back().second;
+    }
+    // What is equal on both flanks and what is opposite on them are two things, unless together
+    // they leave one flank as it was designed.
+    const std::vector<Kind> kinds = is_of_one_flank(total)
+                                        ? std::vector<Kind>{Kind::kNeither}
+                                        : std::vector<Kind>{Kind::kEqual, Kind::kOpposite};
+    for (const Kind kind : kinds)
+      for (const int flank : {0, 1}) {
+        std::vector<NamedPart> parts;
+        for (const auto& [e, course] : names)
+          if (kind == Kind::kNeither || kind_of(course) == kind ||
+              kind_of(course) == Kind::kNeither)
+            add_part(parts, e, course.segment(flank * kPlaces, kPlaces));
+        told.merge(
+            imitations(std::move(parts),
+                       part_of_kind(forms[face ? 1 : 0], kind).segment(flank * kPlaces, kPlaces)));
       }
-      told.merge(
-          imitations(std::move(parts), forms[face ? 1 : 0].segment(flank * kPlaces, kPlaces)));
-    }
+  }
   for (const std::size_t e : told) effects_[e].family = form_instead(e);
-}
-
-/// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
-/// or of two beside a drift: what one odd form is made of.
-void PartLoop::tell_waves_of_a_form() {
-  constexpr double kCounts = 0.1, kLike = 0.25;
-  constexpr std::size_t kFewest = 3;
-  if (effects_.empty()) return;
-  const auto fit = fit_of(effects_);
-  struct Wave {
-    std::size_t effect = 0;
-    double order = 0.0, size_um = 0.0;
-  };
-  std::vector<Wave> waves;
-  bool drifts = false;
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const Effect& effect = effects_[e];
-    drifts = drifts || effect.family->is_drift;
-    const NeedsToBeSeen needs = effect.needs();
-    if (is_wave_around(effect) && !needs.along_profile && !needs.along_face)
-      waves.push_back({e, effect.order(), fit->effect_size_um(static_cast<int>(e))});
-  }
-  // A wave without a name of as many that runs along the flanks, too, and is larger.
-  const auto is_part_of_a_form = [&](const Wave& wave) {
-    return effects_[wave.effect].family->doubt_share > 0.0 &&
-           std::any_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
-             return form.is_term() && form.order() == wave.order && wave.order > 1.0 &&
-                    form.needs().along_face &&
-                    fit->effect_size_um(static_cast<int>(&form - effects_.data())) > wave.size_um;
-           });
-  };
-  for (const Wave& wave : waves) {
-    const EffectFamily* form = form_instead(wave.effect);
-    if (form == nullptr) continue;
-    if (is_part_of_a_form(wave)) {
-      effects_[wave.effect].family = form;
-      continue;
-    }
-    std::set<double> orders;
-    double others_um = 0.0;
-    bool one_kind = true;
-    for (const Wave& other : waves) {
-      if (other.size_um < kCounts * wave.size_um) continue;
-      one_kind = one_kind && effects_[other.effect].family == effects_[wave.effect].family;
-      orders.insert(other.order);
-      if (other.order != wave.order) others_um = std::hypot(others_um, other.size_um);
-    }
-    if (others_um < kLike * wave.size_um) continue;
-    // Jaws and gates press in sharper than a sine: multiples of their number are theirs.
-    constexpr double kFewestJaws = 3.0;
-    const double lowest = *orders.begin();
-    const bool harmonics = lowest >= kFewestJaws && one_kind &&
-                           std::all_of(orders.begin(), orders.end(),
-                                       [&](double n) { return std::remainder(n, lowest) == 0.0; });
-    if (!harmonics && orders.size() >= (drifts ? kFewest - 1 : kFewest))
-      effects_[wave.effect].family = form;
-  }
 }
 
 /// The form without a name of an effect that lifts all flanks: its own, or that of the commonest.

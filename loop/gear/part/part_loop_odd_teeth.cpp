@@ -2,6 +2,8 @@
 // What one tooth has by itself, and forms along the flanks of some teeth: told as what they are
 // where spots, heights and waves around the gear were what they are made of.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -114,6 +116,153 @@ void PartLoop::tell_forms_of_teeth() {
           break;
       }
     }
+  }
+}
+
+namespace {
+
+/// Neighbouring teeth: the first and how many.
+struct SpanOfTeeth {
+  int first = 0, count = 0;
+  [[nodiscard]] bool operator==(const SpanOfTeeth&) const = default;
+};
+
+/// The teeth that a form without a name is of; empty: it is of all, or in waves around the gear.
+std::optional<SpanOfTeeth> teeth_of(const Effect& effect) {
+  const std::vector<std::string>& names = effect.family->shape_names;
+  if (!effect.is_term() || names.empty() || effect.shape.size() < names.size()) return {};
+  if (is_on_one_tooth(effect)) return SpanOfTeeth{static_cast<int>(effect.shape[0]), 1};
+  if (effect.family == find_family("unnamed_dent")) {
+    const int beside = std::max(1, static_cast<int>(std::lround(effect.shape[1])));
+    return SpanOfTeeth{static_cast<int>(std::lround(effect.shape[0])) - beside, 2 * beside + 1};
+  }
+  if (names.size() > 2 && names[1] == "teeth" && effect.columns() <= 2 && effect.order() == 0.0)
+    return SpanOfTeeth{static_cast<int>(effect.shape[0]), static_cast<int>(effect.shape[1])};
+  return {};
+}
+
+/// Along what such a form has a course.
+NeedsToBeSeen course_of_some_teeth(const Effect& effect) {
+  NeedsToBeSeen course = effect.needs();
+  const std::vector<std::string>& names = effect.family->shape_names;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (effect.shape[k] == 0.0) continue;
+    course.along_profile =
+        course.along_profile || names[k] == "profile_degree" || names[k] == "width_profile_mm";
+    course.along_face = course.along_face || names[k] == "face_degree" ||
+                        names[k] == "width_face_mm" || names[k] == "half_mm";
+  }
+  return course;
+}
+
+/// True where one lies in the other, but for a tooth at either end.
+bool lies_within(const SpanOfTeeth& one, const SpanOfTeeth& all, int z) {
+  const int off = ((one.first - all.first + 1) % z + z) % z;
+  return off + one.count <= all.count + 2;
+}
+
+/// Teeth in a row, with at most one left out between two of them.
+std::vector<SpanOfTeeth> runs_of_teeth(const std::set<int>& teeth, int z) {
+  std::vector<SpanOfTeeth> runs;
+  for (const int first : teeth) {
+    const auto is_in = [&](int tooth) { return teeth.count((tooth - 1 + 2 * z) % z + 1) > 0; };
+    if (is_in(first - 1) || is_in(first - 2)) continue;
+    int count = 1;
+    for (int k = 1; k < z; ++k)
+      if (is_in(first + k) && k - count <= 1) count = k + 1;
+    runs.push_back({first, count});
+  }
+  return runs;
+}
+
+}  // namespace
+
+/// Sectors that lean or are bowed, waves and swellings of some teeth and spots of neighbouring ones
+/// are what a form with a place is made of that these teeth have: a groove, a ridge, a step.
+bool PartLoop::tell_as_form_of_some_teeth(FlankChoice flank) {
+  constexpr int kPlaceAndWidth = 2;
+  const int z = geometry_.teeth();
+  struct Piece {
+    std::size_t effect = 0;
+    SpanOfTeeth teeth;
+  };
+  std::vector<Piece> pieces;
+  std::vector<std::size_t> along[2];  // of all teeth: over the profile, over the face
+  std::set<int> of_one;
+  std::set<FlankChoice> flanks;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (effect.family->named || (effect.flank != flank && flank != FlankChoice::kBoth)) continue;
+    const NeedsToBeSeen needs = effect.needs();
+    if (const std::optional<SpanOfTeeth> teeth = teeth_of(effect)) {
+      if (2 * teeth->count > z) continue;
+      pieces.push_back({e, *teeth});
+      flanks.insert(effect.flank);
+      if (teeth->count == 1) of_one.insert(teeth->first);
+    } else if (effect.is_term() && effect.flank == flank) {
+      if (needs.along_profile && !needs.along_face) along[0].push_back(e);
+      if (needs.along_face && !needs.along_profile) along[1].push_back(e);
+    }
+  }
+  if (pieces.empty() ||
+      (flank == FlankChoice::kBoth && flanks.count(flank) == 0 && flanks.size() < 2))
+    return false;
+  std::vector<SpanOfTeeth> spans;
+  for (const Piece& piece : pieces)
+    if (piece.teeth.count > 1) spans.push_back(piece.teeth);
+  for (const SpanOfTeeth& run : runs_of_teeth(of_one, z)) {
+    if (run.count > 1) spans.push_back(run);
+    // (that of a tooth and one beside it may be all that was found)
+    if (run.count == 1 && pieces.size() > 1)
+      for (const int first : {run.first - 1, run.first}) spans.push_back({first, 2});
+  }
+  std::vector<SpanOfTeeth> tried;
+  for (SpanOfTeeth span : spans) {
+    span.first = (span.first - 1 + z) % z + 1;
+    if (std::find(tried.begin(), tried.end(), span) != tried.end()) continue;
+    tried.push_back(span);
+    std::vector<std::size_t> within;
+    bool runs[2] = {false, false};
+    for (const Piece& piece : pieces) {
+      if (!lies_within(piece.teeth, span, z)) continue;
+      within.push_back(piece.effect);
+      const NeedsToBeSeen needs = course_of_some_teeth(effects_[piece.effect]);
+      runs[0] = runs[0] || needs.along_profile;
+      runs[1] = runs[1] || needs.along_face;
+    }
+    for (const int face : {0, 1}) {
+      if (within.empty() || !runs[face]) continue;
+      std::vector<Effect> whole = forms_along(geometry_, face, flank, true);
+      for (Effect& step : steps_along(geometry_, face, flank)) whole.push_back(std::move(step));
+      const std::vector<Effect> forms = on_teeth(whole, span.first, span.count);
+      std::vector<std::size_t> all = within;
+      all.insert(all.end(), along[face].begin(), along[face].end());
+      std::sort(all.begin(), all.end());
+      if (put_one_form_for(all, forms, {}, kPlaceAndWidth) ||
+          (all != within && put_one_form_for(within, forms, {}, kPlaceAndWidth)))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// What stood beside the pieces is asked again beside the form; what was sought among many places
+/// or orders must stand far above its error.
+void PartLoop::tell_forms_of_some_teeth() {
+  if (options_.joined) return;
+  constexpr int kMost = 4;
+  constexpr double kSought = 36.0;  // chi-square
+  int taken = 0;
+  for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight})
+    while (taken < kMost && tell_as_form_of_some_teeth(flank)) ++taken;
+  if (taken == 0) return;
+  drop_idle_beside_one_form();
+  while (effects_.size() > 1) {
+    const auto [idle, loss] = least_missed(first_told_here(), effects_.size(), [](const Effect& e) {
+      return !e.family->local && (!e.family->named || e.order() > 0.0);
+    });
+    if (!(loss < kSought)) return;
+    remove_effect(idle);
   }
 }
 

@@ -103,11 +103,13 @@ std::vector<Effect> PartLoop::with_best_form(std::vector<Effect> rest,
 }
 
 /// All others with one of the forms, the last, and what is put beside it in place of these effects:
-/// it needs no more values than they do, and leaves clearly less; for every value that it spares it
-/// may leave a little more. Empty where none does.
+/// it needs no more values than they do, but for so many, and leaves clearly less; for every value
+/// that it spares it may leave a little more, and for each that it needs it must leave less. Empty
+/// where none does.
 std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these,
                                            const std::vector<Effect>& forms,
-                                           const std::vector<Effect>& beside) const {
+                                           const std::vector<Effect>& beside,
+                                           int more_values) const {
   constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
   constexpr double kNearly = 0.003;               // of what they take out
   std::vector<Effect> others, own;
@@ -115,7 +117,7 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
     (std::find(these.begin(), these.end(), e) == these.end() ? others : own).push_back(effects_[e]);
   std::vector<Effect> tried = forms;
   std::erase_if(tried, [&](const Effect& form) {
-    return values_of({form}, true) + values_of(beside, true) > values_of(own, true);
+    return values_of({form}, true) + values_of(beside, true) > values_of(own, true) + more_values;
   });
   if (tried.empty()) return {};
   std::vector<Effect> rest = others;
@@ -138,12 +140,12 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
     return {};
   const int spared =
       values_of(own, true) - values_of({with.back()}, true) - values_of(beside, true);
-  if (spared < 0) return {};
+  if (spared < -more_values) return {};
   const double gain = now - fit_of(with)->residual_square();
   // Names that undo each other most of the way are no two causes. Pieces of a product need not be
   // followed to the last bit: a pose or a tip takes some of it.
-  const bool doubtful = undo_each_other(geometry_, *fit_of(effects_), these) ||
-                        with.back().family == find_family("unnamed_product");
+  const bool doubtful = spared >= 0 && (undo_each_other(geometry_, *fit_of(effects_), these) ||
+                                        with.back().family == find_family("unnamed_product"));
   const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
   // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
   // itself.
@@ -167,9 +169,9 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
 
 /// True where one of the forms stands for these effects: it is put in their place.
 bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
-                                const std::vector<Effect>& forms,
-                                const std::vector<Effect>& beside) {
-  const std::vector<Effect> with = one_form_for(these, forms, beside);
+                                const std::vector<Effect>& forms, const std::vector<Effect>& beside,
+                                int more_values) {
+  const std::vector<Effect> with = one_form_for(these, forms, beside, more_values);
   if (with.empty()) return false;
   ChosenGroup record;
   record.group = -1;
@@ -517,19 +519,26 @@ void PartLoop::name_terms_beside_forms() {
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect term = effects_[e];
     if (term.family->named || !term.family->form_word.empty() || term.columns() != 1) continue;
+    // Of names that run alike here, the one that such data are told by.
+    const auto preference = [&](const Effect& name) {
+      return name.family->preference +
+             (table_->points_mm.empty() ? name.family->penalty_of_traces : 0);
+    };
+    const Effect* likeliest = nullptr;
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const Effect& name = candidates_[c];
-      if (!name.family->named || unseen_[c] || name.flank != term.flank || !name.shape.empty() ||
-          !run_alike(geometry_, name, term))
-        continue;
-      const double as_term = fit_of(effects_)->residual_square();
-      effects_[e] = name;
-      const auto fit = fit_of(effects_);
-      if (fit->residual_square() > as_term + kDenied || !stands_beside_forms(*fit, e) ||
-          !is_possible(geometry_, *fit, static_cast<int>(e)))
-        effects_[e] = term;
-      break;
+      if (name.family->named && !unseen_[c] && name.flank == term.flank && name.shape.empty() &&
+          run_alike(geometry_, name, term) &&
+          (likeliest == nullptr || preference(name) < preference(*likeliest)))
+        likeliest = &name;
     }
+    if (likeliest == nullptr) continue;
+    const double as_term = fit_of(effects_)->residual_square();
+    effects_[e] = *likeliest;
+    const auto fit = fit_of(effects_);
+    if (fit->residual_square() > as_term + kDenied || !stands_beside_forms(*fit, e) ||
+        !is_possible(geometry_, *fit, static_cast<int>(e)))
+      effects_[e] = term;
   }
 }
 

@@ -231,8 +231,8 @@ void PartLoop::tell_teeth_side_by_side() {
   tell_teeth_beside_dents();
 }
 
-/// Beside a dent or swelling of a few teeth, or a tooth that stands aside, a single tooth is what
-/// these leave.
+/// Beside a dent or swelling of a few teeth, a form of some, or a tooth that stands aside, a single
+/// tooth is what these leave.
 void PartLoop::tell_teeth_beside_dents() {
   constexpr double kBeside = 1.5;  // teeth
   const int z = geometry_.teeth();
@@ -242,9 +242,13 @@ void PartLoop::tell_teeth_beside_dents() {
     const EffectFamily* form = form_instead(e);
     if (form == nullptr || !effects_[e].family->local) continue;
     const bool beside = std::any_of(effects_.begin(), effects_.end(), [&](const Effect& other) {
-      if (other.family != dent && other.family != aside) return false;
-      const double half = other.family == dent ? other.shape[1] : 0.0;
-      return std::abs(std::remainder(other.shape[0] - effects_[e].shape[0], z)) < kBeside + half;
+      const bool of_some = !other.shape.empty() && other.family->shape_names[0] == "from_tooth";
+      if (other.family != dent && other.family != aside && !of_some) return false;
+      const double half = of_some                ? 0.5 * (other.shape[1] - 1.0)
+                          : other.family == dent ? other.shape[1]
+                                                 : 0.0;
+      const double middle = other.shape[0] + (of_some ? half : 0.0);
+      return std::abs(std::remainder(middle - effects_[e].shape[0], z)) < kBeside + half;
     });
     if (beside) effects_[e].family = form;
   }

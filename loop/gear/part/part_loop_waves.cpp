@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Waves that grow towards an end, or begin at a place: waves of several lengths, and forms that
-// bend them, are told as these.
+// bend them, are told as these. Waves around the gear that one odd form is made of.
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -65,6 +67,63 @@ std::optional<RemainderFinding> PartLoop::wave_of_pieces(int face, FlankChoice f
   for (const std::size_t e : along)
     wave.p_value = std::min(wave.p_value, discovery_.chosen[e].p_value);
   return wave;
+}
+
+/// Waves around the gear of three orders or more and of like size, none a multiple of the lowest,
+/// or of two beside a drift: what one odd form is made of.
+void PartLoop::tell_waves_of_a_form() {
+  constexpr double kCounts = 0.1, kLike = 0.25;
+  constexpr std::size_t kFewest = 3;
+  if (effects_.empty()) return;
+  const auto fit = fit_of(effects_);
+  struct Wave {
+    std::size_t effect = 0;
+    double order = 0.0, size_um = 0.0;
+  };
+  std::vector<Wave> waves;
+  bool drifts = false;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    drifts = drifts || effect.family->is_drift;
+    const NeedsToBeSeen needs = effect.needs();
+    if (is_wave_around(effect) && !needs.along_profile && !needs.along_face)
+      waves.push_back({e, effect.order(), fit->effect_size_um(static_cast<int>(e))});
+  }
+  // A wave without a name of as many that runs along the flanks, too, and is larger.
+  const auto is_part_of_a_form = [&](const Wave& wave) {
+    return effects_[wave.effect].family->doubt_share > 0.0 &&
+           std::any_of(effects_.begin(), effects_.end(), [&](const Effect& form) {
+             return form.is_term() && form.order() == wave.order && wave.order > 1.0 &&
+                    form.needs().along_face &&
+                    fit->effect_size_um(static_cast<int>(&form - effects_.data())) > wave.size_um;
+           });
+  };
+  for (const Wave& wave : waves) {
+    const EffectFamily* form = form_instead(wave.effect);
+    if (form == nullptr) continue;
+    if (is_part_of_a_form(wave)) {
+      effects_[wave.effect].family = form;
+      continue;
+    }
+    std::set<double> orders;
+    double others_um = 0.0;
+    bool one_kind = true;
+    for (const Wave& other : waves) {
+      if (other.size_um < kCounts * wave.size_um) continue;
+      one_kind = one_kind && effects_[other.effect].family == effects_[wave.effect].family;
+      orders.insert(other.order);
+      if (other.order != wave.order) others_um = std::hypot(others_um, other.size_um);
+    }
+    if (others_um < kLike * wave.size_um) continue;
+    // Jaws and gates press in sharper than a sine: multiples of their number are theirs.
+    constexpr double kFewestJaws = 3.0;
+    const double lowest = *orders.begin();
+    const bool harmonics = lowest >= kFewestJaws && one_kind &&
+                           std::all_of(orders.begin(), orders.end(),
+                                       [&](double n) { return std::remainder(n, lowest) == 0.0; });
+    if (!harmonics && orders.size() >= (drifts ? kFewest - 1 : kFewest))
+      effects_[wave.effect].family = form;
+  }
 }
 
 }  // namespace trueflank::loop

@@ -45,6 +45,10 @@ Runs runs_of(const FlankGeometry& geometry, const Effect& effect, Flanks flanks)
   return profile > nothing ? Runs::kOverProfile : face > nothing ? Runs::kOverFace : Runs::kNowhere;
 }
 
+bool is_wave_around(const Effect& effect) {
+  return effect.order() > 0.0 && !effect.family->tells_order_along_profile;
+}
+
 bool moves_the_teeth(const Effect& effect) {
   return effect.family->displacement_mm && effect.shape.empty() && effect.order() == 0.0 &&
          effect.columns() == 2 && effect.flank == FlankChoice::kBoth &&

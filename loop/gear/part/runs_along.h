@@ -25,6 +25,9 @@ enum class Flanks { kAlike, kOfEither };
 /// A slope over the profile or the face, and no more.
 [[nodiscard]] bool is_straight(const FlankGeometry& geometry, const Effect& effect);
 
+/// A wave around the gear, each tooth as it stands.
+[[nodiscard]] bool is_wave_around(const Effect& effect);
+
 /// True where all teeth are moved aside alike at every height: an eccentricity.
 [[nodiscard]] bool moves_the_teeth(const Effect& effect);
 
