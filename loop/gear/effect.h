@@ -101,6 +101,9 @@ struct EffectFamily : EffectFacts {
   /// Differs from tooth to tooth by the direction in which each stands: what is alike on all of
   /// them beside it is no part of it but for its mean around the gear.
   bool faces_a_direction = false;
+  /// A form that many pieces follow closely, and that need not follow them to the last bit: a pose,
+  /// a tip or large motions beside it take some of it.
+  bool is_followed_nearly = false;
   bool is_like_many = false;  ///< a form that names with a free shape follow closely
   bool of_traces_only = false;  ///< scans cannot have it
   bool tells_order_along_profile = false;  ///< few teeth tell its orders apart

@@ -116,5 +116,20 @@ TEST(FormsAround, SinksOfAScanAreNoThinnerTeeth) {
   EXPECT_EQ(result.effects.size(), 1U) << list(result);
 }
 
+TEST(FormsAround, EveryThirdToothOfAScanIsNoWaveBesideThickerTeeth) {
+  for (const int first : {1, 2}) {
+    const auto third = [&](auto&, const FlankSpot& s, auto&) {
+      return s.tooth % 3 == first ? 20.0 : 0.0;
+    };
+    const auto result = close(
+        spur(27), scan_of(spur(27), {grown(third), off_centre(15.0, 30.0)}, scanned(6000, 2.5, 9)),
+        true);
+    EXPECT_TRUE(tells_of(result, "one tooth in 3, from tooth " + std::to_string(first)))
+        << list(result);
+    EXPECT_EQ(result.effects.size(), 2U) << list(result);
+    EXPECT_NE(find(result, "eccentricity"), nullptr) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -258,6 +258,7 @@ EffectFamily unnamed_saw() {
 EffectFamily unnamed_comb() {
   EffectFamily f = described(
       "unnamed_comb", {"every", "first_tooth", "profile_degree", "face_degree", "opposite_flanks"});
+  f.is_followed_nearly = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     const int every = static_cast<int>(shape[0]), first = static_cast<int>(shape[1]);
     const bool stands_out = p.surface == Surface::kFlank && (p.tooth - first) % every == 0;

@@ -41,6 +41,7 @@ std::string grows(int sign, bool opposite) {
 EffectFamily unnamed_product() {
   EffectFamily f = described("unnamed_product", {"profile_towards", "profile_power", "face_towards",
                                                  "face_power", "opposite_flanks"});
+  f.is_followed_nearly = true;
   f.one_flank_too = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = p.surface == Surface::kFlank

@@ -88,6 +88,7 @@ EffectFamily unnamed_dent() {
 
 EffectFamily unnamed_swellings() {
   EffectFamily f = described("unnamed_swellings", {"number", "tooth", "half_teeth"});
+  f.is_followed_nearly = true;
   f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
     c[0] = 0.0;
     if (p.surface != Surface::kFlank) return;

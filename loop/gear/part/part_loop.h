@@ -180,7 +180,13 @@ class PartLoop {
   [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
                                                         bool opposite);
   [[nodiscard]] bool tell_as_sector();
-  [[nodiscard]] bool tell_as_swellings();
+  struct WavesAround {
+    std::vector<std::size_t> waves, levels;
+  };
+  [[nodiscard]] WavesAround waves_around(FlankChoice flank) const;
+  [[nodiscard]] bool put_form_for_multiples(const WavesAround& around, int of, std::size_t fewest,
+                                            const std::vector<Effect>& forms);
+  [[nodiscard]] bool tell_as_repeating();
   [[nodiscard]] std::vector<std::vector<Effect>> drifts_in_place_of(
       const std::vector<std::size_t>& these, double profile, double face, bool evenly);
   [[nodiscard]] bool tell_as_drift();

@@ -119,36 +119,60 @@ std::vector<RemainderFinding> PartLoop::forms_around(int teeth) const {
   return starts;
 }
 
+/// Waves from tooth to tooth on these flanks, and what lifts all of them alike.
+PartLoop::WavesAround PartLoop::waves_around(FlankChoice flank) const {
+  WavesAround found;
+  for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    if (effect.flank != flank || effect.family->local || effect.family->displacement_mm) continue;
+    if (effect.order() > 0.0 && is_from_tooth_to_tooth(effect))
+      found.waves.push_back(e);
+    else if (runs_of(geometry_, effect) == Runs::kNowhere)
+      found.levels.push_back(e);
+  }
+  return found;
+}
+
+/// One of the forms for the waves whose order is a multiple, and the mean beside them or without
+/// it.
+bool PartLoop::put_form_for_multiples(const WavesAround& around, int of, std::size_t fewest,
+                                      const std::vector<Effect>& forms) {
+  std::vector<std::size_t> these;
+  for (const std::size_t e : around.waves)
+    if (std::remainder(effects_[e].order(), double(of)) == 0.0) these.push_back(e);
+  if (these.size() < fewest) return false;
+  std::vector<std::size_t> with_levels = these;
+  with_levels.insert(with_levels.end(), around.levels.begin(), around.levels.end());
+  std::sort(with_levels.begin(), with_levels.end());
+  return put_one_form_for(with_levels, forms) ||
+         (!around.levels.empty() && put_one_form_for(these, forms));
+}
+
 /// Swellings that repeat (sinks at gates, ribs, jaws) are waves of an order and its multiples, and
-/// a mean that may get a name.
-bool PartLoop::tell_as_swellings() {
-  constexpr std::size_t kFewestWaves = 2;
+/// a mean that may get a name; one tooth in three or more is a wave of that many teeth, and a mean.
+bool PartLoop::tell_as_repeating() {
+  constexpr int kMostEvery = 8;
+  const int z = geometry_.teeth();
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
-    std::vector<std::size_t> waves, levels;
-    for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
-      const Effect& effect = effects_[e];
-      if (effect.flank != flank || effect.family->local || effect.family->displacement_mm) continue;
-      if (effect.order() > 0.0 && is_from_tooth_to_tooth(effect))
-        waves.push_back(e);
-      else if (runs_of(geometry_, effect) == Runs::kNowhere)
-        levels.push_back(e);
+    const WavesAround around = waves_around(flank);
+    if (around.waves.empty()) continue;
+    for (int every = 3; every <= kMostEvery; ++every) {
+      if (z % every != 0) continue;
+      std::vector<Effect> combs;
+      for (int first = 1; first <= every; ++first)
+        for (const double opposite : {0.0, 1.0})
+          if (opposite == 0.0 || flank == FlankChoice::kBoth)
+            combs.push_back({find_family("unnamed_comb"),
+                             flank,
+                             {double(every), double(first), 0.0, 0.0, opposite}});
+      if (put_form_for_multiples(around, z / every, 1, combs)) return true;
     }
-    const std::vector<Effect> forms = swellings_around(geometry_.teeth(), flank);
-    for (int number = 2; number <= kMostSwellings; ++number) {
-      std::vector<std::size_t> these;
-      for (const std::size_t e : waves)
-        if (std::remainder(effects_[e].order(), double(number)) == 0.0) these.push_back(e);
-      if (these.size() < kFewestWaves) continue;
-      std::vector<Effect> of_number;
-      for (const Effect& form : forms)
-        if (form.shape[0] == double(number)) of_number.push_back(form);
-      std::vector<std::size_t> with_levels = these;
-      with_levels.insert(with_levels.end(), levels.begin(), levels.end());
-      std::sort(with_levels.begin(), with_levels.end());
-      if (put_one_form_for(with_levels, of_number) ||
-          (!levels.empty() && put_one_form_for(these, of_number)))
+    std::vector<std::vector<Effect>> swellings(kMostSwellings + 1);
+    for (Effect& form : swellings_around(z, flank))
+      swellings[static_cast<std::size_t>(form.shape[0])].push_back(std::move(form));
+    for (int number = 2; number <= kMostSwellings; ++number)
+      if (put_form_for_multiples(around, number, 2, swellings[static_cast<std::size_t>(number)]))
         return true;
-    }
   }
   return false;
 }

@@ -142,10 +142,9 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
       values_of(own, true) - values_of({with.back()}, true) - values_of(beside, true);
   if (spared < -more_values) return {};
   const double gain = now - fit_of(with)->residual_square();
-  // Names that undo each other most of the way are no two causes. Pieces of a product need not be
-  // followed to the last bit: a pose or a tip takes some of it.
+  // Names that undo each other most of the way are no two causes.
   const bool doubtful = spared >= 0 && (undo_each_other(geometry_, *fit_of(effects_), these) ||
-                                        with.back().family == find_family("unnamed_product"));
+                                        with.back().family->is_followed_nearly);
   const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
   // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
   // itself.
@@ -393,7 +392,7 @@ void PartLoop::tell_as_one_form() {
     return put_one_form_for(set, waves) || put_one_form_for(set, waves, {slope_over(face, flank)});
   };
   const auto once = [&] {
-    if (tell_as_swellings() || tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
+    if (tell_as_repeating() || tell_as_sector() || tell_as_drift() || tell_as_drift_aside() ||
         tell_as_field() || tell_as_product() || tell_as_corner() || tell_as_dish_of_all_flanks() ||
         tell_as_alternating_wave())
       return true;
