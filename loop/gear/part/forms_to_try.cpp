@@ -196,22 +196,22 @@ void add_repeating(int z, FlankChoice flank, double opposite,
 }
 
 /// Sectors and drifts: what begins at one tooth.
-void add_beginning(int z, FlankChoice flank, double opposite,
+void add_beginning(int z, const CourseOverFlanks& course, FlankChoice flank, double opposite,
                    std::vector<std::vector<Effect>>& sets) {
+  const auto [u, v] = course;
   std::vector<Effect> sectors, ramps, levellings, half_waves;
   for (const int count : counts_between(2, z / 2))
     for (int first = 1; first <= z; first += step_of(count))
-      sectors.push_back({find_family("unnamed_sector"),
-                         flank,
-                         {double(first), double(count), 0.0, 0.0, opposite}});
+      sectors.push_back(
+          {find_family("unnamed_sector"), flank, {double(first), double(count), u, v, opposite}});
   for (int first = 1; first <= z; ++first) {
-    ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), 0.0, 0.0, opposite}});
+    ramps.push_back({find_family("unnamed_ramp"), flank, {double(first), u, v, opposite}});
     for (const double share : {0.06, 0.12, 0.25, 0.5})
       for (const double grows : {0.0, 1.0})
         levellings.push_back({find_family("unnamed_levelling"),
                               flank,
-                              {double(first), 0.0, 0.0, opposite, grows, share * z}});
-    if (flank == FlankChoice::kBoth)
+                              {double(first), u, v, opposite, grows, share * z}});
+    if (flank == FlankChoice::kBoth && u == 0.0 && v == 0.0)
       half_waves.push_back(
           {find_family("unnamed_broken_wave"), flank, {0.5, double(first), opposite}});
   }
@@ -230,14 +230,17 @@ std::vector<Effect> dents_around(int z, FlankChoice flank) {
 
 }  // namespace
 
-std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth) {
+std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth,
+                                                           const CourseOverFlanks& course) {
+  const bool heights = course.profile == 0.0 && course.face == 0.0;
   std::vector<std::vector<Effect>> sets;
   for (const FlankChoice flank : {FlankChoice::kBoth, FlankChoice::kLeft, FlankChoice::kRight}) {
     for (const double opposite : {0.0, 1.0}) {
       if (opposite != 0.0 && flank != FlankChoice::kBoth) continue;
-      add_beginning(teeth, flank, opposite, sets);
-      add_repeating(teeth, flank, opposite, sets);
+      add_beginning(teeth, course, flank, opposite, sets);
+      if (heights) add_repeating(teeth, flank, opposite, sets);
     }
+    if (!heights) continue;
     sets.push_back(dents_around(teeth, flank));
     sets.push_back(swellings_around(teeth, flank));
   }

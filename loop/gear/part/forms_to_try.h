@@ -41,10 +41,16 @@ namespace trueflank::loop {
 inline constexpr int kMostSwellings = 8;
 [[nodiscard]] std::vector<Effect> swellings_around(int teeth, FlankChoice flank);
 
-/// Forms that go from tooth to tooth, at every place: sectors, dents, drifts, saws, combs,
-/// swellings; alike or opposite on both flanks, or of one. Those of a set differ by their shape
-/// alone, and have as many columns.
-[[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(int teeth);
+/// A course over the flanks of a tooth: degrees over profile and face.
+struct CourseOverFlanks {
+  double profile = 0.0, face = 0.0;
+};
+
+/// Forms that go from tooth to tooth, at every place: sectors and drifts of a course; of heights
+/// also dents, saws, combs, swellings; alike or opposite on both flanks, or of one. Those of a set
+/// differ by their shape alone, and have as many columns.
+[[nodiscard]] std::vector<std::vector<Effect>> forms_from_tooth_to_tooth(
+    int teeth, const CourseOverFlanks& course);
 
 /// Corners to start from.
 [[nodiscard]] std::vector<Effect> corners(const FlankGeometry& geometry, FlankChoice flank);

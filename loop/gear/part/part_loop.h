@@ -21,6 +21,8 @@ namespace trueflank::loop {
 /// Level of a second effect, and of a part's own beside what is of all.
 inline constexpr double kNextLevel = 0.01;
 
+struct CourseOverFlanks;
+
 /// The procedure on one table: selection, shapes off the grid, finite displacements, single teeth.
 class PartLoop {
  public:
@@ -226,8 +228,15 @@ class PartLoop {
   [[nodiscard]] std::vector<RemainderFinding> other_starts() const;
   [[nodiscard]] bool begins_better();
   void take_other_start();
-  [[nodiscard]] std::vector<RemainderFinding> forms_around(int teeth) const;
+  struct BesideForms {
+    std::vector<Effect> rest;
+    std::vector<std::vector<Effect>> causes;
+  };
+  [[nodiscard]] BesideForms beside_forms(const CourseOverFlanks& course) const;
+  [[nodiscard]] std::vector<RemainderFinding> forms_around(const CourseOverFlanks& course,
+                                                           int teeth) const;
   void take_form_around();
+  void take_form_around(const CourseOverFlanks& course, int teeth);
   void drop_names_that_may_be_nothing();
   [[nodiscard]] bool adopt_if_simpler(Options options, int least_spared);
   void take_over(PartLoop& other);

@@ -3,6 +3,7 @@
 // with a name: waves around the gear, chosen first, would take up parts of both.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "trueflank/loop/gear/part/forms_to_try.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/part/runs_along.h"
+#include "trueflank/loop/gear/remainder_around.h"
 #include "trueflank/loop/gear/shape_refinement.h"
 
 namespace trueflank::loop {
@@ -49,30 +51,53 @@ bool is_from_tooth_to_tooth(const Effect& effect) {
 
 }  // namespace
 
-/// The forms from tooth to tooth that leave least beside one cause or none, in place of all that
-/// effects say of that; the best of its family, the best first.
-std::vector<RemainderFinding> PartLoop::forms_around(int teeth) const {
-  constexpr std::size_t kMost = 2;
-  std::vector<Effect> rest;
-  std::vector<std::vector<Effect>> beside{{}};
-  for (std::size_t e = 0; e < effects_.size(); ++e)
-    if (e < first_told_here() || !is_from_tooth_to_tooth(effects_[e]))
-      rest.push_back(effects_[e]);
-    else if (effects_[e].family->named)
-      beside.push_back({effects_[e]});
+/// What stays, and the causes of which one may stand beside a form that goes from tooth to tooth:
+/// of heights, those that the answer names and an eccentricity; of slopes, also a tilt.
+PartLoop::BesideForms PartLoop::beside_forms(const CourseOverFlanks& course) const {
+  const bool heights = course.profile == 0.0 && course.face == 0.0;
+  const auto tilts = [](const Effect& effect) {
+    return effect.family->displacement_mm && effect.columns() == 2 &&
+           effect.needs().several_heights && !effect.family->shape_is_step;
+  };
+  const auto moves = [&](const Effect& effect) {
+    return effect.family->named &&
+           (heights ? moves_the_teeth(effect) && effect.shape.empty() : tilts(effect));
+  };
+  BesideForms found{.rest = {}, .causes = {{}}};
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Effect& effect = effects_[e];
+    const EffectFamily& family = *effect.family;
+    const bool around = heights ? is_from_tooth_to_tooth(effect)
+                                : effect.order() > 0.0 || family.local || tilts(effect) ||
+                                      !(family.named || (family.same_on_every_tooth &&
+                                                         family.same_on_every_tooth(effect.shape)));
+    if (e < first_told_here() || !around)
+      found.rest.push_back(effect);
+    else if (family.named)
+      found.causes.push_back({effect});
+  }
   for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (moves_the_teeth(candidates_[c]) && candidates_[c].family->named && !unseen_[c] &&
-        candidates_[c].shape.empty() &&
+    if (moves(candidates_[c]) && !unseen_[c] &&
         std::find(effects_.begin(), effects_.end(), candidates_[c]) == effects_.end())
-      beside.push_back({candidates_[c]});
-  const std::vector<std::vector<Effect>> sets = forms_from_tooth_to_tooth(geometry_.teeth());
+      found.causes.push_back({candidates_[c]});
+  return found;
+}
+
+/// The forms from tooth to tooth of a course that leave least beside one cause or none, in place of
+/// all that effects say of that; the best of its family, the best first.
+std::vector<RemainderFinding> PartLoop::forms_around(const CourseOverFlanks& course,
+                                                     int teeth) const {
+  constexpr std::size_t kMost = 2;
+  const auto [rest, beside] = beside_forms(course);
+  const std::vector<std::vector<Effect>> sets =
+      forms_from_tooth_to_tooth(geometry_.teeth(), course);
   constexpr std::size_t kMovedEach = 4;  // and where each could come to
   std::size_t tried = 0;
   for (const std::vector<Effect>& set : sets) tried += kMovedEach * set.size() * beside.size();
   // Both flanks of a tooth may share their error: a value a tooth.
   const double none = fit_of(rest)->residual_square();
   const double count = fit_of(rest)->observations();
-  const auto chance = [&](double square, int values) {
+  const auto chance = [none, teeth, tried](double square, int values) {
     const double degrees = teeth - values - 1.0;
     if (!(degrees > 0.0)) return 1.0;
     const double f = (none - square) / values / (std::max(square, 1e-12 * none) / degrees);
@@ -177,22 +202,41 @@ bool PartLoop::tell_as_repeating() {
   return false;
 }
 
-/// Values one a tooth alone (of other data they are asked by themselves: hold_to_single_values):
-/// told with one form that goes from tooth to tooth where that costs clearly less.
+/// Values one a tooth alone (beside traces and scans they are asked by themselves:
+/// hold_to_single_values), and slopes of traces that ended in pieces: told with one form that goes
+/// from tooth to tooth where that costs clearly less.
 void PartLoop::take_form_around() {
-  constexpr double kClearlyLess = 9.0;
-  constexpr int kFewestTeeth = 8;
+  constexpr int kFewestTeeth = 8, kPieces = 3;
   if (!options_.start.empty() || options_.joined || options_.names_only ||
       !table_->points_mm.empty())
     return;
-  std::set<int> teeth;
-  for (const Patches::Patch& patch : patches_.patches) {
-    if (patch.kind != ObservationKind::kIndex && patch.kind != ObservationKind::kRadial &&
-        patch.kind != ObservationKind::kSize)
-      return;
-    if (patch.kind != ObservationKind::kSize) teeth.insert(patch.places.front().place.tooth);
+  std::map<ObservationKind, std::set<int>> teeth;
+  for (const Patches::Patch& patch : patches_.patches)
+    if (patch.kind != ObservationKind::kSize)
+      teeth[patch.kind].insert(patch.places.front().place.tooth);
+  const auto teeth_of = [&](ObservationKind kind) {
+    const auto found = teeth.find(kind);
+    return found == teeth.end() ? 0 : static_cast<int>(found->second.size());
+  };
+  const bool traced = teeth_of(ObservationKind::kProfile) + teeth_of(ObservationKind::kHelix) > 0;
+  if (!traced) {
+    const int most =
+        std::max(teeth_of(ObservationKind::kIndex), teeth_of(ObservationKind::kRadial));
+    if (most >= kFewestTeeth) take_form_around({}, most);
+    return;
   }
-  if (static_cast<int>(teeth.size()) < kFewestTeeth) return;
+  const auto pieces =
+      std::count_if(effects_.begin() + static_cast<std::ptrdiff_t>(first_told_here()),
+                    effects_.end(), [](const Effect& effect) { return !effect.family->named; });
+  if (pieces < kPieces) return;
+  if (const int profiles = teeth_of(ObservationKind::kProfile); profiles >= kFewestTeeth)
+    take_form_around({.profile = 1.0}, profiles);
+  if (const int helices = teeth_of(ObservationKind::kHelix); helices >= kFewestTeeth)
+    take_form_around({.face = 1.0}, helices);
+}
+
+void PartLoop::take_form_around(const CourseOverFlanks& course, int teeth) {
+  constexpr double kClearlyLess = 9.0;
   const auto cost = [](const PartLoop& part) {
     const auto fit = part.fit_of(part.effects_);
     return cost_around(part.geometry_, fit->observations(), fit->residual_square(), part.effects_);
@@ -201,7 +245,7 @@ void PartLoop::take_form_around() {
   const bool seen = vetoed_ || first_told_here() < effects_.size();
   double least = own - kClearlyLess;
   std::unique_ptr<PartLoop> best;
-  for (const RemainderFinding& start : forms_around(static_cast<int>(teeth.size()))) {
+  for (const RemainderFinding& start : forms_around(course, teeth)) {
     if (!(start.square < own)) continue;
     if (!seen && start.p_value > kRemainderLevel / options_.tables) continue;
     Options options = options_;
