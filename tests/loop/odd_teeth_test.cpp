@@ -105,6 +105,73 @@ TEST(GrooveOfASector, IsNoGrooveOfAllTeeth) {
   EXPECT_FALSE(tells_of(result, "the same on every tooth, a groove")) << list(result);
 }
 
+TEST(WavesOfSomeTeeth, AreOneFormOnThese) {
+  for (const int teeth : {14, 44}) {
+    const MadeGear gear = spur(teeth);
+    const int count = teeth / 4;
+    const auto supported = [&](auto&, const FlankSpot& s, auto&) {
+      return s.tooth >= 6 && s.tooth < 6 + count ? 7.0 * std::cos(6.5 * 3.14159 * s.v) : 0.0;
+    };
+    const auto result =
+        close(gear, scan_of(gear, {grown(supported)}, scanned(8000, 1.2, 21)), true);
+    EXPECT_EQ(result.effects.size(), 1U) << list(result);
+    EXPECT_TRUE(tells_of(
+        result, "on " + std::to_string(count) + " teeth from tooth 6 on, 6.5 waves over the face"))
+        << list(result);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+  }
+}
+
+/// 1 on teeth within some teeth of a middle, with edges over about four times `edge` teeth.
+double soft_run(int teeth, int tooth, double middle, double half, double edge) {
+  const double off = std::abs(std::remainder(tooth - middle, teeth));
+  return 1.0 / (1.0 + std::exp((off - half) / edge));
+}
+
+TEST(RidgeOnOneSide, IsOneFormWithSoftEdges) {
+  const MadeGear gear = spur(48);
+  const auto ridge = [](auto&, const FlankSpot& s, auto&) {
+    return 9.0 * std::exp(-std::pow((s.v - 0.2) / 0.12, 2)) * soft_run(48, s.tooth, 30.0, 9.0, 1.1);
+  };
+  const auto result = close(gear, scan_of(gear, {grown(ridge)}, scanned(9000, 1.8, 22)), true);
+  EXPECT_EQ(result.effects.size(), 1U) << list(result);
+  EXPECT_TRUE(tells_of(result, "with soft edges over about")) << list(result);
+  EXPECT_TRUE(tells_of(result, "a ridge over the face")) << list(result);
+}
+
+TEST(GrooveOfSomeTracesBesideASlope, IsOneFormOnTheseTeeth) {
+  const MadeGear gear = spur(36);
+  const auto worn = [](auto&, const FlankSpot& s, auto&) {
+    return 1.5 * s.u + (s.side > 0 && s.tooth >= 20 && s.tooth < 29
+                            ? -5.0 * std::exp(-std::pow((s.u + 0.1) / 0.25, 2))
+                            : 0.0);
+  };
+  InspectionOptions options;
+  options.points = 80;
+  options.noise_um = 0.9;
+  options.index = false;
+  options.seed = 23;
+  const auto result = close(gear, inspection_of(gear, {grown(worn)}, options));
+  EXPECT_TRUE(tells_of(result, "on 9 teeth from tooth 20 on, a groove over the profile"))
+      << list(result);
+  EXPECT_FALSE(tells_of(result, "sector")) << list(result);
+  EXPECT_NE(find(result, "pressure_angle_error"), nullptr) << list(result);
+}
+
+TEST(SectorWithSoftEdges, IsOneForm) {
+  const MadeGear gear = spur(40);
+  for (const bool aside : {false, true}) {
+    const auto proud = [&](auto&, const FlankSpot& s, auto&) {
+      return 10.0 * (aside ? s.side : 1.0) * soft_run(40, s.tooth, 27.3, 6.6, 0.6) + 4.0 * s.v;
+    };
+    const auto result = close(gear, scan_of(gear, {grown(proud)}, scanned(9000, 1.6, 24)), true);
+    EXPECT_EQ(result.effects.size(), 2U) << list(result);
+    EXPECT_NE(find(result, "taper"), nullptr) << list(result);
+    EXPECT_TRUE(tells_of(result, "a sector of about 13 teeth around tooth 27.3")) << list(result);
+    EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << list(result);
+  }
+}
+
 TEST(WavesOfFewTraces, NameTheirTeeth) {
   const MadeGear gear = spur(30);
   const auto shaken = [](auto&, const FlankSpot& s, auto&) {

@@ -93,6 +93,18 @@ int teeth_since(const FlankGeometry& geometry, int tooth, double from) {
   return ((tooth - static_cast<int>(from)) % z + z) % z;
 }
 
+double in_soft_run(const FlankGeometry& geometry, int tooth, double middle, double teeth,
+                   double edge_teeth) {
+  const double off = std::abs(std::remainder(tooth - middle, geometry.teeth()));
+  return 1.0 / (1.0 + std::exp(4.0 * (off - 0.5 * teeth) / edge_teeth));
+}
+
+std::string over_edges(double edge_teeth, bool asked) {
+  if (!asked) return "";
+  const double teeth = std::round(edge_teeth);
+  return "with soft edges" + (teeth > 1.0 ? printed(" over about %.0f teeth, ", teeth) : ", ");
+}
+
 std::vector<EffectShape> sectors_beside(const FlankGeometry& geometry, const EffectShape& shape,
                                         int most) {
   std::vector<EffectShape> shapes;

@@ -51,6 +51,7 @@ const std::vector<EffectFamily>& effect_library() {
         unnamed_marks(),
         unnamed_tooth_form(),
         unnamed_sector(),
+        unnamed_soft_sector(),
         unnamed_bow(),
         unnamed_field(),
         unnamed_wobble(),

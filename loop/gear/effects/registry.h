@@ -56,6 +56,8 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] std::vector<EffectFamily> forms_of_teeth();
 /// The family of a form on some teeth; nullptr where there is none.
 [[nodiscard]] const EffectFamily* of_teeth(const Effect& form);
+/// True of such a form.
+[[nodiscard]] bool is_of_teeth(const Effect& form);
 [[nodiscard]] EffectFamily unnamed_step();
 [[nodiscard]] EffectFamily unnamed_kink();
 [[nodiscard]] EffectFamily unnamed_bend();
@@ -71,6 +73,9 @@ namespace trueflank::loop::gear_effects {
 [[nodiscard]] EffectFamily unnamed_waves_dying();
 [[nodiscard]] EffectFamily unnamed_marks();
 [[nodiscard]] EffectFamily unnamed_sector();
+/// Teeth that stand out or aside, which begins and ends over some teeth: told in place of a sector
+/// and of what stands at its edges, and no candidate of its own.
+[[nodiscard]] EffectFamily unnamed_soft_sector();
 [[nodiscard]] EffectFamily unnamed_bow();
 [[nodiscard]] EffectFamily unnamed_field();
 [[nodiscard]] EffectFamily unnamed_wobble();

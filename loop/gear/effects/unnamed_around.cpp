@@ -56,6 +56,43 @@ EffectFamily unnamed_sector() {
   return f;
 }
 
+EffectFamily unnamed_soft_sector() {
+  EffectFamily f =
+      described("unnamed_soft_sector", {"middle_tooth", "teeth", "edge_teeth", "opposite_flanks"});
+  f.evaluate = [](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
+    c[0] = p.surface == Surface::kFlank ? (shape[3] != 0.0 ? p.side : 1) *
+                                              in_soft_run(g, p.tooth, shape[0], shape[1], shape[2])
+                                        : 0.0;
+  };
+  f.nearby = [](const FlankGeometry& g, const EffectShape& shape) {
+    std::vector<EffectShape> shapes;
+    const auto add = [&](std::size_t k, double value) {
+      shapes.push_back(shape);
+      shapes.back()[k] = value;
+    };
+    for (const double off : {-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0}) {
+      add(0, shape[0] + off);
+      if (shape[1] + off >= 2.0 && shape[1] + off < g.teeth()) add(1, shape[1] + off);
+    }
+    // (steeper ones are sectors with edges between two teeth)
+    constexpr double kSteepest = 0.5;
+    for (const double times : {0.7, 0.85, 0.95, 1.05, 1.18, 1.43})
+      if (times * shape[2] >= kSteepest && times * shape[2] <= shape[1]) add(2, times * shape[2]);
+    return shapes;
+  };
+  f.term_keys = {number("middle_tooth"), number("teeth"), number("edge_teeth"), kFlanks};
+  f.words = [](const ToldForm& told) {
+    const EffectShape& shape = told.shape;
+    const double z = told.geometry.teeth(), middle = shape[0] - 1.0;
+    const CourseOfTeeth course{
+        .opposite = shape[3] != 0.0, .flank = told.flank, .sign = told.sign()};
+    return printed("a sector of about %.0f teeth", shape[1]) +
+           printed(" around tooth %.1f, ", middle - z * std::floor(middle / z) + 1.0) +
+           over_edges(shape[2], true) + course.does();
+  };
+  return f;
+}
+
 EffectFamily unnamed_tooth_form() {
   EffectFamily f = described("unnamed_tooth_form",
                              {"tooth", "profile_degree", "face_degree", "opposite_flanks"});

@@ -11,7 +11,8 @@
 namespace trueflank::loop::gear_effects {
 namespace {
 
-constexpr std::size_t kOwnValues = 2;  // first tooth and number of teeth, then those of the form
+// First tooth, number of teeth, and over how many they begin and end; then those of the form.
+constexpr std::size_t kOwnValues = 3;
 
 /// The form's own shape values; they stand until the next are asked for.
 const EffectShape& form_shape(const EffectShape& shape) {
@@ -20,27 +21,31 @@ const EffectShape& form_shape(const EffectShape& shape) {
   return own;
 }
 
+/// 1 on the teeth of the run, 0 beside them; where it begins and ends over some teeth, in between.
+double on_run(const FlankGeometry& g, int tooth, const EffectShape& shape) {
+  if (shape[2] > 0.0)
+    return in_soft_run(g, tooth, shape[0] + 0.5 * (shape[1] - 1.0), shape[1], shape[2]);
+  return teeth_since(g, tooth, shape[0]) < static_cast<int>(shape[1]) ? 1.0 : 0.0;
+}
+
 std::string words_of_sector(const EffectShape& shape) {
   if (shape[1] == 1.0) return printed("on tooth %.0f alone, ", shape[0]);
-  return printed("on %.0f teeth from tooth %.0f on, ", shape[1], shape[0]);
+  return printed("on %.0f teeth from tooth %.0f on, ", shape[1], shape[0]) +
+         over_edges(shape[2], shape[2] > 0.0);
 }
 
 /// A form that is the same on every tooth, on some neighbouring teeth only.
 EffectFamily of_teeth(EffectFamily form) {
   EffectFamily f = form;
   f.id = form.id + "_of_teeth";
-  f.shape_names.insert(f.shape_names.begin(), {"from_tooth", "teeth"});
-  f.term_keys.insert(f.term_keys.begin(), {{"from_tooth"}, {"teeth"}});
+  f.shape_names.insert(f.shape_names.begin(), {"from_tooth", "teeth", "edge_teeth"});
+  f.term_keys.insert(f.term_keys.begin(), {{"from_tooth"}, {"teeth"}, {"edge_teeth"}});
   f.same_on_every_tooth = {};
   f.evaluate = [form](const FlankGeometry& g, const Place& p, const EffectShape& shape, double* c) {
-    if (p.surface == Surface::kFlank &&
-        teeth_since(g, p.tooth, shape[0]) < static_cast<int>(shape[1])) {
-      const EffectShape& own = form_shape(shape);
-      form.evaluate(g, p, own, c);
-      return;
-    }
+    const double here = p.surface == Surface::kFlank ? on_run(g, p.tooth, shape) : 0.0;
     const int columns = form.columns(shape);
-    for (int k = 0; k < columns; ++k) c[k] = 0.0;
+    if (here > 0.0) form.evaluate(g, p, form_shape(shape), c);
+    for (int k = 0; k < columns; ++k) c[k] = here > 0.0 ? here * c[k] : 0.0;
   };
   f.needs = [needs = form.needs](const EffectShape& shape) {
     return needs(EffectShape(shape.begin() + kOwnValues, shape.end()));
@@ -49,11 +54,18 @@ EffectFamily of_teeth(EffectFamily form) {
     const EffectShape own(shape.begin() + kOwnValues, shape.end());
     std::vector<EffectShape> shapes;
     for (EffectShape& beside : nearby(g, own)) {
-      beside.insert(beside.begin(), {shape[0], shape[1]});
+      beside.insert(beside.begin(), shape.begin(), shape.begin() + kOwnValues);
       shapes.push_back(std::move(beside));
     }
     if (shape[1] == 1.0) return shapes;
     for (EffectShape& beside : sectors_beside(g, shape, 1)) shapes.push_back(std::move(beside));
+    if (shape[2] > 0.0)
+      for (const double longer : {-1.0, 1.0}) {
+        const double edge = shape[2] + longer;
+        if (edge < 1.0 || edge > shape[1]) continue;
+        shapes.push_back(shape);
+        shapes.back()[2] = edge;
+      }
     return shapes;
   };
   f.words = [words = form.words](const ToldForm& told) {
@@ -74,6 +86,11 @@ std::vector<EffectFamily> forms_of_teeth() {
                             unnamed_band(), unnamed_waviness()})
     families.push_back(of_teeth(std::move(form)));
   return families;
+}
+
+bool is_of_teeth(const Effect& form) {
+  const std::vector<std::string>& names = form.family->shape_names;
+  return !names.empty() && names.front() == "from_tooth";
 }
 
 const EffectFamily* of_teeth(const Effect& form) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueflank/loop/discovery/kept_sums.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/finite_displacement.h"
 #include "trueflank/loop/gear/found_effects.h"
 #include "trueflank/loop/gear/plain_rms.h"
@@ -29,8 +30,15 @@ PartLoop::PartLoop(const FlankGeometry& geometry, SharedTable table, Options opt
 
 void PartLoop::divide_into_patches() {
   patches_ = make_patches(geometry_, table_);
+  forget_roughness_of_forms();
   problem_ = {};
   forget_fits();
+}
+
+/// Where some teeth have a form along their flanks, neighbouring values of a scan differ by that.
+void PartLoop::forget_roughness_of_forms() {
+  if (std::any_of(options_.given.begin(), options_.given.end(), gear_effects::is_of_teeth))
+    patches_.flank_scatters.clear();
 }
 
 /// Where values, places or weights changed.

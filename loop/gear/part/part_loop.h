@@ -101,6 +101,9 @@ class PartLoop {
   void take_up(const RemainderFinding& finding);
   void explain_with_moved_sections();
   [[nodiscard]] bool take_up_moved_sections();
+  [[nodiscard]] std::vector<double> left_with(const std::vector<std::size_t>& these) const;
+  [[nodiscard]] std::vector<Effect> with_form_on_teeth(std::vector<std::size_t>& these,
+                                                       double& p_value) const;
   [[nodiscard]] std::vector<Effect> with_sections_aside(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_one_side(std::vector<std::size_t>& these) const;
   [[nodiscard]] std::vector<Effect> with_reversal(std::vector<std::size_t>& these) const;
@@ -181,6 +184,10 @@ class PartLoop {
   [[nodiscard]] bool tell_as_bow();
   [[nodiscard]] std::vector<Effect> sectors_in_place_of(const std::vector<std::size_t>& these,
                                                         bool opposite);
+  [[nodiscard]] std::vector<Effect> with_soft_sector(const std::vector<std::size_t>& these,
+                                                     const Effect& sector) const;
+  [[nodiscard]] std::vector<Effect> with_sector_for(std::vector<std::size_t>& these, bool opposite);
+  [[nodiscard]] std::vector<Effect> with_sector(std::vector<std::size_t>& these);
   [[nodiscard]] bool tell_as_sector();
   struct WavesAround {
     std::vector<std::size_t> waves, levels;
@@ -209,6 +216,7 @@ class PartLoop {
   [[nodiscard]] bool put_one_form_for(const std::vector<std::size_t>& these,
                                       const std::vector<Effect>& forms,
                                       const std::vector<Effect>& beside = {}, int more_values = 0);
+  void put_in_place_of(const std::vector<std::size_t>& these, const std::vector<Effect>& with);
   void tell_level_of_forms();
   void tell_waves_of_a_form();
   void tell_teeth_side_by_side();
@@ -248,6 +256,7 @@ class PartLoop {
   [[nodiscard]] bool neighbours_share() const;
   void leave_out_across_steps();
   void divide_into_patches();
+  void forget_roughness_of_forms();
   void forget_fits();
   [[nodiscard]] DiscoveryProblem& candidates_problem();
 

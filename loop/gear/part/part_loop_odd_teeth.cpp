@@ -45,7 +45,7 @@ std::vector<Effect> on_teeth(const std::vector<Effect>& forms, double first, dou
     const EffectFamily* family = gear_effects::of_teeth(form);
     if (family == nullptr) continue;
     Effect& own = of_teeth.emplace_back(Effect{family, form.flank, form.shape});
-    own.shape.insert(own.shape.begin(), {first, count});
+    own.shape.insert(own.shape.begin(), {first, count, 0.0});
   }
   return of_teeth;
 }

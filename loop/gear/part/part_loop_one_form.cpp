@@ -172,6 +172,13 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
                                 int more_values) {
   const std::vector<Effect> with = one_form_for(these, forms, beside, more_values);
   if (with.empty()) return false;
+  put_in_place_of(these, with);
+  return true;
+}
+
+/// Takes over an answer in which the last effects stand for these.
+void PartLoop::put_in_place_of(const std::vector<std::size_t>& these,
+                               const std::vector<Effect>& with) {
   ChosenGroup record;
   record.group = -1;
   for (const std::size_t e : these)
@@ -184,7 +191,6 @@ bool PartLoop::put_one_form_for(const std::vector<std::size_t>& these,
     effects_.push_back(with[e]);
     discovery_.chosen.push_back(record);
   }
-  return true;
 }
 
 /// Few teeth show a wave over the profile, the same on every tooth, as orders around the gear.

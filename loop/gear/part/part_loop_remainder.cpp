@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "trueflank/base/threads.h"
+#include "trueflank/loop/gear/effects/registry.h"
 #include "trueflank/loop/gear/local/rotation_waves.h"
 #include "trueflank/loop/gear/part/part_loop.h"
 #include "trueflank/loop/gear/possible_effects.h"
@@ -470,7 +471,7 @@ bool is_spot_beyond_doubt(const PointFit& fit, std::size_t effect) {
 /// and of what stands on one tooth the hold-out knows nothing: these go only where the error would
 /// rise. A place beyond doubt that goes so (its ends lie in the fold beside it) is told as left.
 void PartLoop::veto() {
-  constexpr double kClearly = 0.98;
+  constexpr double kClearly = 0.98, kNoLoss = 1e-3;
   const std::size_t told = first_told_here();
   while (effects_.size() > told) {
     const auto fit = fit_of(effects_);
@@ -479,7 +480,9 @@ void PartLoop::veto() {
     const double full = fit->errors(with).held_out_rms_um;
     // Together they may harm where none does alone.
     const double none = plain_fit()->errors({}).held_out_rms_um;
-    const bool rises = full > none;
+    // (what a few teeth have the values held out may not have at all)
+    const bool on_few = std::any_of(effects_.begin(), effects_.end(), gear_effects::is_of_teeth);
+    const bool rises = full > (on_few ? 1.0 + kNoLoss : 1.0) * none;
     double least = rises ? 1e300 : kClearly * full;
     std::size_t worst = effects_.size();
     for (std::size_t e = told; e < effects_.size(); ++e) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole sections that stand aside by an amount that changes with the height, feet of one side and
 // play of an axis: what was chosen is in pieces, with names among them. The form is taken up, and
-// all else is chosen anew beside it.
+// all else is chosen anew beside it. So are forms of some teeth (part_loop_runs_of_teeth.cpp), and
+// sectors with soft edges.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -246,11 +247,17 @@ std::vector<Effect> PartLoop::with_reversal(std::vector<std::size_t>& these) con
 /// True where one of these forms stands for what was chosen: it is taken up in place of that.
 bool PartLoop::take_up_moved_sections() {
   std::vector<std::size_t> these;
-  std::vector<Effect> with = with_sections_aside(these);
+  RemainderFinding finding;
+  std::vector<Effect> with = with_form_on_teeth(these, finding.p_value);
+  if (with.empty()) with = with_sections_aside(these);
   if (with.empty()) with = with_one_side(these);
   if (with.empty()) with = with_reversal(these);
-  if (with.empty()) return false;
-  RemainderFinding finding;
+  if (with.empty()) {
+    with = with_sector(these);
+    if (with.empty() || with.back().family != find_family("unnamed_soft_sector") ||
+        fit_of(with)->residual_square() > fit_of(effects_)->residual_square())
+      return false;
+  }
   for (const std::size_t e : these)
     finding.p_value = std::min(finding.p_value, discovery_.chosen[e].p_value);
   // Forms that were taken up before and are pieces of it go.
@@ -266,6 +273,7 @@ bool PartLoop::take_up_moved_sections() {
     finding.effect = with[e];
     take_up(finding);
   }
+  forget_roughness_of_forms();
   return true;
 }
 

@@ -53,6 +53,32 @@ std::pair<int, int> standing_out(const HeightOfTeeth& heights) {
   return best;
 }
 
+/// Drifts of heights, or of teeth that stand aside, from every tooth on: even ones, and those that
+/// level off or grow.
+std::vector<std::vector<Effect>> drifts_from_every_tooth(const FlankGeometry& geometry,
+                                                         double opposite) {
+  std::vector<std::vector<Effect>> drifts(2);
+  for (int first = 1; first <= geometry.teeth(); ++first) {
+    drifts[0].push_back(
+        {find_family("unnamed_ramp"), FlankChoice::kBoth, {double(first), 0.0, 0.0, opposite}});
+    for (const double grows : {0.0, 1.0})
+      for (const double share : {0.1, 0.25, 0.5})
+        drifts[1].push_back({find_family("unnamed_levelling"),
+                             FlankChoice::kBoth,
+                             {double(first), 0.0, 0.0, opposite, grows, share * geometry.teeth()}});
+  }
+  return drifts;
+}
+
+/// What stands on one tooth that is not near the edges of a sector.
+bool is_far_from_edges(const FlankGeometry& geometry, const Effect& effect, const Effect& sector) {
+  constexpr double kNear = 3.0;  // teeth
+  if (!effect.family->local && !effect.family->is_of_one_tooth) return false;
+  const double middle = sector.shape[0] + 0.5 * (sector.shape[1] - 1.0);
+  const double off = std::abs(std::remainder(effect.shape[0] - middle, geometry.teeth()));
+  return std::abs(off - 0.5 * sector.shape[1]) > std::max(kNear, sector.shape[1] / kNear);
+}
+
 }  // namespace
 
 /// The sector that follows best what these effects say together, and swellings about its middle;
@@ -103,34 +129,126 @@ std::vector<Effect> PartLoop::sectors_in_place_of(const std::vector<std::size_t>
   return forms;
 }
 
+/// The answer with a sector that begins and ends over some teeth, the last, in place of these
+/// effects, where it says as much: the teeth at its edges stand between. A sharp one where that
+/// follows nearly as well. Empty where none does.
+std::vector<Effect> PartLoop::with_soft_sector(const std::vector<std::size_t>& these,
+                                               const Effect& sector) const {
+  constexpr double kClearly = 9.0, kValue = 6.0;  // chi-square
+  constexpr int kPlacesOfSector = 2;
+  std::vector<Effect> others, own;
+  int values = 0;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const bool is_own = std::find(these.begin(), these.end(), e) != these.end();
+    (is_own ? own : others).push_back(effects_[e]);
+    // Where a sector begins and ends was sought, too.
+    if (is_own && effects_[e].family == sector.family) values += kPlacesOfSector;
+  }
+  values += values_of(own, true);
+  std::vector<Effect> forms;
+  for (const double edge : {1.0, 2.0, 4.0, 8.0})
+    if (edge <= sector.shape[1])
+      forms.push_back({find_family("unnamed_soft_sector"),
+                       FlankChoice::kBoth,
+                       {sector.shape[0] + 0.5 * (sector.shape[1] - 1.0), sector.shape[1], edge,
+                        sector.shape[4]}});
+  // Most of what waves are is no sector: then its edges are not sought.
+  constexpr double kOnTheGrid = 0.6;
+  const double now = fit_of(effects_)->residual_square(),
+               none = std::max(0.0, fit_of(others)->residual_square() - now);
+  std::vector<Effect> with = with_best_form(
+      others, forms, {.on_the_grid = now + kValue * values + (1.0 - kOnTheGrid) * none});
+  if (with.empty()) return {};
+  double gain = now - fit_of(with)->residual_square();
+  int spared = values - values_of({with.back()}, true);
+  std::vector<Effect> sharp = with_best_form(others, {sector}, {});
+  if (!sharp.empty()) {
+    const double of_sharp = now - fit_of(sharp)->residual_square();
+    if (gain - of_sharp < kClearly + kValue) {
+      with = std::move(sharp);
+      gain = of_sharp;
+      spared = values - values_of({sector}, true) - kPlacesOfSector;
+    }
+  }
+  if (spared < 0 || gain < kClearly - kValue * spared) return {};
+  const double left = fit_of(with)->residual_square();
+  for (const std::vector<Effect>& drifts : drifts_from_every_tooth(geometry_, sector.shape[4])) {
+    const std::vector<Effect> drift = with_best_form(others, drifts, {});
+    if (!drift.empty() && fit_of(drift)->residual_square() < left) return {};
+  }
+  return with;
+}
+
 /// A sector beside a large eccentricity is not seen before waves of many orders, single teeth and
 /// the mean of all have taken it up: together they are tried against it, first with all that they
-/// may have bent.
+/// may have bent. So is a sector that stands already, with what is at its edges.
 bool PartLoop::tell_as_sector() {
+  std::vector<std::size_t> these;
+  const std::vector<Effect> with = with_sector(these);
+  if (with.empty()) return false;
+  put_in_place_of(these, with);
+  return true;
+}
+
+/// The answer with a sector, the last, in place of these.
+std::vector<Effect> PartLoop::with_sector(std::vector<std::size_t>& these) {
+  const EffectFamily* sector_family = find_family("unnamed_sector");
   std::vector<std::size_t> waves, moved, levels, teeth;
+  std::vector<Effect> sectors;
   for (std::size_t e = first_told_here(); e < effects_.size(); ++e) {
     const Effect& effect = effects_[e];
-    if (effect.family->local && effect.columns() == 1)
+    if ((effect.family->local && effect.columns() == 1) || effect.family->is_of_one_tooth) {
       teeth.push_back(e);
-    else if (is_wave_of_teeth(effect))
+    } else if (effect.family == sector_family && effect.shape[2] == 0.0 && effect.shape[3] == 0.0) {
+      waves.push_back(e);
+      sectors.push_back(effect);
+    } else if (effect.family == find_family("unnamed_dent") && effect.shape[3] == 0.0) {
+      waves.push_back(e);
+    } else if (is_wave_of_teeth(effect)) {
       (effect.family->displacement_mm ? moved : waves).push_back(e);
-    else if (runs_of(geometry_, effect) == Runs::kNowhere)
+    } else if (runs_of(geometry_, effect) == Runs::kNowhere) {
       levels.push_back(e);
+    }
   }
-  if (static_cast<int>(waves.size()) < kFewestWavesOfSector) return false;
+  if (sectors.empty() && static_cast<int>(waves.size()) < kFewestWavesOfSector) return {};
   using Some = std::vector<std::vector<std::size_t>>;
+  std::vector<std::size_t> before;
   for (const Some& with :
        {Some{moved, levels, teeth}, Some{levels, teeth}, Some{teeth}, Some{levels}, Some{}}) {
-    std::vector<std::size_t> these = waves;
+    std::vector<std::size_t> set = waves;
     for (const std::vector<std::size_t>& more : with)
-      these.insert(these.end(), more.begin(), more.end());
-    std::sort(these.begin(), these.end());
-    for (const bool opposite : {false, true})
-      if (const std::vector<Effect> forms = sectors_in_place_of(these, opposite);
-          !forms.empty() && put_one_form_for(these, forms))
-        return true;
+      set.insert(set.end(), more.begin(), more.end());
+    std::sort(set.begin(), set.end());
+    if (set == before) continue;
+    before = set;
+    for (const bool opposite : {false, true}) {
+      these = set;
+      std::vector<Effect> with_one = with_sector_for(these, opposite);
+      if (!with_one.empty()) return with_one;
+    }
   }
-  return false;
+  return {};
+}
+
+/// A sector, or a swelling about its middle, for these effects: the one with sharp edges where that
+/// says as much. Of what stands on single teeth one with soft edges is tried for what is at these.
+std::vector<Effect> PartLoop::with_sector_for(std::vector<std::size_t>& these, bool opposite) {
+  constexpr double kPlaces = 16.0, kClearly = 9.0;  // where a sharp one begins and ends; chi-square
+  const std::vector<Effect> forms = sectors_in_place_of(these, opposite);
+  if (forms.empty()) return {};
+  std::vector<std::size_t> with_edges = these, sharp = these;
+  std::erase_if(with_edges,
+                [&](std::size_t e) { return is_far_from_edges(geometry_, effects_[e], forms[0]); });
+  std::erase_if(sharp, [&](std::size_t e) { return effects_[e].family->is_of_one_tooth; });
+  std::vector<Effect> hard;
+  if (sharp.size() > 1) hard = one_form_for(sharp, forms);
+  std::vector<Effect> soft = with_soft_sector(with_edges, forms[0]);
+  if (!soft.empty() && (hard.empty() || cost_of(soft) < cost_of(hard) + kPlaces - kClearly)) {
+    these = std::move(with_edges);
+    return soft;
+  }
+  these = std::move(sharp);
+  return hard;
 }
 
 namespace {
