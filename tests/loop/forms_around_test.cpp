@@ -51,10 +51,12 @@ loop::LoopResult index_of(const FormAround& form, double eccentric_um, unsigned 
 
 TEST(FormsAround, StandAsOneFormBesideAnEccentricityInAnIndex) {
   for (const FormAround& form : kForms)
-    for (const unsigned seed : {1U, 2U}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
       const auto result = index_of(form, 3.0, seed);
       EXPECT_EQ(result.effects.size(), 2U) << form.words << ": " << list(result);
       EXPECT_TRUE(tells_of(result, form.words)) << form.words << ": " << list(result);
+      // (what waves left before the form stood in their place is gone)
+      EXPECT_EQ(result.verdict, loop::Verdict::kExplained) << form.words << ": " << list(result);
       const auto* found = find(result, "eccentricity");
       ASSERT_NE(found, nullptr) << form.words << ": " << list(result);
       EXPECT_NEAR(parameter(*found, "amplitude_um").value, 3.0, 0.35) << list(result);

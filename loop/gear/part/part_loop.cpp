@@ -108,6 +108,8 @@ void PartLoop::run() {
   drop_names_that_may_be_nothing();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
   if (!structure_is_left()) return;
+  if (remainder_.empty() && effects_ != left_beside_) ask_what_is_left();
+  if (!structure_is_left()) return;
   doubt_names_below_what_is_left();
   remainder_ = remainder_of(effects_, RemainderOf::kAll);
 }
@@ -236,11 +238,30 @@ void PartLoop::finish_choice() {
   choice_.reset();
   discovery_.p_left = told.p_left;
   discovery_.most_likely_left = told.most_likely_left;
+  left_beside_ = effects_;
   for (std::size_t i = 0; i < told.chosen.size(); ++i) {
     ChosenGroup& record = discovery_.chosen[options_.given.size() + i];
     record.bic_gain = told.chosen[i].bic_gain;
     record.confounded = told.chosen[i].confounded;
   }
+}
+
+/// What the choice left may be gone since other effects stand in its place: the test is made again
+/// beside these.
+void PartLoop::ask_what_is_left() {
+  if (effects_.empty()) return;
+  DiscoveryProblem& problem = candidates_problem();
+  const Eigen::Index of_pose = problem.nuisance.cols();
+  add_nuisance(problem, make_problem(geometry_, table_, patches_, effects_));
+  DiscoveryOptions options;
+  options.most_effects = 0;
+  options.banned = banned_;
+  const DiscoveryResult asked = discover(problem, options);
+  problem.nuisance.conservativeResize(Eigen::NoChange, of_pose);
+  problem_ = {};
+  discovery_.p_left = asked.p_left;
+  discovery_.most_likely_left = asked.most_likely_left;
+  left_beside_ = effects_;
 }
 
 void PartLoop::leave_out_across_steps() {

@@ -90,6 +90,7 @@ class PartLoop {
   void explain();
   void select();
   void finish_choice();
+  void ask_what_is_left();
   void nominate();
   void add_candidate(Effect effect);
   [[nodiscard]] bool is_told_apart(const Effect& effect, const std::vector<Effect>& beside) const;
@@ -272,6 +273,7 @@ class PartLoop {
   DiscoveryResult
       discovery_;  ///< chosen: in the order of effects_; group -1: not of the candidates
   std::vector<Effect> effects_;
+  std::vector<Effect> left_beside_;  ///< beside which the test of what is left was made
   SharedByNeighbours neighbours_;
   bool vetoed_ = false;                ///< effects were taken back
   std::optional<Effect> denied_spot_;  ///< one of them, though it stands out beyond doubt

@@ -414,6 +414,7 @@ bool PartLoop::adopt_if_simpler(Options options, int least_spared) {
 
 void PartLoop::take_over(PartLoop& other) {
   effects_ = std::move(other.effects_);
+  left_beside_ = std::move(other.left_beside_);
   discovery_ = std::move(other.discovery_);
   candidates_ = std::move(other.candidates_);
   banned_ = std::move(other.banned_);
