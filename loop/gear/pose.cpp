@@ -445,7 +445,8 @@ PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan, co
                                         std::hypot(geometry.base_radius_mm(), geometry.tip_form_roll_mm())});
   std::vector<double> distances;
   double near = 0.0, all = 0.0;
-  for (const auto& p : thinned(scan.points_mm, 5000)) {
+  const Points points = thinned(scan.points_mm, 5000);
+  for (const auto& p : points) {
     const auto q = pose(p);
     const double radius = std::hypot(q[0], q[1]);
     // Faces, hub and rim are no teeth, and lands of tips and roots, which a mesh may hold in many points,
@@ -460,6 +461,7 @@ PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan, co
   }
   PoseQuality quality;
   quality.share = all > 0.0 ? near / all : 0.0;
+  quality.in_ring = all / static_cast<double>(std::max<std::size_t>(1, points.size()));
   if (distances.empty()) return quality;
   // Points at random lie as far from a flank as the search reaches: half of them beyond half of it.
   const double centre = quantile(distances, 0.5);
@@ -484,7 +486,10 @@ Result<Pose> fit_pose(const FlankGeometry& geometry, const ScanData& scan) {
   const double share = pose_quality(geometry, scan, pose).share;
   if (share < kGood) {
     const Pose other = search.refined(search.best_of_all_axes(), points, {});
-    if (pose_quality(geometry, scan, other).share > share) pose = other;
+    const PoseQuality quality = pose_quality(geometry, scan, other);
+    // Of points at random some few lie near flanks in some pose.
+    constexpr double kFits = 0.5, kInRing = 0.2;
+    if (quality.share > std::max(share, kFits) && quality.in_ring > kInRing) pose = other;
   }
   return least_turned(geometry, pose);
 }

@@ -33,6 +33,7 @@ struct Pose {
 /// distance of those near a flank.
 struct PoseQuality {
   double share = 0.0, median_mm = kNaN;
+  double in_ring = 0.0;  ///< share of all points that lie in the ring of the flanks
 };
 [[nodiscard]] PoseQuality pose_quality(const FlankGeometry& geometry, const ScanData& scan,
                                        const Pose& pose);

@@ -166,5 +166,28 @@ TEST(FlankWaves, ALeaningProfileIsNotAScaleAndAThickness) {
   EXPECT_EQ(find(result, "scale"), nullptr) << list(result);
 }
 
+TEST(GhostOrders, ThatGrowAndShrinkOnceATurnAreNotCountedBackwards) {
+  // On 18 teeth an order of 46 counted the other way follows one of 44 nearly as well.
+  const MadeGear gear = spur(18);
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    const auto ghost = [seed](const MadeGear& g, const FlankSpot& s, auto&) {
+      const double from = roll_of_radius(g, g.root_form_mm), to = roll_of_radius(g, g.tip_mm);
+      const double turned = (from + 0.5 * (s.u + 1.0) * (to - from)) / g.base();
+      const double around = 2.0 * M_PI * (s.tooth - 1) / g.teeth;
+      return 1.2 * (1.0 + 0.8 * std::cos(around - 0.8 * seed)) *
+             std::cos(44.0 * (around - s.side * turned) + seed);
+    };
+    InspectionOptions options = traced({}, 0.37, seed);
+    options.helix = false;
+    options.points = 48;
+    options.correlation = 0.5;
+    const auto result = close(gear, inspection_of(gear, {grown(ghost)}, options));
+    EXPECT_FALSE(tells_of(result, "counted clockwise")) << list(result);
+    EXPECT_TRUE(std::any_of(result.effects.begin(), result.effects.end(), [](const auto& effect) {
+      return effect.id == "ghost_order" && parameter(effect, "order").value == 44.0;
+    })) << list(result);
+  }
+}
+
 }  // namespace
 }  // namespace trueflank::test

@@ -237,6 +237,7 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
     values[trace.side] += static_cast<double>(trace.um.size());
   }
   RotationWave best;
+  std::map<int, double> most_forwards;  // square of a side's largest order
   for (const bool backwards : {false, true}) {
     if (backwards && traces.scanned) break;  // scans have no numbers of teeth
     std::map<int, OrderSums> sums;
@@ -247,6 +248,14 @@ RotationWave likeliest_rotation_wave(const FlankGeometry& geometry, const Observ
     });
     for (const auto& [side, of_side] : sums) {
       RotationWave wave = likeliest(of_side, least, geometry.teeth());
+      // Orders beside one whose height changes around the gear make it less sure, and one counted
+      // backwards, which follows it nearly as well, perhaps surer: not while it is the smaller one.
+      if (!backwards)
+        for (const auto& sum : of_side)
+          most_forwards[side] = std::max(most_forwards[side], std::norm(sum));
+      else if (wave.order > 0 && std::norm(of_side[static_cast<std::size_t>(wave.order - least)]) <=
+                                     most_forwards[side])
+        continue;
       if (!(wave.p_value < best.p_value)) continue;
       if (traces.scanned && !stands_alone(of_side, least, wave.order, geometry.teeth())) continue;
       const auto at = static_cast<std::size_t>(wave.order - least);
