@@ -145,6 +145,9 @@ std::vector<Effect> PartLoop::one_form_for(const std::vector<std::size_t>& these
   // Names that undo each other most of the way are no two causes.
   const bool doubtful = spared >= 0 && (undo_each_other(geometry_, *fit_of(effects_), these) ||
                                         with.back().family->is_followed_nearly);
+  // (where the noise is taken for more than it is, chi-square says little)
+  constexpr double kMostLost = 0.1;
+  if (with.back().family->is_followed_nearly && -gain > kMostLost * none) return {};
   const double doubt = doubtful ? std::max(kClearly, kNearly * none) : 0.0;
   // A bow with a name that needs a form beside it to follow what rises at both ends is less sure
   // itself.
